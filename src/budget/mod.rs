@@ -1,0 +1,259 @@
+//! The budget file and the checked budget.
+//!
+//! [`read`] turns a file into a [`Budget`] or into all of its faults at once. A `Budget` has no
+//! contradictions left in it: every input has an estimate and its doubts, expressed as independent
+//! elementary [`Component`]s (or [`Group`]s of correlated ones), from which both methods start:
+//!
+//! X_i = x_i + Σ_t coefficient_t · E_component(t)
+//!
+//! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
+
+use nalgebra::DMatrix;
+
+use crate::distribution::Distribution;
+use crate::model::Model;
+use crate::quantity::{Rounding, Unit};
+
+/// What a file says about the measurement besides numbers.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Heading {
+    pub title: String,
+    pub method: Option<String>,
+    pub object: Option<String>,
+    pub author: Option<String>,
+    /// Date of the measurement, ISO 8601.
+    pub date: Option<String>,
+    /// Where the figures come from.
+    pub source: Option<String>,
+    pub note: Option<String>,
+}
+
+/// A checked budget.
+#[derive(Debug, Clone)]
+pub struct Budget {
+    pub heading: Heading,
+    pub conventions: Conventions,
+    pub monte_carlo: MonteCarloSettings,
+    pub model: Model,
+    /// One per place of the model's input vector, in that order.
+    pub inputs: Vec<Input>,
+    /// Exactly known quantities, for the report.
+    pub constants: Vec<Constant>,
+    /// Description and group of each measurand, in the order of `model.outputs()`.
+    pub measurands: Vec<Measurand>,
+    pub components: Vec<Component>,
+    /// Correlated components; a component is in at most one group.
+    pub groups: Vec<Group>,
+    pub claims: Vec<Claim>,
+    /// What a reader must know that is not an error (certificate past due, estimate moved to the
+    /// expectation of an asymmetric distribution, resolution absorbed by repeatability …).
+    pub remarks: Vec<Remark>,
+}
+
+/// A measurand's words; its unit and equation are in the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurand {
+    pub name: String,
+    pub description: Option<String>,
+}
+
+/// An exactly known quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Constant {
+    pub name: String,
+    pub values: Vec<f64>,
+    pub unit: Unit,
+    pub description: Option<String>,
+    pub source: Option<String>,
+}
+
+/// An input quantity X_i.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Input {
+    /// `V`, or `U[3]` for an element of a vector (counted from 1).
+    pub name: String,
+    pub description: Option<String>,
+    /// For subtotals in the budget table.
+    pub group: Option<String>,
+    pub unit: Unit,
+    /// The best estimate x_i (expectation).
+    pub estimate: f64,
+    pub terms: Vec<Term>,
+}
+
+/// How a component enters an input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Term {
+    /// Index into [`Budget::components`].
+    pub component: usize,
+    /// Change of the input per unit of the component (1 for the input's own components).
+    pub coefficient: f64,
+}
+
+/// How a standard uncertainty was found (GUM 2.3.2, 2.3.3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Evaluation {
+    /// From a statistical analysis of readings.
+    TypeA,
+    /// By other means.
+    TypeB,
+}
+
+/// Who has a component.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Owner {
+    /// Input index.
+    Input(usize),
+    /// A `[source.NAME]` that several inputs share.
+    Source(String),
+}
+
+/// One reason to doubt an input: a zero-mean elementary random variable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Component {
+    /// Unique and stable: `V.calibration`, `V` when it is the only one, `table` for a source.
+    pub name: String,
+    /// Without the owner: `calibration`.
+    pub label: String,
+    pub owner: Owner,
+    /// Unit of the deviation (K for an input in °C).
+    pub unit: Unit,
+    /// Zero-mean distribution of the deviation, used by Monte Carlo.
+    pub distribution: Distribution,
+    /// Standard uncertainty as GUM propagates it. Differs from the distribution's standard deviation
+    /// only for t (u = s/√n against the larger standard deviation of the scaled t).
+    pub u: f64,
+    /// Degrees of freedom ν; infinite for most Type B.
+    pub dof: f64,
+    pub evaluation: Evaluation,
+    /// How u was obtained from what the file states, for the reader: `U/k = 4.0e-5/2`, `a/√3`.
+    pub how: String,
+    pub certificate: Option<Certificate>,
+    pub source: Option<String>,
+}
+
+/// Where a value comes from.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Certificate {
+    pub number: Option<String>,
+    pub laboratory: Option<String>,
+    pub date: Option<String>,
+    pub due: Option<String>,
+}
+
+/// Components that are correlated with one another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Group {
+    /// Indices into [`Budget::components`].
+    pub members: Vec<usize>,
+    /// Product-moment correlation of the members (GUM: r(x_i, x_j)); positive semidefinite.
+    pub correlation: DMatrix<f64>,
+    pub law: Law,
+    /// ν shared by all members when they come from one set of simultaneous readings, or all state the
+    /// same ν: a linear combination of them then has exactly this ν (Willink 2007).
+    pub dof: Option<f64>,
+}
+
+/// The joint distribution of a group, for Monte Carlo.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Law {
+    /// Multivariate normal (JCGM 101 6.4.8).
+    Normal,
+    /// Multivariate t: u_i T with T ~ t_ν(0, R) (JCGM 102 5.3.2). `scale[i]` multiplies member i.
+    StudentT { dof: f64, scale: Vec<f64> },
+    /// Margins as stated, joined by a Gaussian copula whose correlation `latent` was solved so that
+    /// the members have the stated product-moment correlation.
+    GaussianCopula { latent: DMatrix<f64> },
+}
+
+/// What somebody's certificate says; compared, never used.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Claim {
+    /// Which measurand (index).
+    pub measurand: usize,
+    pub value: Option<f64>,
+    pub u: Option<f64>,
+    pub expanded: Option<f64>,
+    pub k: Option<f64>,
+    pub dof: Option<f64>,
+    pub coverage_probability: Option<f64>,
+    pub interval: Option<[f64; 2]>,
+    pub source: Option<String>,
+    pub note: Option<String>,
+}
+
+/// A remark for the reader of the report, in both languages.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Remark {
+    pub en: String,
+    pub zh: String,
+}
+
+/// The conventions on which guides differ, after profile and overrides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conventions {
+    /// Name of the profile that was chosen (`GUM`, `EA`, `JJF`, `NIST`, `UKAS`, …).
+    pub profile: String,
+    /// What the file changed in it, for the report (`coverage_probability = 0.99`).
+    pub overrides: Vec<String>,
+    /// p of the coverage interval, 0.95 or 0.9545 …
+    pub coverage_probability: f64,
+    pub coverage_factor: CoverageRule,
+    pub rounding: Rounding,
+    /// Significant digits of U: 1 or 2.
+    pub digits: u8,
+    /// EA-4/02 6.3: use the rounded-up value when rounding lowers U by more than 5 %.
+    pub up_if_lowered_by_5_percent: bool,
+    pub t_scale: TScale,
+    /// Print k and not p (JJF 1059.1 with k = 2).
+    pub state_probability: bool,
+}
+
+/// Where k comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CoverageRule {
+    /// t_p(ν_eff), but from the actual distribution of the (linearised) output when one or two
+    /// rectangles or another non-normal component dominate.
+    Output,
+    /// t_p(ν_eff) always (normal when ν_eff is infinite).
+    StudentT,
+    /// The normal quantile always.
+    Normal,
+    /// This number.
+    Fixed(f64),
+}
+
+/// What a t-distributed input's stated u is in the Monte Carlo method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TScale {
+    /// u is the scale parameter (JCGM 101 6.4.9).
+    Scale,
+    /// u is the standard deviation (NIST Uncertainty Machine, TN 1900).
+    StandardDeviation,
+}
+
+/// How the Monte Carlo method is run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MonteCarloSettings {
+    pub seed: u64,
+    pub trials: Trials,
+}
+
+/// How many trials.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Trials {
+    /// Exactly this many.
+    Fixed(u64),
+    /// Until the results are stable to a numerical tolerance, JCGM 101 7.9: δ from `digits`
+    /// significant digits of u.
+    Adaptive { procedure: Adaptive, digits: u8, max: u64 },
+}
+
+/// The two adaptive procedures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Adaptive {
+    /// JCGM 101 7.9.4.
+    Jcgm101,
+    /// Two-stage (Stein) procedure of Wübbeler, Harris, Cox and Elster (2010).
+    Stein,
+}

@@ -1,0 +1,305 @@
+//! Evaluation of a budget: GUM (first and second order) and Monte Carlo, side by side.
+//!
+//! [`evaluate`] gives one [`Evaluation`], from which every renderer of [`crate::report`] draws.
+
+use nalgebra::DMatrix;
+
+use crate::budget::Adaptive;
+
+/// What both methods found for one budget.
+#[derive(Debug, Clone)]
+pub struct Evaluation {
+    /// One per measurand, in the order of the model's outputs.
+    pub results: Vec<MeasurandResult>,
+    /// Joint results when there are several measurands.
+    pub joint: Option<JointResult>,
+    /// How Monte Carlo was run; `None` when it was not.
+    pub run: Option<Run>,
+    /// What the reader must know before using the numbers.
+    pub findings: Vec<Finding>,
+}
+
+/// Both methods for one measurand.
+#[derive(Debug, Clone)]
+pub struct MeasurandResult {
+    pub gum: Gum,
+    pub second_order: Option<SecondOrder>,
+    pub monte_carlo: Option<MonteCarlo>,
+    /// GUM-S1 clause 8 for two and for one significant digit of u(y); `None` without Monte Carlo.
+    pub validation: Option<[Validation; 2]>,
+    /// Which method the statement on the certificate uses.
+    pub basis: Basis,
+}
+
+/// Which method the statement uses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// GUM first order (validated, or Monte Carlo not run and nothing speaks against it).
+    Gum,
+    /// Monte Carlo, because GUM was not validated.
+    MonteCarlo,
+}
+
+/// Law of propagation of uncertainty, first order (GUM 5.1.2, 5.2.2).
+#[derive(Debug, Clone)]
+pub struct Gum {
+    /// y = f(x).
+    pub estimate: f64,
+    /// u_c(y).
+    pub u: f64,
+    /// One per input, in the order of the budget.
+    pub inputs: Vec<Contribution>,
+    /// One per component, in the order of the budget: coefficient = Σ over inputs of c_i·a_ij.
+    pub components: Vec<Contribution>,
+    pub freedom: Freedom,
+    pub coverage: Coverage,
+}
+
+/// A line of the budget table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contribution {
+    /// Sensitivity coefficient c = ∂f/∂x.
+    pub sensitivity: f64,
+    /// u(x) in the unit of the input or component.
+    pub u: f64,
+    /// c·u(x), with sign, in the unit of the measurand.
+    pub contribution: f64,
+    /// Share of u²(y), also under correlation (Kessel): c_i Σ_j c_j u(x_i, x_j) / u²(y); sums to 1.
+    pub share: f64,
+    /// ν of the input or component.
+    pub dof: f64,
+}
+
+/// Effective degrees of freedom of u(y).
+#[derive(Debug, Clone, PartialEq)]
+pub enum Freedom {
+    /// Every component has infinite ν (or u is zero).
+    Infinite,
+    /// Welch–Satterthwaite (GUM G.4.1) over independent terms.
+    WelchSatterthwaite(f64),
+    /// As above, where correlated components of equal ν count as one term (Willink 2007).
+    Ensembles(f64),
+    /// Not defined: correlated components with different finite ν. `lower_bound` is the smallest
+    /// of them, used for a conservative k.
+    Refused { lower_bound: f64, members: Vec<String> },
+}
+
+impl Freedom {
+    /// ν_eff to be used for k.
+    pub fn value(&self) -> f64 {
+        match self {
+            Freedom::Infinite => f64::INFINITY,
+            Freedom::WelchSatterthwaite(v) | Freedom::Ensembles(v) => *v,
+            Freedom::Refused { lower_bound, .. } => *lower_bound,
+        }
+    }
+}
+
+/// k, U and the interval of the GUM.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coverage {
+    pub k: f64,
+    pub basis: CoverageBasis,
+    /// p for which k was found; for a fixed k the p that it has for the output's distribution.
+    pub probability: f64,
+    /// U = k·u.
+    pub expanded: f64,
+    /// Half-width of the interval for the profile's p (equal to `expanded` unless k is fixed): what
+    /// clause 8 compares.
+    pub half_width_for_p: f64,
+}
+
+/// Where k came from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum CoverageBasis {
+    Normal,
+    /// t with these (truncated or interpolated) degrees of freedom.
+    StudentT { dof: f64 },
+    /// Distribution of the linearised output: the named components dominate.
+    Output { dominant: Vec<String>, shape: &'static str },
+    /// The profile or file fixes it.
+    Fixed,
+}
+
+/// Second-order terms (note to GUM 5.1.2; JCGM 100:2008/Amd.1:2026 for the estimate).
+#[derive(Debug, Clone, PartialEq)]
+pub struct SecondOrder {
+    /// ½ ΣΣ f_ij u(x_i, x_j), to be added to the estimate.
+    pub shift: f64,
+    /// u(y) with the second-order terms.
+    pub u: f64,
+    /// Whether shift or u matter at the digits that are reported.
+    pub matters: bool,
+}
+
+/// Monte Carlo results for one measurand.
+#[derive(Debug, Clone)]
+pub struct MonteCarlo {
+    /// Mean; `None` when the moment does not exist or does not converge.
+    pub estimate: Option<f64>,
+    /// Standard deviation; likewise.
+    pub u: Option<f64>,
+    pub median: f64,
+    /// Probabilistically symmetric p-interval (JCGM 101 7.7.2, 5.3.3).
+    pub symmetric: [f64; 2],
+    /// Shortest p-interval (5.3.4).
+    pub shortest: [f64; 2],
+    pub skewness: Option<f64>,
+    pub excess_kurtosis: Option<f64>,
+    /// Standard error of estimate, u and the two symmetric endpoints (batch method).
+    pub standard_errors: [f64; 4],
+    /// Trials whose model value was not a finite number (division by zero, root of a negative …).
+    pub failed: u64,
+    /// 64 bins over the central range, for plots: left edge of the first, bin width, counts.
+    pub histogram: Histogram,
+}
+
+/// Counts in equal bins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Histogram {
+    pub start: f64,
+    pub width: f64,
+    pub counts: Vec<u64>,
+}
+
+/// How the Monte Carlo method was run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    pub trials: u64,
+    pub seed: u64,
+    pub coverage_probability: f64,
+    /// For an adaptive run: procedure, δ of each measurand, whether it was reached.
+    pub adaptive: Option<AdaptiveRun>,
+}
+
+/// What an adaptive run reached.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AdaptiveRun {
+    pub procedure: Adaptive,
+    pub digits: u8,
+    /// Numerical tolerance of each measurand (JCGM 101 7.9.2).
+    pub delta: Vec<f64>,
+    pub reached: bool,
+}
+
+/// GUM-S1 clause 8.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Validation {
+    /// Significant digits of u(y): 1 or 2.
+    pub digits: u8,
+    /// δ = ½·10^l.
+    pub delta: f64,
+    pub d_low: f64,
+    pub d_high: f64,
+    pub validated: bool,
+}
+
+/// Several measurands (JCGM 102).
+#[derive(Debug, Clone)]
+pub struct JointResult {
+    /// Covariance and correlation of the outputs, GUM.
+    pub covariance: DMatrix<f64>,
+    pub correlation: DMatrix<f64>,
+    /// The same from Monte Carlo; `None` when not run or moments do not exist.
+    pub monte_carlo_covariance: Option<DMatrix<f64>>,
+    pub monte_carlo_correlation: Option<DMatrix<f64>>,
+    /// ν of the covariance matrix (Willink–Hall), infinite when all are.
+    pub dof: Freedom,
+    /// k_p of the elliptical region for the GUM result (normal, or Hotelling's T² for finite ν).
+    pub k_ellipsoid: f64,
+    /// k_q of the hyper-rectangle (JCGM 102 6.5.3): simultaneous intervals y_j ± k_q u_j.
+    pub k_rectangle: f64,
+    pub regions: Option<Regions>,
+    /// Outputs that are (numerically) linear functions of the others, so that no region exists.
+    pub degenerate: bool,
+}
+
+/// Coverage regions from Monte Carlo (JCGM 102 7.7).
+#[derive(Debug, Clone)]
+pub struct Regions {
+    /// k_p of the ellipsoid with the Monte Carlo covariance that holds a fraction p of the trials.
+    pub k_ellipsoid: f64,
+    /// k_q of the hyper-rectangle around the Monte Carlo estimate.
+    pub k_rectangle: f64,
+    /// Area (volume) of ellipsoid, and of the smallest region (grid of equal cells), the latter for
+    /// two and three measurands only.
+    pub ellipsoid_volume: f64,
+    pub smallest_volume: Option<f64>,
+    pub smallest_cells: Option<usize>,
+}
+
+/// Something the reader must know before using the numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// Index of the measurand it concerns; `None` = the whole budget.
+    pub measurand: Option<usize>,
+    pub kind: FindingKind,
+}
+
+/// The kinds of findings; the report has a sentence in each language for every one.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FindingKind {
+    /// c = 0 while u(x) > 0 and the input does act at second order (or in Monte Carlo).
+    VanishingSensitivity { input: String },
+    /// Second-order terms change u or the estimate at the digits reported.
+    SecondOrderMatters { shift: f64, u_first: f64, u_second: f64 },
+    /// Clause 8: GUM is not validated; the statement uses Monte Carlo.
+    NotValidated,
+    /// No Monte Carlo was run and first order is doubtful.
+    NeedsMonteCarlo,
+    /// Mean or standard deviation do not exist or do not converge; quantiles are given.
+    MomentsMissing { reason: String },
+    /// Some trials gave no finite value.
+    FailedTrials { failed: u64, trials: u64 },
+    /// The adaptive procedure stopped at its maximum.
+    NotConverged { trials: u64 },
+    /// ν_eff refused.
+    FreedomRefused { members: Vec<String>, lower_bound: f64 },
+    /// ν_eff is small (< 10): k is large and uncertain.
+    FewDegreesOfFreedom { dof: f64 },
+    /// The model has a kink or a step at the estimates (abs, min, max, if, round …).
+    Irregular { what: String },
+    /// The divisor or the argument of a function is within a few u of a pole or of its domain's end.
+    NearSingular { what: String },
+    /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
+    Asymmetric,
+}
+
+/// Whether to run Monte Carlo, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Replaces the budget's settings; `None` = as the budget says.
+    pub monte_carlo: MonteCarloChoice,
+    /// Worker threads; results do not depend on it.
+    pub threads: usize,
+}
+
+/// What the caller asks of Monte Carlo.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MonteCarloChoice {
+    AsBudget,
+    Off,
+    With(crate::budget::MonteCarloSettings),
+}
+
+/// Evaluates a budget by both methods.
+///
+/// # Errors
+/// When the model has no finite value or derivative at the estimates, so that nothing can be said.
+pub fn evaluate(
+    _budget: &crate::budget::Budget,
+    _options: &Options,
+) -> Result<Evaluation, EvaluationError> {
+    todo!()
+}
+
+/// Why a budget cannot be evaluated at all.
+#[derive(Debug, Clone, PartialEq)]
+pub enum EvaluationError {
+    /// f(x) is not finite at the estimates.
+    NoValue { measurand: String },
+    /// A derivative is not finite although f(x) is, and Monte Carlo was switched off.
+    NoDerivative { measurand: String, input: String },
+    /// Every trial failed.
+    AllTrialsFailed { measurand: String },
+}

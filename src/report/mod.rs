@@ -1,0 +1,1 @@
+//! Renderers of an evaluation: text, Markdown, JSON, and the sentence for the certificate.

@@ -1,0 +1,1 @@
+//! Special functions, accurate over their whole range.

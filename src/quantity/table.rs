@@ -455,7 +455,11 @@ mod tests {
         assert_eq!(suggestion("m2"), "write `m^2`");
         assert_eq!(suggestion("mm3"), "write `mm^3`");
         assert_eq!(suggestion("meters"), "write `m`");
-        assert!(suggestion("arcsecs").contains("arcsec"));
+        assert!(suggestion("arcsecs").contains("`arcsec`"));
+        assert_eq!(suggestion("Nm"), "write `N·m` for the product");
+        assert!(suggestion("Pas").contains("`Pa·s`"));
+        assert!(suggestion("arcmni").contains("`arcmin`"));
+        assert_eq!(suggestion("m/s2"), "write `s^2`");
         assert!(suggestion("Vrms").contains("`V`"));
         assert!(suggestion("dBm").contains("[unit]"));
         assert!(suggestion("M").contains("`m`"));

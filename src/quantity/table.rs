@@ -339,7 +339,7 @@ mod tests {
         let dimension = |text: &str| unit(text).dimension.to_string();
         assert_eq!(dimension("min"), "s");
         assert_eq!(dimension("cd"), "cd");
-        assert_eq!(dimension("Pa"), "m^-1·kg·s^-2");
+        assert_eq!(dimension("Pa"), "kg·m^-1·s^-2");
         assert_eq!(dimension("mol"), "mol");
         assert_eq!(dimension("ft"), "m");
         assert_eq!(dimension("dB"), "dB");

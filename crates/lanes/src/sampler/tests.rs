@@ -383,7 +383,8 @@ fn every_level_draws_the_same_bits() {
             .into_iter()
             .map(|level| {
                 let mut generator = Generator::new(1, 2, 3);
-                sampler.fill(level, &mut generator, &mut Block::ZERO);
+                let mut block = Block::ZERO;
+                sampler.fill(level, &mut generator, &mut block);
                 generator
             })
             .collect();

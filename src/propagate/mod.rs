@@ -84,10 +84,7 @@ pub enum Freedom {
     Ensembles(f64),
     /// Not defined: correlated components with different finite ν. `lower_bound` is the smallest
     /// of them, used for a conservative k.
-    Refused {
-        lower_bound: f64,
-        members: Vec<String>,
-    },
+    Refused { lower_bound: f64, members: Vec<String> },
 }
 
 impl Freedom {
@@ -120,14 +117,9 @@ pub struct Coverage {
 pub enum CoverageBasis {
     Normal,
     /// t with these (truncated or interpolated) degrees of freedom.
-    StudentT {
-        dof: f64,
-    },
+    StudentT { dof: f64 },
     /// Distribution of the linearised output: the named components dominate.
-    Output {
-        dominant: Vec<String>,
-        shape: &'static str,
-    },
+    Output { dominant: Vec<String>, shape: &'static str },
     /// The profile or file fixes it.
     Fixed,
 }
@@ -253,11 +245,7 @@ pub enum FindingKind {
     /// c = 0 while u(x) > 0 and the input does act at second order (or in Monte Carlo).
     VanishingSensitivity { input: String },
     /// Second-order terms change u or the estimate at the digits reported.
-    SecondOrderMatters {
-        shift: f64,
-        u_first: f64,
-        u_second: f64,
-    },
+    SecondOrderMatters { shift: f64, u_first: f64, u_second: f64 },
     /// Clause 8: GUM is not validated; the statement uses Monte Carlo.
     NotValidated,
     /// No Monte Carlo was run and first order is doubtful.
@@ -269,10 +257,7 @@ pub enum FindingKind {
     /// The adaptive procedure stopped at its maximum.
     NotConverged { trials: u64 },
     /// ν_eff refused.
-    FreedomRefused {
-        members: Vec<String>,
-        lower_bound: f64,
-    },
+    FreedomRefused { members: Vec<String>, lower_bound: f64 },
     /// ν_eff is small (< 10): k is large and uncertain.
     FewDegreesOfFreedom { dof: f64 },
     /// The model has a kink or a step at the estimates (abs, min, max, if, round …).

@@ -2,7 +2,8 @@
 //!
 //! | chapter | holds |
 //! |---|---|
-//! | [`joint_draw`] | trials of the inputs and of the model, from a checked budget |
+//! | [`joint_draw`] | trials of the input quantities, correlated as the budget says |
+//! | [`budget_source`] | trials of the model |
 //! | [`engine`] | chunks of trials shared among threads, handed on in order |
 //! | [`store`] | the trials, kept |
 //! | [`moments`] | mean, standard deviation, skewness, kurtosis |
@@ -12,6 +13,7 @@
 //! | [`region`] | covariance and coverage regions of several outputs |
 
 mod adaptive;
+mod budget_source;
 mod engine;
 mod existence;
 mod factor;
@@ -70,7 +72,7 @@ pub(crate) fn run(
     gum: &[GumForMc],
     threads: usize,
 ) -> Result<McOutcome, EvaluationError> {
-    let source = joint_draw::BudgetSource::new(budget, settings.seed);
+    let source = budget_source::BudgetSource::new(budget, settings.seed);
     let question = Question {
         settings,
         p: budget.conventions.coverage_probability,

@@ -141,6 +141,17 @@ mod tests {
     }
 
     #[test]
+    fn gauge_block_of_jcgm_101_9_5() {
+        // 99 %: [745, 931] against [745, 932]; u = 32 nm.
+        let [two, one] = validate(
+            &gum(838.0, 31.78, 93.0),
+            &monte_carlo(Some(36.0), [745.0, 932.0]),
+        );
+        assert_eq!((two.delta, one.delta), (0.5, 5.0));
+        assert!(!two.validated && one.validated);
+    }
+
+    #[test]
     fn a_vanishing_u_takes_its_tolerance_from_monte_carlo() {
         // 9.4 with x1 = 0.
         let [two, one] = validate(&gum(0.0, 0.0, 0.0), &monte_carlo(Some(50.0), [1.3, 184.4]));

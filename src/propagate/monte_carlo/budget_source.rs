@@ -17,7 +17,10 @@ impl<'b> BudgetSource<'b> {
     /// Prepares the samplers of a budget.
     pub(super) fn new(budget: &'b Budget, seed: u64) -> Self {
         let draw = JointDraw::new(&budget.inputs, &budget.components, &budget.groups, seed);
-        BudgetSource { model: &budget.model, draw }
+        BudgetSource {
+            model: &budget.model,
+            draw,
+        }
     }
 }
 
@@ -46,7 +49,12 @@ impl<'b> Source for BudgetSource<'b> {
     }
 
     fn draw(&self, worker: &mut Worker<'b>, chunk: u64, trials: usize, columns: &mut [Vec<f64>]) {
-        let Worker { runner, scratch, inputs, outputs } = worker;
+        let Worker {
+            runner,
+            scratch,
+            inputs,
+            outputs,
+        } = worker;
         self.draw.start(scratch, chunk);
         columns.iter_mut().for_each(Vec::clear);
         let mut left = trials;

@@ -6,16 +6,13 @@
 //! M^−(1 − r/α). Printing an average of such trials would be printing a random number; quantiles
 //! remain meaningful (JCGM 101 uses no moments for them).
 //!
-//! Two kinds of evidence: what is known of the budget (a t component with ν ≤ 2 that enters
-//! linearly), and Hill's estimate of α from the largest deviations on either side.
+//! Two kinds of evidence: what is known of the budget ([`super::heavy`]), and Hill's estimate of α
+//! from the largest deviations on either side.
 
 use std::fmt;
 
-use nalgebra::DMatrix;
-
+use super::heavy::HeavyComponent;
 use super::interval::Ordered;
-use crate::budget::{Budget, Law};
-use crate::distribution::Distribution;
 
 /// A moment of order r is called unsettled when ten times the trials would not even halve its error:
 /// 1 − r/α < lg 2, that is α < r/(1 − lg 2).
@@ -136,7 +133,7 @@ pub(super) enum Verdict {
 impl Verdict {
     /// Judges one output from what is known beforehand and from its trials.
     pub(super) fn new(known: Option<&HeavyComponent>, tail: &Tail) -> Verdict {
-        if let Some(cause) = known.filter(|c| c.dof <= 1.0) {
+        if let Some(cause) = known.filter(|cause| !cause.has_mean()) {
             return Verdict::NoMean(cause.reason());
         }
         if !tail.settles(1.0) {
@@ -190,104 +187,6 @@ impl Tail {
              from the median, so that {consequence}"
         )
     }
-}
-
-/// A t-distributed component without a standard deviation that enters an output linearly, so that
-/// the output cannot have one either.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct HeavyComponent {
-    name: String,
-    dof: f64,
-}
-
-impl HeavyComponent {
-    fn reason(&self) -> String {
-        let HeavyComponent { name, dof } = self;
-        let missing = if *dof <= 1.0 {
-            "neither a mean nor a standard deviation"
-        } else {
-            "no standard deviation"
-        };
-        format!(
-            "`{name}` has a t distribution with {dof} degrees of freedom, which has {missing}, and \
-             the result depends on it linearly"
-        )
-    }
-}
-
-/// For every output the heaviest component of that kind.
-pub(super) fn heavy_components(budget: &Budget) -> Vec<Option<HeavyComponent>> {
-    let outputs = budget.model.outputs().len();
-    let heavy: Vec<Option<f64>> = t_dofs(budget);
-    if heavy.iter().all(Option::is_none) {
-        return vec![None; outputs];
-    }
-    let estimates: Vec<f64> = budget.inputs.iter().map(|input| input.estimate).collect();
-    let gradients = budget.model.gradients(&estimates);
-    let nonlinear = budget.model.nonlinear_inputs();
-    (0..outputs)
-        .map(|output| {
-            linear_coefficients(budget, &gradients, &nonlinear, output)
-                .into_iter()
-                .zip(&heavy)
-                .enumerate()
-                .filter_map(|(i, (coefficient, dof))| {
-                    let dof = (*dof)?;
-                    coefficient
-                        .is_some_and(|c| c.is_finite() && c != 0.0)
-                        .then(|| HeavyComponent {
-                            name: budget.components[i].name.clone(),
-                            dof,
-                        })
-                })
-                .min_by(|a, b| a.dof.total_cmp(&b.dof))
-        })
-        .collect()
-}
-
-/// Degrees of freedom of the components that are t-distributed with ν ≤ 2, alone or in a group.
-fn t_dofs(budget: &Budget) -> Vec<Option<f64>> {
-    let mut dofs: Vec<Option<f64>> = budget
-        .components
-        .iter()
-        .map(|component| match component.distribution {
-            Distribution::StudentT { dof, .. } => Some(dof),
-            _ => None,
-        })
-        .collect();
-    for group in &budget.groups {
-        let joint = match &group.law {
-            Law::Normal => None,
-            Law::StudentT { dof, .. } => Some(*dof),
-            Law::GaussianCopula { .. } => continue,
-        };
-        for &member in &group.members {
-            dofs[member] = joint;
-        }
-    }
-    dofs.into_iter()
-        .map(|dof| dof.filter(|v| *v <= 2.0))
-        .collect()
-}
-
-/// Σ c_i a_ij of every component that acts through linear inputs only.
-fn linear_coefficients(
-    budget: &Budget,
-    gradients: &DMatrix<f64>,
-    nonlinear: &[bool],
-    output: usize,
-) -> Vec<Option<f64>> {
-    let mut coefficients = vec![Some(0.0); budget.components.len()];
-    for (i, input) in budget.inputs.iter().enumerate() {
-        for term in &input.terms {
-            let slot = &mut coefficients[term.component];
-            *slot = match *slot {
-                Some(sum) if !nonlinear[i] => Some(sum + gradients[(output, i)] * term.coefficient),
-                _ => None,
-            };
-        }
-    }
-    coefficients
 }
 
 #[cfg(test)]

@@ -65,7 +65,11 @@ impl<'b> JointDraw<'b> {
             alone,
             groups: joint,
             streams: (components.len() + groups.len()) as u64,
-            largest_group: groups.iter().map(|group| group.members.len()).max().unwrap_or(0),
+            largest_group: groups
+                .iter()
+                .map(|group| group.members.len())
+                .max()
+                .unwrap_or(0),
         }
     }
 
@@ -91,7 +95,11 @@ impl<'b> JointDraw<'b> {
     pub(super) fn next(&self, scratch: &mut Scratch, inputs: &mut [Block]) {
         for (i, sampler) in self.alone.iter().enumerate() {
             if let Some(sampler) = sampler {
-                sampler.fill(self.level, &mut scratch.generators[i], &mut scratch.errors[i]);
+                sampler.fill(
+                    self.level,
+                    &mut scratch.generators[i],
+                    &mut scratch.errors[i],
+                );
             }
         }
         for group in &self.groups {
@@ -132,7 +140,11 @@ enum JointLaw {
     /// Factor of each member.
     Normal(Vec<f64>),
     /// Factor of each member, degrees of freedom, stream of χ².
-    StudentT { scale: Vec<f64>, dof: f64, stream: usize },
+    StudentT {
+        scale: Vec<f64>,
+        dof: f64,
+        stream: usize,
+    },
     Copula(Vec<Distribution>),
 }
 
@@ -140,23 +152,38 @@ impl JointSampler {
     fn new(components: &[Component], group: &Group, stream: usize) -> Self {
         let members = || group.members.iter().map(|&member| &components[member]);
         let (law, correlation) = match &group.law {
-            Law::Normal => {
-                (JointLaw::Normal(members().map(|c| c.u).collect()), &group.correlation)
-            }
+            Law::Normal => (
+                JointLaw::Normal(members().map(|c| c.u).collect()),
+                &group.correlation,
+            ),
             Law::StudentT { dof, scale } => {
-                let law = JointLaw::StudentT { scale: scale.clone(), dof: *dof, stream };
+                let law = JointLaw::StudentT {
+                    scale: scale.clone(),
+                    dof: *dof,
+                    stream,
+                };
                 (law, &group.correlation)
             }
-            Law::GaussianCopula { latent } => {
-                (JointLaw::Copula(members().map(|c| c.distribution.clone()).collect()), latent)
-            }
+            Law::GaussianCopula { latent } => (
+                JointLaw::Copula(members().map(|c| c.distribution.clone()).collect()),
+                latent,
+            ),
         };
-        JointSampler { members: group.members.clone(), factor: lower_factor(correlation), law }
+        JointSampler {
+            members: group.members.clone(),
+            factor: lower_factor(correlation),
+            law,
+        }
     }
 
     /// Draws the members' next block.
     fn draw(&self, level: Level, scratch: &mut Scratch) {
-        let Scratch { generators, errors, normals, mixing } = scratch;
+        let Scratch {
+            generators,
+            errors,
+            normals,
+            mixing,
+        } = scratch;
         for (normal, &member) in normals.iter_mut().zip(&self.members) {
             normal_block(level, &mut generators[member], normal);
         }
@@ -172,10 +199,17 @@ impl JointSampler {
             match &self.law {
                 JointLaw::Normal(u) => error.0.iter_mut().for_each(|z| *z *= u[i]),
                 JointLaw::StudentT { scale, .. } => {
-                    error.0.iter_mut().zip(&mixing.0).for_each(|(z, w)| *z *= w * scale[i]);
+                    error
+                        .0
+                        .iter_mut()
+                        .zip(&mixing.0)
+                        .for_each(|(z, w)| *z *= w * scale[i]);
                 }
                 JointLaw::Copula(margins) => {
-                    error.0.iter_mut().for_each(|z| *z = from_normal(&margins[i], *z));
+                    error
+                        .0
+                        .iter_mut()
+                        .for_each(|z| *z = from_normal(&margins[i], *z));
                 }
             }
         }
@@ -186,7 +220,9 @@ impl JointSampler {
 fn mix(level: Level, generator: &mut Generator, dof: f64, out: &mut Block) {
     if dof.is_finite() {
         gamma_block(level, generator, dof / 2.0, out);
-        out.0.iter_mut().for_each(|g| *g = (dof / (2.0 * *g)).sqrt());
+        out.0
+            .iter_mut()
+            .for_each(|g| *g = (dof / (2.0 * *g)).sqrt());
     } else {
         ops::fill(level, 1.0, out);
     }
@@ -204,46 +240,18 @@ fn from_normal(margin: &Distribution, z: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::samples::{component, input};
     use super::*;
-    use crate::budget::{Evaluation, Owner, Term};
-    use crate::quantity::Unit;
-
-    fn component(name: &str, distribution: Distribution, u: f64) -> Component {
-        Component {
-            name: name.into(),
-            label: name.into(),
-            owner: Owner::Source(name.into()),
-            unit: Unit::one(),
-            distribution,
-            u,
-            dof: f64::INFINITY,
-            evaluation: Evaluation::TypeB,
-            how: String::new(),
-            certificate: None,
-            source: None,
-        }
-    }
-
-    fn input(estimate: f64, terms: &[(usize, f64)]) -> Input {
-        Input {
-            name: "X".into(),
-            description: None,
-            group: None,
-            unit: Unit::one(),
-            estimate,
-            terms: terms
-                .iter()
-                .map(|&(component, coefficient)| Term { component, coefficient })
-                .collect(),
-        }
-    }
 
     fn normal(name: &str, sd: f64) -> Component {
         component(name, Distribution::Normal { mean: 0.0, sd }, sd)
     }
 
     fn uniform(name: &str, half_width: f64) -> Component {
-        let limits = Distribution::Uniform { lower: -half_width, upper: half_width };
+        let limits = Distribution::Uniform {
+            lower: -half_width,
+            upper: half_width,
+        };
         component(name, limits, half_width / 3.0_f64.sqrt())
     }
 
@@ -252,7 +260,12 @@ mod tests {
     }
 
     fn group(law: Law, r: f64) -> Group {
-        Group { members: vec![0, 1], correlation: pair(r), law, dof: None }
+        Group {
+            members: vec![0, 1],
+            correlation: pair(r),
+            law,
+            dof: None,
+        }
     }
 
     /// One column per input.
@@ -284,7 +297,11 @@ mod tests {
 
     fn covariance(x: &[f64], y: &[f64]) -> f64 {
         let (mx, my) = (mean(x), mean(y));
-        x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum::<f64>() / (x.len() - 1) as f64
+        x.iter()
+            .zip(y)
+            .map(|(x, y)| (x - mx) * (y - my))
+            .sum::<f64>()
+            / (x.len() - 1) as f64
     }
 
     fn correlation(x: &[f64], y: &[f64]) -> f64 {
@@ -294,7 +311,10 @@ mod tests {
     #[test]
     fn a_shared_component_correlates_its_inputs() {
         let components = [normal("common", 2.0), uniform("a", 3.0), normal("b", 1.0)];
-        let inputs = [input(10.0, &[(0, 1.0), (1, 1.0)]), input(-5.0, &[(0, -0.5), (2, 1.0)])];
+        let inputs = [
+            input(10.0, &[(0, 1.0), (1, 1.0)]),
+            input(-5.0, &[(0, -0.5), (2, 1.0)]),
+        ];
         let x = sample(&inputs, &components, &[], 16);
         assert!((mean(&x[0]) - 10.0).abs() < 0.03 && (mean(&x[1]) + 5.0).abs() < 0.02);
         // 4 + 3, 1 + 1, −2.
@@ -325,10 +345,17 @@ mod tests {
 
     #[test]
     fn a_multivariate_t_shares_its_chi_square() {
-        let t = |scale| Distribution::StudentT { location: 0.0, scale, dof: 8.0 };
+        let t = |scale| Distribution::StudentT {
+            location: 0.0,
+            scale,
+            dof: 8.0,
+        };
         let components = [component("a", t(3.0), 3.0), component("b", t(1.0), 1.0)];
         let inputs = [input(0.0, &[(0, 1.0)]), input(0.0, &[(1, 1.0)])];
-        let law = Law::StudentT { dof: 8.0, scale: vec![3.0, 1.0] };
+        let law = Law::StudentT {
+            dof: 8.0,
+            scale: vec![3.0, 1.0],
+        };
         let x = sample(&inputs, &components, &[group(law, 0.5)], 32);
         assert!((correlation(&x[0], &x[1]) - 0.5).abs() < 0.01);
         // ν/(ν − 2) = 4/3.
@@ -337,10 +364,15 @@ mod tests {
         let out = x[1].iter().filter(|t| t.abs() > 2.306_004).count() as f64 / x[1].len() as f64;
         assert!((out - 0.05).abs() < 0.0015, "{out}");
         // Even uncorrelated members are dependent: cov(T1², T2²) > 0.
-        let law = Law::StudentT { dof: 8.0, scale: vec![1.0, 1.0] };
+        let law = Law::StudentT {
+            dof: 8.0,
+            scale: vec![1.0, 1.0],
+        };
         let x = sample(&inputs, &components, &[group(law, 0.0)], 16);
-        let squares: Vec<Vec<f64>> =
-            x.iter().map(|c| c.iter().map(|v| v * v).collect()).collect();
+        let squares: Vec<Vec<f64>> = x
+            .iter()
+            .map(|c| c.iter().map(|v| v * v).collect())
+            .collect();
         assert!(correlation(&squares[0], &squares[1]) > 0.05);
     }
 
@@ -360,7 +392,10 @@ mod tests {
 
     #[test]
     fn a_copula_of_normal_and_other_margins_skips_the_normal_one() {
-        let shifted = Distribution::Exponential { origin: -1.0, mean: 1.0 };
+        let shifted = Distribution::Exponential {
+            origin: -1.0,
+            mean: 1.0,
+        };
         let components = [normal("a", 2.0), component("b", shifted, 1.0)];
         let inputs = [input(0.0, &[(0, 1.0)]), input(0.0, &[(1, 1.0)])];
         let law = Law::GaussianCopula { latent: pair(1.0) };
@@ -368,7 +403,10 @@ mod tests {
         // Full latent correlation: one is a rising function of the other, in closed form.
         for (a, b) in x[0].iter().zip(&x[1]).take(2000) {
             let expected = -1.0 - normal_sf(a / 2.0).ln();
-            assert!((b - expected).abs() < 1e-9 * expected.abs().max(1.0), "{a} {b} {expected}");
+            assert!(
+                (b - expected).abs() < 1e-9 * expected.abs().max(1.0),
+                "{a} {b} {expected}"
+            );
         }
     }
 }

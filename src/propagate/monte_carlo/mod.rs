@@ -8,7 +8,8 @@
 //! | [`store`] | the trials, kept |
 //! | [`moments`] | mean, standard deviation, skewness, kurtosis |
 //! | [`interval`] | median, symmetric and shortest coverage interval |
-//! | [`existence`] | whether the moments exist at all |
+//! | [`existence`] | whether the moments exist at all, judged from the trials |
+//! | [`heavy`] | components that are known to leave the output without moments |
 //! | [`adaptive`] | how many trials |
 //! | [`region`] | covariance and coverage regions of several outputs |
 
@@ -17,6 +18,7 @@ mod budget_source;
 mod engine;
 mod existence;
 mod factor;
+mod heavy;
 mod histogram;
 mod interval;
 mod joint_draw;
@@ -32,7 +34,8 @@ use super::{EvaluationError, MonteCarlo, Regions, Run};
 use crate::budget::{Budget, MonteCarloSettings, Trials};
 use adaptive::Target;
 use engine::{Layout, Source, parallel_map, simulate};
-use existence::{HeavyComponent, Tail, Verdict};
+use existence::{Tail, Verdict};
+use heavy::HeavyComponent;
 use interval::{Ordered, Ranks};
 use moments::{Moments, Pivot};
 use store::Store;
@@ -77,7 +80,7 @@ pub(crate) fn run(
         settings,
         p: budget.conventions.coverage_probability,
         pivots: gum.iter().map(|g| Pivot::new(g.estimate, g.u)).collect(),
-        heavy: existence::heavy_components(budget),
+        heavy: heavy::heavy_components(budget),
         threads,
     };
     question

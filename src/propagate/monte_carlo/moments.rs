@@ -13,7 +13,10 @@ const WIDTH: usize = 8;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pivot {
     origin: f64,
+    /// A power of two, so that scaling is exact.
     scale: f64,
+    /// 1/scale.
+    inverse: f64,
 }
 
 impl Pivot {
@@ -34,7 +37,7 @@ impl Pivot {
     }
 
     fn inward(self, value: f64) -> f64 {
-        (value - self.origin) / self.scale
+        (value - self.origin) * self.inverse
     }
 }
 

@@ -58,12 +58,15 @@ struct Rows<'a> {
 impl<'a> Rows<'a> {
     fn new(columns: &'a [Vec<f64>]) -> Option<Self> {
         let trials = columns.first()?.len();
-        let finite = |row: &usize| columns.iter().all(|c| c[*row].is_finite());
-        let complete: Vec<usize> = (0..trials).filter(finite).collect();
-        let count = complete.len();
-        (columns.len() >= 2 && count >= 2).then(|| Rows {
+        let failed = columns.iter().flatten().any(|value| !value.is_finite());
+        let complete = failed.then(|| {
+            let finite = |row: &usize| columns.iter().all(|c| c[*row].is_finite());
+            (0..trials).filter(finite).collect::<Vec<_>>()
+        });
+        let count = complete.as_ref().map_or(trials, Vec::len);
+        (columns.len() >= 2 && count >= 2).then_some(Rows {
             columns,
-            complete: (count < trials).then_some(complete),
+            complete,
             count,
         })
     }

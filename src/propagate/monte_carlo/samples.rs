@@ -1,6 +1,10 @@
-//! Known samples for the tests of this chapter, independent of the engine's own generators.
+//! Known samples and parts of budgets for the tests of this chapter; the samples are independent of the
+//! engine's own generators.
 
 use super::engine::Source;
+use crate::budget::{Component, Evaluation, Input, Owner, Term};
+use crate::distribution::Distribution;
+use crate::quantity::Unit;
 
 /// SplitMix64 with the usual transforms.
 pub(super) struct Stream(u64);
@@ -91,5 +95,40 @@ impl Source for Sampled {
                 column.push(*value);
             }
         }
+    }
+}
+
+/// A component of a source of its own.
+pub(super) fn component(name: &str, distribution: Distribution, u: f64) -> Component {
+    Component {
+        name: name.into(),
+        label: name.into(),
+        owner: Owner::Source(name.into()),
+        unit: Unit::one(),
+        distribution,
+        u,
+        dof: f64::INFINITY,
+        evaluation: Evaluation::TypeB,
+        how: String::new(),
+        certificate: None,
+        source: None,
+    }
+}
+
+/// An input with its (component, coefficient) pairs.
+pub(super) fn input(estimate: f64, terms: &[(usize, f64)]) -> Input {
+    Input {
+        name: "X".into(),
+        description: None,
+        group: None,
+        unit: Unit::one(),
+        estimate,
+        terms: terms
+            .iter()
+            .map(|&(component, coefficient)| Term {
+                component,
+                coefficient,
+            })
+            .collect(),
     }
 }

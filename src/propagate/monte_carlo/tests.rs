@@ -129,6 +129,32 @@ fn mass_calibration_of_jcgm_101_9_3() {
 }
 
 #[test]
+fn gauge_block_of_jcgm_101_9_5() {
+    let trapezoid = |s: &mut Stream, a: f64, d: f64| {
+        let limit = a + rectangle(s, d);
+        rectangle(s, limit)
+    };
+    let source = Sampled::new(12, 1, move |s, y| {
+        let standard = 50_000_623.0 + 25.0 * s.student_t(18.0);
+        let differences =
+            215.0 + 6.0 * s.student_t(24.0) + 4.0 * s.student_t(5.0) + 7.0 * s.student_t(8.0);
+        let alpha = 1.15e-5 + rectangle(s, 2e-6);
+        let cycle = 0.5 * (std::f64::consts::TAU * s.uniform()).sin();
+        let theta = -0.1 + 0.2 * s.normal() + cycle;
+        let d_alpha = trapezoid(s, 1e-6, 1e-7);
+        let d_theta = trapezoid(s, 0.05, 0.025);
+        y[0] = standard + differences - standard * (d_alpha * theta + alpha * d_theta) - 5e7;
+    });
+    let y = ask(&source, &fixed(1_000_000), 0.99, 32.0)
+        .outputs
+        .remove(0);
+    near(y.estimate.unwrap(), 838.0, 0.5);
+    near(y.u.unwrap(), 36.0, 0.5);
+    near(y.shortest[0], 745.0, 2.0);
+    near(y.shortest[1], 932.0, 2.0);
+}
+
+#[test]
 fn a_quotient_near_its_pole_has_quantiles_only() {
     let source = Sampled::new(8, 2, |s, y| {
         y[0] = s.normal() / (1.5 + s.normal());

@@ -281,10 +281,7 @@ mod tests {
             index: 9.0,
             at_most: 9.0,
         };
-        let component = |dof| HeavyComponent {
-            name: "V.readings".into(),
-            dof,
-        };
+        let component = |dof| HeavyComponent::new("V.readings", dof);
         let two = Verdict::new(Some(&component(2.0)), &tail);
         assert!(
             matches!(&two, Verdict::NoDeviation(r) if r.contains("`V.readings`")),
@@ -292,7 +289,7 @@ mod tests {
         );
         let one = Verdict::new(Some(&component(1.0)), &tail);
         assert!(
-            matches!(&one, Verdict::NoMean(r) if r.contains("1 degrees")),
+            matches!(&one, Verdict::NoMean(r) if r.contains("1 degree of")),
             "{one:?}"
         );
     }

@@ -201,7 +201,7 @@ mod tests {
         } else {
             (pm + 0.5) as usize
         };
-        let r = if (m - q) % 2 == 0 {
+        let r = if (m - q).is_multiple_of(2) {
             (m - q) / 2
         } else {
             (m - q + 1) / 2

@@ -15,6 +15,7 @@ use gumption_lanes::{Block, Generator, Level, Sampler, level, ops};
 use nalgebra::DMatrix;
 
 use super::factor::lower_factor;
+use super::sampler::sampler;
 use crate::budget::{Component, Group, Input, Law};
 use crate::distribution::Distribution;
 use crate::special::{normal_cdf, normal_sf};
@@ -49,7 +50,7 @@ impl<'b> JointDraw<'b> {
             .iter()
             .enumerate()
             .map(|(i, component)| {
-                (used[i] && !grouped(i)).then(|| component.distribution.sampler())
+                (used[i] && !grouped(i)).then(|| sampler(&component.distribution))
             })
             .collect();
         let joint = groups

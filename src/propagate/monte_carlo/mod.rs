@@ -24,6 +24,7 @@ mod interval;
 mod joint_draw;
 mod moments;
 mod region;
+mod sampler;
 #[cfg(test)]
 mod samples;
 mod store;

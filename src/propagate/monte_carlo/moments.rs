@@ -33,6 +33,7 @@ impl Pivot {
         Pivot {
             origin,
             scale: libm::scalbn(1.0, exponent),
+            inverse: libm::scalbn(1.0, -exponent),
         }
     }
 

@@ -132,62 +132,107 @@ impl Sampler {
     pub fn fill(&self, level: Level, generator: &mut Generator, out: &mut Block) {
         match *self {
             Sampler::Constant(value) => out.0 = [value; LANES],
-            Sampler::Normal { mean, sd } => {
-                from_normal(level, generator, out, #[inline(always)] move |z| sd.mul_add(z, mean))
-            }
-            Sampler::LogNormal { origin, mu, sigma } => {
-                from_normal(level, generator, out, #[inline(always)] move |z| {
-                    origin + exp(sigma.mul_add(z, mu))
-                })
-            }
-            Sampler::StudentT { location, scale, dof } => {
-                student_t(level, generator, [location, scale, dof], out)
-            }
+            Sampler::Normal { mean, sd } => from_normal(
+                level,
+                generator,
+                out,
+                #[inline(always)]
+                move |z| sd.mul_add(z, mean),
+            ),
+            Sampler::LogNormal { origin, mu, sigma } => from_normal(
+                level,
+                generator,
+                out,
+                #[inline(always)]
+                move |z| origin + exp(sigma.mul_add(z, mu)),
+            ),
+            Sampler::StudentT {
+                location,
+                scale,
+                dof,
+            } => student_t(level, generator, [location, scale, dof], out),
             Sampler::Uniform { lower, upper } => {
                 let width = upper - lower;
-                from_one(level, generator, out, #[inline(always)] move |u| width.mul_add(u, lower))
+                from_one(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u| width.mul_add(u, lower),
+                )
             }
             Sampler::Triangular { lower, mode, upper } => {
                 let left = (upper - lower) * (mode - lower);
                 let right = (upper - lower) * (upper - mode);
                 let at_mode = (mode - lower) / (upper - lower);
-                from_one(level, generator, out, #[inline(always)] move |u| {
-                    let below = lower + (left * u).sqrt();
-                    let above = upper - (right * (1.0 - u)).sqrt();
-                    if u < at_mode { below } else { above }
-                })
+                from_one(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u| {
+                        let below = lower + (left * u).sqrt();
+                        let above = upper - (right * (1.0 - u)).sqrt();
+                        if u < at_mode { below } else { above }
+                    },
+                )
             }
             Sampler::Trapezoidal { lower, upper, beta } => {
                 let half = 0.5 * (upper - lower);
                 let (wide, narrow) = (half * (1.0 + beta), half * (1.0 - beta));
-                from_two(level, generator, out, #[inline(always)] move |u, v| {
-                    narrow.mul_add(v, wide.mul_add(u, lower))
-                })
+                from_two(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u, v| narrow.mul_add(v, wide.mul_add(u, lower)),
+                )
             }
             Sampler::CurvilinearTrapezoid { lower, upper, d } => {
                 let (start, sum) = (lower - d, lower + upper);
-                from_two(level, generator, out, #[inline(always)] move |u, v| {
-                    let a = (2.0 * d).mul_add(u, start);
-                    let b = sum - a;
-                    (b - a).mul_add(v, a)
-                })
+                from_two(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u, v| {
+                        let a = (2.0 * d).mul_add(u, start);
+                        let b = sum - a;
+                        (b - a).mul_add(v, a)
+                    },
+                )
             }
             Sampler::Arcsine { lower, upper } => {
                 let (middle, half) = (0.5 * (lower + upper), 0.5 * (upper - lower));
-                from_one(level, generator, out, #[inline(always)] move |u| {
-                    half.mul_add(sin_cos_turns(u).0, middle)
-                })
+                from_one(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u| half.mul_add(sin_cos_turns(u).0, middle),
+                )
             }
-            Sampler::Exponential { origin, mean } => {
-                from_one(level, generator, out, #[inline(always)] move |u| {
-                    (-mean).mul_add(ln_normal(u), origin)
-                })
-            }
-            Sampler::Gamma { origin, shape, scale } => {
+            Sampler::Exponential { origin, mean } => from_one(
+                level,
+                generator,
+                out,
+                #[inline(always)]
+                move |u| (-mean).mul_add(ln_normal(u), origin),
+            ),
+            Sampler::Gamma {
+                origin,
+                shape,
+                scale,
+            } => {
                 gamma_block(level, generator, shape, out);
                 out.0 = out.0.map(|g| scale.mul_add(g, origin));
             }
-            Sampler::Beta { alpha, beta, lower, upper } => {
+            Sampler::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => {
                 dispatch!(level, _ => betas(generator, [alpha, beta], &mut out.0));
                 out.0 = out.0.map(|b| (upper - lower).mul_add(b, lower));
             }
@@ -205,7 +250,13 @@ impl Sampler {
 
 /// 256 standard normal variables.
 pub fn normal_block(level: Level, generator: &mut Generator, out: &mut Block) {
-    from_normal(level, generator, out, #[inline(always)] |z| z)
+    from_normal(
+        level,
+        generator,
+        out,
+        #[inline(always)]
+        |z| z,
+    )
 }
 
 /// 256 gamma variables of the given shape and scale 1. Twice a gamma variable of shape ν/2 is χ²
@@ -259,15 +310,24 @@ fn student_t(
     out: &mut Block,
 ) {
     if dof.is_infinite() {
-        let normal = Sampler::Normal { mean: location, sd: scale };
+        let normal = Sampler::Normal {
+            mean: location,
+            sd: scale,
+        };
         return normal.fill(level, generator, out);
     }
     let exponent = -2.0 / dof;
     let spread = scale * dof.sqrt();
-    from_two(level, generator, out, #[inline(always)] move |u, v| {
-        let radius = expm1(exponent * ln_normal(u)).sqrt();
-        (spread * radius).mul_add(sin_cos_turns(v).1, location)
-    })
+    from_two(
+        level,
+        generator,
+        out,
+        #[inline(always)]
+        move |u, v| {
+            let radius = expm1(exponent * ln_normal(u)).sqrt();
+            (spread * radius).mul_add(sin_cos_turns(v).1, location)
+        },
+    )
 }
 
 /// Box-Muller (JCGM 101, C.4): draws i and i + N/2 come from one pair of uniform numbers. N is a
@@ -361,7 +421,9 @@ fn candidates<const N: usize>(generator: &mut Generator, shape: f64, out: &mut [
     }
     let mut filled = 0;
     for (gamma, accepted) in gamma.into_iter().zip(accepted) {
-        let Some(place) = out.get_mut(filled) else { break };
+        let Some(place) = out.get_mut(filled) else {
+            break;
+        };
         *place = gamma;
         filled += usize::from(accepted);
     }
@@ -372,7 +434,8 @@ fn candidates<const N: usize>(generator: &mut Generator, shape: f64, out: &mut [
 fn element<T: Copy>(list: &[T], u: f64) -> Option<T> {
     // u·n may round up to n.
     let last = list.len().checked_sub(1)?;
-    list.get(((u * list.len() as f64) as usize).min(last)).copied()
+    list.get(((u * list.len() as f64) as usize).min(last))
+        .copied()
 }
 
 /// Walker's alias method: one uniform number chooses a column and, within it, one of two values.
@@ -400,7 +463,11 @@ impl AliasTable {
         let mut shares: Vec<f64> = probabilities.iter().map(|p| p * count / total).collect();
         let mut columns: Vec<Column> = values
             .iter()
-            .map(|&value| Column { value, alias: value, split: 1.0 })
+            .map(|&value| Column {
+                value,
+                alias: value,
+                split: 1.0,
+            })
             .collect();
         let (mut poor, mut rich): (Vec<usize>, Vec<usize>) =
             (0..columns.len().min(shares.len())).partition(|&i| shares[i] < 1.0);
@@ -413,7 +480,9 @@ impl AliasTable {
                 poor.push(giver);
             }
         }
-        AliasTable { columns: columns.into() }
+        AliasTable {
+            columns: columns.into(),
+        }
     }
 
     fn at(&self, u: f64) -> f64 {

@@ -1,9 +1,29 @@
 //! Units and dimensions at run time, and the rounding and printing of decimal numbers.
 
+mod advice;
+mod builtin;
+mod clash;
 mod decimal;
 mod dimension;
+mod docs;
+mod factor;
+pub mod faults;
+mod print;
+mod rounded;
+mod symbol;
+mod syntax;
+mod table;
+mod token;
 mod unit;
 
+pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind};
+pub use clash::hint_for_clash;
 pub use decimal::{Decimal, Rounding};
 pub use dimension::Dimension;
-pub use unit::{Factor, Unit, UnitError, UnitTable};
+pub use docs::unit_documentation;
+pub use factor::Factor;
+pub use faults::UnitError;
+pub use print::{Grouping, PowerStyle, Style};
+pub use rounded::{Rounded, RoundingRule, space_before};
+pub use table::{DefinitionError, UnitTable};
+pub use unit::{Conversion, Unit};

@@ -66,15 +66,14 @@ BAD_NAME "B0114" "a name cannot be used in a formula"
 "Names of inputs, constants, measurands and sources begin with a letter and go on with letters, digits and \
 underscores; letters of every script are welcome."
 
-RESERVED_NAME "B0115" "a name already means something in formulas"
-"An input may not be called like a function (`mean`, `sin`), a word of the language (`if`, `and`) or `pi`, \
-because a formula could then be read in two ways."
-
-NAME_TWICE "B0116" "a name is used twice"
+NAME_TWICE "B0115" "a name is used twice"
 "Inputs, constants and measurands share one space of names; the components of an input need different names."
 
-CSV "B0117" "a CSV file does not hold what is asked for"
+CSV "B0116" "a CSV file does not hold what is asked for"
 "The file needs a first line of column names, and a number in every row of the chosen column."
+
+NOT_WHOLE "B0117" "a number is not whole"
+"Counts, bits, seeds and numbers of trials are whole numbers from 0 upwards."
 
 NO_DOUBT "B0201" "an input has no uncertainty"
 "Every input needs at least one component of uncertainty. A number that is exact by definition belongs into \

@@ -21,25 +21,41 @@ pub struct Rejection {
 impl Rejection {
     /// Sorts the faults by place and drops repeated ones.
     pub fn new(name: &str, text: &str, mut faults: Vec<Fault>) -> Self {
-        faults.sort_by(|a, b| (a.span.start, a.span.end, a.code.id).cmp(&(b.span.start, b.span.end, b.code.id)));
+        faults.sort_by(|a, b| {
+            (a.span.start, a.span.end, a.code.id).cmp(&(b.span.start, b.span.end, b.code.id))
+        });
         faults.dedup();
-        Rejection { name: name.into(), text: text.into(), faults }
+        Rejection {
+            name: name.into(),
+            text: text.into(),
+            faults,
+        }
     }
 
     /// Draws every fault, and counts them.
     pub fn render(&self, color: bool) -> String {
-        let renderer = if color { Renderer::styled() } else { Renderer::plain() };
+        let renderer = if color {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
         let mut out = String::new();
         for fault in &self.faults {
             out += &self.draw(fault, &renderer);
             out += "\n\n";
         }
         let count = self.faults.len();
-        out + &format!("{count} error{} in {}\n", if count == 1 { "" } else { "s" }, self.name)
+        out + &format!(
+            "{count} error{} in {}\n",
+            if count == 1 { "" } else { "s" },
+            self.name
+        )
     }
 
     fn draw(&self, fault: &Fault, renderer: &Renderer) -> String {
-        let title = Level::ERROR.primary_title(fault.message.as_str()).id(fault.code.id);
+        let title = Level::ERROR
+            .primary_title(fault.message.as_str())
+            .id(fault.code.id);
         let mut group = annotate_snippets::Group::with_title(title);
         if self.text.is_empty() {
             group = group.element(annotate_snippets::Origin::path(self.name.as_str()));
@@ -47,9 +63,17 @@ impl Rejection {
             let primary = AnnotationKind::Primary.span(self.clamp(&fault.span));
             let mut snippet = Snippet::source(self.text.as_str())
                 .path(self.name.as_str())
-                .annotation(if fault.label.is_empty() { primary } else { primary.label(fault.label.as_str()) });
+                .annotation(if fault.label.is_empty() {
+                    primary
+                } else {
+                    primary.label(fault.label.as_str())
+                });
             for (span, label) in &fault.related {
-                snippet = snippet.annotation(AnnotationKind::Context.span(self.clamp(span)).label(label.as_str()));
+                snippet = snippet.annotation(
+                    AnnotationKind::Context
+                        .span(self.clamp(span))
+                        .label(label.as_str()),
+                );
             }
             group = group.element(snippet);
         }
@@ -61,8 +85,12 @@ impl Rejection {
 
     /// The range inside the text, at character boundaries, and never behind its end.
     fn clamp(&self, span: &Range<usize>) -> Range<usize> {
-        let start = self.text.floor_char_boundary(span.start.min(self.text.len()));
-        let end = self.text.ceil_char_boundary(span.end.clamp(start, self.text.len()));
+        let start = self
+            .text
+            .floor_char_boundary(span.start.min(self.text.len()));
+        let end = self
+            .text
+            .ceil_char_boundary(span.end.clamp(start, self.text.len()));
         start..end
     }
 }

@@ -22,7 +22,11 @@ impl StringMap {
         let token = file.get(span.clone())?;
         let kind = Kind::of(token)?;
         let inside = kind.inside(token)?;
-        let mut map = StringMap { text: String::new(), origin: Vec::new(), end: span.start + inside.end };
+        let mut map = StringMap {
+            text: String::new(),
+            origin: Vec::new(),
+            end: span.start + inside.end,
+        };
         let mut at = inside.start;
         while at < inside.end {
             at += map.take(&token[at..inside.end], span.start + at, &kind)?;
@@ -37,9 +41,14 @@ impl StringMap {
 
     /// The place in the file of a range of the decoded text.
     pub fn place(&self, range: Range<usize>) -> Range<usize> {
-        let start = self.origin.get(range.start).map_or(self.end, |origin| origin.start);
+        let start = self
+            .origin
+            .get(range.start)
+            .map_or(self.end, |origin| origin.start);
         let last = range.end.checked_sub(1).filter(|_| range.end > range.start);
-        let end = last.and_then(|last| self.origin.get(last)).map_or(start, |origin| origin.end);
+        let end = last
+            .and_then(|last| self.origin.get(last))
+            .map_or(start, |origin| origin.end);
         start..end.max(start)
     }
 
@@ -50,8 +59,19 @@ impl StringMap {
             return self.take_escape(rest, at, kind);
         }
         // A line end is one line feed however the file spells it.
-        let taken = if rest.starts_with("\r\n") { 2 } else { first.len_utf8() };
-        self.push(if taken == 2 && first == '\r' { '\n' } else { first }, at..at + taken);
+        let taken = if rest.starts_with("\r\n") {
+            2
+        } else {
+            first.len_utf8()
+        };
+        self.push(
+            if taken == 2 && first == '\r' {
+                '\n'
+            } else {
+                first
+            },
+            at..at + taken,
+        );
         Some(taken)
     }
 
@@ -93,7 +113,8 @@ impl StringMap {
         if origin.len() == character.len_utf8() {
             self.origin.extend(origin.clone().map(|at| at..origin.end));
         } else {
-            self.origin.extend(std::iter::repeat_n(origin, character.len_utf8()));
+            self.origin
+                .extend(std::iter::repeat_n(origin, character.len_utf8()));
         }
     }
 }
@@ -107,11 +128,20 @@ struct Kind {
 
 impl Kind {
     fn of(token: &str) -> Option<Self> {
-        let kinds = [("\"\"\"", true, true), ("'''", false, true), ("\"", true, false), ("'", false, false)];
+        let kinds = [
+            ("\"\"\"", true, true),
+            ("'''", false, true),
+            ("\"", true, false),
+            ("'", false, false),
+        ];
         let found = kinds.into_iter().find(|(quote, ..)| {
             token.starts_with(quote) && token.ends_with(quote) && token.len() >= 2 * quote.len()
         });
-        found.map(|(quote, escapes, lines)| Kind { quote, escapes, lines })
+        found.map(|(quote, escapes, lines)| Kind {
+            quote,
+            escapes,
+            lines,
+        })
     }
 
     /// The bytes between the quotes; the first line end of a string of several lines is not part of it.
@@ -151,10 +181,18 @@ mod tests {
 
     #[test]
     fn the_decoded_text_is_the_parsers() {
-        for token in [r#""a\\b\"c\u00b5""#, "'a\\b'", "\"\"\"\na\nb \\\n  c\"\"\"", "'''\n\na'''"] {
+        for token in [
+            r#""a\\b\"c\u00b5""#,
+            "'a\\b'",
+            "\"\"\"\na\nb \\\n  c\"\"\"",
+            "'''\n\na'''",
+        ] {
             let file = format!("k = {token}");
             let parsed: toml::Table = file.parse().unwrap();
-            assert_eq!(StringMap::new(&file, 4..file.len()).unwrap().text(), parsed["k"].as_str().unwrap());
+            assert_eq!(
+                StringMap::new(&file, 4..file.len()).unwrap().text(),
+                parsed["k"].as_str().unwrap()
+            );
         }
     }
 

@@ -30,7 +30,11 @@ pub struct Stated<T> {
 impl<T> Stated<T> {
     /// The same place with another value.
     pub fn map<U>(&self, f: impl FnOnce(&T) -> U) -> Stated<U> {
-        Stated { value: f(&self.value), span: self.span.clone(), key: self.key.clone() }
+        Stated {
+            value: f(&self.value),
+            span: self.span.clone(),
+            key: self.key.clone(),
+        }
     }
 }
 
@@ -54,8 +58,12 @@ impl Reader<'_> {
     pub fn wrong_type<T>(&mut self, code: Code, value: &Raw<'_>, expected: &str) -> Option<T> {
         let found = found(value.get_ref());
         self.refuse(
-            Fault::new(code, value.span(), format!("expected {expected}, found {found}"))
-                .label(format!("expected {expected}")),
+            Fault::new(
+                code,
+                value.span(),
+                format!("expected {expected}, found {found}"),
+            )
+            .label(format!("expected {expected}")),
         )
     }
 }
@@ -105,7 +113,12 @@ pub struct KeyRow {
 /// A table of known keys.
 pub trait Table: Default {
     /// Takes the entry if the table has such a key.
-    fn accept(&mut self, key: &Spanned<DeString<'_>>, value: &Raw<'_>, reader: &mut Reader<'_>) -> bool;
+    fn accept(
+        &mut self,
+        key: &Spanned<DeString<'_>>,
+        value: &Raw<'_>,
+        reader: &mut Reader<'_>,
+    ) -> bool;
 
     /// Every key, in the order of the definition.
     fn keys() -> Vec<&'static str>;
@@ -145,8 +158,12 @@ const SYNONYMS: [(&str, &str); 22] = [
 
 /// The known key that an unknown one most likely means.
 fn meant(name: &str, known: &[&'static str]) -> Option<&'static str> {
-    let synonym = SYNONYMS.iter().find(|(word, key)| *word == name.to_lowercase() && known.contains(key));
-    synonym.map(|(_, key)| *key).or_else(|| nearest(name, known.iter().copied()))
+    let synonym = SYNONYMS
+        .iter()
+        .find(|(word, key)| *word == name.to_lowercase() && known.contains(key));
+    synonym
+        .map(|(_, key)| *key)
+        .or_else(|| nearest(name, known.iter().copied()))
 }
 
 /// Reads the entries of a table in the order of the file.
@@ -169,16 +186,28 @@ pub fn in_order<'a, 't>(table: &'a DeTable<'t>) -> Vec<(&'a Spanned<DeString<'t>
 
 fn unknown_key(key: &Spanned<DeString<'_>>, table: &str, known: &[&'static str]) -> Fault {
     let name = key.get_ref();
-    let fault = Fault::new(UNKNOWN_KEY, key.span(), format!("{table} has no key `{name}`")).label("unknown key");
+    let fault = Fault::new(
+        UNKNOWN_KEY,
+        key.span(),
+        format!("{table} has no key `{name}`"),
+    )
+    .label("unknown key");
     match meant(name, known) {
-        Some(near) => fault.help(format!("did you mean `{near}`? Known keys: {}", known.join(", "))),
+        Some(near) => fault.help(format!(
+            "did you mean `{near}`? Known keys: {}",
+            known.join(", ")
+        )),
         None => fault.help(format!("known keys: {}", known.join(", "))),
     }
 }
 
 /// A documentation comment as one line of text.
 pub fn doc_text(lines: &[&str]) -> String {
-    lines.iter().map(|line| line.trim()).collect::<Vec<_>>().join(" ")
+    lines
+        .iter()
+        .map(|line| line.trim())
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// Defines one table of the budget file; see the module.
@@ -361,8 +390,12 @@ pub(super) use words;
 
 /// The fault for a word that is none of the choice.
 pub fn unknown_word(value: &Raw<'_>, word: &str, known: &[&'static str], expected: &str) -> Fault {
-    let fault = Fault::new(super::faults::UNKNOWN_WORD, value.span(), format!("`{word}` is not known here"))
-        .label(format!("expected {expected}"));
+    let fault = Fault::new(
+        super::faults::UNKNOWN_WORD,
+        value.span(),
+        format!("`{word}` is not known here"),
+    )
+    .label(format!("expected {expected}"));
     match nearest(word, known.iter().copied()) {
         Some(near) => fault.help(format!("did you mean \"{near}\"?")),
         None => fault,
@@ -379,5 +412,9 @@ pub fn described(mut schema: Value, doc: String) -> Value {
 
 /// The path of a table inside another.
 pub fn inner(path: &str, key: &str) -> String {
-    if path.is_empty() { key.to_string() } else { format!("{path}.{key}") }
+    if path.is_empty() {
+        key.to_string()
+    } else {
+        format!("{path}.{key}")
+    }
 }

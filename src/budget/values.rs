@@ -30,8 +30,16 @@ fn number(value: &DeValue<'_>) -> Option<f64> {
 fn quoted_number(value: &Raw<'_>, text: &str) -> Option<Fault> {
     let number = text.trim();
     number.parse::<f64>().ok()?;
-    let fault = Fault::new(QUOTED_NUMBER, value.span(), format!("the number {number} stands in quotes"));
-    Some(fault.label("a text, not a number").help(format!("remove the quotes: {number}")))
+    let fault = Fault::new(
+        QUOTED_NUMBER,
+        value.span(),
+        format!("the number {number} stands in quotes"),
+    );
+    Some(
+        fault
+            .label("a text, not a number")
+            .help(format!("remove the quotes: {number}")),
+    )
 }
 
 impl FromToml for f64 {
@@ -43,8 +51,12 @@ impl FromToml for f64 {
         match (number(value.get_ref()), value.get_ref()) {
             (Some(number), _) if number.is_finite() => Some(number),
             (Some(number), _) => reader.refuse(
-                Fault::new(NOT_FINITE, value.span(), format!("{number} is not a finite number"))
-                    .label("expected a finite number"),
+                Fault::new(
+                    NOT_FINITE,
+                    value.span(),
+                    format!("{number} is not a finite number"),
+                )
+                .label("expected a finite number"),
             ),
             (None, DeValue::String(text)) if quoted_number(value, text).is_some() => {
                 reader.faults.extend(quoted_number(value, text));
@@ -94,8 +106,12 @@ impl FromToml for u64 {
         };
         exact.or_else(|| {
             reader.refuse(
-                Fault::new(NOT_WHOLE, value.span(), format!("{number} is not a whole number from 0 upwards"))
-                    .label("expected a whole number"),
+                Fault::new(
+                    NOT_WHOLE,
+                    value.span(),
+                    format!("{number} is not a whole number from 0 upwards"),
+                )
+                .label("expected a whole number"),
             )
         })
     }
@@ -154,9 +170,19 @@ impl FromToml for Date {
             DeValue::String(text) => text.trim().to_string(),
             _ => return reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
         };
-        let shape: String = text.chars().take(10).map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
-        let day = shape == "0000-00-00" && ("01".."13").contains(&&text[5..7]) && ("01".."32").contains(&&text[8..10]);
-        if day { Some(Date(text)) } else { reader.wrong_type(WRONG_TYPE, value, &Self::expected()) }
+        let shape: String = text
+            .chars()
+            .take(10)
+            .map(|c| if c.is_ascii_digit() { '0' } else { c })
+            .collect();
+        let day = shape == "0000-00-00"
+            && ("01".."13").contains(&&text[5..7])
+            && ("01".."32").contains(&&text[8..10]);
+        if day {
+            Some(Date(text))
+        } else {
+            reader.wrong_type(WRONG_TYPE, value, &Self::expected())
+        }
     }
 
     fn schema() -> Value {
@@ -192,7 +218,10 @@ impl FromToml for Amount {
             Some((number, unit)) => {
                 let place = StringMap::new(reader.file, value.span());
                 let place = place.map_or(value.span(), |map| map.place(unit.clone()));
-                Some(Amount { number, unit: Some((text[unit].to_string(), place)) })
+                Some(Amount {
+                    number,
+                    unit: Some((text[unit].to_string(), place)),
+                })
             }
             None => reader.refuse(unreadable_amount(value, text)),
         }
@@ -219,8 +248,12 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
 }
 
 fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
-    let fault = Fault::new(AMOUNT, value.span(), format!("{text:?} is not a number with a unit"))
-        .label("expected a number, then a unit");
+    let fault = Fault::new(
+        AMOUNT,
+        value.span(),
+        format!("{text:?} is not a number with a unit"),
+    )
+    .label("expected a number, then a unit");
     let point = text.replacen(',', ".", 1);
     if text.contains(',') && split_amount(&point).is_some() {
         fault.help(format!("write a decimal point: \"{point}\""))
@@ -247,7 +280,8 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
         let DeValue::Array(list) = value.get_ref() else {
             return reader.wrong_type(WRONG_TYPE, value, &Self::expected());
         };
-        let read: Vec<Option<Stated<T>>> = list.iter().map(|item| read_item(item, reader)).collect();
+        let read: Vec<Option<Stated<T>>> =
+            list.iter().map(|item| read_item(item, reader)).collect();
         read.into_iter().collect()
     }
 
@@ -261,7 +295,11 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
 }
 
 fn read_item<T: FromToml>(item: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Stated<T>> {
-    T::read(item, reader).map(|value| Stated { value, span: item.span(), key: item.span() })
+    T::read(item, reader).map(|value| Stated {
+        value,
+        span: item.span(),
+        key: item.span(),
+    })
 }
 
 /// A table, or several as `[[name]]`.
@@ -311,7 +349,14 @@ impl<T: FromToml> FromToml for Named<T> {
         let mut entries = Vec::new();
         for (key, item) in in_order(table) {
             if let Some(read) = T::read(item, reader) {
-                entries.push((key.get_ref().to_string(), Stated { value: read, span: item.span(), key: key.span() }));
+                entries.push((
+                    key.get_ref().to_string(),
+                    Stated {
+                        value: read,
+                        span: item.span(),
+                        key: key.span(),
+                    },
+                ));
             }
         }
         Some(Named(entries))

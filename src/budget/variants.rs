@@ -53,9 +53,21 @@ impl FromToml for ConstantEntry {
             return ConstantTable::read(value, reader).map(ConstantEntry);
         }
         let amount = Amount::read(value, reader)?;
-        let unit = amount.unit.clone().map(|(text, span)| Stated { value: text, key: span.clone(), span });
-        let value = Some(Stated { value: amount, span: value.span(), key: value.span() });
-        Some(ConstantEntry(ConstantTable { value, unit, ..ConstantTable::default() }))
+        let unit = amount.unit.clone().map(|(text, span)| Stated {
+            value: text,
+            key: span.clone(),
+            span,
+        });
+        let value = Some(Stated {
+            value: amount,
+            span: value.span(),
+            key: value.span(),
+        });
+        Some(ConstantEntry(ConstantTable {
+            value,
+            unit,
+            ..ConstantTable::default()
+        }))
     }
 
     fn schema() -> Value {
@@ -84,7 +96,9 @@ impl FromToml for Numbers {
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::Array(_) => Vec::read(value, reader).map(Numbers::List),
-            DeValue::Table(_) => ColumnTable::read(value, reader).map(|table| Numbers::Column(Box::new(table))),
+            DeValue::Table(_) => {
+                ColumnTable::read(value, reader).map(|table| Numbers::Column(Box::new(table)))
+            }
             _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
         }
     }
@@ -118,9 +132,12 @@ impl FromToml for ReadingsOf {
         match value.get_ref() {
             DeValue::String(word) if word == "mean" => Some(ReadingsOf::Mean),
             DeValue::String(word) if word == "single" => Some(ReadingsOf::Single),
-            DeValue::String(word) => {
-                reader.refuse(unknown_word(value, word, &["mean", "single"], &Self::expected()))
-            }
+            DeValue::String(word) => reader.refuse(unknown_word(
+                value,
+                word,
+                &["mean", "single"],
+                &Self::expected(),
+            )),
             _ => match u64::read(value, reader)? {
                 0 => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
                 count => Some(ReadingsOf::Several(count)),

@@ -8,7 +8,7 @@ use crate::budget::table::Stated;
 use crate::budget::tables::FileTable;
 use crate::budget::values::Amount;
 use crate::fault::Fault;
-use crate::quantity::Unit;
+use crate::quantity::{DefinitionError, Unit};
 
 /// Whether a unit of dimension one names a ratio, of which one asks "of what?" (in contrast to angles).
 fn is_ratio(symbol: &str) -> bool {
@@ -18,12 +18,23 @@ fn is_ratio(symbol: &str) -> bool {
 impl Checker<'_> {
     /// Reads the `[unit]` table.
     pub(super) fn define_units(&mut self, file: &FileTable) {
-        for (name, definition) in entries(&file.unit) {
-            if let Err(error) = self.units.define(name, &definition.value) {
-                let fault = Fault::from(error);
-                let fault = self.in_string(fault, definition);
-                self.faults.push(fault);
-            }
+        let stated = entries(&file.unit);
+        let pairs = stated
+            .iter()
+            .map(|(name, definition)| (name.as_str(), definition.value.as_str()));
+        for (index, error) in self.units.define_all(pairs) {
+            let Some((_, definition)) = stated.get(index) else {
+                continue;
+            };
+            let fault = match error {
+                DefinitionError::Name(error) => {
+                    Fault::from(error).moved(|_| definition.key.clone())
+                }
+                DefinitionError::Definition(error) => {
+                    self.in_string(Fault::from(error), definition)
+                }
+            };
+            self.faults.push(fault);
         }
     }
 
@@ -58,14 +69,23 @@ impl Checker<'_> {
         match &amount.unit {
             None => Some(None),
             Some((text, span)) => {
-                let stated = Stated { value: text.clone(), span: span.clone(), key: span.clone() };
+                let stated = Stated {
+                    value: text.clone(),
+                    span: span.clone(),
+                    key: span.clone(),
+                };
                 self.unit(&Some(stated)).map(Some)
             }
         }
     }
 
     /// A value of a quantity in its unit (a point on the scale, for °C).
-    pub(super) fn quantity(&mut self, amount: &Stated<Amount>, unit: &Unit, owner: &str) -> Option<f64> {
+    pub(super) fn quantity(
+        &mut self,
+        amount: &Stated<Amount>,
+        unit: &Unit,
+        owner: &str,
+    ) -> Option<f64> {
         let Some(own) = self.amount_unit(&amount.value)? else {
             return Some(amount.value.number);
         };
@@ -80,16 +100,27 @@ impl Checker<'_> {
 
     /// A deviation of a quantity, in the unit of its differences. Amounts such as `50 ppm`, and all
     /// numbers when `relative` is set, are fractions of the value.
-    pub(super) fn deviation(&mut self, amount: &Stated<Amount>, context: &Context<'_>, relative: bool) -> Option<f64> {
+    pub(super) fn deviation(
+        &mut self,
+        amount: &Stated<Amount>,
+        context: &Context<'_>,
+        relative: bool,
+    ) -> Option<f64> {
         let number = amount.value.number;
         let unit = context.unit.difference();
         let Some(own) = self.amount_unit(&amount.value)? else {
-            return if relative { self.fraction(amount, number, context) } else { Some(number) };
+            return if relative {
+                self.fraction(amount, number, context)
+            } else {
+                Some(number)
+            };
         };
         let own = own.difference();
         let one = Unit::one();
         if own.dimension == one.dimension {
-            let fraction = own.conversion_to(&one).map_or(number, |conversion| conversion.apply(number));
+            let fraction = own
+                .conversion_to(&one)
+                .map_or(number, |conversion| conversion.apply(number));
             let input_is_one = unit.dimension == one.dimension;
             if relative || (is_ratio(&own.symbol) && !(input_is_one && is_ratio(&unit.symbol))) {
                 return self.fraction(amount, fraction, context);
@@ -111,9 +142,13 @@ impl Checker<'_> {
         }
         match own.conversion_to(&unit) {
             Some(_) if relative => self.refuse(
-                Fault::new(UNIT_CLASH, amount.span.clone(), format!("a relative uncertainty in {}", own.symbol))
-                    .label("has a unit")
-                    .help("write a fraction (0.001, \"0.1 %\", \"50 ppm\"), or remove `relative`"),
+                Fault::new(
+                    UNIT_CLASH,
+                    amount.span.clone(),
+                    format!("a relative uncertainty in {}", own.symbol),
+                )
+                .label("has a unit")
+                .help("write a fraction (0.001, \"0.1 %\", \"50 ppm\"), or remove `relative`"),
             ),
             Some(conversion) => Some(conversion.apply(number)),
             None => {
@@ -134,8 +169,12 @@ impl Checker<'_> {
         if amount.value.number > 0.0 {
             return self.deviation(amount, context, relative);
         }
-        let fault = Fault::new(NOT_POSITIVE, amount.span.clone(), format!("`{key}` of {} is {}", context.owner, amount.value.number))
-            .label("must be greater than zero");
+        let fault = Fault::new(
+            NOT_POSITIVE,
+            amount.span.clone(),
+            format!("`{key}` of {} is {}", context.owner, amount.value.number),
+        )
+        .label("must be greater than zero");
         self.refuse(if amount.value.number < 0.0 {
             fault.help("write it without sign")
         } else {
@@ -143,26 +182,66 @@ impl Checker<'_> {
         })
     }
 
-    fn fraction(&mut self, amount: &Stated<Amount>, fraction: f64, context: &Context<'_>) -> Option<f64> {
+    fn fraction(
+        &mut self,
+        amount: &Stated<Amount>,
+        fraction: f64,
+        context: &Context<'_>,
+    ) -> Option<f64> {
         match context.value {
             Some(value) if value != 0.0 => Some(fraction * value.abs()),
             Some(_) => self.refuse(
-                Fault::new(RELATIVE_TO_ZERO, amount.span.clone(), format!("relative to the value of {}, which is 0", context.owner))
-                    .label("a fraction of 0 is 0")
-                    .help(format!("state it absolutely, in {}", context.unit.difference().symbol)),
+                Fault::new(
+                    RELATIVE_TO_ZERO,
+                    amount.span.clone(),
+                    format!("relative to the value of {}, which is 0", context.owner),
+                )
+                .label("a fraction of 0 is 0")
+                .help(format!(
+                    "state it absolutely, in {}",
+                    context.unit.difference().symbol
+                )),
             ),
             None => self.refuse(
-                Fault::new(RELATIVE_TO_ZERO, amount.span.clone(), format!("relative to {}, which has no value of its own", context.owner))
-                    .label("a fraction of what?")
-                    .help(format!("state it absolutely, in {}", context.unit.difference().symbol)),
+                Fault::new(
+                    RELATIVE_TO_ZERO,
+                    amount.span.clone(),
+                    format!(
+                        "relative to {}, which has no value of its own",
+                        context.owner
+                    ),
+                )
+                .label("a fraction of what?")
+                .help(format!(
+                    "state it absolutely, in {}",
+                    context.unit.difference().symbol
+                )),
             ),
         }
     }
 }
 
 fn clash(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {
-    let place = amount.value.unit.as_ref().map_or(amount.span.clone(), |(_, span)| span.clone());
-    let fault = Fault::new(UNIT_CLASH, place, format!("{} cannot be converted to {}, the unit of {owner}", own.symbol, unit.symbol))
-        .label(format!("expected a unit like {}", unit.symbol));
-    if unit.is_one() { fault.help(format!("add the missing unit to {owner}: unit = \"{}\"", own.symbol)) } else { fault }
+    let place = amount
+        .value
+        .unit
+        .as_ref()
+        .map_or(amount.span.clone(), |(_, span)| span.clone());
+    let fault = Fault::new(
+        UNIT_CLASH,
+        place,
+        format!(
+            "{} cannot be converted to {}, the unit of {owner}",
+            own.symbol, unit.symbol
+        ),
+    )
+    .label(format!("expected a unit like {}", unit.symbol));
+    if unit.is_one() {
+        fault.help(format!(
+            "add the missing unit to {owner}: unit = \"{}\"",
+            own.symbol
+        ))
+    } else {
+        fault
+    }
 }

@@ -21,37 +21,64 @@ impl Checker<'_> {
 
     fn column(&mut self, table: &ColumnTable, place: &Range<usize>) -> Option<Vec<f64>> {
         let (Some(file), Some(column)) = (&table.file, &table.column) else {
-            let missing = if table.file.is_none() { "file" } else { "column" };
+            let missing = if table.file.is_none() {
+                "file"
+            } else {
+                "column"
+            };
             return self.refuse(
-                Fault::new(MISSING_KEY, place.clone(), format!("the CSV column lacks `{missing}`"))
-                    .label(format!("`{missing}` is missing"))
-                    .help("write { file = \"readings.csv\", column = \"name\" }"),
+                Fault::new(
+                    MISSING_KEY,
+                    place.clone(),
+                    format!("the CSV column lacks `{missing}`"),
+                )
+                .label(format!("`{missing}` is missing"))
+                .help("write { file = \"readings.csv\", column = \"name\" }"),
             );
         };
         let path = self.directory.join(&file.value);
-        let mut reader = match ::csv::ReaderBuilder::new().trim(::csv::Trim::All).from_path(&path) {
+        let mut reader = match ::csv::ReaderBuilder::new()
+            .trim(::csv::Trim::All)
+            .from_path(&path)
+        {
             Ok(reader) => reader,
             Err(error) => {
                 return self.refuse(
-                    Fault::new(UNREADABLE_FILE, file.span.clone(), format!("{} cannot be read: {error}", path.display()))
-                        .label("not readable"),
+                    Fault::new(
+                        UNREADABLE_FILE,
+                        file.span.clone(),
+                        format!("{} cannot be read: {error}", path.display()),
+                    )
+                    .label("not readable"),
                 );
             }
         };
         let names: Vec<String> = match reader.headers() {
-            Ok(names) => names.iter().map(|name| name.trim_start_matches('\u{feff}').to_string()).collect(),
+            Ok(names) => names
+                .iter()
+                .map(|name| name.trim_start_matches('\u{feff}').to_string())
+                .collect(),
             Err(error) => return self.csv_fault(file, format!("{}: {error}", file.value)),
         };
         let Some(index) = names.iter().position(|name| *name == column.value) else {
             let near = nearest(&column.value, names.iter().map(String::as_str));
             let help = near.map_or_else(
                 || format!("its columns are: {}", names.join(", ")),
-                |near| format!("did you mean \"{near}\"? Its columns are: {}", names.join(", ")),
+                |near| {
+                    format!(
+                        "did you mean \"{near}\"? Its columns are: {}",
+                        names.join(", ")
+                    )
+                },
             );
             return self.refuse(
-                Fault::new(CSV, column.span.clone(), format!("{} has no column \"{}\"", file.value, column.value))
-                    .label("no such column")
-                    .help(help),
+                Fault::new(
+                    CSV,
+                    column.span.clone(),
+                    format!("{} has no column \"{}\"", file.value, column.value),
+                )
+                .label("no such column")
+                .help(help),
             );
         };
         let mut numbers = Vec::new();
@@ -61,12 +88,18 @@ impl Checker<'_> {
                 Err(error) => return self.csv_fault(file, format!("{}: {error}", file.value)),
             };
             let field = record.get(index).unwrap_or_default();
-            match field.parse::<f64>().ok().filter(|number| number.is_finite()) {
+            match field
+                .parse::<f64>()
+                .ok()
+                .filter(|number| number.is_finite())
+            {
                 Some(number) => numbers.push(number),
                 None => {
                     let message = format!(
                         "line {} of {} has \"{field}\" in column \"{}\", not a number",
-                        row + 2, file.value, column.value
+                        row + 2,
+                        file.value,
+                        column.value
                     );
                     return self.csv_fault(column, message);
                 }

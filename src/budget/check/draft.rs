@@ -61,7 +61,11 @@ pub(super) enum Location {
     /// The estimate is the mean of readings, unless a value is stated.
     Mean(f64),
     /// The estimate is this expectation; a stated value must lie between the limits.
-    Between { expectation: f64, lower: f64, upper: f64 },
+    Between {
+        expectation: f64,
+        lower: f64,
+        upper: f64,
+    },
     /// The estimate is this expectation.
     Expectation(f64),
 }
@@ -78,7 +82,13 @@ pub(super) struct Core {
 
 impl Core {
     pub(super) fn new(distribution: Distribution, u: f64, how: impl Into<String>) -> Self {
-        Core { distribution, u, dof: f64::INFINITY, how: how.into(), location: Location::None }
+        Core {
+            distribution,
+            u,
+            dof: f64::INFINITY,
+            how: how.into(),
+            location: Location::None,
+        }
     }
 }
 
@@ -87,10 +97,14 @@ impl Checker<'_> {
     pub(super) fn dof(&mut self, table: &ComponentTable) -> Option<f64> {
         if let (Some(dof), Some(reliability)) = (&table.dof, &table.reliability) {
             return self.refuse(
-                Fault::new(DOF, reliability.key.clone(), "degrees of freedom are stated in two ways")
-                    .label("as reliability here")
-                    .related(dof.key.clone(), "as dof here")
-                    .help("leave out one of `dof` and `reliability`"),
+                Fault::new(
+                    DOF,
+                    reliability.key.clone(),
+                    "degrees of freedom are stated in two ways",
+                )
+                .label("as reliability here")
+                .related(dof.key.clone(), "as dof here")
+                .help("leave out one of `dof` and `reliability`"),
             );
         }
         if let Some(dof) = &table.dof {
@@ -100,7 +114,8 @@ impl Checker<'_> {
             return Some(f64::INFINITY);
         };
         // GUM G.4.2, equation (G.3).
-        self.positive(reliability, "reliability").map(|ratio| 0.5 / (ratio * ratio))
+        self.positive(reliability, "reliability")
+            .map(|ratio| 0.5 / (ratio * ratio))
     }
 
     /// A stated number of degrees of freedom.
@@ -109,9 +124,13 @@ impl Checker<'_> {
             return Some(dof.value);
         }
         self.refuse(
-            Fault::new(DOF, dof.span.clone(), format!("degrees of freedom of {}", dof.value))
-                .label("must be greater than zero")
-                .help("for a perfectly known uncertainty leave out `dof`, or write `dof = inf`"),
+            Fault::new(
+                DOF,
+                dof.span.clone(),
+                format!("degrees of freedom of {}", dof.value),
+            )
+            .label("must be greater than zero")
+            .help("for a perfectly known uncertainty leave out `dof`, or write `dof = inf`"),
         )
     }
 
@@ -120,19 +139,36 @@ impl Checker<'_> {
         if number.value > 0.0 {
             return Some(number.value);
         }
-        let fault = Fault::new(NOT_POSITIVE, number.span.clone(), format!("`{key}` is {}", number.value))
-            .label("must be greater than zero");
-        self.refuse(if number.value < 0.0 { fault.help("write it without sign") } else { fault })
+        let fault = Fault::new(
+            NOT_POSITIVE,
+            number.span.clone(),
+            format!("`{key}` is {}", number.value),
+        )
+        .label("must be greater than zero");
+        self.refuse(if number.value < 0.0 {
+            fault.help("write it without sign")
+        } else {
+            fault
+        })
     }
 
     /// The distribution of a standard uncertainty with finite degrees of freedom: a t distribution
     /// (JCGM 101 6.4.9), whose scale the conventions choose; else normal.
-    pub(super) fn t_or_normal(&mut self, u: f64, dof: f64, place: &Range<usize>) -> Option<Distribution> {
+    pub(super) fn t_or_normal(
+        &mut self,
+        u: f64,
+        dof: f64,
+        place: &Range<usize>,
+    ) -> Option<Distribution> {
         if dof.is_infinite() {
             return Some(Distribution::Normal { mean: 0.0, sd: u });
         }
         let scale = self.t_scale_of(u, dof, place)?;
-        Some(Distribution::StudentT { location: 0.0, scale, dof })
+        Some(Distribution::StudentT {
+            location: 0.0,
+            scale,
+            dof,
+        })
     }
 
     /// Scale of the t distribution that stands for u.
@@ -141,9 +177,13 @@ impl Checker<'_> {
             TScale::Scale => Some(u),
             TScale::StandardDeviation if dof > 2.0 => Some(u * ((dof - 2.0) / dof).sqrt()),
             TScale::StandardDeviation => self.refuse(
-                Fault::new(DOF, place.clone(), format!("a t distribution with ν = {dof} has no standard deviation"))
-                    .label(format!("ν = {dof}"))
-                    .help("take more readings, or write `t_scale = \"scale\"` in [conventions]"),
+                Fault::new(
+                    DOF,
+                    place.clone(),
+                    format!("a t distribution with ν = {dof} has no standard deviation"),
+                )
+                .label(format!("ν = {dof}"))
+                .help("take more readings, or write `t_scale = \"scale\"` in [conventions]"),
             ),
         }
     }
@@ -157,13 +197,20 @@ pub(super) fn show(number: f64) -> String {
     if (-4..7).contains(&exponent) {
         let places = usize::try_from(6 - exponent).unwrap_or(0);
         let plain = format!("{number:.places$}");
-        return if plain.contains('.') { trim(&plain) } else { plain };
+        return if plain.contains('.') {
+            trim(&plain)
+        } else {
+            plain
+        };
     }
     format!("{}e{exponent}", trim(mantissa))
 }
 
 fn trim(digits: &str) -> String {
-    digits.trim_end_matches('0').trim_end_matches('.').to_string()
+    digits
+        .trim_end_matches('0')
+        .trim_end_matches('.')
+        .to_string()
 }
 
 #[cfg(test)]

@@ -14,10 +14,15 @@ use crate::fault::Fault;
 
 impl Checker<'_> {
     /// The component that a stated distribution, a sample or a count describes.
-    pub(super) fn given(&mut self, table: &ComponentTable, way: Way, context: &Context<'_>) -> Option<Core> {
+    pub(super) fn given(
+        &mut self,
+        table: &ComponentTable,
+        way: Way,
+        context: &Context<'_>,
+    ) -> Option<Core> {
         match way {
             Way::Sample => self.sample(table, context),
-            Way::Distribution => self.parametric(table, context),
+            Way::Distribution => self.parametric(table),
             Way::Count => self.count(table, context),
             Way::Successes => self.proportion(table, context),
             _ => None,
@@ -29,16 +34,26 @@ impl Checker<'_> {
         let mut sample = self.numbers(stated)?;
         if sample.len() < 2 || super::type_a::all_equal(&sample) {
             return self.refuse(
-                Fault::new(TOO_FEW_READINGS, stated.span.clone(), format!("the sample of {} has no spread", context.owner))
-                    .label("needs at least two different values"),
+                Fault::new(
+                    TOO_FEW_READINGS,
+                    stated.span.clone(),
+                    format!("the sample of {} has no spread", context.owner),
+                )
+                .label("needs at least two different values"),
             );
         }
         sample.sort_by(f64::total_cmp);
         let how = format!("sample of {}", sample.len());
-        self.centred(Distribution::Empirical { sample: Arc::from(sample) }, how, &stated.key)
+        self.centred(
+            Distribution::Empirical {
+                sample: Arc::from(sample),
+            },
+            how,
+            &stated.key,
+        )
     }
 
-    fn parametric(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
+    fn parametric(&mut self, table: &ComponentTable) -> Option<Core> {
         let entry = table.distribution.as_ref()?;
         let DistributionEntry::Full(full) = &entry.value else {
             return None;
@@ -47,7 +62,11 @@ impl Checker<'_> {
             Ok(parametric) => parametric,
             Err(fault) => return self.refuse(*fault),
         };
-        let Parametric { distribution, located, how } = parametric;
+        let Parametric {
+            distribution,
+            located,
+            how,
+        } = parametric;
         let dof = self.dof(table)?;
         let mut core = self.centred(distribution.clone(), how, &entry.key)?;
         if let Distribution::StudentT { scale, dof: nu, .. } = distribution {
@@ -59,8 +78,14 @@ impl Checker<'_> {
         }
         if !located {
             core.location = Location::None;
-        } else if let (Location::Expectation(expectation), Some((lower, upper))) = (core.location, limits(&distribution)) {
-            core.location = Location::Between { expectation, lower, upper };
+        } else if let (Location::Expectation(expectation), Some((lower, upper))) =
+            (core.location, limits(&distribution))
+        {
+            core.location = Location::Between {
+                expectation,
+                lower,
+                upper,
+            };
         }
         Some(core)
     }
@@ -74,7 +99,15 @@ impl Checker<'_> {
             return self.refuse(no_events(stated, context));
         }
         let how = format!("n = {n}, G({shape}, 1)");
-        self.centred(Distribution::Gamma { origin: 0.0, shape, scale: 1.0 }, how, &stated.key)
+        self.centred(
+            Distribution::Gamma {
+                origin: 0.0,
+                shape,
+                scale: 1.0,
+            },
+            how,
+            &stated.key,
+        )
     }
 
     /// Successes of Bernoulli trials: the proportion is beta distributed.
@@ -82,39 +115,72 @@ impl Checker<'_> {
         let stated = table.successes.as_ref()?;
         let Some(trials) = &table.trials else {
             return self.refuse(
-                Fault::new(MISSING_KEY, stated.key.clone(), format!("the successes of {} have no number of trials", context.owner))
-                    .label("`trials` is missing"),
+                Fault::new(
+                    MISSING_KEY,
+                    stated.key.clone(),
+                    format!(
+                        "the successes of {} have no number of trials",
+                        context.owner
+                    ),
+                )
+                .label("`trials` is missing"),
             );
         };
         if stated.value > trials.value || trials.value == 0 {
             return self.refuse(
-                Fault::new(COUNT, stated.span.clone(), format!("{} successes in {} trials", stated.value, trials.value))
-                    .label("more than there were trials")
-                    .related(trials.span.clone(), "trials"),
+                Fault::new(
+                    COUNT,
+                    stated.span.clone(),
+                    format!("{} successes in {} trials", stated.value, trials.value),
+                )
+                .label("more than there were trials")
+                .related(trials.span.clone(), "trials"),
             );
         }
         let prior = prior_counts(table);
-        let (s, f) = (stated.value as f64 + prior, (trials.value - stated.value) as f64 + prior);
+        let (s, f) = (
+            stated.value as f64 + prior,
+            (trials.value - stated.value) as f64 + prior,
+        );
         if s <= 0.0 || f <= 0.0 {
             return self.refuse(no_events(stated, context));
         }
         let how = format!("{} of {}, B({s}, {f})", stated.value, trials.value);
-        self.centred(Distribution::Beta { alpha: s, beta: f, lower: 0.0, upper: 1.0 }, how, &stated.key)
+        self.centred(
+            Distribution::Beta {
+                alpha: s,
+                beta: f,
+                lower: 0.0,
+                upper: 1.0,
+            },
+            how,
+            &stated.key,
+        )
     }
 
     /// Moves a distribution to mean zero; its mean is the estimate.
-    fn centred(&mut self, distribution: Distribution, how: String, place: &std::ops::Range<usize>) -> Option<Core> {
+    fn centred(
+        &mut self,
+        distribution: Distribution,
+        how: String,
+        place: &std::ops::Range<usize>,
+    ) -> Option<Core> {
         if let Err(reason) = distribution.validate() {
-            return self.refuse(Fault::new(DISTRIBUTION, place.clone(), reason.to_string()).label("parameters do not fit"));
+            return self.refuse(
+                Fault::new(DISTRIBUTION, place.clone(), reason).label("parameters do not fit"),
+            );
         }
         // A t distribution with ν ≤ 1 has no mean; its location takes the place.
         let mean = match &distribution {
             Distribution::StudentT { location, .. } => *location,
-            other => other.mean(),
+            other => other.mean().unwrap_or(0.0),
         };
-        let u = distribution.variance().sqrt();
+        let u = distribution.standard_deviation().unwrap_or(0.0);
         let location = Location::Expectation(mean);
-        Some(Core { location, ..Core::new(distribution.shifted(-mean), u, how) })
+        Some(Core {
+            location,
+            ..Core::new(distribution.shifted(-mean), u, how)
+        })
     }
 }
 
@@ -128,9 +194,16 @@ fn prior_counts(table: &ComponentTable) -> f64 {
 }
 
 fn no_events(stated: &Stated<u64>, context: &Context<'_>) -> Fault {
-    Fault::new(COUNT, stated.span.clone(), format!("the prior \"reciprocal\" of {} needs a count other than {}", context.owner, stated.value))
-        .label("gives no proper distribution")
-        .help("write prior = \"jeffreys\" or \"uniform\"")
+    Fault::new(
+        COUNT,
+        stated.span.clone(),
+        format!(
+            "the prior \"reciprocal\" of {} needs a count other than {}",
+            context.owner, stated.value
+        ),
+    )
+    .label("gives no proper distribution")
+    .help("write prior = \"jeffreys\" or \"uniform\"")
 }
 
 /// The limits of a distribution that has two.

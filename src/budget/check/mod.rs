@@ -69,31 +69,51 @@ impl Checker<'_> {
 ///
 /// # Errors
 /// All faults, in no particular order.
-pub(super) fn rows(file: &FileTable, text: &str, directory: &Path) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
+pub(super) fn rows(
+    file: &FileTable,
+    text: &str,
+    directory: &Path,
+) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
     let mut faults = Vec::new();
     let heading = heading(file, &mut faults);
     let variants = series::variants(file, &mut faults);
     let mut rows = Vec::new();
     for variant in variants {
         match budget(&variant.file, text, directory, &heading) {
-            Ok(budget) => rows.push(Row { label: variant.label, budget }),
+            Ok(budget) => rows.push(Row {
+                label: variant.label,
+                budget,
+            }),
             // Every row repeats the faults that do not depend on it.
             Err(found) => faults.extend(found),
         }
     }
-    if faults.is_empty() { Ok((heading, rows)) } else { Err(faults) }
+    if faults.is_empty() {
+        Ok((heading, rows))
+    } else {
+        Err(faults)
+    }
 }
 
 fn heading(file: &FileTable, faults: &mut Vec<Fault>) -> Heading {
     let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|stated| stated.value.clone());
     let mut source = text(&file.reference);
-    if let Some(Stated { value: SourceEntry::Text(words), key, .. }) = &file.source {
+    if let Some(Stated {
+        value: SourceEntry::Text(words),
+        key,
+        ..
+    }) = &file.source
+    {
         if let Some(reference) = &file.reference {
             faults.push(
-                Fault::new(NAME_TWICE, reference.key.clone(), "the origin of the figures is stated twice")
-                    .label("second statement")
-                    .related(key.clone(), "first statement")
-                    .help("leave out one of `source` and `reference`"),
+                Fault::new(
+                    NAME_TWICE,
+                    reference.key.clone(),
+                    "the origin of the figures is stated twice",
+                )
+                .label("second statement")
+                .related(key.clone(), "first statement")
+                .help("leave out one of `source` and `reference`"),
             );
         }
         source = Some(words.clone());
@@ -109,7 +129,12 @@ fn heading(file: &FileTable, faults: &mut Vec<Fault>) -> Heading {
     }
 }
 
-fn budget(file: &FileTable, text: &str, directory: &Path, heading: &Heading) -> Result<Budget, Vec<Fault>> {
+fn budget(
+    file: &FileTable,
+    text: &str,
+    directory: &Path,
+    heading: &Heading,
+) -> Result<Budget, Vec<Fault>> {
     let (conventions, resolution, faults) = conventions::conventions(file);
     let mut checker = Checker {
         text,
@@ -165,7 +190,10 @@ impl Checker<'_> {
 /// The shared causes of a file.
 fn shared(file: &FileTable) -> &[(String, Stated<super::tables::SourceTable>)] {
     match &file.source {
-        Some(Stated { value: SourceEntry::Tables(Named(entries)), .. }) => entries,
+        Some(Stated {
+            value: SourceEntry::Tables(Named(entries)),
+            ..
+        }) => entries,
         _ => &[],
     }
 }

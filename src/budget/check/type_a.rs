@@ -40,7 +40,11 @@ impl Checker<'_> {
         if all_equal(&numbers) {
             return self.refuse(no_scatter(readings, &numbers, context));
         }
-        if table.autocorrelated.as_ref().is_some_and(|stated| stated.value) {
+        if table
+            .autocorrelated
+            .as_ref()
+            .is_some_and(|stated| stated.value)
+        {
             return self.autocorrelated(&numbers, of, readings, table, context);
         }
         let n = numbers.len() as f64;
@@ -72,8 +76,18 @@ impl Checker<'_> {
             );
         }
         let distribution = self.t_or_normal(u, dof, &place.key)?;
-        let location = if of == ReadingsOf::Mean { location } else { Location::None };
-        Some(Core { distribution, u, dof, how, location })
+        let location = if of == ReadingsOf::Mean {
+            location
+        } else {
+            Location::None
+        };
+        Some(Core {
+            distribution,
+            u,
+            dof,
+            how,
+            location,
+        })
     }
 
     fn pooled(
@@ -91,29 +105,60 @@ impl Checker<'_> {
         let (mean, _) = mean_and_squares(numbers);
         let (m, words) = averaged(of, numbers.len() as f64);
         let how = format!("{words}, pooled s = {}", show(s));
-        self.scattered(s / m.sqrt(), dof, how, Location::Mean(mean), readings, of, context)
+        self.scattered(
+            s / m.sqrt(),
+            dof,
+            how,
+            Location::Mean(mean),
+            readings,
+            of,
+            context,
+        )
     }
 
-    fn pooled_alone(&mut self, pooled: &Stated<PooledTable>, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
+    fn pooled_alone(
+        &mut self,
+        pooled: &Stated<PooledTable>,
+        table: &ComponentTable,
+        context: &Context<'_>,
+    ) -> Option<Core> {
         let (s, dof) = self.pooled_numbers(pooled, context)?;
         let m = match table.of.as_ref().map(|of| of.value) {
             Some(ReadingsOf::Single) => 1.0,
             Some(ReadingsOf::Several(count)) => count as f64,
             Some(ReadingsOf::Mean) | None => {
                 return self.refuse(
-                    Fault::new(MODIFIER, pooled.key.clone(), "it is not stated how many readings the value is the mean of")
-                        .label("s of a single reading")
-                        .help("add the readings, `of = 3` for the mean of three, or `of = \"single\"`"),
+                    Fault::new(
+                        MODIFIER,
+                        pooled.key.clone(),
+                        "it is not stated how many readings the value is the mean of",
+                    )
+                    .label("s of a single reading")
+                    .help("add the readings, `of = 3` for the mean of three, or `of = \"single\"`"),
                 );
             }
         };
         let u = s / m.sqrt();
         let distribution = self.t_or_normal(u, dof, &pooled.key)?;
-        let how = if m == 1.0 { format!("pooled s = {}", show(s)) } else { format!("s/√{m}, pooled s = {}", show(s)) };
-        Some(Core { distribution, u, dof, how, location: Location::None })
+        let how = if m == 1.0 {
+            format!("pooled s = {}", show(s))
+        } else {
+            format!("s/√{m}, pooled s = {}", show(s))
+        };
+        Some(Core {
+            distribution,
+            u,
+            dof,
+            how,
+            location: Location::None,
+        })
     }
 
-    fn pooled_numbers(&mut self, pooled: &Stated<PooledTable>, context: &Context<'_>) -> Option<(f64, f64)> {
+    fn pooled_numbers(
+        &mut self,
+        pooled: &Stated<PooledTable>,
+        context: &Context<'_>,
+    ) -> Option<(f64, f64)> {
         let (Some(s), Some(dof)) = (&pooled.value.s, &pooled.value.dof) else {
             if pooled.value.refused {
                 return None;
@@ -142,17 +187,31 @@ impl Checker<'_> {
         context: &Context<'_>,
     ) -> Option<Core> {
         if of != ReadingsOf::Mean {
-            let place = table.of.as_ref().map_or(readings.key.clone(), |of| of.key.clone());
+            let place = table
+                .of
+                .as_ref()
+                .map_or(readings.key.clone(), |of| of.key.clone());
             return self.refuse(
-                Fault::new(MODIFIER, place, "serial correlation changes the uncertainty of a mean only")
-                    .label("not the mean of the readings")
-                    .help("leave out `autocorrelated`"),
+                Fault::new(
+                    MODIFIER,
+                    place,
+                    "serial correlation changes the uncertainty of a mean only",
+                )
+                .label("not the mean of the readings")
+                .help("leave out `autocorrelated`"),
             );
         }
         if numbers.len() < 10 {
             return self.refuse(
-                Fault::new(SERIAL, readings.span.clone(), format!("{} readings are too few to estimate their serial correlation", numbers.len()))
-                    .label("at least 10 are needed"),
+                Fault::new(
+                    SERIAL,
+                    readings.span.clone(),
+                    format!(
+                        "{} readings are too few to estimate their serial correlation",
+                        numbers.len()
+                    ),
+                )
+                .label("at least 10 are needed"),
             );
         }
         let n = numbers.len() as f64;
@@ -161,16 +220,35 @@ impl Checker<'_> {
         let effective = n / factor;
         if effective < 2.0 {
             return self.refuse(
-                Fault::new(SERIAL, readings.span.clone(), format!("the {n} readings are worth only {} independent ones", show(effective)))
-                    .label("they drift")
-                    .help("model the drift, or take readings over a longer time"),
+                Fault::new(
+                    SERIAL,
+                    readings.span.clone(),
+                    format!(
+                        "the {n} readings are worth only {} independent ones",
+                        show(effective)
+                    ),
+                )
+                .label("they drift")
+                .help("model the drift, or take readings over a longer time"),
             );
         }
         // E Σ(x − x̄)² = σ²(n − factor), because the mean takes up factor/n of the variance.
         let sigma = (squares / (n - factor)).sqrt();
         let u = sigma / effective.sqrt();
-        let how = format!("s/√n_eff, s = {}, n = {n}, n_eff = {}", show(sigma), show(effective));
-        self.scattered(u, effective - 1.0, how, Location::Mean(mean), readings, of, context)
+        let how = format!(
+            "s/√n_eff, s = {}, n = {n}, n_eff = {}",
+            show(sigma),
+            show(effective)
+        );
+        self.scattered(
+            u,
+            effective - 1.0,
+            how,
+            Location::Mean(mean),
+            readings,
+            of,
+            context,
+        )
     }
 }
 
@@ -180,7 +258,11 @@ fn inflation(readings: &[f64], mean: f64, squares: f64) -> f64 {
     let limit = 2.0 / (n as f64).sqrt();
     let sum: f64 = (1..=n / 4)
         .map(|lag| {
-            let products: f64 = readings.iter().zip(&readings[lag..]).map(|(a, b)| (a - mean) * (b - mean)).sum();
+            let products: f64 = readings
+                .iter()
+                .zip(&readings[lag..])
+                .map(|(a, b)| (a - mean) * (b - mean))
+                .sum();
             (lag, products / squares)
         })
         .take_while(|(_, rho)| *rho > limit)
@@ -200,9 +282,13 @@ fn averaged(of: ReadingsOf, n: f64) -> (f64, String) {
 
 fn too_few(readings: &Stated<Numbers>, count: usize, context: &Context<'_>) -> Fault {
     let plural = if count == 1 { "" } else { "s" };
-    Fault::new(TOO_FEW_READINGS, readings.span.clone(), format!("{} has {count} reading{plural}", context.owner))
-        .label("at least two are needed for a standard deviation")
-        .help("with a single reading, add pooled = { s = …, dof = … } from earlier work")
+    Fault::new(
+        TOO_FEW_READINGS,
+        readings.span.clone(),
+        format!("{} has {count} reading{plural}", context.owner),
+    )
+    .label("at least two are needed for a standard deviation")
+    .help("with a single reading, add pooled = { s = …, dof = … } from earlier work")
 }
 
 fn no_scatter(readings: &Stated<Numbers>, numbers: &[f64], context: &Context<'_>) -> Fault {
@@ -214,7 +300,11 @@ fn no_scatter(readings: &Stated<Numbers>, numbers: &[f64], context: &Context<'_>
 
 /// Zero-mean t distribution of a mean of readings, for reuse by joint readings.
 pub(super) fn student(scale: f64, dof: f64) -> Distribution {
-    Distribution::StudentT { location: 0.0, scale, dof }
+    Distribution::StudentT {
+        location: 0.0,
+        scale,
+        dof,
+    }
 }
 
 #[cfg(test)]
@@ -237,7 +327,14 @@ mod tests {
     #[test]
     fn doubled_readings_are_worth_about_half() {
         // Every reading twice: ρ_1 is about ½, higher lags about 0, so the factor is about 2.
-        let noise = |i: u32| f64::from(i.wrapping_mul(2654435761).rotate_left(13).wrapping_mul(2246822519) >> 8);
+        let noise = |i: u32| {
+            f64::from(
+                i.wrapping_mul(2654435761)
+                    .rotate_left(13)
+                    .wrapping_mul(2246822519)
+                    >> 8,
+            )
+        };
         let readings: Vec<f64> = (0..4000).map(|i| noise(i / 2)).collect();
         let (mean, squares) = mean_and_squares(&readings);
         assert!((inflation(&readings, mean, squares) - 2.0).abs() < 0.1);

@@ -31,36 +31,125 @@ pub(super) enum Way {
 }
 
 use Way::{
-    Bits, Count, Distribution, HalfWidth, Limits, PlusMinus, Pooled, Readings, Sample, Source, Specification, Step,
-    Successes, U,
+    Bits, Count, Distribution, HalfWidth, Limits, PlusMinus, Pooled, Readings, Sample, Source,
+    Specification, Step, Successes, U,
 };
 
 /// Which ways a modifier goes with, and what to say otherwise.
 const MODIFIERS: [(&str, &[Way], &str); 16] = [
-    ("prior", &[Count, Successes], "`prior` goes with `count` or `successes`"),
+    (
+        "prior",
+        &[Count, Successes],
+        "`prior` goes with `count` or `successes`",
+    ),
     ("range", &[Bits], "`range` goes with `bits`"),
     ("trials", &[Successes], "`trials` goes with `successes`"),
-    ("beta", SHAPED, "`beta` goes with distribution = \"trapezoidal\""),
-    ("d", SHAPED, "`d` goes with distribution = \"curvilinear-trapezoid\""),
-    ("p", &[HalfWidth, Limits, Specification], "`p` goes with a normal `half_width`; inside a certificate write certificate = { U = …, p = … }"),
-    ("distribution", SHAPED, "the distribution follows from the way the uncertainty is stated"),
-    ("dof", WITH_DOF, "the degrees of freedom follow from the way the uncertainty is stated"),
-    ("reliability", WITH_DOF, "the degrees of freedom follow from the way the uncertainty is stated"),
-    ("relative", &[U, HalfWidth, PlusMinus, Way::Certificate, Source, Pooled], "`relative` goes with `u`, `half_width`, `plus` and `minus`, `certificate` or `source`"),
-    ("of", &[Readings, Pooled], "`of` goes with `readings` or `pooled`"),
-    ("pooled", &[Readings, Pooled], "`pooled` takes the place of the scatter of `readings`"),
-    ("autocorrelated", &[Readings], "`autocorrelated` goes with `readings`"),
+    (
+        "beta",
+        SHAPED,
+        "`beta` goes with distribution = \"trapezoidal\"",
+    ),
+    (
+        "d",
+        SHAPED,
+        "`d` goes with distribution = \"curvilinear-trapezoid\"",
+    ),
+    (
+        "p",
+        &[HalfWidth, Limits, Specification],
+        "`p` goes with a normal `half_width`; inside a certificate write certificate = { U = …, p = … }",
+    ),
+    (
+        "distribution",
+        SHAPED,
+        "the distribution follows from the way the uncertainty is stated",
+    ),
+    (
+        "dof",
+        WITH_DOF,
+        "the degrees of freedom follow from the way the uncertainty is stated",
+    ),
+    (
+        "reliability",
+        WITH_DOF,
+        "the degrees of freedom follow from the way the uncertainty is stated",
+    ),
+    (
+        "relative",
+        &[U, HalfWidth, PlusMinus, Way::Certificate, Source, Pooled],
+        "`relative` goes with `u`, `half_width`, `plus` and `minus`, `certificate` or `source`",
+    ),
+    (
+        "of",
+        &[Readings, Pooled],
+        "`of` goes with `readings` or `pooled`",
+    ),
+    (
+        "pooled",
+        &[Readings, Pooled],
+        "`pooled` takes the place of the scatter of `readings`",
+    ),
+    (
+        "autocorrelated",
+        &[Readings],
+        "`autocorrelated` goes with `readings`",
+    ),
     ("sensitivity", &[Source], "`sensitivity` goes with `source`"),
-    ("gum_u", WITH_GUM_U, "`gum_u` goes with a distribution of known shape"),
-    ("common", WITH_COMMON, "the component cannot be shared by the elements of a vector"),
+    (
+        "gum_u",
+        WITH_GUM_U,
+        "`gum_u` goes with a distribution of known shape",
+    ),
+    (
+        "common",
+        WITH_COMMON,
+        "the component cannot be shared by the elements of a vector",
+    ),
 ];
 
-const SHAPED: &[Way] = &[U, HalfWidth, Limits, PlusMinus, Way::Certificate, Specification, Distribution];
-const WITH_DOF: &[Way] = &[U, HalfWidth, Limits, PlusMinus, Way::Certificate, Specification, Step, Bits, Distribution];
-const WITH_GUM_U: &[Way] =
-    &[U, HalfWidth, Limits, PlusMinus, Way::Certificate, Specification, Distribution, Sample, Step, Bits];
-const WITH_COMMON: &[Way] =
-    &[U, HalfWidth, PlusMinus, Way::Certificate, Specification, Step, Bits, Distribution, Pooled];
+const SHAPED: &[Way] = &[
+    U,
+    HalfWidth,
+    Limits,
+    PlusMinus,
+    Way::Certificate,
+    Specification,
+    Distribution,
+];
+const WITH_DOF: &[Way] = &[
+    U,
+    HalfWidth,
+    Limits,
+    PlusMinus,
+    Way::Certificate,
+    Specification,
+    Step,
+    Bits,
+    Distribution,
+];
+const WITH_GUM_U: &[Way] = &[
+    U,
+    HalfWidth,
+    Limits,
+    PlusMinus,
+    Way::Certificate,
+    Specification,
+    Distribution,
+    Sample,
+    Step,
+    Bits,
+];
+const WITH_COMMON: &[Way] = &[
+    U,
+    HalfWidth,
+    PlusMinus,
+    Way::Certificate,
+    Specification,
+    Step,
+    Bits,
+    Distribution,
+    Pooled,
+];
 
 /// What each way is called in the budget table when the file gives the component no name.
 fn label(way: Way) -> &'static str {
@@ -82,12 +171,21 @@ fn label(way: Way) -> &'static str {
 
 /// Whether the way determines the estimate by itself.
 pub(super) fn locates(way: Way) -> bool {
-    matches!(way, Limits | Readings | Sample | Distribution | Count | Successes)
+    matches!(
+        way,
+        Limits | Readings | Sample | Distribution | Count | Successes
+    )
 }
 
 fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)> {
-    let full = matches!(table.distribution.as_ref().map(|d| &d.value), Some(DistributionEntry::Full(_)));
-    let expanded = table.certificate.as_ref().is_some_and(|c| c.value.present.iter().any(|(key, _)| *key == "U"));
+    let full = matches!(
+        table.distribution.as_ref().map(|d| &d.value),
+        Some(DistributionEntry::Full(_))
+    );
+    let expanded = table
+        .certificate
+        .as_ref()
+        .is_some_and(|c| c.value.present.iter().any(|(key, _)| *key == "U"));
     let has = |wanted: &str| table.present.iter().any(|(key, _)| *key == wanted);
     let way = |key: &str| match key {
         "u" => Some(U),
@@ -108,7 +206,11 @@ fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)>
         "successes" => Some(Successes),
         _ => None,
     };
-    table.present.iter().filter_map(|(key, span)| way(key).map(|way| (way, *key, span.clone()))).collect()
+    table
+        .present
+        .iter()
+        .filter_map(|(key, span)| way(key).map(|way| (way, *key, span.clone())))
+        .collect()
 }
 
 impl Checker<'_> {
@@ -151,24 +253,40 @@ impl Checker<'_> {
     }
 
     /// Reports keys that do not go with the way.
-    fn modifiers(&mut self, table: &ComponentTable, way: Way, way_key: &str, way_span: &Range<usize>) {
+    fn modifiers(
+        &mut self,
+        table: &ComponentTable,
+        way: Way,
+        way_key: &str,
+        way_span: &Range<usize>,
+    ) {
         for (key, span) in &table.present {
-            let Some((_, ways, help)) = MODIFIERS.iter().find(|(modifier, ..)| modifier == key) else {
+            let Some((_, ways, help)) = MODIFIERS.iter().find(|(modifier, ..)| modifier == key)
+            else {
                 continue;
             };
             if !ways.contains(&way) && *key != way_key {
                 self.faults.push(
-                    Fault::new(MODIFIER, span.clone(), format!("`{key}` does not go with `{way_key}`"))
-                        .label("no meaning here")
-                        .related(way_span.clone(), "the uncertainty is stated here")
-                        .help(*help),
+                    Fault::new(
+                        MODIFIER,
+                        span.clone(),
+                        format!("`{key}` does not go with `{way_key}`"),
+                    )
+                    .label("no meaning here")
+                    .related(way_span.clone(), "the uncertainty is stated here")
+                    .help(*help),
                 );
             }
         }
     }
 
     /// Drafts a component that is stated in any way but `source`.
-    pub(super) fn draft(&mut self, table: &ComponentTable, way: Way, context: &Context<'_>) -> Option<Draft> {
+    pub(super) fn draft(
+        &mut self,
+        table: &ComponentTable,
+        way: Way,
+        context: &Context<'_>,
+    ) -> Option<Draft> {
         if table.refused {
             return None;
         }
@@ -183,13 +301,22 @@ impl Checker<'_> {
         self.finish(table, way, context, core)
     }
 
-    fn finish(&mut self, table: &ComponentTable, way: Way, context: &Context<'_>, core: Core) -> Option<Draft> {
+    fn finish(
+        &mut self,
+        table: &ComponentTable,
+        way: Way,
+        context: &Context<'_>,
+        core: Core,
+    ) -> Option<Draft> {
         let mut core = core;
         if let Some(gum_u) = &table.gum_u {
             core.u = self.positive_deviation(gum_u, "gum_u", context, false)?;
             core.how = format!("{} (GUM: u as stated)", core.how);
         }
-        let certificate = table.certificate.as_ref().map(|stated| self.certificate(&stated.value, context));
+        let certificate = table
+            .certificate
+            .as_ref()
+            .map(|stated| self.certificate(&stated.value, context));
         let kind = match way {
             Readings | Pooled => Kind::Repeatability,
             Step | Bits => Kind::Resolution,
@@ -201,7 +328,11 @@ impl Checker<'_> {
             distribution: core.distribution,
             u: core.u,
             dof: core.dof,
-            evaluation: if kind == Kind::Repeatability { Evaluation::TypeA } else { Evaluation::TypeB },
+            evaluation: if kind == Kind::Repeatability {
+                Evaluation::TypeA
+            } else {
+                Evaluation::TypeB
+            },
             how: core.how,
             location: core.location,
             kind,
@@ -215,7 +346,9 @@ impl Checker<'_> {
         let date = |date: &Option<crate::budget::table::Stated<crate::budget::values::Date>>| {
             date.as_ref().map(|date| date.value.0.clone())
         };
-        let text = |text: &Option<crate::budget::table::Stated<String>>| text.as_ref().map(|text| text.value.clone());
+        let text = |text: &Option<crate::budget::table::Stated<String>>| {
+            text.as_ref().map(|text| text.value.clone())
+        };
         let certificate = Certificate {
             number: text(&table.number),
             laboratory: text(&table.laboratory),
@@ -225,7 +358,10 @@ impl Checker<'_> {
         if let (Some(due), Some(date)) = (&certificate.due, self.date.clone())
             && due[..10] < date[..10]
         {
-            let (number, owner) = (certificate.number.clone().unwrap_or_default(), context.owner);
+            let (number, owner) = (
+                certificate.number.clone().unwrap_or_default(),
+                context.owner,
+            );
             self.remark(
                 format!("The certificate {number} of {owner} was due on {due}, before the measurement on {date}."),
                 format!("{owner} 所用证书 {number} 的有效期至 {due}，早于测量日期 {date}。"),

@@ -115,6 +115,7 @@ impl Checker<'_> {
         r: &Stated<f64>,
         register: &Register,
     ) -> Option<Statement> {
+        let sides = (self.side(first, register), self.side(second, register));
         if !(-1.0..=1.0).contains(&r.value) {
             return self.refuse(
                 Fault::new(
@@ -125,7 +126,6 @@ impl Checker<'_> {
                 .label("expected a number from -1 to 1"),
             );
         }
-        let sides = (self.side(first, register), self.side(second, register));
         let (a, b) = (sides.0?, sides.1?);
         if first.value == second.value
             || a.members

@@ -224,7 +224,7 @@ mod tests {
         assert_eq!(show(1234567.0), "1234567");
         assert_eq!(show(-0.001), "-0.001");
         assert_eq!(show(0.0), "0");
-        assert_eq!(show(2.0 / 3.0), "0.666667");
+        assert_eq!(show(2.0 / 3.0), "0.6666667");
         assert_eq!(show(1.5e12), "1.5e12");
     }
 }

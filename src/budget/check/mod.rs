@@ -17,6 +17,8 @@ mod names;
 mod register;
 mod resolution;
 mod series;
+#[cfg(test)]
+mod tests;
 mod type_a;
 mod type_b;
 mod ways;

@@ -53,10 +53,9 @@ impl Checker<'_> {
         let (m, words) = averaged(of, n);
         let u = s / m.sqrt();
         let how = format!("{words}, s = {}, n = {n}", show(s));
-        self.scattered(u, n - 1.0, how, Location::Mean(mean), readings, of, context)
+        self.scattered(u, n - 1.0, how, Location::Mean(mean), readings, of)
     }
 
-    #[allow(clippy::too_many_arguments)]
     fn scattered(
         &mut self,
         u: f64,
@@ -65,16 +64,7 @@ impl Checker<'_> {
         location: Location,
         place: &Stated<Numbers>,
         of: ReadingsOf,
-        context: &Context<'_>,
     ) -> Option<Core> {
-        if of != ReadingsOf::Mean && context.value.is_none() {
-            return self.refuse(
-                Fault::new(MISSING_KEY, context.place.clone(), format!("{} has no value", context.owner))
-                    .label("`value` is missing")
-                    .related(place.key.clone(), "these readings only say how the value scatters")
-                    .help("add `value`: the single reading, or the mean of the readings, that is reported"),
-            );
-        }
         let distribution = self.t_or_normal(u, dof, &place.key)?;
         let location = if of == ReadingsOf::Mean {
             location
@@ -105,15 +95,7 @@ impl Checker<'_> {
         let (mean, _) = mean_and_squares(numbers);
         let (m, words) = averaged(of, numbers.len() as f64);
         let how = format!("{words}, pooled s = {}", show(s));
-        self.scattered(
-            s / m.sqrt(),
-            dof,
-            how,
-            Location::Mean(mean),
-            readings,
-            of,
-            context,
-        )
+        self.scattered(s / m.sqrt(), dof, how, Location::Mean(mean), readings, of)
     }
 
     fn pooled_alone(
@@ -240,15 +222,7 @@ impl Checker<'_> {
             show(sigma),
             show(effective)
         );
-        self.scattered(
-            u,
-            effective - 1.0,
-            how,
-            Location::Mean(mean),
-            readings,
-            of,
-            context,
-        )
+        self.scattered(u, effective - 1.0, how, Location::Mean(mean), readings, of)
     }
 }
 
@@ -327,15 +301,19 @@ mod tests {
     #[test]
     fn doubled_readings_are_worth_about_half() {
         // Every reading twice: ρ_1 is about ½, higher lags about 0, so the factor is about 2.
-        let noise = |i: u32| {
-            f64::from(
-                i.wrapping_mul(2654435761)
-                    .rotate_left(13)
-                    .wrapping_mul(2246822519)
-                    >> 8,
-            )
+        let mut state = 1_u64;
+        let mut noise = move || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 33) as f64
         };
-        let readings: Vec<f64> = (0..4000).map(|i| noise(i / 2)).collect();
+        let readings: Vec<f64> = (0..2000)
+            .flat_map(|_| {
+                let reading = noise();
+                [reading, reading]
+            })
+            .collect();
         let (mean, squares) = mean_and_squares(&readings);
         assert!((inflation(&readings, mean, squares) - 2.0).abs() < 0.1);
     }

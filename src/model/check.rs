@@ -79,13 +79,19 @@ impl<'r> Check<'r> {
                 self.l.report(reserved(name, 0..0));
             } else if self.l.scope.contains_key(name) {
                 self.l.report(
-                    Fault::new(faults::DEFINED_TWICE, 0..0, format!("`{name}` is stated twice"))
-                        .label("second statement")
-                        .help("choose another name for one of them"),
+                    Fault::new(
+                        faults::DEFINED_TWICE,
+                        0..0,
+                        format!("`{name}` is stated twice"),
+                    )
+                    .label("second statement")
+                    .help("choose another name for one of them"),
                 );
             } else {
                 let value = self.symbol_value(symbol);
-                self.l.scope.insert(name.clone(), value.map_or(Binding::Faulty, Binding::Value));
+                self.l
+                    .scope
+                    .insert(name.clone(), value.map_or(Binding::Faulty, Binding::Value));
             }
         }
     }
@@ -97,10 +103,18 @@ impl<'r> Check<'r> {
             Role::Input(place) => (vec![builder.input(*place)], false),
             Role::InputVector(places) => (places.clone().map(|p| builder.input(p)).collect(), true),
             Role::Constant(value) => (vec![builder.constant(*value)], false),
-            Role::ConstantVector(values) => (values.iter().map(|v| builder.constant(*v)).collect(), true),
+            Role::ConstantVector(values) => {
+                (values.iter().map(|v| builder.constant(*v)).collect(), true)
+            }
         };
         let kind = Kind::Quantity(symbol.unit.clone());
-        (!elements.is_empty()).then_some(Value { elements, vector, kind, zero: false, literal: false })
+        (!elements.is_empty()).then_some(Value {
+            elements,
+            vector,
+            kind,
+            zero: false,
+            literal: false,
+        })
     }
 
     // --- texts -------------------------------------------------------------------------------
@@ -120,7 +134,11 @@ impl<'r> Check<'r> {
         for name in reading.faulty {
             self.l.scope.entry(name).or_insert(Binding::Faulty);
         }
-        self.l.later = reading.statements.iter().filter_map(|s| defined_name(s).map(|n| n.text.clone())).collect();
+        self.l.later = reading
+            .statements
+            .iter()
+            .filter_map(|s| defined_name(s).map(|n| n.text.clone()))
+            .collect();
         let count = reading.statements.len();
         if count == 0 && !broken && is_measurand {
             self.l.report(
@@ -149,13 +167,21 @@ impl<'r> Check<'r> {
                 let binding = lowered.map_or(Binding::Faulty, Binding::Value);
                 self.define(&name, binding, index);
             }
-            Statement::Function { name, parameters, body } => {
+            Statement::Function {
+                name,
+                parameters,
+                body,
+            } => {
                 self.function(&name, parameters, body, index);
                 if ends && !broken {
                     self.l.report(
-                        Fault::new(faults::NO_VALUE, name.span.clone(), "the model ends with a definition of a function")
-                            .label("expected the measurand's value after this")
-                            .help(format!("add a last line that uses `{}`", name.text)),
+                        Fault::new(
+                            faults::NO_VALUE,
+                            name.span.clone(),
+                            "the model ends with a definition of a function",
+                        )
+                        .label("expected the measurand's value after this")
+                        .help(format!("add a last line that uses `{}`", name.text)),
                     );
                 }
             }
@@ -165,9 +191,13 @@ impl<'r> Check<'r> {
                     self.last = lowered;
                 } else if !broken {
                     self.l.report(
-                        Fault::new(faults::NO_EFFECT, value.span.clone(), "the value of this line goes nowhere")
-                            .label("no name")
-                            .help("give it a name, `name = …`, or remove the line"),
+                        Fault::new(
+                            faults::NO_EFFECT,
+                            value.span.clone(),
+                            "the value of this line goes nowhere",
+                        )
+                        .label("no name")
+                        .help("give it a name, `name = …`, or remove the line"),
                     );
                 }
             }
@@ -182,20 +212,29 @@ impl<'r> Check<'r> {
             return;
         }
         if self.l.scope.contains_key(text) && !self.is_broken_name(text) {
-            let mut fault = Fault::new(faults::DEFINED_TWICE, name.span.clone(), format!("`{text}` is defined already"))
-                .label("second definition")
-                .help("choose another name");
+            let mut fault = Fault::new(
+                faults::DEFINED_TWICE,
+                name.span.clone(),
+                format!("`{text}` is defined already"),
+            )
+            .label("second definition")
+            .help("choose another name");
             match self.spans.get(text) {
-                Some((place, span)) if *place == self.l.place => fault = fault.related(span.clone(), "first definition"),
+                Some((place, span)) if *place == self.l.place => {
+                    fault = fault.related(span.clone(), "first definition")
+                }
                 Some(_) => {}
-                None => fault.message = format!("`{text}` is an input or constant of the file already"),
+                None => {
+                    fault.message = format!("`{text}` is an input or constant of the file already")
+                }
             }
             self.l.report(fault);
             return;
         }
         self.l.scope.insert(text.clone(), binding);
         self.defined.insert(text.clone(), index);
-        self.spans.insert(text.clone(), (self.l.place, name.span.clone()));
+        self.spans
+            .insert(text.clone(), (self.l.place, name.span.clone()));
     }
 
     /// Whether only a statement that could not be read defines the name.
@@ -208,13 +247,18 @@ impl<'r> Check<'r> {
     fn function(&mut self, name: &Name, parameters: Vec<Name>, body: Expr, index: usize) {
         for (i, parameter) in parameters.iter().enumerate() {
             if functions::is_reserved(&parameter.text) {
-                self.l.report(reserved(&parameter.text, parameter.span.clone()));
+                self.l
+                    .report(reserved(&parameter.text, parameter.span.clone()));
             } else if let Some(first) = parameters[..i].iter().find(|p| p.text == parameter.text) {
                 self.l.report(
-                    Fault::new(faults::DEFINED_TWICE, parameter.span.clone(), format!("`{}` is a parameter already", parameter.text))
-                        .label("second parameter of this name")
-                        .related(first.span.clone(), "first")
-                        .help("choose another name"),
+                    Fault::new(
+                        faults::DEFINED_TWICE,
+                        parameter.span.clone(),
+                        format!("`{}` is a parameter already", parameter.text),
+                    )
+                    .label("second parameter of this name")
+                    .related(first.span.clone(), "first")
+                    .help("choose another name"),
                 );
             }
         }
@@ -222,7 +266,12 @@ impl<'r> Check<'r> {
         self.body_names(&body, &parameters);
         let place = self.l.place;
         let binding = if self.l.faults.len() == before {
-            Binding::Function(Rc::new(UserFunction { name: name.clone(), parameters, body, place }))
+            Binding::Function(Rc::new(UserFunction {
+                name: name.clone(),
+                parameters,
+                body,
+                place,
+            }))
         } else {
             Binding::Faulty
         };
@@ -236,7 +285,11 @@ impl<'r> Check<'r> {
         let mut open = vec![body];
         while let Some(e) = open.pop() {
             match &e.node {
-                Node::Name(name) if !own.contains(name) && !self.l.scope.contains_key(name) && !functions::is_pi(name) => {
+                Node::Name(name)
+                    if !own.contains(name)
+                        && !self.l.scope.contains_key(name)
+                        && !functions::is_pi(name) =>
+                {
                     self.l.unknown_name(name, &e.span);
                 }
                 Node::Call { name, .. }
@@ -256,13 +309,29 @@ impl<'r> Check<'r> {
     fn record(&self, statement: Statement, place: Place) -> Record {
         let (expr, parameters): (&Expr, &[Name]) = match &statement {
             Statement::Assign { value, .. } | Statement::Value(value) => (value, &[]),
-            Statement::Function { parameters, body, .. } => (body, parameters),
+            Statement::Function {
+                parameters, body, ..
+            } => (body, parameters),
         };
-        let names: BTreeSet<&str> =
-            expr.names().into_iter().filter(|n| !parameters.iter().any(|p| p.text == *n)).collect();
-        let symbols = names.iter().filter_map(|n| self.l.symbols.iter().position(|s| s.name == *n)).collect();
-        let statements = names.iter().filter_map(|n| self.defined.get(*n).copied()).collect();
-        Record { statement, place, symbols, statements }
+        let names: BTreeSet<&str> = expr
+            .names()
+            .into_iter()
+            .filter(|n| !parameters.iter().any(|p| p.text == *n))
+            .collect();
+        let symbols = names
+            .iter()
+            .filter_map(|n| self.l.symbols.iter().position(|s| s.name == *n))
+            .collect();
+        let statements = names
+            .iter()
+            .filter_map(|n| self.defined.get(*n).copied())
+            .collect();
+        Record {
+            statement,
+            place,
+            symbols,
+            statements,
+        }
     }
 
     // --- measurands --------------------------------------------------------------------------
@@ -270,19 +339,28 @@ impl<'r> Check<'r> {
     fn measurand(&mut self, index: usize, measurand: &MeasurandSource<'_>) -> Option<Outcome> {
         let outcome = match measurand.model {
             Some(text) => self.own_model(index, measurand, text),
-            None => self.from_shared(index, measurand),
+            None => self.shared_model(index, measurand),
         }?;
         // Later measurands may use this one.
         if !self.l.scope.contains_key(measurand.name) && !functions::is_reserved(measurand.name) {
             let value = Value::scalar(outcome.id, outcome.unit.clone());
-            self.l.scope.insert(measurand.name.to_string(), Binding::Value(value));
-            self.defined.insert(measurand.name.to_string(), outcome.statement);
-            self.spans.insert(measurand.name.to_string(), (Place::Measurand(index), 0..0));
+            self.l
+                .scope
+                .insert(measurand.name.to_string(), Binding::Value(value));
+            self.defined
+                .insert(measurand.name.to_string(), outcome.statement);
+            self.spans
+                .insert(measurand.name.to_string(), (Place::Measurand(index), 0..0));
         }
         Some(outcome)
     }
 
-    fn own_model(&mut self, index: usize, measurand: &MeasurandSource<'_>, text: &str) -> Option<Outcome> {
+    fn own_model(
+        &mut self,
+        index: usize,
+        measurand: &MeasurandSource<'_>,
+        text: &str,
+    ) -> Option<Outcome> {
         let place = Place::Measurand(index);
         if functions::is_reserved(measurand.name) {
             self.l.place = Place::Entry(index);
@@ -293,10 +371,21 @@ impl<'r> Check<'r> {
         let outcome = own.last().copied().and_then(|statement| {
             let (value, expr) = self.statement_value(statement)?;
             let (id, unit) = self.result(index, measurand, &value, &expr, place)?;
-            Some(Outcome { id, unit, statement, own })
+            Some(Outcome {
+                id,
+                unit,
+                statement,
+                own,
+            })
         });
         // The names of this text are its own.
-        let added: Vec<String> = self.l.scope.keys().filter(|n| !before.contains(*n)).cloned().collect();
+        let added: Vec<String> = self
+            .l
+            .scope
+            .keys()
+            .filter(|n| !before.contains(*n))
+            .cloned()
+            .collect();
         for name in added {
             self.l.scope.remove(&name);
             self.defined.remove(&name);
@@ -308,7 +397,9 @@ impl<'r> Check<'r> {
     fn statement_value(&mut self, statement: usize) -> Option<(Value, Expr)> {
         match &self.statements[statement].statement {
             Statement::Value(expr) => Some((self.last.take()?, expr.clone())),
-            Statement::Assign { name, value } if self.defined.get(&name.text) == Some(&statement) => {
+            Statement::Assign { name, value }
+                if self.defined.get(&name.text) == Some(&statement) =>
+            {
                 match self.l.scope.get(&name.text)? {
                     Binding::Value(found) => Some((found.clone(), value.clone())),
                     _ => None,
@@ -318,7 +409,7 @@ impl<'r> Check<'r> {
         }
     }
 
-    fn from_shared(&mut self, index: usize, measurand: &MeasurandSource<'_>) -> Option<Outcome> {
+    fn shared_model(&mut self, index: usize, measurand: &MeasurandSource<'_>) -> Option<Outcome> {
         let name = measurand.name;
         let statement = self.defined.get(name).copied();
         match (self.l.scope.get(name), statement) {
@@ -326,7 +417,12 @@ impl<'r> Check<'r> {
                 let place = self.statements[statement].place;
                 let (value, expr) = self.statement_value(statement)?;
                 let (id, unit) = self.result(index, measurand, &value, &expr, place)?;
-                Some(Outcome { id, unit, statement, own: Vec::new() })
+                Some(Outcome {
+                    id,
+                    unit,
+                    statement,
+                    own: Vec::new(),
+                })
             }
             (Some(Binding::Faulty), _) if self.l.symbol(name).is_none() => None,
             _ => {
@@ -355,9 +451,17 @@ impl<'r> Check<'r> {
         let text = printer::expression(expr);
         if value.vector {
             self.l.report(
-                Fault::new(faults::VECTOR_RESULT, expr.span.clone(), format!("`{}` is a vector of {} elements", measurand.name, value.elements.len()))
-                    .label("expected a single value")
-                    .help(format!("reduce it, `mean({text})`, or take one element")),
+                Fault::new(
+                    faults::VECTOR_RESULT,
+                    expr.span.clone(),
+                    format!(
+                        "`{}` is a vector of {} elements",
+                        measurand.name,
+                        value.elements.len()
+                    ),
+                )
+                .label("expected a single value")
+                .help(format!("reduce it, `mean({text})`, or take one element")),
             );
             return None;
         }
@@ -368,19 +472,36 @@ impl<'r> Check<'r> {
             }
             self.l.place = Place::Entry(index);
             self.l.report(
-                Fault::new(faults::RESULT_NEEDS_UNIT, 0..0, format!("the measurand `{}` has no unit, but its model gives {}", measurand.name, found.symbol))
-                    .label(format!("the value is in {}", found.symbol))
-                    .help(format!("add `unit = \"{}\"`, or another unit of this dimension", found.symbol)),
+                Fault::new(
+                    faults::RESULT_NEEDS_UNIT,
+                    0..0,
+                    format!(
+                        "the measurand `{}` has no unit, but its model gives {}",
+                        measurand.name, found.symbol
+                    ),
+                )
+                .label(format!("the value is in {}", found.symbol))
+                .help(format!(
+                    "add `unit = \"{}\"`, or another unit of this dimension",
+                    found.symbol
+                )),
             );
             return None;
         };
         let value = value.with_unit_if_zero(wanted);
         let found = value.unit().cloned().unwrap_or(found);
         if found.dimension != wanted.dimension {
-            let message = format!("the value is {}, but `{}` is wanted {}", in_words(&found), measurand.name, in_words(wanted));
+            let message = format!(
+                "the value is {}, but `{}` is wanted {}",
+                in_words(&found),
+                measurand.name,
+                in_words(wanted)
+            );
             let help = self.result_help(expr, &found, wanted);
             self.l.report(
-                Fault::new(faults::RESULT_UNIT, expr.span.clone(), message).label(in_words(&found)).help(help),
+                Fault::new(faults::RESULT_UNIT, expr.span.clone(), message)
+                    .label(in_words(&found))
+                    .help(help),
             );
             return None;
         }
@@ -396,17 +517,32 @@ impl<'r> Check<'r> {
         if let Some(hint) = hint_for_clash(wanted, found) {
             return hint;
         }
-        let forgotten = expr.names().into_iter().find(|n| self.l.symbol(n).is_some_and(|s| s.unit.is_one()));
+        let forgotten = expr
+            .names()
+            .into_iter()
+            .find(|n| self.l.symbol(n).is_some_and(|s| s.unit.is_one()));
         match forgotten {
             Some(name) => {
                 let missing = wanted.quotient(found).symbol;
-                format!("if `{name}` has a unit, state it (`unit = \"{missing}\"` would fit if it is a factor), or correct the measurand's unit")
+                format!(
+                    "if `{name}` has a unit, state it (`unit = \"{missing}\"` would fit if it is a factor), or correct the measurand's unit"
+                )
             }
-            None => format!("correct the formula, or write `unit = \"{}\"` for the measurand", found.symbol),
+            None => format!(
+                "correct the formula, or write `unit = \"{}\"` for the measurand",
+                found.symbol
+            ),
         }
     }
 
-    fn point_result(&mut self, name: &str, expr: &Expr, value: &Value, found: &Unit, wanted: &Unit) {
+    fn point_result(
+        &mut self,
+        name: &str,
+        expr: &Expr,
+        value: &Value,
+        found: &Unit,
+        wanted: &Unit,
+    ) {
         if found.is_point() {
             self.l.point_fault(expr, found);
             return;
@@ -417,29 +553,48 @@ impl<'r> Check<'r> {
             Fault::new(
                 faults::POINT,
                 expr.span.clone(),
-                format!("the value is a difference in {}, but `{name}` is wanted on the {} scale", found.symbol, wanted.symbol),
+                format!(
+                    "the value is a difference in {}, but `{name}` is wanted on the {} scale",
+                    found.symbol, wanted.symbol
+                ),
             )
             .label(format!("a difference in {}", found.symbol))
             .help(format!(
                 "write `unit = \"{}\"`, or add the difference to a point: `0 '{}' + ({text})`",
-                wanted.difference().symbol, wanted.symbol
+                wanted.difference().symbol,
+                wanted.symbol
             )),
         );
     }
 
     // --- the model ---------------------------------------------------------------------------
 
-    fn finish(self, request: &Request<'_>, results: &[Option<Outcome>]) -> Result<Model, Vec<ModelFault>> {
+    fn finish(
+        self,
+        request: &Request<'_>,
+        results: &[Option<Outcome>],
+    ) -> Result<Model, Vec<ModelFault>> {
         let outcomes: Option<Vec<&Outcome>> = results.iter().map(Option::as_ref).collect();
         let outcomes = match outcomes {
             Some(outcomes) if self.l.faults.is_empty() => outcomes,
-            _ => return Err(self.l.faults.into_iter().map(|(place, fault)| ModelFault { place, fault }).collect()),
+            _ => {
+                return Err(self
+                    .l
+                    .faults
+                    .into_iter()
+                    .map(|(place, fault)| ModelFault { place, fault })
+                    .collect());
+            }
         };
         let mut used = BTreeSet::new();
         let mut outputs = Vec::new();
         for (index, (outcome, measurand)) in outcomes.iter().zip(request.measurands).enumerate() {
             let reached = self.reached(outcome);
-            used.extend(reached.iter().flat_map(|s| self.statements[*s].symbols.iter().copied()));
+            used.extend(
+                reached
+                    .iter()
+                    .flat_map(|s| self.statements[*s].symbols.iter().copied()),
+            );
             outputs.push(Output {
                 name: measurand.name.to_string(),
                 unit: outcome.unit.clone(),
@@ -450,8 +605,16 @@ impl<'r> Check<'r> {
         let inputs = input_count(request.symbols);
         let graph = self.l.builder.finish(&ids);
         let program = Program::new(&graph, inputs);
-        let unused = (0..request.symbols.len()).filter(|i| !used.contains(i)).collect();
-        Ok(Model { inputs, outputs, graph, program, unused })
+        let unused = (0..request.symbols.len())
+            .filter(|i| !used.contains(i))
+            .collect();
+        Ok(Model {
+            inputs,
+            outputs,
+            graph,
+            program,
+            unused,
+        })
     }
 
     /// The statements that a measurand depends on.
@@ -466,7 +629,13 @@ impl<'r> Check<'r> {
         reached
     }
 
-    fn equation(&self, index: usize, name: &str, outcome: &Outcome, reached: &BTreeSet<usize>) -> String {
+    fn equation(
+        &self,
+        index: usize,
+        name: &str,
+        outcome: &Outcome,
+        reached: &BTreeSet<usize>,
+    ) -> String {
         let mut shown: BTreeSet<usize> = reached.clone();
         shown.extend(&outcome.own);
         let place_fits = |place: Place| place == Place::Shared || place == Place::Measurand(index);
@@ -518,8 +687,16 @@ fn unknowns(body: &Expr) -> Vec<String> {
 }
 
 fn reserved(name: &str, span: Span) -> Fault {
-    let what = if functions::find(name).is_some() { "a function" } else { "a word" };
-    Fault::new(faults::RESERVED, span, format!("`{name}` is {what} of the model language"))
-        .label("not free")
-        .help(format!("choose another name, such as `{name}_1`"))
+    let what = if functions::find(name).is_some() {
+        "a function"
+    } else {
+        "a word"
+    };
+    Fault::new(
+        faults::RESERVED,
+        span,
+        format!("`{name}` is {what} of the model language"),
+    )
+    .label("not free")
+    .help(format!("choose another name, such as `{name}_1`"))
 }

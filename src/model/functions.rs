@@ -5,7 +5,9 @@ use std::rc::Rc;
 use super::faults;
 use super::graph::Id;
 use super::lower::{Binding, Kind, Lowering, UserFunction, Value};
-use super::operation::{BINARY, Binary, DimensionRule, Smoothness, UNARY, Unary, binary_row, unary};
+use super::operation::{
+    BINARY, Binary, DimensionRule, Smoothness, UNARY, Unary, binary_row, unary,
+};
 use super::printer;
 use super::syntax::{Expr, Infix, Name, Node};
 use super::units::Operand;
@@ -26,6 +28,7 @@ pub struct FunctionInfo {
 }
 
 /// Signatures of the table's functions whose arguments have names worth showing.
+#[rustfmt::skip] // A table reads by lines.
 const SIGNATURES: &[(&str, &str)] = &[
     ("atan2", "atan2(y, x)"),
     ("hypot", "hypot(a, b, …)"),
@@ -61,6 +64,7 @@ const SIGNATURES: &[(&str, &str)] = &[
 const SAME: &str = "gives the unit of the elements, which must be of one dimension";
 
 /// Reductions and special forms.
+#[rustfmt::skip] // A table reads by lines.
 const FORMS: &[FunctionInfo] = &[
     form("mean", "mean(x)", "arithmetic mean of the elements", SAME),
     form("sum", "sum(x)", "sum of the elements", SAME),
@@ -86,7 +90,12 @@ const fn form(
     doc: &'static str,
     dimension: &'static str,
 ) -> FunctionInfo {
-    FunctionInfo { name, signature, doc, dimension }
+    FunctionInfo {
+        name,
+        signature,
+        doc,
+        dimension,
+    }
 }
 
 /// All functions of the language.
@@ -97,7 +106,12 @@ pub fn functions() -> &'static [FunctionInfo] {
         let rows = rows.chain(BINARY.iter().map(|r| (r.name, r.doc, r.dimension)));
         let callable = rows.filter_map(|(name, doc, rule)| {
             let (_, signature) = SIGNATURES.iter().find(|(n, _)| *n == name)?;
-            Some(FunctionInfo { name, signature, doc, dimension: rule.words() })
+            Some(FunctionInfo {
+                name,
+                signature,
+                doc,
+                dimension: rule.words(),
+            })
         });
         callable.chain(FORMS.iter().copied()).collect()
     })
@@ -120,7 +134,10 @@ pub fn is_reserved(name: &str) -> bool {
 
 /// Lowers a call.
 pub fn call(l: &mut Lowering<'_>, e: &Expr, name: &Name, arguments: &[Expr]) -> Option<Value> {
-    if l.locals.last().is_some_and(|frame| frame.contains_key(&name.text)) {
+    if l.locals
+        .last()
+        .is_some_and(|frame| frame.contains_key(&name.text))
+    {
         return value_as_function(l, name, arguments);
     }
     match l.scope.get(&name.text) {
@@ -137,7 +154,9 @@ pub fn call(l: &mut Lowering<'_>, e: &Expr, name: &Name, arguments: &[Expr]) -> 
         return None;
     };
     if let Some(row) = unary(info.name) {
-        let [argument] = arguments else { return wrong_count(l, e, info.name, info.signature, arguments) };
+        let [argument] = arguments else {
+            return wrong_count(l, e, info.name, info.signature, arguments);
+        };
         return unary_call(l, e, row, argument);
     }
     if let Some(row) = binary_row(info.name) {
@@ -148,7 +167,11 @@ pub fn call(l: &mut Lowering<'_>, e: &Expr, name: &Name, arguments: &[Expr]) -> 
 
 pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
     let text = &name.text;
-    let users = l.scope.iter().filter(|(_, b)| matches!(b, Binding::Function(_))).map(|(n, _)| n.as_str());
+    let users = l
+        .scope
+        .iter()
+        .filter(|(_, b)| matches!(b, Binding::Function(_)))
+        .map(|(n, _)| n.as_str());
     let mut known: Vec<&str> = users.chain(functions().iter().map(|f| f.name)).collect();
     known.sort_unstable();
     let later = l.later.iter().any(|n| n == text);
@@ -156,7 +179,9 @@ pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
         (
             faults::USED_BEFORE,
             format!("`{text}` is used before it is defined"),
-            format!("move the definition of `{text}` above this line; functions cannot call themselves"),
+            format!(
+                "move the definition of `{text}` above this line; functions cannot call themselves"
+            ),
         )
     } else {
         let help = match (text.as_str(), nearest(text, known)) {
@@ -165,30 +190,57 @@ pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
             ("avg" | "average", _) => "did you mean `mean`?".to_string(),
             ("std" | "stdev" | "stddev", _) => "did you mean `sd`?".to_string(),
             (_, Some(near)) => format!("did you mean `{near}`?"),
-            (_, None) => format!("define it above, `{text}(x) = …`; for a product write `{text} * (…)`"),
+            (_, None) => {
+                format!("define it above, `{text}(x) = …`; for a product write `{text} * (…)`")
+            }
         };
-        (faults::UNKNOWN_FUNCTION, format!("there is no function `{text}`"), help)
+        (
+            faults::UNKNOWN_FUNCTION,
+            format!("there is no function `{text}`"),
+            help,
+        )
     };
-    l.report(Fault::new(code, name.span.clone(), message).label("not a function").help(help));
+    l.report(
+        Fault::new(code, name.span.clone(), message)
+            .label("not a function")
+            .help(help),
+    );
 }
 
 fn value_as_function(l: &mut Lowering<'_>, name: &Name, arguments: &[Expr]) -> Option<Value> {
     let text = &name.text;
     let list: Vec<String> = arguments.iter().map(printer::expression).collect();
     l.report(
-        Fault::new(faults::VALUE_AS_FUNCTION, name.span.clone(), format!("`{text}` is a quantity, not a function"))
-            .label("not a function")
-            .help(format!("write `{text} * ({})` for a product, `{text}[1]` for an element", list.join(", "))),
+        Fault::new(
+            faults::VALUE_AS_FUNCTION,
+            name.span.clone(),
+            format!("`{text}` is a quantity, not a function"),
+        )
+        .label("not a function")
+        .help(format!(
+            "write `{text} * ({})` for a product, `{text}[1]` for an element",
+            list.join(", ")
+        )),
     );
     None
 }
 
-fn wrong_count(l: &mut Lowering<'_>, e: &Expr, name: &str, signature: &str, arguments: &[Expr]) -> Option<Value> {
+fn wrong_count(
+    l: &mut Lowering<'_>,
+    e: &Expr,
+    name: &str,
+    signature: &str,
+    arguments: &[Expr],
+) -> Option<Value> {
     l.report(
         Fault::new(
             faults::ARGUMENTS,
             e.span.clone(),
-            format!("`{name}` is given {} argument{}", arguments.len(), if arguments.len() == 1 { "" } else { "s" }),
+            format!(
+                "`{name}` is given {} argument{}",
+                arguments.len(),
+                if arguments.len() == 1 { "" } else { "s" }
+            ),
         )
         .label(format!("expected `{signature}`"))
         .help(format!("write `{signature}`")),
@@ -199,15 +251,35 @@ fn wrong_count(l: &mut Lowering<'_>, e: &Expr, name: &str, signature: &str, argu
 // --- the user's functions --------------------------------------------------------------------
 
 /// Writes a user's function out at a call.
-fn inline(l: &mut Lowering<'_>, e: &Expr, function: &UserFunction, arguments: &[Expr]) -> Option<Value> {
+fn inline(
+    l: &mut Lowering<'_>,
+    e: &Expr,
+    function: &UserFunction,
+    arguments: &[Expr],
+) -> Option<Value> {
     if arguments.len() != function.parameters.len() {
-        let list: Vec<&str> = function.parameters.iter().map(|p| p.text.as_str()).collect();
+        let list: Vec<&str> = function
+            .parameters
+            .iter()
+            .map(|p| p.text.as_str())
+            .collect();
         let name = &function.name.text;
-        return wrong_count(l, e, name, &format!("{name}({})", list.join(", ")), arguments);
+        return wrong_count(
+            l,
+            e,
+            name,
+            &format!("{name}({})", list.join(", ")),
+            arguments,
+        );
     }
     let values: Vec<Option<Value>> = arguments.iter().map(|a| l.value(a)).collect();
     let values: Option<Vec<Value>> = values.into_iter().collect();
-    let frame = function.parameters.iter().map(|p| p.text.clone()).zip(values?).collect();
+    let frame = function
+        .parameters
+        .iter()
+        .map(|p| p.text.clone())
+        .zip(values?)
+        .collect();
     let outer = l.call.clone();
     let place = l.place;
     if l.call.is_none() {
@@ -224,9 +296,17 @@ fn inline(l: &mut Lowering<'_>, e: &Expr, function: &UserFunction, arguments: &[
 
 // --- functions of the table ------------------------------------------------------------------
 
-fn unary_call(l: &mut Lowering<'_>, e: &Expr, row: &'static Unary, argument: &Expr) -> Option<Value> {
+fn unary_call(
+    l: &mut Lowering<'_>,
+    e: &Expr,
+    row: &'static Unary,
+    argument: &Expr,
+) -> Option<Value> {
     let x = l.value(argument)?;
-    let operand = Operand { value: &x, expr: argument };
+    let operand = Operand {
+        value: &x,
+        expr: argument,
+    };
     let (input, unit) = match row.dimension {
         DimensionRule::One | DimensionRule::Angle | DimensionRule::ToAngle => {
             (l.number(operand, &format!("`{}`", row.name))?, Unit::one())
@@ -235,9 +315,13 @@ fn unary_call(l: &mut Lowering<'_>, e: &Expr, row: &'static Unary, argument: &Ex
             let unit = l.difference(operand)?;
             let Some(root) = unit.powr(1, n) else {
                 l.report(
-                    Fault::new(faults::EXPONENT, e.span.clone(), format!("{} has no root of order {n}", unit.symbol))
-                        .label(format!("argument in {}", unit.symbol))
-                        .help("divide the argument by a reference quantity"),
+                    Fault::new(
+                        faults::EXPONENT,
+                        e.span.clone(),
+                        format!("{} has no root of order {n}", unit.symbol),
+                    )
+                    .label(format!("argument in {}", unit.symbol))
+                    .help("divide the argument by a reference quantity"),
                 );
                 return None;
             };
@@ -247,14 +331,27 @@ fn unary_call(l: &mut Lowering<'_>, e: &Expr, row: &'static Unary, argument: &Ex
             l.difference(operand)?;
             (x.clone(), Unit::one())
         }
-        DimensionRule::Same | DimensionRule::Operator | DimensionRule::Ratio | DimensionRule::Truth => {
+        DimensionRule::Same
+        | DimensionRule::Operator
+        | DimensionRule::Ratio
+        | DimensionRule::Truth => {
             let unit = l.difference(operand)?;
             (x.clone(), unit)
         }
     };
     l.spend(input.elements.len(), &e.span).then_some(())?;
-    let elements = input.elements.iter().map(|id| l.builder.unary(row, *id)).collect();
-    let out = Value { elements, vector: x.vector, kind: Kind::Quantity(unit), zero: false, literal: x.literal };
+    let elements = input
+        .elements
+        .iter()
+        .map(|id| l.builder.unary(row, *id))
+        .collect();
+    let out = Value {
+        elements,
+        vector: x.vector,
+        kind: Kind::Quantity(unit),
+        zero: false,
+        literal: x.literal,
+    };
     if row.edge.is_some() || row.smoothness != Smoothness::Smooth {
         l.watch(&out, e, argument);
     }
@@ -277,7 +374,14 @@ fn binary_call(
     }
     if let [only] = arguments {
         let x = vector_argument(l, info.name, only)?;
-        let unit = if row.name == "hypot" { l.difference(Operand { value: &x, expr: only })? } else { l.quantity(&x, only)? };
+        let unit = if row.name == "hypot" {
+            l.difference(Operand {
+                value: &x,
+                expr: only,
+            })?
+        } else {
+            l.quantity(&x, only)?
+        };
         let id = fold(l, &x.elements, |l, a, b| l.builder.binary(row, a, b));
         let out = Value::scalar(id, unit);
         l.watch(&out, e, only);
@@ -289,18 +393,38 @@ fn binary_call(
     let points_fit = matches!(row.name, "min" | "max");
     let mut so_far = values[0].clone();
     for (value, expr) in values.iter().zip(arguments).skip(1) {
-        let (left, right) = (Operand { value: &so_far, expr: &arguments[0] }, Operand { value, expr });
+        let (left, right) = (
+            Operand {
+                value: &so_far,
+                expr: &arguments[0],
+            },
+            Operand { value, expr },
+        );
         if !points_fit {
             let (a, b) = (l.difference(left), l.difference(right));
-            (a?, b?);
+            a?;
+            b?;
         }
         let joined = l.join(left, right, "arguments of one function")?;
-        let combined = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| b.binary(row, x, y))?;
+        let combined = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| {
+            b.binary(row, x, y)
+        })?;
         l.watch(&combined, e, e);
-        let unit = if row.dimension == DimensionRule::Ratio { Unit::one() } else { joined.unit };
-        so_far = Value { kind: Kind::Quantity(unit), zero: so_far.zero && value.zero, ..combined };
+        let unit = if row.dimension == DimensionRule::Ratio {
+            Unit::one()
+        } else {
+            joined.unit
+        };
+        so_far = Value {
+            kind: Kind::Quantity(unit),
+            zero: so_far.zero && value.zero,
+            ..combined
+        };
     }
-    Some(Value { literal: values.iter().all(|v| v.literal), ..so_far })
+    Some(Value {
+        literal: values.iter().all(|v| v.literal),
+        ..so_far
+    })
 }
 
 fn quantize(l: &mut Lowering<'_>, e: &Expr, argument: &Expr, step: &Expr) -> Option<Value> {
@@ -309,30 +433,71 @@ fn quantize(l: &mut Lowering<'_>, e: &Expr, argument: &Expr, step: &Expr) -> Opt
     let unit = l.quantity(&x, argument)?;
     // A step is a difference also on a temperature scale.
     let difference = x.with_kind(Kind::Quantity(unit.difference()));
-    let joined = l.join(Operand { value: &difference, expr: argument }, Operand { value: &q, expr: step }, "argument and step")?;
-    let out = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| b.call_binary("quantize", x, y))?;
+    let joined = l.join(
+        Operand {
+            value: &difference,
+            expr: argument,
+        },
+        Operand {
+            value: &q,
+            expr: step,
+        },
+        "argument and step",
+    )?;
+    let out = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| {
+        b.call_binary("quantize", x, y)
+    })?;
     let unit = if unit.is_point() { unit } else { joined.unit };
-    Some(Value { kind: Kind::Quantity(unit), zero: false, ..out })
+    Some(Value {
+        kind: Kind::Quantity(unit),
+        zero: false,
+        ..out
+    })
 }
 
 // --- reductions and special forms ------------------------------------------------------------
 
-fn form_call(l: &mut Lowering<'_>, e: &Expr, info: &FunctionInfo, arguments: &[Expr]) -> Option<Value> {
+fn form_call(
+    l: &mut Lowering<'_>,
+    e: &Expr,
+    info: &FunctionInfo,
+    arguments: &[Expr],
+) -> Option<Value> {
     match (info.name, arguments) {
         ("pow", [x, n]) => {
             let (a, b) = (l.value(x), l.value(n));
             let (a, b) = (a?, b?);
-            let out = l.powered(Operand { value: &a, expr: x }, Operand { value: &b, expr: n }, e.span.clone())?;
+            let out = l.powered(
+                Operand { value: &a, expr: x },
+                Operand { value: &b, expr: n },
+                e.span.clone(),
+            )?;
             l.watch(&out, e, x);
-            Some(Value { zero: false, literal: a.literal && b.literal, ..out })
+            Some(Value {
+                zero: false,
+                literal: a.literal && b.literal,
+                ..out
+            })
         }
         ("kelvin", [t]) => kelvin(l, t),
         ("value_in", [x, unit]) => value_in(l, x, unit),
         ("solve", [equation, unknown, start]) => solve(l, e, equation, unknown, start),
-        ("dot" | "slope" | "intercept" | "slope_through_origin", [x, y]) => pair(l, e, info.name, x, y),
-        ("pow" | "kelvin" | "value_in" | "solve" | "dot" | "slope" | "intercept" | "slope_through_origin" | "if", _) | (_, []) => {
-            wrong_count(l, e, info.name, info.signature, arguments)
+        ("dot" | "slope" | "intercept" | "slope_through_origin", [x, y]) => {
+            pair(l, e, info.name, x, y)
         }
+        (
+            "pow"
+            | "kelvin"
+            | "value_in"
+            | "solve"
+            | "dot"
+            | "slope"
+            | "intercept"
+            | "slope_through_origin"
+            | "if",
+            _,
+        )
+        | (_, []) => wrong_count(l, e, info.name, info.signature, arguments),
         (_, [x]) => {
             let values = vector_argument(l, info.name, x)?;
             reduce(l, e, info.name, x, &values)
@@ -351,14 +516,24 @@ fn vector_argument(l: &mut Lowering<'_>, function: &str, e: &Expr) -> Option<Val
     }
     let text = printer::expression(e);
     l.report(
-        Fault::new(faults::SHAPE, e.span.clone(), format!("`{function}` needs a vector, but `{text}` is a single value"))
-            .label("expected a vector")
-            .help(format!("write `[{text}, …]`, or give the input `values = [...]`")),
+        Fault::new(
+            faults::SHAPE,
+            e.span.clone(),
+            format!("`{function}` needs a vector, but `{text}` is a single value"),
+        )
+        .label("expected a vector")
+        .help(format!(
+            "write `[{text}, …]`, or give the input `values = [...]`"
+        )),
     );
     None
 }
 
-fn fold(l: &mut Lowering<'_>, elements: &[Id], mut combine: impl FnMut(&mut Lowering<'_>, Id, Id) -> Id) -> Id {
+fn fold(
+    l: &mut Lowering<'_>,
+    elements: &[Id],
+    mut combine: impl FnMut(&mut Lowering<'_>, Id, Id) -> Id,
+) -> Id {
     let mut rest = elements.iter().copied();
     let first = rest.next().expect("vectors are not empty");
     rest.fold(first, |a, b| combine(l, a, b))
@@ -375,11 +550,17 @@ fn average(l: &mut Lowering<'_>, elements: &[Id]) -> Id {
 }
 
 fn squares(l: &mut Lowering<'_>, elements: &[Id]) -> Vec<Id> {
-    elements.iter().map(|id| l.builder.power(*id, 2.0)).collect()
+    elements
+        .iter()
+        .map(|id| l.builder.power(*id, 2.0))
+        .collect()
 }
 
 fn products(l: &mut Lowering<'_>, a: &[Id], b: &[Id]) -> Vec<Id> {
-    a.iter().zip(b).map(|(a, b)| l.builder.mul(*a, *b)).collect()
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| l.builder.mul(*a, *b))
+        .collect()
 }
 
 /// Differences from the mean.
@@ -392,7 +573,10 @@ fn reduce(l: &mut Lowering<'_>, e: &Expr, name: &str, argument: &Expr, x: &Value
     let unit = l.quantity(x, argument)?;
     let n = x.elements.len();
     if !matches!(name, "mean" | "median" | "sd" | "len") {
-        l.difference(Operand { value: x, expr: argument })?;
+        l.difference(Operand {
+            value: x,
+            expr: argument,
+        })?;
     }
     let (id, unit) = match name {
         "mean" => (average(l, &x.elements), unit),
@@ -400,9 +584,13 @@ fn reduce(l: &mut Lowering<'_>, e: &Expr, name: &str, argument: &Expr, x: &Value
         "prod" => {
             let Some(unit) = i32::try_from(n).ok().and_then(|n| unit.powr(n, 1)) else {
                 l.report(
-                    Fault::new(faults::EXPONENT, e.span.clone(), format!("{} has no power {n}", unit.symbol))
-                        .label(format!("{n} factors in {}", unit.symbol))
-                        .help("divide the elements by a reference quantity"),
+                    Fault::new(
+                        faults::EXPONENT,
+                        e.span.clone(),
+                        format!("{} has no power {n}", unit.symbol),
+                    )
+                    .label(format!("{n} factors in {}", unit.symbol))
+                    .help("divide the elements by a reference quantity"),
                 );
                 return None;
             };
@@ -420,7 +608,10 @@ fn reduce(l: &mut Lowering<'_>, e: &Expr, name: &str, argument: &Expr, x: &Value
         "sd" => (deviation(l, e, &x.elements)?, unit.difference()),
         _ => (l.builder.constant(n as f64), Unit::one()),
     };
-    let out = Value { literal: x.literal, ..Value::scalar(id, unit) };
+    let out = Value {
+        literal: x.literal,
+        ..Value::scalar(id, unit)
+    };
     if matches!(name, "norm" | "sd" | "median") {
         l.watch(&out, e, argument);
     }
@@ -431,9 +622,13 @@ fn deviation(l: &mut Lowering<'_>, e: &Expr, elements: &[Id]) -> Option<Id> {
     let n = elements.len();
     if n < 2 {
         l.report(
-            Fault::new(faults::SHAPE, e.span.clone(), "a standard deviation needs at least two elements")
-                .label("one element")
-                .help("give more elements"),
+            Fault::new(
+                faults::SHAPE,
+                e.span.clone(),
+                "a standard deviation needs at least two elements",
+            )
+            .label("one element")
+            .help("give more elements"),
         );
         return None;
     }
@@ -476,7 +671,10 @@ fn median(l: &mut Lowering<'_>, elements: &[Id]) -> Id {
 
 /// Functions of two vectors of equal length.
 fn pair(l: &mut Lowering<'_>, e: &Expr, name: &str, x_expr: &Expr, y_expr: &Expr) -> Option<Value> {
-    let (x, y) = (vector_argument(l, name, x_expr), vector_argument(l, name, y_expr));
+    let (x, y) = (
+        vector_argument(l, name, x_expr),
+        vector_argument(l, name, y_expr),
+    );
     let (x, y) = (x?, y?);
     let n = l.common_length(&[&x, &y], &e.span)?;
     let (a, b) = (l.quantity(&x, x_expr), l.quantity(&y, y_expr));
@@ -484,27 +682,44 @@ fn pair(l: &mut Lowering<'_>, e: &Expr, name: &str, x_expr: &Expr, y_expr: &Expr
     let literal = x.literal && y.literal;
     if matches!(name, "dot" | "slope_through_origin") {
         let (p, q) = (
-            l.difference(Operand { value: &x, expr: x_expr }),
-            l.difference(Operand { value: &y, expr: y_expr }),
+            l.difference(Operand {
+                value: &x,
+                expr: x_expr,
+            }),
+            l.difference(Operand {
+                value: &y,
+                expr: y_expr,
+            }),
         );
-        (p?, q?);
+        p?;
+        q?;
         let xy = products(l, &x.elements, &y.elements);
         let sxy = total(l, &xy);
         if name == "dot" {
-            return Some(Value { literal, ..Value::scalar(sxy, a.product(&b)) });
+            return Some(Value {
+                literal,
+                ..Value::scalar(sxy, a.product(&b))
+            });
         }
         let xx = squares(l, &x.elements);
         let sxx = total(l, &xx);
         let id = l.builder.div(sxy, sxx);
-        let out = Value { literal, ..Value::scalar(id, b.quotient(&a)) };
+        let out = Value {
+            literal,
+            ..Value::scalar(id, b.quotient(&a))
+        };
         l.watch(&out, e, e);
         return Some(out);
     }
     if n < 2 {
         l.report(
-            Fault::new(faults::SHAPE, e.span.clone(), "a line needs at least two points")
-                .label("one point")
-                .help("give more elements"),
+            Fault::new(
+                faults::SHAPE,
+                e.span.clone(),
+                "a line needs at least two points",
+            )
+            .label("one point")
+            .help("give more elements"),
         );
         return None;
     }
@@ -536,9 +751,16 @@ fn kelvin(l: &mut Lowering<'_>, argument: &Expr) -> Option<Value> {
     }
     let text = printer::expression(argument);
     l.report(
-        Fault::new(faults::CLASH, argument.span.clone(), format!("`kelvin` needs a temperature, but `{text}` is in {}", unit.symbol))
-            .label(format!("in {}", unit.symbol))
-            .help("give the quantity in °C, °F or K"),
+        Fault::new(
+            faults::CLASH,
+            argument.span.clone(),
+            format!(
+                "`kelvin` needs a temperature, but `{text}` is in {}",
+                unit.symbol
+            ),
+        )
+        .label(format!("in {}", unit.symbol))
+        .help("give the quantity in °C, °F or K"),
     );
     None
 }
@@ -547,9 +769,13 @@ fn value_in(l: &mut Lowering<'_>, argument: &Expr, unit: &Expr) -> Option<Value>
     let value = l.value(argument);
     let Node::Unit(text) = &unit.node else {
         l.report(
-            Fault::new(faults::UNIT_TEXT, unit.span.clone(), "`value_in` needs a unit between single quotes")
-                .label("expected a unit")
-                .help("write `value_in(x, 'mm')`"),
+            Fault::new(
+                faults::UNIT_TEXT,
+                unit.span.clone(),
+                "`value_in` needs a unit between single quotes",
+            )
+            .label("expected a unit")
+            .help("write `value_in(x, 'mm')`"),
         );
         return None;
     };
@@ -562,14 +788,25 @@ fn value_in(l: &mut Lowering<'_>, argument: &Expr, unit: &Expr) -> Option<Value>
         return None;
     }
     match l.converted(&value.with_unit_if_zero(&wanted), &wanted) {
-        Some(out) => Some(out.with_kind(Kind::Quantity(Unit::one()))).map(|v| Value { zero: false, literal: false, ..v }),
+        Some(out) => Some(out.with_kind(Kind::Quantity(Unit::one()))).map(|v| Value {
+            zero: false,
+            literal: false,
+            ..v
+        }),
         None => {
             let name = printer::expression(argument);
             l.report(
-                Fault::new(faults::CLASH, text.span.clone(), format!("`{name}` is in {} and has no value in {}", found.symbol, wanted.symbol))
-                    .label(format!("expected a unit like {}", found.symbol))
-                    .related(argument.span.clone(), format!("in {}", found.symbol))
-                    .help(format!("write `value_in({name}, '{}')`", found.symbol)),
+                Fault::new(
+                    faults::CLASH,
+                    text.span.clone(),
+                    format!(
+                        "`{name}` is in {} and has no value in {}",
+                        found.symbol, wanted.symbol
+                    ),
+                )
+                .label(format!("expected a unit like {}", found.symbol))
+                .related(argument.span.clone(), format!("in {}", found.symbol))
+                .help(format!("write `value_in({name}, '{}')`", found.symbol)),
             );
             None
         }
@@ -577,8 +814,16 @@ fn value_in(l: &mut Lowering<'_>, argument: &Expr, unit: &Expr) -> Option<Value>
 }
 
 /// solve(lhs == rhs, unknown, start).
-fn solve(l: &mut Lowering<'_>, e: &Expr, equation: &Expr, unknown: &Expr, start: &Expr) -> Option<Value> {
-    let begin = l.scalar(start).and_then(|s| Some((l.quantity(&s, start)?, s)));
+fn solve(
+    l: &mut Lowering<'_>,
+    e: &Expr,
+    equation: &Expr,
+    unknown: &Expr,
+    start: &Expr,
+) -> Option<Value> {
+    let begin = l
+        .scalar(start)
+        .and_then(|s| Some((l.quantity(&s, start)?, s)));
     let name = unknown_name(l, unknown);
     let ((unit, begin), name) = (begin?, name?);
     let y = l.builder.unknown();
@@ -591,10 +836,14 @@ fn solve(l: &mut Lowering<'_>, e: &Expr, equation: &Expr, unknown: &Expr, start:
     let residual = residual?;
     let Some(root) = l.builder.solve(y, residual, begin.elements[0]) else {
         l.report(
-            Fault::new(faults::UNKNOWN_OF_SOLVE, equation.span.clone(), format!("the equation does not depend on `{name}`"))
-                .label(format!("`{name}` has no effect here"))
-                .related(unknown.span.clone(), "the unknown")
-                .help(format!("write an equation that contains `{name}`")),
+            Fault::new(
+                faults::UNKNOWN_OF_SOLVE,
+                equation.span.clone(),
+                format!("the equation does not depend on `{name}`"),
+            )
+            .label(format!("`{name}` has no effect here"))
+            .related(unknown.span.clone(), "the unknown")
+            .help(format!("write an equation that contains `{name}`")),
         );
         return None;
     };
@@ -606,18 +855,32 @@ fn solve(l: &mut Lowering<'_>, e: &Expr, equation: &Expr, unknown: &Expr, start:
 fn unknown_name(l: &mut Lowering<'_>, unknown: &Expr) -> Option<String> {
     let text = printer::expression(unknown);
     let (message, help) = match &unknown.node {
-        Node::Name(name) if is_reserved(name) => (format!("`{name}` belongs to the language"), "choose another name for the unknown"),
+        Node::Name(name) if is_reserved(name) => (
+            format!("`{name}` belongs to the language"),
+            "choose another name for the unknown",
+        ),
         Node::Name(name) => {
-            let local = l.locals.last().is_some_and(|frame| frame.contains_key(name));
+            let local = l
+                .locals
+                .last()
+                .is_some_and(|frame| frame.contains_key(name));
             if !local && !l.scope.contains_key(name) {
                 return Some(name.clone());
             }
-            (format!("`{name}` has a value already and cannot be the unknown"), "choose a new name for the unknown")
+            (
+                format!("`{name}` has a value already and cannot be the unknown"),
+                "choose a new name for the unknown",
+            )
         }
-        _ => (format!("`{text}` cannot be the unknown"), "write a new name: `solve(equation, unknown, start)`"),
+        _ => (
+            format!("`{text}` cannot be the unknown"),
+            "write a new name: `solve(equation, unknown, start)`",
+        ),
     };
     l.report(
-        Fault::new(faults::UNKNOWN_OF_SOLVE, unknown.span.clone(), message).label("expected a new name").help(help),
+        Fault::new(faults::UNKNOWN_OF_SOLVE, unknown.span.clone(), message)
+            .label("expected a new name")
+            .help(help),
     );
     None
 }
@@ -629,8 +892,21 @@ fn residual(l: &mut Lowering<'_>, equation: &Expr) -> Option<Id> {
     {
         let (a, b) = (l.scalar(first), l.scalar(right));
         let (a, b) = (a?, b?);
-        let joined = l.join(Operand { value: &a, expr: first }, Operand { value: &b, expr: right }, "equal")?;
-        return Some(l.builder.sub(joined.left.elements[0], joined.right.elements[0]));
+        let joined = l.join(
+            Operand {
+                value: &a,
+                expr: first,
+            },
+            Operand {
+                value: &b,
+                expr: right,
+            },
+            "equal",
+        )?;
+        return Some(
+            l.builder
+                .sub(joined.left.elements[0], joined.right.elements[0]),
+        );
     }
     let value = l.scalar(equation)?;
     l.quantity(&value, equation)?;

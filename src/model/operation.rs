@@ -40,7 +40,9 @@ impl DimensionRule {
             DimensionRule::One => "takes and gives a number (dimension one)",
             DimensionRule::Angle => "takes an angle (°, rad …), gives a number",
             DimensionRule::ToAngle => "takes a number, gives an angle",
-            DimensionRule::Same => "gives the unit of its arguments, which must be of one dimension",
+            DimensionRule::Same => {
+                "gives the unit of its arguments, which must be of one dimension"
+            }
             DimensionRule::Ratio => "takes arguments of one dimension, gives a number or an angle",
             DimensionRule::Sign => "takes any unit, gives a number",
             DimensionRule::Root(2) => "gives the square root of the unit",
@@ -120,7 +122,16 @@ macro_rules! lanewise {
 
 macro_rules! row {
     ($name:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr) => {
-        row!($name, $doc, $dimension, $scalar, $derivatives, $block, Smoothness::Smooth, None)
+        row!(
+            $name,
+            $doc,
+            $dimension,
+            $scalar,
+            $derivatives,
+            $block,
+            Smoothness::Smooth,
+            None
+        )
     };
     ($name:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr, $smoothness:expr, $edge:expr) => {
         Unary {
@@ -140,6 +151,7 @@ use DimensionRule::{Angle, One, Operator, Ratio, Root, Same, Sign, ToAngle, Trut
 use Smoothness::{Branch, Corner, Smooth, Steps};
 
 /// Functions of one argument.
+#[rustfmt::skip] // A table reads by lines.
 pub static UNARY: &[Unary] = &[
     row!("-", "opposite", Same, |x| -x, |x| [-x, -1.0, 0.0, 0.0], kernels::neg),
     row!("not", "negation of a condition", Truth, negate, |x| [negate(x), 0.0, 0.0, 0.0], kernels::not),
@@ -171,6 +183,7 @@ pub static UNARY: &[Unary] = &[
 ];
 
 /// Functions of two arguments, operators included.
+#[rustfmt::skip] // A table reads by lines.
 pub static BINARY: &[Binary] = &[
     binary("+", "sum", Same, |a, b| a + b, Rule::Add, kernels::add, Smooth),
     binary("-", "difference", Same, |a, b| a - b, Rule::Sub, kernels::sub, Smooth),
@@ -201,7 +214,15 @@ const fn binary(
     block: fn(Level, &Block, &Block, &mut Block),
     smoothness: Smoothness,
 ) -> Binary {
-    Binary { name, doc, dimension, scalar, rule, block, smoothness }
+    Binary {
+        name,
+        doc,
+        dimension,
+        scalar,
+        rule,
+        block,
+        smoothness,
+    }
 }
 
 /// The row of a function or operator with one argument.
@@ -220,7 +241,8 @@ impl Unary {
         if N == 1 {
             return Jet::constant((self.scalar)(x.value()));
         }
-        x.compose(&(self.derivatives)(x.value())).with_value((self.scalar)(x.value()))
+        x.compose(&(self.derivatives)(x.value()))
+            .with_value((self.scalar)(x.value()))
     }
 
     /// f' at a jet.
@@ -304,7 +326,11 @@ pub fn power(x: f64, c: f64) -> [f64; 4] {
     let mut factor = 1.0;
     for (k, value) in out.iter_mut().enumerate() {
         let exponent = c - k as f64;
-        *value = if factor == 0.0 { 0.0 } else { factor * libm::pow(x, exponent) };
+        *value = if factor == 0.0 {
+            0.0
+        } else {
+            factor * libm::pow(x, exponent)
+        };
         factor *= exponent;
     }
     out
@@ -349,11 +375,19 @@ fn sign(x: f64) -> f64 {
 
 /// The smaller number; not a number if either is none.
 fn smaller(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.min(b)
+    }
 }
 
 fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.max(b)
+    }
 }
 
 fn quantize(x: f64, step: f64) -> f64 {
@@ -409,7 +443,12 @@ fn arc(value: f64, x: f64, side: f64) -> [f64; 4] {
 
 fn atan(x: f64) -> [f64; 4] {
     let q = 1.0 / (1.0 + x * x);
-    [libm::atan(x), q, -2.0 * x * q * q, (6.0 * x * x - 2.0) * q * q * q]
+    [
+        libm::atan(x),
+        q,
+        -2.0 * x * q * q,
+        (6.0 * x * x - 2.0) * q * q * q,
+    ]
 }
 
 fn sinh(x: f64) -> [f64; 4] {
@@ -442,7 +481,12 @@ fn acosh(x: f64) -> [f64; 4] {
 
 fn atanh(x: f64) -> [f64; 4] {
     let q = 1.0 / ((1.0 - x) * (1.0 + x));
-    [libm::atanh(x), q, 2.0 * x * q * q, (2.0 + 6.0 * x * x) * q * q * q]
+    [
+        libm::atanh(x),
+        q,
+        2.0 * x * q * q,
+        (2.0 + 6.0 * x * x) * q * q * q,
+    ]
 }
 
 fn erf(x: f64) -> [f64; 4] {

@@ -2,6 +2,9 @@
 //!
 //! [`evaluate`] gives one [`Evaluation`], from which every renderer of [`crate::report`] draws.
 
+mod monte_carlo;
+mod validation;
+
 use nalgebra::DMatrix;
 
 use crate::budget::Adaptive;

@@ -47,11 +47,19 @@ impl Effective {
 
 /// ν of one combination.
 pub(super) fn effective(covariance: &Covariance, form: &[(usize, f64)]) -> Effective {
-    let active = form.iter().filter(|(_, weight)| *weight != 0.0).map(|(component, _)| *component);
+    let active = form
+        .iter()
+        .filter(|(_, weight)| *weight != 0.0)
+        .map(|(component, _)| *component);
     let terms = independent_terms(covariance, active.collect());
-    let parts: Vec<(f64, f64)> =
-        terms.iter().map(|term| (norm(term.standard(covariance, form).into_iter()), term.dof)).collect();
-    Effective { dof: welch_satterthwaite(&parts), origin: origin(&terms) }
+    let parts: Vec<(f64, f64)> = terms
+        .iter()
+        .map(|term| (norm(term.standard(covariance, form).into_iter()), term.dof))
+        .collect();
+    Effective {
+        dof: welch_satterthwaite(&parts),
+        origin: origin(&terms),
+    }
 }
 
 /// ν of the covariance matrix of several combinations. Each is divided by its `scales` first: 1
@@ -64,7 +72,11 @@ pub(super) fn effective_joint(
 ) -> Effective {
     let mut active: Vec<usize> = forms
         .iter()
-        .flat_map(|form| form.iter().filter(|(_, weight)| *weight != 0.0).map(|(component, _)| *component))
+        .flat_map(|form| {
+            form.iter()
+                .filter(|(_, weight)| *weight != 0.0)
+                .map(|(component, _)| *component)
+        })
         .collect();
     active.sort_unstable();
     active.dedup();
@@ -73,21 +85,30 @@ pub(super) fn effective_joint(
         .iter()
         .map(|term| {
             let vectors = forms.iter().zip(scales).map(|(form, scale)| {
-                term.standard(covariance, form).into_iter().map(|value| value / scale).collect()
+                term.standard(covariance, form)
+                    .into_iter()
+                    .map(|value| value / scale)
+                    .collect()
             });
             (vectors.collect(), term.dof)
         })
         .collect();
-    Effective { dof: willink_hall(&parts), origin: origin(&terms) }
+    Effective {
+        dof: willink_hall(&parts),
+        origin: origin(&terms),
+    }
 }
 
 /// ν_eff = u⁴ / Σ u_k⁴/ν_k over independent contributions (u_k, ν_k), GUM equation (G.2b).
 pub(super) fn welch_satterthwaite(parts: &[(f64, f64)]) -> f64 {
     let u = norm(parts.iter().map(|(u, _)| *u));
-    if u == 0.0 {
+    if u == 0.0 || !u.is_finite() {
         return f64::INFINITY;
     }
-    let sum: f64 = parts.iter().map(|(part, dof)| (part / u).powi(4) / dof).sum();
+    let sum: f64 = parts
+        .iter()
+        .map(|(part, dof)| (part / u).powi(4) / dof)
+        .sum();
     1.0 / sum
 }
 
@@ -97,8 +118,12 @@ pub(super) fn welch_satterthwaite(parts: &[(f64, f64)]) -> f64 {
 /// coordinates per measurand.
 pub(super) fn willink_hall(parts: &[(Vec<Vec<f64>>, f64)]) -> f64 {
     let count = parts.first().map_or(0, |(vectors, _)| vectors.len());
-    let size = norm(parts.iter().flat_map(|(vectors, _)| vectors.iter().flatten().copied()));
-    if size == 0.0 {
+    let size = norm(
+        parts
+            .iter()
+            .flat_map(|(vectors, _)| vectors.iter().flatten().copied()),
+    );
+    if size == 0.0 || !size.is_finite() {
         return f64::INFINITY;
     }
     let mut total = vec![0.0; count * count];
@@ -107,7 +132,10 @@ pub(super) fn willink_hall(parts: &[(Vec<Vec<f64>>, f64)]) -> f64 {
         let mut part = vec![0.0; count * count];
         for i in 0..count {
             for j in 0..count {
-                let products = vectors[i].iter().zip(&vectors[j]).map(|(a, b)| (a / size) * (b / size));
+                let products = vectors[i]
+                    .iter()
+                    .zip(&vectors[j])
+                    .map(|(a, b)| (a / size) * (b / size));
                 part[i * count + j] = products.sum();
                 total[i * count + j] += part[i * count + j];
             }
@@ -147,7 +175,9 @@ impl Term {
             .members
             .iter()
             .filter_map(|member| {
-                let place = form.binary_search_by_key(member, |(component, _)| *component).ok()?;
+                let place = form
+                    .binary_search_by_key(member, |(component, _)| *component)
+                    .ok()?;
                 Some(form[place])
             })
             .collect();
@@ -157,8 +187,13 @@ impl Term {
             return vec![weight];
         }
         // A group's coordinates are contiguous; take them all so that vectors can be multiplied.
-        let first = self.members.first().and_then(|member| covariance.group(*member));
-        let Some((group, _)) = first else { return vec![0.0] };
+        let first = self
+            .members
+            .first()
+            .and_then(|member| covariance.group(*member));
+        let Some((group, _)) = first else {
+            return vec![0.0];
+        };
         let range = covariance.correlated(group).coordinates();
         let mut vector = vec![0.0; range.len()];
         for (coordinate, value) in covariance.standard(&own) {
@@ -180,8 +215,16 @@ fn independent_terms(covariance: &Covariance, active: Vec<usize>) -> Vec<Term> {
     }
     for (group, members) in grouped {
         match covariance.correlated(group).dof {
-            Some(dof) => terms.push(Term { members, dof, agreement: Agreement::Common }),
-            None => terms.extend(blocks(covariance, members).into_iter().map(|b| block(covariance, b))),
+            Some(dof) => terms.push(Term {
+                members,
+                dof,
+                agreement: Agreement::Common,
+            }),
+            None => terms.extend(
+                blocks(covariance, members)
+                    .into_iter()
+                    .map(|b| block(covariance, b)),
+            ),
         }
     }
     terms
@@ -202,10 +245,19 @@ fn block(covariance: &Covariance, members: Vec<usize>) -> Term {
         return single(covariance, only);
     }
     let first = dofs.next().unwrap_or(f64::INFINITY);
-    let (smallest, alike) =
-        dofs.fold((first, true), |(smallest, alike), dof| (smallest.min(dof), alike && dof == first));
-    let agreement = if alike { Agreement::Common } else { Agreement::Different };
-    Term { members, dof: smallest, agreement }
+    let (smallest, alike) = dofs.fold((first, true), |(smallest, alike), dof| {
+        (smallest.min(dof), alike && dof == first)
+    });
+    let agreement = if alike {
+        Agreement::Common
+    } else {
+        Agreement::Different
+    };
+    Term {
+        members,
+        dof: smallest,
+        agreement,
+    }
 }
 
 /// Members of one group, divided so that members of different blocks are uncorrelated.
@@ -237,9 +289,14 @@ fn origin(terms: &[Term]) -> Origin {
     if !refused.is_empty() {
         return Origin::Refused { members: refused };
     }
-    let ensembles =
-        terms.iter().any(|term| term.agreement == Agreement::Common && term.dof.is_finite());
-    if ensembles { Origin::Ensembles } else { Origin::Independent }
+    let ensembles = terms
+        .iter()
+        .any(|term| term.agreement == Agreement::Common && term.dof.is_finite());
+    if ensembles {
+        Origin::Ensembles
+    } else {
+        Origin::Independent
+    }
 }
 
 #[cfg(test)]
@@ -273,8 +330,9 @@ mod tests {
 
     #[test]
     fn gum_h_1_end_gauge() {
-        // Table H.1: 25 (18), 9.7 (25.6), 2.9 (50), 16.6 (2) nm: published 16.7 with rounded parts.
-        close(welch_satterthwaite(&[(25.0, 18.0), (9.7, 25.6), (2.9, 50.0), (16.6, 2.0)]), 16.7, 0.06);
+        // Table H.1 with its sensitivities at full precision: published 16.7.
+        let parts = [(25.0, 18.0), (9.7, 25.6), (2.9000, 50.0), (16.6752, 2.0)];
+        close(welch_satterthwaite(&parts), 16.7, 0.06);
         // All nine inputs, twelve digits (a regression value of another program).
         let parts = [
             (25.0, 18.0),
@@ -291,7 +349,11 @@ mod tests {
     fn a_value_of_a_fitted_line() {
         // Willink (2008) 2.1: (y1+y2+y3)/3 + (y3−y1)/2·⅔ has ν = 25·2/17.
         let u = |c: f64| (c * 0.1, 2.0);
-        close(welch_satterthwaite(&[u(0.0), u(1.0 / 3.0), u(2.0 / 3.0)]), 50.0 / 17.0, 1e-12);
+        close(
+            welch_satterthwaite(&[u(0.0), u(1.0 / 3.0), u(2.0 / 3.0)]),
+            50.0 / 17.0,
+            1e-12,
+        );
     }
 
     #[test]
@@ -312,7 +374,12 @@ mod tests {
         let covariance = Covariance::from_parts(vec![1.0; 3], vec![5.0, 9.0, INF], &groups);
         let both = covariance.form([(0, 1.0), (1, 1.0)]);
         let found = effective(&covariance, &both);
-        assert_eq!(found.origin, Origin::Refused { members: vec![0, 1] });
+        assert_eq!(
+            found.origin,
+            Origin::Refused {
+                members: vec![0, 1]
+            }
+        );
         close(found.dof, 5.0, 1e-12);
         // An independent term beside them: (1 + 3)²/(3²/5).
         let more = covariance.form([(0, 1.0), (1, 1.0), (2, 1.0)]);
@@ -328,11 +395,18 @@ mod tests {
     fn uncorrelated_members_of_a_group_are_independent_terms() {
         // a–b–c is a chain: without b, a and c are independent.
         let entries = [1.0, 0.5, 0.0, 0.5, 1.0, 0.5, 0.0, 0.5, 1.0];
-        let covariance =
-            Covariance::from_parts(vec![1.0; 3], vec![4.0, 6.0, 8.0], &[group(&[0, 1, 2], &entries, None)]);
+        let covariance = Covariance::from_parts(
+            vec![1.0; 3],
+            vec![4.0, 6.0, 8.0],
+            &[group(&[0, 1, 2], &entries, None)],
+        );
         let found = effective(&covariance, &covariance.form([(0, 1.0), (2, 1.0)]));
         assert_eq!(found.origin, Origin::Independent);
-        close(found.dof, welch_satterthwaite(&[(1.0, 4.0), (1.0, 8.0)]), 1e-12);
+        close(
+            found.dof,
+            welch_satterthwaite(&[(1.0, 4.0), (1.0, 8.0)]),
+            1e-12,
+        );
     }
 
     #[test]
@@ -350,7 +424,10 @@ mod tests {
         let mean = |k: usize| readings.iter().map(|r| r[k]).sum::<f64>() / n;
         let mean = [mean(0), mean(1)];
         let s = |a: usize, b: usize| {
-            let sum: f64 = readings.iter().map(|r| (r[a] - mean[a]) * (r[b] - mean[b])).sum();
+            let sum: f64 = readings
+                .iter()
+                .map(|r| (r[a] - mean[a]) * (r[b] - mean[b]))
+                .sum();
             sum / (n - 1.0) / n
         };
         let u = vec![s(0, 0).sqrt(), s(1, 1).sqrt()];
@@ -360,14 +437,35 @@ mod tests {
 
     #[test]
     fn willink_hall_example_1() {
-        let s11 = [[0.0242, -0.0101], [-0.0023, 0.2229], [0.0599, 0.0601], [0.0433, 0.21], [-0.0026, 0.0627]];
-        let reflection =
-            [[0.1648, -0.025], [0.1568, -0.0179], [0.1598, -0.1367], [0.1198, -0.0045], [0.3162, -0.131]];
+        let s11 = [
+            [0.0242, -0.0101],
+            [-0.0023, 0.2229],
+            [0.0599, 0.0601],
+            [0.0433, 0.21],
+            [-0.0026, 0.0627],
+        ];
+        let reflection = [
+            [0.1648, -0.025],
+            [0.1568, -0.0179],
+            [0.1598, -0.1367],
+            [0.1198, -0.0045],
+            [0.3162, -0.131],
+        ];
         let (u1, r1) = of_mean(&s11);
         let (u2, r2) = of_mean(&reflection);
         let groups = [
-            Group { members: vec![0, 1], correlation: r1, law: Law::Normal, dof: Some(4.0) },
-            Group { members: vec![2, 3], correlation: r2, law: Law::Normal, dof: Some(4.0) },
+            Group {
+                members: vec![0, 1],
+                correlation: r1,
+                law: Law::Normal,
+                dof: Some(4.0),
+            },
+            Group {
+                members: vec![2, 3],
+                correlation: r2,
+                law: Law::Normal,
+                dof: Some(4.0),
+            },
         ];
         let u = [u1, u2].concat();
         let covariance = Covariance::from_parts(u, vec![4.0; 4], &groups);
@@ -378,7 +476,11 @@ mod tests {
         let (re_vector, im_vector) = (covariance.dense(&re), covariance.dense(&im));
         let product: f64 = re_vector.iter().zip(&im_vector).map(|(a, b)| a * b).sum();
         close(product, -0.0007256, 6e-8);
-        close(effective_joint(&covariance, &[&re, &im], &[1.0, 1.0]).dof, 6.85, 0.006);
+        close(
+            effective_joint(&covariance, &[&re, &im], &[1.0, 1.0]).dof,
+            6.85,
+            0.006,
+        );
         // One measurand: Welch–Satterthwaite.
         let alone = effective_joint(&covariance, &[&re], &[1.0]);
         close(alone.dof, effective(&covariance, &re).dof, 1e-12);

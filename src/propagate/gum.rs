@@ -54,7 +54,9 @@ pub(super) fn linearise(budget: &Budget) -> Result<Linear, EvaluationError> {
     let x: Vec<f64> = budget.inputs.iter().map(|input| input.estimate).collect();
     let values = budget.model.values(&x);
     if let Some(bad) = values.iter().position(|value| !value.is_finite()) {
-        return Err(EvaluationError::NoValue { measurand: name(&budget.model, bad) });
+        return Err(EvaluationError::NoValue {
+            measurand: name(&budget.model, bad),
+        });
     }
     let gradient = budget.model.gradients(&x);
     let covariance = Covariance::new(&budget.components, &budget.groups);
@@ -62,7 +64,11 @@ pub(super) fn linearise(budget: &Budget) -> Result<Linear, EvaluationError> {
 }
 
 fn name(model: &Model, output: usize) -> String {
-    model.outputs().get(output).map(|o| o.name.clone()).unwrap_or_default()
+    model
+        .outputs()
+        .get(output)
+        .map(|o| o.name.clone())
+        .unwrap_or_default()
 }
 
 impl Linear {
@@ -78,7 +84,10 @@ impl Linear {
             .map(|o| {
                 let terms = inputs.iter().enumerate().flat_map(|(i, input)| {
                     let c = gradient[(o, i)];
-                    input.terms.iter().map(move |term| (term.component, c * term.coefficient))
+                    input
+                        .terms
+                        .iter()
+                        .map(move |term| (term.component, c * term.coefficient))
                 });
                 let form = covariance.form(terms);
                 let standard = covariance.dense(&form);
@@ -89,13 +98,23 @@ impl Linear {
         let inputs = inputs
             .iter()
             .map(|input| {
-                let terms = input.terms.iter().map(|term| (term.component, term.coefficient));
+                let terms = input
+                    .terms
+                    .iter()
+                    .map(|term| (term.component, term.coefficient));
                 let form = covariance.form(terms);
                 let u = covariance.uncertainty(&form);
                 InputForm { form, u }
             })
             .collect();
-        Linear { x, values, gradient, covariance, inputs, measurands }
+        Linear {
+            x,
+            values,
+            gradient,
+            covariance,
+            inputs,
+            measurands,
+        }
     }
 
     /// The first input with u(x) > 0 whose sensitivity coefficient is not finite.
@@ -112,9 +131,10 @@ impl Linear {
         let of = &self.measurands[measurand];
         let lines = self.inputs.iter().enumerate().map(|(i, input)| {
             let sensitivity = self.gradient[(measurand, i)];
-            let share = input.form.iter().map(|&(component, weight)| {
-                self.share_of(of, component, sensitivity * weight)
-            });
+            let share = input
+                .form
+                .iter()
+                .map(|&(component, weight)| self.share_of(of, component, sensitivity * weight));
             Contribution {
                 sensitivity,
                 u: input.u,
@@ -169,7 +189,11 @@ impl Linear {
         if a.u == 0.0 || b.u == 0.0 {
             return 0.0;
         }
-        let products = a.standard.iter().zip(&b.standard).map(|(s, t)| (s / a.u) * (t / b.u));
+        let products = a
+            .standard
+            .iter()
+            .zip(&b.standard)
+            .map(|(s, t)| (s / a.u) * (t / b.u));
         products.sum::<f64>().clamp(-1.0, 1.0)
     }
 }

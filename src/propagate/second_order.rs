@@ -15,6 +15,7 @@
 use super::SecondOrder;
 use super::covariance::Covariance;
 use super::gum::Linear;
+use super::validation::numerical_tolerance;
 use crate::budget::{Budget, Component, Input};
 use crate::distribution::Distribution;
 use crate::model::Along;
@@ -27,7 +28,10 @@ pub(super) struct Moments {
 }
 
 /// Those of the normal distribution.
-pub(super) const NORMAL: Moments = Moments { third: 0.0, fourth: 3.0 };
+pub(super) const NORMAL: Moments = Moments {
+    third: 0.0,
+    fourth: 3.0,
+};
 
 /// A unit step of one standard coordinate, in the space of the inputs.
 #[derive(Debug, Clone)]
@@ -60,7 +64,12 @@ pub(super) enum Terms {
 /// Second-order terms of every measurand.
 pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
     let nonlinear = budget.model.nonlinear_inputs();
-    let directions = directions(&linear.covariance, &budget.inputs, &budget.components, &nonlinear);
+    let directions = directions(
+        &linear.covariance,
+        &budget.inputs,
+        &budget.components,
+        &nonlinear,
+    );
     let mut whole = vec![0.0; linear.x.len()];
     accumulate(linear, &directions, |steps| {
         for &(input, change) in steps {
@@ -99,8 +108,13 @@ fn directions(
         .enumerate()
         .filter(|(_, steps)| !steps.is_empty())
         .map(|(coordinate, steps)| {
-            let moments = alone[coordinate].map_or(NORMAL, |c| moments(&components[c].distribution));
-            Direction { coordinate, steps, moments }
+            let moments =
+                alone[coordinate].map_or(NORMAL, |c| moments(&components[c].distribution));
+            Direction {
+                coordinate,
+                steps,
+                moments,
+            }
         })
         .collect()
 }
@@ -111,11 +125,19 @@ fn moments(distribution: &Distribution) -> Moments {
         return NORMAL;
     }
     let of = |d: &Distribution| {
-        let (sd, third, fourth) =
-            (d.standard_deviation()?, d.third_central_moment()?, d.fourth_central_moment()?);
-        (sd > 0.0).then(|| Moments { third: third / sd.powi(3), fourth: fourth / sd.powi(4) })
+        let (sd, third, fourth) = (
+            d.standard_deviation()?,
+            d.third_central_moment()?,
+            d.fourth_central_moment()?,
+        );
+        (sd > 0.0).then(|| Moments {
+            third: third / sd.powi(3),
+            fourth: fourth / sd.powi(4),
+        })
     };
-    of(distribution).filter(|m| m.third.is_finite() && m.fourth.is_finite()).unwrap_or(NORMAL)
+    of(distribution)
+        .filter(|m| m.third.is_finite() && m.fourth.is_finite())
+        .unwrap_or(NORMAL)
 }
 
 /// Sums while they grow.
@@ -159,12 +181,23 @@ impl Sums {
         let terms = if !self.nonlinear {
             Terms::Linear
         } else if variance > 0.0 && variance.is_finite() && self.shift.is_finite() {
-            let (u_first, u, shift) = (first.sqrt() * unit, variance.sqrt() * unit, self.shift * unit);
-            Terms::Found(SecondOrder { shift, u, matters: matters(u_first, u, shift) })
+            let (u_first, u, shift) = (
+                first.sqrt() * unit,
+                variance.sqrt() * unit,
+                self.shift * unit,
+            );
+            Terms::Found(SecondOrder {
+                shift,
+                u,
+                matters: matters(u_first, u, shift),
+            })
         } else {
             Terms::Divergent
         };
-        Outcome { terms, slope_deviation }
+        Outcome {
+            terms,
+            slope_deviation,
+        }
     }
 }
 
@@ -195,7 +228,10 @@ fn accumulate(
             sums.add(l, &along, directions);
         }
     }
-    sums.into_iter().zip(units).map(|(sums, unit)| sums.outcome(unit)).collect()
+    sums.into_iter()
+        .zip(units)
+        .map(|(sums, unit)| sums.outcome(unit))
+        .collect()
 }
 
 /// What lengths are measured in: u(y) where it is usable.
@@ -205,33 +241,30 @@ fn unit(u: f64) -> f64 {
 
 /// Whether the second order is seen in two significant digits of u(y).
 fn matters(u_first: f64, u_second: f64, shift: f64) -> bool {
-    let unit = last_digit(u_second.max(u_first), 2);
-    (u_second - u_first).abs() > 0.5 * unit || shift.abs() > 0.5 * unit
-}
-
-/// Unit of the last of `digits` significant digits.
-pub(super) fn last_digit(u: f64, digits: i32) -> f64 {
-    if u > 0.0 && u.is_finite() { 10f64.powi(u.log10().floor() as i32 - digits + 1) } else { 0.0 }
+    let delta = numerical_tolerance(u_second.max(u_first), 2);
+    (u_second - u_first).abs() > delta || shift.abs() > delta
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::budget::{Group, Law, Term};
-    use crate::quantity::{Dimension, Factor, Unit};
+    use crate::quantity::Unit;
     use nalgebra::DMatrix;
 
     const INF: f64 = f64::INFINITY;
 
     fn input(component: usize) -> Input {
-        let factor = Factor { numerator: 1.0, denominator: 1.0, ten: 0, pi: 0 };
         Input {
             name: format!("x{component}"),
             description: None,
             group: None,
-            unit: Unit { dimension: Dimension::default(), factor, origin: None, symbol: String::new() },
+            unit: Unit::one(),
             estimate: 0.0,
-            terms: vec![Term { component, coefficient: 1.0 }],
+            terms: vec![Term {
+                component,
+                coefficient: 1.0,
+            }],
         }
     }
 
@@ -258,14 +291,24 @@ mod tests {
             let directions: Vec<Direction> = steps
                 .into_iter()
                 .enumerate()
-                .map(|(coordinate, steps)| Direction { coordinate, steps, moments: of(coordinate) })
+                .map(|(coordinate, steps)| Direction {
+                    coordinate,
+                    steps,
+                    moments: of(coordinate),
+                })
                 .collect();
             let along = |steps: &[(usize, f64)]| {
                 let mut d = vec![0.0; n];
                 steps.iter().for_each(|&(i, change)| d[i] = change);
-                let second = (0..n).map(|i| (0..n).map(|j| self.h[(i, j)] * d[j]).sum()).collect();
+                let second = (0..n)
+                    .map(|i| (0..n).map(|j| self.h[(i, j)] * d[j]).sum())
+                    .collect();
                 let third = (0..n).map(|i| self.t[i] * d[i] * d[i]).collect();
-                vec![Along { gradient: self.g.clone(), second, third }]
+                vec![Along {
+                    gradient: self.g.clone(),
+                    second,
+                    third,
+                }]
             };
             accumulate(&linear, &directions, along).remove(0)
         }
@@ -284,20 +327,31 @@ mod tests {
 
     fn correlated(r: f64) -> [Group; 1] {
         let correlation = DMatrix::from_row_slice(2, 2, &[1.0, r, r, 1.0]);
-        [Group { members: vec![0, 1], correlation, law: Law::Normal, dof: None }]
+        [Group {
+            members: vec![0, 1],
+            correlation,
+            law: Law::Normal,
+            dof: None,
+        }]
     }
 
     #[test]
     fn s1_9_4_comparison_loss() {
         // x1² + x2² at 0 with u = 0.005: twice u² times chi-square of 2 degrees of freedom.
-        let model =
-            Cubic { g: vec![0.0, 0.0], h: DMatrix::identity(2, 2) * 2.0, t: vec![0.0, 0.0] };
+        let model = Cubic {
+            g: vec![0.0, 0.0],
+            h: DMatrix::identity(2, 2) * 2.0,
+            t: vec![0.0, 0.0],
+        };
         let found = model.found(&[0.005, 0.005], &[], NORMAL);
         close(found.shift, 5e-5);
         close(found.u, 5e-5);
         assert!(found.matters);
         // At x1 = 0.010, r = 0.9: mean 1.5e-4, variance 4x1²u² + 2(1 + r²)·2·u⁴.
-        let model = Cubic { g: vec![0.02, 0.0], ..model };
+        let model = Cubic {
+            g: vec![0.02, 0.0],
+            ..model
+        };
         let found = model.found(&[0.005, 0.005], &correlated(0.9), NORMAL);
         close(found.shift, 5e-5);
         close(found.u, (1e-8 + 4.0 * 1.81 * 6.25e-10_f64).sqrt());
@@ -311,7 +365,10 @@ mod tests {
             h: DMatrix::from_row_slice(2, 2, &[2.0, 0.0, 0.0, 0.0]),
             t: vec![0.0; 2],
         };
-        close(square.found(&[0.1, 0.2], &correlated(0.5), NORMAL).shift, 0.01);
+        close(
+            square.found(&[0.1, 0.2], &correlated(0.5), NORMAL).shift,
+            0.01,
+        );
         let product = Cubic {
             g: vec![3.0, 2.0],
             h: DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 1.0, 0.0]),
@@ -336,9 +393,15 @@ mod tests {
             h[(j, i)] = value;
         }
         let g = vec![1.0, 1.0, -ls * theta, 0.0, 0.0, -ls * alpha];
-        let model = Cubic { g, h, t: vec![0.0; 6] };
+        let model = Cubic {
+            g,
+            h,
+            t: vec![0.0; 6],
+        };
         let outcome = model.outcome(&u, &[], |_| NORMAL);
-        let Terms::Found(found) = outcome.terms else { panic!() };
+        let Terms::Found(found) = outcome.terms else {
+            panic!()
+        };
         assert!((found.u - 33.9111).abs() < 1e-3, "{}", found.u);
         assert!(found.matters);
         assert_eq!(found.shift, 0.0);
@@ -350,31 +413,59 @@ mod tests {
     #[test]
     fn moments_of_other_distributions_are_used() {
         // (x + ½x²) with rectangular x of unit variance: var = 1 + ¼(9/5 − 1).
-        let model = Cubic { g: vec![1.0], h: DMatrix::from_element(1, 1, 1.0), t: vec![0.0] };
-        let rectangular = Moments { third: 0.0, fourth: 1.8 };
+        let model = Cubic {
+            g: vec![1.0],
+            h: DMatrix::from_element(1, 1, 1.0),
+            t: vec![0.0],
+        };
+        let rectangular = Moments {
+            third: 0.0,
+            fourth: 1.8,
+        };
         close(model.found(&[1.0], &[], rectangular).u, 1.2_f64.sqrt());
         // Exponential (μ3 = 2, μ4 = 9): 1 + 2 + ¼·8.
-        let exponential = Moments { third: 2.0, fourth: 9.0 };
+        let exponential = Moments {
+            third: 2.0,
+            fourth: 9.0,
+        };
         close(model.found(&[1.0], &[], exponential).u, 5.0_f64.sqrt());
-        let uniform = Distribution::Uniform { lower: -2.0, upper: 2.0 };
+        let uniform = Distribution::Uniform {
+            lower: -2.0,
+            upper: 2.0,
+        };
         assert!((moments(&uniform).fourth - 1.8).abs() < 1e-14);
-        let t = Distribution::StudentT { location: 0.0, scale: 1.0, dof: 5.0 };
+        let t = Distribution::StudentT {
+            location: 0.0,
+            scale: 1.0,
+            dof: 5.0,
+        };
         assert_eq!(moments(&t), NORMAL);
     }
 
     #[test]
     fn third_derivatives_can_make_the_series_fail() {
         // x − 0.1·x³: variance 1 − 0.6 to this order; with −x³ it would be negative.
-        let cubic = |t: f64| Cubic { g: vec![1.0], h: DMatrix::zeros(1, 1), t: vec![t] };
+        let cubic = |t: f64| Cubic {
+            g: vec![1.0],
+            h: DMatrix::zeros(1, 1),
+            t: vec![t],
+        };
         close(cubic(-0.6).found(&[1.0], &[], NORMAL).u, 0.4_f64.sqrt());
-        assert_eq!(cubic(-6.0).outcome(&[1.0], &[], |_| NORMAL).terms, Terms::Divergent);
+        assert_eq!(
+            cubic(-6.0).outcome(&[1.0], &[], |_| NORMAL).terms,
+            Terms::Divergent
+        );
     }
 
     #[test]
     fn rotation_of_a_group_changes_nothing() {
         // A group of correlation zero is the same as independent components.
         let h = DMatrix::from_row_slice(2, 2, &[1.0, 0.3, 0.3, -2.0]);
-        let model = Cubic { g: vec![0.5, 1.5], h, t: vec![0.2, 0.1] };
+        let model = Cubic {
+            g: vec![0.5, 1.5],
+            h,
+            t: vec![0.2, 0.1],
+        };
         let alone = model.found(&[0.3, 0.2], &[], NORMAL);
         let grouped = model.found(&[0.3, 0.2], &correlated(0.0), NORMAL);
         close(alone.u, grouped.u);
@@ -383,7 +474,11 @@ mod tests {
 
     #[test]
     fn a_linear_model_has_no_second_order() {
-        let model = Cubic { g: vec![1.0], h: DMatrix::zeros(1, 1), t: vec![0.0] };
+        let model = Cubic {
+            g: vec![1.0],
+            h: DMatrix::zeros(1, 1),
+            t: vec![0.0],
+        };
         assert_eq!(model.outcome(&[1.0], &[], |_| NORMAL).terms, Terms::Linear);
     }
 

@@ -90,35 +90,109 @@ const fn unit(
     name_zh: &'static str,
     definition: Definition,
 ) -> BuiltinUnit {
-    BuiltinUnit { symbol, aliases: &[], name_en, name_zh, kind, prefixes: Prefixes::None, definition }
+    BuiltinUnit {
+        symbol,
+        aliases: &[],
+        name_en,
+        name_zh,
+        kind,
+        prefixes: Prefixes::None,
+        definition,
+    }
 }
 
-const fn base(symbol: &'static str, en: &'static str, zh: &'static str, place: usize, ten: i32) -> BuiltinUnit {
+const fn base(
+    symbol: &'static str,
+    en: &'static str,
+    zh: &'static str,
+    place: usize,
+    ten: i32,
+) -> BuiltinUnit {
     unit(UnitKind::Si, symbol, en, zh, Definition::Base(place, ten)).prefixes(Prefixes::All)
 }
 
-const fn si(symbol: &'static str, en: &'static str, zh: &'static str, definition: &'static str) -> BuiltinUnit {
+const fn si(
+    symbol: &'static str,
+    en: &'static str,
+    zh: &'static str,
+    definition: &'static str,
+) -> BuiltinUnit {
     unit(UnitKind::Si, symbol, en, zh, Definition::Equal(definition)).prefixes(Prefixes::All)
 }
 
-const fn accepted(symbol: &'static str, en: &'static str, zh: &'static str, definition: &'static str) -> BuiltinUnit {
-    unit(UnitKind::Accepted, symbol, en, zh, Definition::Equal(definition))
+const fn accepted(
+    symbol: &'static str,
+    en: &'static str,
+    zh: &'static str,
+    definition: &'static str,
+) -> BuiltinUnit {
+    unit(
+        UnitKind::Accepted,
+        symbol,
+        en,
+        zh,
+        Definition::Equal(definition),
+    )
 }
 
-const fn metric(symbol: &'static str, en: &'static str, zh: &'static str, definition: &'static str) -> BuiltinUnit {
-    unit(UnitKind::Metric, symbol, en, zh, Definition::Equal(definition))
+const fn metric(
+    symbol: &'static str,
+    en: &'static str,
+    zh: &'static str,
+    definition: &'static str,
+) -> BuiltinUnit {
+    unit(
+        UnitKind::Metric,
+        symbol,
+        en,
+        zh,
+        Definition::Equal(definition),
+    )
 }
 
-const fn inch_pound(symbol: &'static str, en: &'static str, zh: &'static str, definition: &'static str) -> BuiltinUnit {
-    unit(UnitKind::InchPound, symbol, en, zh, Definition::Equal(definition))
+const fn inch_pound(
+    symbol: &'static str,
+    en: &'static str,
+    zh: &'static str,
+    definition: &'static str,
+) -> BuiltinUnit {
+    unit(
+        UnitKind::InchPound,
+        symbol,
+        en,
+        zh,
+        Definition::Equal(definition),
+    )
 }
 
 /// Prefix symbols with their powers of ten; those of two letters first, the commonest before the
 /// rare ones.
 pub(super) const PREFIXES: &[(&str, i32)] = &[
-    ("da", 1), ("m", -3), ("k", 3), ("µ", -6), ("u", -6), ("M", 6), ("n", -9), ("G", 9), ("c", -2), ("p", -12),
-    ("d", -1), ("h", 2), ("T", 12), ("f", -15), ("P", 15), ("a", -18), ("E", 18), ("z", -21), ("Z", 21), ("y", -24),
-    ("Y", 24), ("r", -27), ("R", 27), ("q", -30), ("Q", 30),
+    ("da", 1),
+    ("m", -3),
+    ("k", 3),
+    ("µ", -6),
+    ("u", -6),
+    ("M", 6),
+    ("n", -9),
+    ("G", 9),
+    ("c", -2),
+    ("p", -12),
+    ("d", -1),
+    ("h", 2),
+    ("T", 12),
+    ("f", -15),
+    ("P", 15),
+    ("a", -18),
+    ("E", 18),
+    ("z", -21),
+    ("Z", 21),
+    ("y", -24),
+    ("Y", 24),
+    ("r", -27),
+    ("R", 27),
+    ("q", -30),
+    ("Q", 30),
 ];
 
 /// The table.
@@ -242,14 +316,26 @@ pub(super) const UNITS: &[BuiltinUnit] = &[
 
 /// The typographic spelling of a name that is written in ASCII: `kΩ` for `kohm`, `µm` for `um`.
 pub(super) fn typographic(name: &str) -> Option<String> {
-    let main = |name: &str| UNITS.iter().find(|u| u.symbol == name || u.aliases.contains(&name)).map(|u| u.symbol);
+    let main = |name: &str| {
+        UNITS
+            .iter()
+            .find(|u| u.symbol == name || u.aliases.contains(&name))
+            .map(|u| u.symbol)
+    };
     if let Some(symbol) = main(name) {
         let plain_text = name.is_ascii() && symbol.is_ascii();
         return Some(if plain_text { name } else { symbol }.to_owned());
     }
     PREFIXES.iter().find_map(|(prefix, _)| {
         let symbol = main(name.strip_prefix(prefix)?)?;
-        let rest = if symbol.is_ascii() { name.strip_prefix(prefix)? } else { symbol };
-        Some(format!("{}{rest}", if *prefix == "u" { "µ" } else { prefix }))
+        let rest = if symbol.is_ascii() {
+            name.strip_prefix(prefix)?
+        } else {
+            symbol
+        };
+        Some(format!(
+            "{}{rest}",
+            if *prefix == "u" { "µ" } else { prefix }
+        ))
     })
 }

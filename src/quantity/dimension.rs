@@ -6,8 +6,17 @@ use std::fmt;
 /// exact.
 pub(super) const STEPS: i32 = 60;
 
-/// SI symbols of the coherent units of the eight base quantities, in the order in which they print.
-const BASE_SYMBOLS: [&str; 8] = ["m", "kg", "s", "A", "K", "mol", "cd", "dB"];
+/// SI symbols of the base units with their places, in the order in which the SI Brochure writes them.
+const BASE_SYMBOLS: [(&str, usize); 8] = [
+    ("kg", 1),
+    ("m", 0),
+    ("s", 2),
+    ("A", 3),
+    ("K", 4),
+    ("mol", 5),
+    ("cd", 6),
+    ("dB", 7),
+];
 
 /// Exponents of length, mass, time, electric current, thermodynamic temperature, amount of
 /// substance, luminous intensity, and logarithmic level (dB, Np), each in sixtieths so that
@@ -63,7 +72,10 @@ impl Dimension {
     /// What a quantity of this dimension is called, with its article, for messages: "a length",
     /// "an acceleration"; `None` for dimensions without a common name.
     pub fn name(self) -> Option<&'static str> {
-        NAMES.iter().find(|(d, _)| Dimension::of(*d) == self).map(|(_, name)| *name)
+        NAMES
+            .iter()
+            .find(|(d, _)| Dimension::of(*d) == self)
+            .map(|(_, name)| *name)
     }
 
     /// The name if there is one, and always the dimension in SI units: "an acceleration (m·s^-2)".
@@ -88,12 +100,17 @@ impl Dimension {
 pub(super) fn scaled(exponent: i32, num: i32, den: i32) -> Option<i32> {
     let product = i64::from(exponent) * i64::from(num);
     let den = i64::from(den);
-    (den != 0 && product % den == 0).then(|| product / den)?.try_into().ok()
+    (den != 0 && product % den == 0)
+        .then(|| product / den)?
+        .try_into()
+        .ok()
 }
 
 /// An exponent of `sixtieths`/60 as it follows a symbol: nothing for 1, `^2`, `^-1`, `^(1/2)`.
 pub(super) fn exponent_text(sixtieths: i32) -> String {
-    let divisor = gcd(sixtieths.unsigned_abs(), STEPS.unsigned_abs()).max(1).cast_signed();
+    let divisor = gcd(sixtieths.unsigned_abs(), STEPS.unsigned_abs())
+        .max(1)
+        .cast_signed();
     match (sixtieths / divisor, STEPS / divisor) {
         (1, 1) => String::new(),
         (num, 1) => format!("^{num}"),
@@ -110,11 +127,18 @@ impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let factors: Vec<String> = BASE_SYMBOLS
             .iter()
-            .zip(self.0)
+            .map(|(symbol, place)| (symbol, self.0[*place]))
             .filter(|(_, exponent)| *exponent != 0)
             .map(|(symbol, exponent)| format!("{symbol}{}", exponent_text(exponent.into())))
             .collect();
-        f.write_str(if factors.is_empty() { "1".to_owned() } else { factors.join("·") }.as_str())
+        f.write_str(
+            if factors.is_empty() {
+                "1".to_owned()
+            } else {
+                factors.join("·")
+            }
+            .as_str(),
+        )
     }
 }
 
@@ -135,7 +159,10 @@ const NAMES: &[([i8; 8], &str)] = &[
     ([1, 0, -1, 0, 0, 0, 0, 0], "a velocity"),
     ([1, 0, -2, 0, 0, 0, 0, 0], "an acceleration"),
     ([1, 0, -3, 0, 0, 0, 0, 0], "a jerk"),
-    ([0, 0, -1, 0, 0, 0, 0, 0], "a frequency or an angular velocity"),
+    (
+        [0, 0, -1, 0, 0, 0, 0, 0],
+        "a frequency or an angular velocity",
+    ),
     ([0, 0, -2, 0, 0, 0, 0, 0], "an angular acceleration"),
     ([-3, 1, 0, 0, 0, 0, 0, 0], "a density"),
     ([3, -1, 0, 0, 0, 0, 0, 0], "a specific volume"),
@@ -144,7 +171,10 @@ const NAMES: &[([i8; 8], &str)] = &[
     ([1, 1, -2, 0, 0, 0, 0, 0], "a force"),
     ([-1, 1, -2, 0, 0, 0, 0, 0], "a pressure"),
     ([2, 1, -2, 0, 0, 0, 0, 0], "an energy or a torque"),
-    ([2, 1, -1, 0, 0, 0, 0, 0], "an action or an angular momentum"),
+    (
+        [2, 1, -1, 0, 0, 0, 0, 0],
+        "an action or an angular momentum",
+    ),
     ([2, 1, -3, 0, 0, 0, 0, 0], "a power"),
     ([0, 1, -3, 0, 0, 0, 0, 0], "an irradiance"),
     ([2, 0, -2, 0, 0, 0, 0, 0], "an absorbed or equivalent dose"),
@@ -189,7 +219,10 @@ mod tests {
     fn dimension_one_prints_as_one() {
         assert!(LENGTH.quotient(LENGTH).is_none());
         assert_eq!(Dimension::NONE.to_string(), "1");
-        assert_eq!(Dimension::NONE.describe(), "an angle or a ratio (dimension one)");
+        assert_eq!(
+            Dimension::NONE.describe(),
+            "an angle or a ratio (dimension one)"
+        );
     }
 
     #[test]
@@ -208,7 +241,10 @@ mod tests {
     #[test]
     fn names_are_of_different_dimensions() {
         for (i, (a, name)) in NAMES.iter().enumerate() {
-            assert!(NAMES[..i].iter().all(|(b, _)| a != b), "{name} is listed twice");
+            assert!(
+                NAMES[..i].iter().all(|(b, _)| a != b),
+                "{name} is listed twice"
+            );
         }
     }
 }

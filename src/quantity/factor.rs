@@ -30,7 +30,12 @@ impl Default for Factor {
 
 impl Factor {
     /// The factor of every coherent SI unit.
-    pub const ONE: Factor = Factor { numerator: 1.0, denominator: 1.0, ten: 0, pi: 0 };
+    pub const ONE: Factor = Factor {
+        numerator: 1.0,
+        denominator: 1.0,
+        ten: 0,
+        pi: 0,
+    };
 
     /// A power of ten, as of an SI prefix.
     pub const fn power_of_ten(ten: i32) -> Factor {
@@ -38,7 +43,10 @@ impl Factor {
     }
 
     /// π.
-    pub(super) const PI: Factor = Factor { pi: 1, ..Factor::ONE };
+    pub(super) const PI: Factor = Factor {
+        pi: 1,
+        ..Factor::ONE
+    };
 
     /// Reads a positive decimal number (`9.80665`, `1.602176634e-19`) without rounding it; `None` if
     /// it is none, is zero or has too many digits to be exact.
@@ -51,11 +59,19 @@ impl Factor {
         let digits = format!("{whole}{fraction}");
         let number: u128 = digits.parse().ok()?;
         let places = i32::try_from(fraction.len()).ok()?;
-        let ten = exponent.checked_sub(places).filter(|ten| ten.abs() <= 400)?;
+        let ten = exponent
+            .checked_sub(places)
+            .filter(|ten| ten.abs() <= 400)?;
         if number == 0 {
             return None;
         }
-        Fraction { numerator: number, denominator: 1, ten }.canonical()?.into_factor(0)
+        Fraction {
+            numerator: number,
+            denominator: 1,
+            ten,
+        }
+        .canonical()?
+        .into_factor(0)
     }
 
     /// The factor of a product of units.
@@ -87,7 +103,11 @@ impl Factor {
     /// into the numerator. A zero `den` counts as one.
     #[must_use]
     pub fn powr(self, num: i32, den: i32) -> Factor {
-        let (num, den) = if den < 0 { (num.saturating_neg(), den.saturating_neg()) } else { (num, den.max(1)) };
+        let (num, den) = if den < 0 {
+            (num.saturating_neg(), den.saturating_neg())
+        } else {
+            (num, den.max(1))
+        };
         if num < 0 {
             return self.reciprocal().powr(num.saturating_neg(), den);
         }
@@ -98,9 +118,14 @@ impl Factor {
         let (above, above_ten) = power(self.numerator, num, den, exponent);
         let (below, below_ten) = power(self.denominator, num, den, exponent);
         let ten = ten.saturating_add(above_ten).saturating_sub(below_ten);
-        Factor { numerator: 1.0, denominator: 1.0, ten, pi }
-            .with_fraction(above * irrational, below)
-            .product(Factor::ONE)
+        Factor {
+            numerator: 1.0,
+            denominator: 1.0,
+            ten,
+            pi,
+        }
+        .with_fraction(above * irrational, below)
+        .product(Factor::ONE)
     }
 
     /// Replaces the fraction; one that is far from one gives its magnitude to the power of ten, lest
@@ -109,7 +134,12 @@ impl Factor {
         let (numerator, above) = scaled_down(numerator);
         let (denominator, below) = scaled_down(denominator);
         let ten = self.ten.saturating_add(above).saturating_sub(below);
-        Factor { numerator, denominator, ten, ..self }
+        Factor {
+            numerator,
+            denominator,
+            ten,
+            ..self
+        }
     }
 
     /// How many of the `other` unit make one of this unit.
@@ -147,7 +177,11 @@ impl Factor {
 
 /// Both become one when they are equal.
 fn cancelled(above: f64, below: f64) -> (f64, f64) {
-    if above == below { (1.0, 1.0) } else { (above, below) }
+    if above == below {
+        (1.0, 1.0)
+    } else {
+        (above, below)
+    }
 }
 
 /// The whole part of `exponent · num / den` and the rest, which is in 0..1.
@@ -162,7 +196,8 @@ fn divided(exponent: i32, num: i32, den: i32) -> (i32, f64) {
 fn power(x: f64, num: i32, den: i32, exponent: f64) -> (f64, i32) {
     let approximate = x.powf(exponent);
     let whole = approximate.round();
-    let raised = |base: f64, exponent: i32| whole_number(base)?.checked_pow(exponent.unsigned_abs());
+    let raised =
+        |base: f64, exponent: i32| whole_number(base)?.checked_pow(exponent.unsigned_abs());
     match (raised(x, num), raised(whole, den)) {
         (Some(a), Some(b)) if a == b => (whole, 0),
         _ if approximate < 1e100 => (approximate, 0),
@@ -170,7 +205,10 @@ fn power(x: f64, num: i32, den: i32, exponent: f64) -> (f64, i32) {
             let (mantissa, magnitude) = scaled_down(x);
             let (ten, ten_left) = divided(magnitude, num, den);
             let log = mantissa.log10() * exponent + ten_left;
-            (10f64.powf(log.fract()), ten.saturating_add(log.trunc() as i32))
+            (
+                10f64.powf(log.fract()),
+                ten.saturating_add(log.trunc() as i32),
+            )
         }
     }
 }
@@ -202,7 +240,14 @@ impl Fraction {
     fn product(above: [f64; 2], below: [f64; 2], ten: i32) -> Option<Fraction> {
         // Each is at most 2^53, so no product overflows.
         let whole = |[a, b]: [f64; 2]| Some(whole_number(a)? * whole_number(b)?);
-        Some(Fraction { numerator: whole(above)?, denominator: whole(below)?, ten }.reduced())
+        Some(
+            Fraction {
+                numerator: whole(above)?,
+                denominator: whole(below)?,
+                ten,
+            }
+            .reduced(),
+        )
     }
 
     fn reduced(self) -> Fraction {
@@ -219,13 +264,13 @@ impl Fraction {
     fn canonical(self) -> Option<Fraction> {
         let mut f = self.reduced();
         for (divisor, complement) in [(2, 5), (5, 2)] {
-            while f.denominator % divisor == 0 {
+            while f.denominator.is_multiple_of(divisor) {
                 f.denominator /= divisor;
                 f.numerator = f.numerator.checked_mul(complement)?;
                 f.ten = f.ten.checked_sub(1)?;
             }
         }
-        while f.numerator % 10 == 0 && f.numerator > 0 {
+        while f.numerator.is_multiple_of(10) && f.numerator > 0 {
             f.numerator /= 10;
             f.ten = f.ten.checked_add(1)?;
         }
@@ -251,7 +296,9 @@ impl Fraction {
         let mut rest = fraction.numerator % fraction.denominator;
         let mut ten = i64::from(fraction.ten);
         for _ in 0..40 {
-            let Some(tenfold) = rest.checked_mul(10).filter(|r| *r > 0) else { break };
+            let Some(tenfold) = rest.checked_mul(10).filter(|r| *r > 0) else {
+                break;
+            };
             text.push_str(&(tenfold / fraction.denominator).to_string());
             rest = tenfold % fraction.denominator;
             ten -= 1;
@@ -288,7 +335,10 @@ mod tests {
             let expected: f64 = format!("1e{ten}").parse().unwrap();
             assert_eq!(Factor::power_of_ten(ten).value(), expected);
         }
-        assert_eq!(Factor::power_of_ten(-3).ratio(Factor::power_of_ten(-6)), 1000.0);
+        assert_eq!(
+            Factor::power_of_ten(-3).ratio(Factor::power_of_ten(-6)),
+            1000.0
+        );
     }
 
     #[test]

@@ -19,7 +19,12 @@ pub struct UnitError {
 
 impl UnitError {
     pub(super) fn new(code: Code, span: Range<usize>, message: impl Into<String>) -> Self {
-        UnitError { code, span, message: message.into(), help: None }
+        UnitError {
+            code,
+            span,
+            message: message.into(),
+            help: None,
+        }
     }
 
     #[must_use]
@@ -39,8 +44,15 @@ impl From<UnitError> for Fault {
 }
 
 /// All codes of this module, for `gumption explain`.
-pub const CODES: &[Code] =
-    &[UNKNOWN_UNIT, MALFORMED_UNIT, AMBIGUOUS_SOLIDUS, NUMBER_IN_UNIT, BAD_EXPONENT, EMPTY_UNIT, BAD_DEFINITION];
+pub const CODES: &[Code] = &[
+    UNKNOWN_UNIT,
+    MALFORMED_UNIT,
+    AMBIGUOUS_SOLIDUS,
+    NUMBER_IN_UNIT,
+    BAD_EXPONENT,
+    EMPTY_UNIT,
+    BAD_DEFINITION,
+];
 
 /// A name that is no unit.
 pub const UNKNOWN_UNIT: Code = Code {

@@ -31,7 +31,10 @@ struct Style {
 impl Composer {
     /// The unit one, to start with.
     pub fn new() -> Composer {
-        Composer { factors: Vec::new(), style: Style::default() }
+        Composer {
+            factors: Vec::new(),
+            style: Style::default(),
+        }
     }
 
     /// Multiplies by a symbol raised to a whole power.
@@ -68,13 +71,22 @@ impl Composer {
         self.factors.retain(|factor| factor.exponent != 0);
         self.factors.sort_by_key(|factor| factor.exponent < 0);
         let solidus = !self.style.negative_exponents;
-        let (above, below): (Vec<&Written>, Vec<&Written>) =
-            self.factors.iter().partition(|factor| factor.exponent > 0 || !solidus);
+        let (above, below): (Vec<&Written>, Vec<&Written>) = self
+            .factors
+            .iter()
+            .partition(|factor| factor.exponent > 0 || !solidus);
         let joined = |factors: &[&Written], sign: i32| {
-            let written: Vec<String> = factors.iter().map(|f| self.style.write(&f.name, sign * f.exponent)).collect();
+            let written: Vec<String> = factors
+                .iter()
+                .map(|f| self.style.write(&f.name, sign * f.exponent))
+                .collect();
             written.join("·")
         };
-        let numerator = if above.is_empty() { "1".to_owned() } else { joined(&above, 1) };
+        let numerator = if above.is_empty() {
+            "1".to_owned()
+        } else {
+            joined(&above, 1)
+        };
         match below.len() {
             0 => numerator,
             1 => format!("{numerator}/{}", joined(&below, -1)),
@@ -83,12 +95,19 @@ impl Composer {
     }
 
     fn note_style(&mut self, symbol: &str) {
-        self.style.negative_exponents |= ["^-", "^(-", "**-", "^−", "⁻"].iter().any(|sign| symbol.contains(sign));
-        self.style.superscripts |= symbol.contains(['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹', '⁻']);
+        self.style.negative_exponents |= ["^-", "^(-", "**-", "^−", "⁻"]
+            .iter()
+            .any(|sign| symbol.contains(sign));
+        self.style.superscripts |=
+            symbol.contains(['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹', '⁻']);
     }
 
     fn merge(&mut self, name: String, exponent: i32) {
-        match self.factors.iter_mut().find(|factor| same(&factor.name, &name)) {
+        match self
+            .factors
+            .iter_mut()
+            .find(|factor| same(&factor.name, &name))
+        {
             Some(factor) => factor.exponent = factor.exponent.saturating_add(exponent),
             None => self.factors.push(Written { name, exponent }),
         }
@@ -111,7 +130,10 @@ impl Style {
 
 /// Names in a symbol, with look-alike characters unified.
 pub(super) fn names(symbol: &str) -> Vec<String> {
-    read(symbol).into_iter().map(|(name, _)| unified(&name)).collect()
+    read(symbol)
+        .into_iter()
+        .map(|(name, _)| unified(&name))
+        .collect()
 }
 
 /// A symbol as names with exponents. One that does not follow the syntax is a single name in
@@ -122,7 +144,12 @@ fn read(symbol: &str) -> Vec<(String, i32)> {
             .terms
             .into_iter()
             // The user's own spelling is kept.
-            .map(|term| (symbol.get(term.span).map_or(term.name, str::to_owned), term.exponent))
+            .map(|term| {
+                (
+                    symbol.get(term.span).map_or(term.name, str::to_owned),
+                    term.exponent,
+                )
+            })
             .collect(),
         Err(_) => vec![(format!("({symbol})"), STEPS)],
     }
@@ -132,7 +159,10 @@ fn read(symbol: &str) -> Vec<(String, i32)> {
 fn same(a: &str, b: &str) -> bool {
     let key = |name: &str| {
         let name = unified(name);
-        match name.strip_suffix("°C").or_else(|| name.strip_suffix("degC")) {
+        match name
+            .strip_suffix("°C")
+            .or_else(|| name.strip_suffix("degC"))
+        {
             Some(prefix) => format!("{prefix}K"),
             None => name,
         }

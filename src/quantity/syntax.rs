@@ -57,17 +57,38 @@ pub(super) enum Numbers {
 pub(super) fn parse(text: &str, numbers: Numbers) -> Result<Parsed, UnitError> {
     let tokens = tokens(text)?;
     if tokens.is_empty() {
-        return Err(UnitError::new(EMPTY_UNIT, 0..text.len(), "the unit is empty")
-            .help("write \"1\" for a quantity of dimension one"));
+        return Err(
+            UnitError::new(EMPTY_UNIT, 0..text.len(), "the unit is empty")
+                .help("write \"1\" for a quantity of dimension one"),
+        );
     }
-    let bare = matches!(tokens.as_slice(), [Token { kind: Kind::Name(_), .. }]);
-    let mut parser = Parser { text, tokens: &tokens, next: 0, numbers };
+    let bare = matches!(
+        tokens.as_slice(),
+        [Token {
+            kind: Kind::Name(_),
+            ..
+        }]
+    );
+    let mut parser = Parser {
+        text,
+        tokens: &tokens,
+        next: 0,
+        numbers,
+    };
     let product = parser.product(0)?;
     if let Some(token) = parser.peek() {
-        return Err(UnitError::new(MALFORMED_UNIT, token.span.clone(), "this parenthesis is not open")
-            .help("remove it, or open it before the unit it should enclose"));
+        return Err(UnitError::new(
+            MALFORMED_UNIT,
+            token.span.clone(),
+            "this parenthesis is not open",
+        )
+        .help("remove it, or open it before the unit it should enclose"));
     }
-    Ok(Parsed { terms: product.terms, number: product.number, bare })
+    Ok(Parsed {
+        terms: product.terms,
+        number: product.number,
+        bare,
+    })
 }
 
 struct Parser<'t> {
@@ -85,7 +106,10 @@ struct Product {
 
 impl Product {
     fn one() -> Product {
-        Product { terms: Vec::new(), number: Factor::ONE }
+        Product {
+            terms: Vec::new(),
+            number: Factor::ONE,
+        }
     }
 
     fn append(&mut self, other: Product) {
@@ -97,7 +121,8 @@ impl Product {
     fn raised(mut self, sixtieths: i32) -> Option<Product> {
         for term in &mut self.terms {
             let exponent = term.exponent * sixtieths;
-            let in_range = exponent % STEPS == 0 && (exponent / STEPS).abs() <= LARGEST_EXPONENT * STEPS;
+            let in_range =
+                exponent % STEPS == 0 && (exponent / STEPS).abs() <= LARGEST_EXPONENT * STEPS;
             term.exponent = in_range.then_some(exponent / STEPS)?;
         }
         self.number = self.number.powr(sixtieths, STEPS);
@@ -119,12 +144,18 @@ impl Parser<'_> {
 
     /// The empty range after the last token read.
     fn here(&self) -> Range<usize> {
-        let end = self.next.checked_sub(1).and_then(|i| self.tokens.get(i)).map_or(0, |t| t.span.end);
+        let end = self
+            .next
+            .checked_sub(1)
+            .and_then(|i| self.tokens.get(i))
+            .map_or(0, |t| t.span.end);
         end..end
     }
 
     fn product(&mut self, depth: usize) -> Result<Product, UnitError> {
-        let start = self.peek().map_or(self.here().start, |token| token.span.start);
+        let start = self
+            .peek()
+            .map_or(self.here().start, |token| token.span.start);
         let mut result = self.operand(depth)?;
         let mut divided_by_name = None;
         loop {
@@ -134,7 +165,9 @@ impl Parser<'_> {
                 if !divisor.terms.is_empty() {
                     divided_by_name = Some(divisor_start);
                 }
-                let inverse = divisor.raised(-STEPS).ok_or_else(|| self.too_large(solidus))?;
+                let inverse = divisor
+                    .raised(-STEPS)
+                    .ok_or_else(|| self.too_large(solidus))?;
                 result.append(inverse);
             } else if let Some(operator) = self.times() {
                 if let Some(divisor_start) = divided_by_name {
@@ -158,7 +191,13 @@ impl Parser<'_> {
         starts_operand.then_some(token.span.start..token.span.start)
     }
 
-    fn ambiguous(&mut self, start: usize, divisor: usize, operator: Range<usize>, depth: usize) -> UnitError {
+    fn ambiguous(
+        &mut self,
+        start: usize,
+        divisor: usize,
+        operator: Range<usize>,
+        depth: usize,
+    ) -> UnitError {
         let before = self.text[start..divisor].trim_end();
         let first = self.text[divisor..operator.start].trim_end();
         let second_start = self.peek().map_or(operator.end, |token| token.span.start);
@@ -177,7 +216,9 @@ impl Parser<'_> {
         let below = format!("`{numerator}/({first}·{second})`");
         match numerator {
             "1" => error.help(format!("write {below} or `{second}/{first}`")),
-            _ if numerator.contains('/') => error.help(format!("write {below}, or negative exponents")),
+            _ if numerator.contains('/') => {
+                error.help(format!("write {below}, or negative exponents"))
+            }
             _ => error.help(format!("write {below} or `{numerator}·{second}/{first}`")),
         }
     }
@@ -185,11 +226,20 @@ impl Parser<'_> {
     fn operand(&mut self, depth: usize) -> Result<Product, UnitError> {
         if let Some(root) = self.eat(&Kind::Root) {
             let radicand = self.primary(depth)?;
-            if let Some(power) = self.peek().filter(|t| matches!(t.kind, Kind::Power | Kind::Superscript(_))) {
-                return Err(UnitError::new(BAD_EXPONENT, power.span.clone(), "is this power under the root or not?")
-                    .help("put what stands under the root in parentheses, as in `√(m^3)`"));
+            if let Some(power) = self
+                .peek()
+                .filter(|t| matches!(t.kind, Kind::Power | Kind::Superscript(_)))
+            {
+                return Err(UnitError::new(
+                    BAD_EXPONENT,
+                    power.span.clone(),
+                    "is this power under the root or not?",
+                )
+                .help("put what stands under the root in parentheses, as in `√(m^3)`"));
             }
-            return radicand.raised(STEPS / 2).ok_or_else(|| self.too_large(root));
+            return radicand
+                .raised(STEPS / 2)
+                .ok_or_else(|| self.too_large(root));
         }
         let base = self.primary(depth)?;
         match self.exponent()? {
@@ -204,21 +254,39 @@ impl Parser<'_> {
         };
         self.next += 1;
         match token.kind {
-            Kind::Name(name) if name == "sqrt" && self.peek().is_some_and(|t| t.kind == Kind::Open) => {
+            Kind::Name(name)
+                if name == "sqrt" && self.peek().is_some_and(|t| t.kind == Kind::Open) =>
+            {
                 let radicand = self.primary(depth)?;
-                radicand.raised(STEPS / 2).ok_or_else(|| self.too_large(token.span))
+                radicand
+                    .raised(STEPS / 2)
+                    .ok_or_else(|| self.too_large(token.span))
             }
             Kind::Name(name) if self.numbers == Numbers::Any && (name == "pi" || name == "π") => {
-                Ok(Product { number: Factor::PI, ..Product::one() })
+                Ok(Product {
+                    number: Factor::PI,
+                    ..Product::one()
+                })
             }
             Kind::Name(name) => {
-                let term = NamedTerm { name, span: token.span, exponent: STEPS };
-                Ok(Product { terms: vec![term], ..Product::one() })
+                let term = NamedTerm {
+                    name,
+                    span: token.span,
+                    exponent: STEPS,
+                };
+                Ok(Product {
+                    terms: vec![term],
+                    ..Product::one()
+                })
             }
             Kind::Number => self.number(token.span),
             Kind::Open => self.parenthesis(token.span, depth),
-            Kind::Minus => Err(UnitError::new(MALFORMED_UNIT, token.span, "a unit has no minus sign")
-                .help("write a product as `N·m`, a negative exponent as `s^-1`")),
+            Kind::Minus => {
+                Err(
+                    UnitError::new(MALFORMED_UNIT, token.span, "a unit has no minus sign")
+                        .help("write a product as `N·m`, a negative exponent as `s^-1`"),
+                )
+            }
             _ => Err(self.missing_operand(token.span)),
         }
     }
@@ -226,38 +294,64 @@ impl Parser<'_> {
     fn number(&self, span: Range<usize>) -> Result<Product, UnitError> {
         let text = &self.text[span.clone()];
         let factor = Factor::from_decimal(text).ok_or_else(|| {
-            UnitError::new(NUMBER_IN_UNIT, span.clone(), format!("`{text}` cannot be a factor of a unit"))
-                .help("use a positive number of at most fifteen digits")
+            UnitError::new(
+                NUMBER_IN_UNIT,
+                span.clone(),
+                format!("`{text}` cannot be a factor of a unit"),
+            )
+            .help("use a positive number of at most fifteen digits")
         })?;
         if self.numbers == Numbers::OneOnly && text != "1" {
-            return Err(UnitError::new(NUMBER_IN_UNIT, span, format!("the number {text} does not belong in a unit"))
-                .help("multiply the value by it, or define a unit of your own in the [unit] table; \
-                       fractional exponents need parentheses, as in `Hz^(1/2)`"));
+            return Err(UnitError::new(
+                NUMBER_IN_UNIT,
+                span,
+                format!("the number {text} does not belong in a unit"),
+            )
+            .help(
+                "multiply the value by it, or define a unit of your own in the [unit] table; \
+                       fractional exponents need parentheses, as in `Hz^(1/2)`",
+            ));
         }
-        Ok(Product { number: factor, ..Product::one() })
+        Ok(Product {
+            number: factor,
+            ..Product::one()
+        })
     }
 
     fn parenthesis(&mut self, open: Range<usize>, depth: usize) -> Result<Product, UnitError> {
         if depth >= DEEPEST {
-            return Err(UnitError::new(MALFORMED_UNIT, open, "the parentheses are nested too deeply")
-                .help("write the unit as a plain product of powers"));
+            return Err(UnitError::new(
+                MALFORMED_UNIT,
+                open,
+                "the parentheses are nested too deeply",
+            )
+            .help("write the unit as a plain product of powers"));
         }
         let inner = self.product(depth + 1)?;
         match self.eat(&Kind::Close) {
             Some(_) => Ok(inner),
-            None => Err(UnitError::new(MALFORMED_UNIT, open, "this parenthesis is never closed").help("add `)`")),
+            None => Err(
+                UnitError::new(MALFORMED_UNIT, open, "this parenthesis is never closed")
+                    .help("add `)`"),
+            ),
         }
     }
 
     /// The exponent after an operand, in sixtieths, with its span.
     fn exponent(&mut self) -> Result<Option<(i32, Range<usize>)>, UnitError> {
-        if let Some(Token { kind: Kind::Superscript(exponent), span }) = self.peek().cloned() {
+        if let Some(Token {
+            kind: Kind::Superscript(exponent),
+            span,
+        }) = self.peek().cloned()
+        {
             self.next += 1;
             let exponent = exponent.filter(|e| e.abs() <= LARGEST_EXPONENT);
             let exponent = exponent.ok_or_else(|| self.too_large(span.clone()))?;
             return Ok(Some((exponent * STEPS, span)));
         }
-        let Some(caret) = self.eat(&Kind::Power) else { return Ok(None) };
+        let Some(caret) = self.eat(&Kind::Power) else {
+            return Ok(None);
+        };
         let value = if self.eat(&Kind::Open).is_some() {
             let numerator = self.signed_number(&caret)?;
             let denominator = match self.eat(&Kind::Over) {
@@ -266,8 +360,12 @@ impl Parser<'_> {
             };
             if self.eat(&Kind::Close).is_none() {
                 let span = caret.start..self.here().end;
-                return Err(UnitError::new(BAD_EXPONENT, span, "this exponent has no closing parenthesis")
-                    .help("write it as in `Hz^(1/2)`"));
+                return Err(UnitError::new(
+                    BAD_EXPONENT,
+                    span,
+                    "this exponent has no closing parenthesis",
+                )
+                .help("write it as in `Hz^(1/2)`"));
             }
             numerator / denominator
         } else {
@@ -280,7 +378,10 @@ impl Parser<'_> {
             return Err(UnitError::new(
                 BAD_EXPONENT,
                 span.clone(),
-                format!("`{}` is not an exponent that a unit can have", &self.text[span]),
+                format!(
+                    "`{}` is not an exponent that a unit can have",
+                    &self.text[span]
+                ),
             )
             .help("use a whole number or a simple fraction such as (1/2) or (2/3)"));
         }
@@ -288,13 +389,19 @@ impl Parser<'_> {
     }
 
     fn signed_number(&mut self, caret: &Range<usize>) -> Result<f64, UnitError> {
-        let sign = if self.eat(&Kind::Minus).is_some() { -1.0 } else { 1.0 };
+        let sign = if self.eat(&Kind::Minus).is_some() {
+            -1.0
+        } else {
+            1.0
+        };
         let number = self.peek().filter(|token| token.kind == Kind::Number);
         let value = number.and_then(|token| self.text[token.span.clone()].parse::<f64>().ok());
         let Some(value) = value else {
             let span = caret.start..self.here().end;
-            return Err(UnitError::new(BAD_EXPONENT, span, "a number is missing in the exponent")
-                .help("write it as in `m^2`, `s^-1` or `Hz^(1/2)`"));
+            return Err(
+                UnitError::new(BAD_EXPONENT, span, "a number is missing in the exponent")
+                    .help("write it as in `m^2`, `s^-1` or `Hz^(1/2)`"),
+            );
         };
         self.next += 1;
         Ok(sign * value)
@@ -309,8 +416,14 @@ impl Parser<'_> {
     }
 
     fn too_large(&self, span: Range<usize>) -> UnitError {
-        UnitError::new(BAD_EXPONENT, span, "this makes an exponent that no unit can have")
-            .help(format!("exponents are simple fractions between -{LARGEST_EXPONENT} and {LARGEST_EXPONENT}"))
+        UnitError::new(
+            BAD_EXPONENT,
+            span,
+            "this makes an exponent that no unit can have",
+        )
+        .help(format!(
+            "exponents are simple fractions between -{LARGEST_EXPONENT} and {LARGEST_EXPONENT}"
+        ))
     }
 }
 
@@ -320,7 +433,11 @@ mod tests {
 
     fn terms(text: &str) -> String {
         let parsed = parse(text, Numbers::OneOnly).unwrap();
-        parsed.terms.iter().map(|t| format!("{}:{} ", t.name, f64::from(t.exponent) / 60.0)).collect()
+        parsed
+            .terms
+            .iter()
+            .map(|t| format!("{}:{} ", t.name, f64::from(t.exponent) / 60.0))
+            .collect()
     }
 
     fn error(text: &str) -> (Range<usize>, String, String) {
@@ -331,10 +448,29 @@ mod tests {
     #[test]
     fn all_spellings_of_an_acceleration_are_the_same() {
         for text in [
-            "m/s^2", "m·s^-2", "m*s**-2", "m s^-2", "m/s²", "m·s⁻²", "m⋅s^(-2)", "m/s/s", "m/(s s)", "m/(s^2)",
-            " m / s ^ 2 ", "m s⁻²", "m×s^-2.0", "m／s²", "(m/s^2)", "m·s^−2",
+            "m/s^2",
+            "m·s^-2",
+            "m*s**-2",
+            "m s^-2",
+            "m/s²",
+            "m·s⁻²",
+            "m⋅s^(-2)",
+            "m/s/s",
+            "m/(s s)",
+            "m/(s^2)",
+            " m / s ^ 2 ",
+            "m s⁻²",
+            "m×s^-2.0",
+            "m／s²",
+            "(m/s^2)",
+            "m·s^−2",
         ] {
-            let total: i32 = parse(text, Numbers::OneOnly).unwrap().terms.iter().map(|t| t.exponent).sum();
+            let total: i32 = parse(text, Numbers::OneOnly)
+                .unwrap()
+                .terms
+                .iter()
+                .map(|t| t.exponent)
+                .sum();
             assert_eq!(total, -STEPS, "{text}");
         }
         assert_eq!(terms("m/s^2"), "m:1 s:-2 ");
@@ -342,7 +478,15 @@ mod tests {
 
     #[test]
     fn roots_and_fractions() {
-        for text in ["V/√Hz", "V/sqrt(Hz)", "V/Hz^(1/2)", "V/Hz^0.5", "V·Hz^-0.5", "V Hz^(-1/2)", "V/√(Hz)"] {
+        for text in [
+            "V/√Hz",
+            "V/sqrt(Hz)",
+            "V/Hz^(1/2)",
+            "V/Hz^0.5",
+            "V·Hz^-0.5",
+            "V Hz^(-1/2)",
+            "V/√(Hz)",
+        ] {
             assert_eq!(terms(text), "V:1 Hz:-0.5 ", "{text}");
         }
         assert_eq!(terms("(m^2/s)^(1/2)"), "m:1 s:-0.5 ");
@@ -362,7 +506,10 @@ mod tests {
         let parsed = parse("1/65536 V", Numbers::Any).unwrap();
         assert_eq!(parsed.number.value(), 1.0 / 65536.0);
         assert_eq!(parsed.terms.len(), 1);
-        assert_eq!(parse("2 pi rad", Numbers::Any).unwrap().number.value(), std::f64::consts::TAU);
+        assert_eq!(
+            parse("2 pi rad", Numbers::Any).unwrap().number.value(),
+            std::f64::consts::TAU
+        );
         assert_eq!(parse("10^-6 m", Numbers::Any).unwrap().number.value(), 1e-6);
     }
 
@@ -374,7 +521,10 @@ mod tests {
         assert_eq!(help, "write `W/(m·K)` or `W·K/m`");
         assert_eq!(error("J/kg K").2, "write `J/(kg·K)` or `J·K/kg`");
         assert_eq!(error("1/s m").2, "write `1/(s·m)` or `m/s`");
-        assert_eq!(error("J/kg·").2, "put what stands below the solidus in parentheses");
+        assert_eq!(
+            error("J/kg·").2,
+            "put what stands below the solidus in parentheses"
+        );
     }
 
     #[test]
@@ -392,10 +542,16 @@ mod tests {
         assert_eq!(error("(m^60)^60").0, 6..9);
         assert_eq!(error("10 V").1, "the number 10 does not belong in a unit");
         assert_eq!(error("s^1/2").0, 4..5);
-        assert_eq!(error("N-m").2, "write a product as `N·m`, a negative exponent as `s^-1`");
+        assert_eq!(
+            error("N-m").2,
+            "write a product as `N·m`, a negative exponent as `s^-1`"
+        );
         assert_eq!(error("√Hz^2").0, 5..6);
         assert_eq!(error("m&s").0, 1..2);
-        assert_eq!(error("m^(1/2").1, "this exponent has no closing parenthesis");
+        assert_eq!(
+            error("m^(1/2").1,
+            "this exponent has no closing parenthesis"
+        );
         assert!(error(&"(".repeat(100_000)).1.contains("nested too deeply"));
     }
 }

@@ -39,7 +39,8 @@ pub enum DefinitionError {
 static BUILTIN: LazyLock<HashMap<&'static str, Scale>> = LazyLock::new(|| {
     let mut known = HashMap::new();
     for row in UNITS {
-        let scale = builtin_scale(row, &known).expect("a built-in definition uses only the rows before it");
+        let scale =
+            builtin_scale(row, &known).expect("a built-in definition uses only the rows before it");
         for name in std::iter::once(&row.symbol).chain(row.aliases) {
             known.insert(*name, scale);
         }
@@ -59,9 +60,15 @@ fn builtin_scale(row: &BuiltinUnit, known: &HashMap<&'static str, Scale>) -> Opt
             Scale::coherent(Dimension::of(exponents), Factor::power_of_ten(ten))
         }
         Definition::Equal(text) => equal(text)?,
-        Definition::Point(step, zero) => Scale { origin: Some(zero), ..equal(step)? },
+        Definition::Point(step, zero) => Scale {
+            origin: Some(zero),
+            ..equal(step)?
+        },
         Definition::Decibels(count) => {
-            let factor = Factor { numerator: count, ..Factor::ONE };
+            let factor = Factor {
+                numerator: count,
+                ..Factor::ONE
+            };
             Scale::coherent(Dimension::of([0, 0, 0, 0, 0, 0, 0, 1]), factor)
         }
     };
@@ -71,7 +78,12 @@ fn builtin_scale(row: &BuiltinUnit, known: &HashMap<&'static str, Scale>) -> Opt
 
 impl Scale {
     fn coherent(dimension: Dimension, factor: Factor) -> Scale {
-        Scale { dimension, factor, origin: None, prefixes: Prefixes::All }
+        Scale {
+            dimension,
+            factor,
+            origin: None,
+            prefixes: Prefixes::All,
+        }
     }
 }
 
@@ -85,7 +97,8 @@ impl UnitTable {
     /// The first fault of the text.
     pub fn parse(&self, text: &str) -> Result<Unit, UnitError> {
         let parsed = parse(text, Numbers::OneOnly)?;
-        let scale = combine(&parsed, |name| self.lookup(name)).map_err(|fault| self.explained(fault))?;
+        let scale =
+            combine(&parsed, |name| self.lookup(name)).map_err(|fault| self.explained(fault))?;
         Ok(Unit {
             dimension: scale.dimension,
             factor: scale.factor,
@@ -102,9 +115,17 @@ impl UnitTable {
     pub fn define(&mut self, name: &str, definition: &str) -> Result<(), DefinitionError> {
         let key = own_name(name).map_err(DefinitionError::Name)?;
         let scale = parse(definition, Numbers::Any)
-            .and_then(|parsed| combine(&parsed, |name| self.lookup(name)).map_err(|fault| self.explained(fault)))
+            .and_then(|parsed| {
+                combine(&parsed, |name| self.lookup(name)).map_err(|fault| self.explained(fault))
+            })
             .map_err(DefinitionError::Definition)?;
-        self.own.insert(key, Scale { prefixes: Prefixes::All, ..scale });
+        self.own.insert(
+            key,
+            Scale {
+                prefixes: Prefixes::All,
+                ..scale
+            },
+        );
         Ok(())
     }
 
@@ -117,10 +138,16 @@ impl UnitTable {
         let mut faults = Vec::new();
         while !waiting.is_empty() {
             let names: Vec<String> = waiting.iter().map(|(_, (name, _))| unified(name)).collect();
-            let (ready, blocked): (Vec<_>, Vec<_>) =
-                waiting.iter().copied().partition(|(_, (_, definition))| used(definition, &names).is_none());
+            let (ready, blocked): (Vec<_>, Vec<_>) = waiting
+                .iter()
+                .copied()
+                .partition(|(_, (_, definition))| used(definition, &names).is_none());
             if ready.is_empty() {
-                faults.extend(blocked.iter().filter_map(|(i, entry)| Some((*i, circular(*entry, &names)?))));
+                faults.extend(
+                    blocked
+                        .iter()
+                        .filter_map(|(i, entry)| Some((*i, circular(*entry, &names)?))),
+                );
                 break;
             }
             for (i, (name, definition)) in ready {
@@ -145,13 +172,25 @@ impl UnitTable {
     fn explained(&self, fault: CombineFault) -> UnitError {
         match fault {
             CombineFault::Unknown(term) => {
-                let help = advice::for_unknown(&term.name, |name| self.lookup(name).is_some(), self.own.keys());
-                UnitError::new(UNKNOWN_UNIT, term.span, format!("`{}` is not a known unit", term.name)).help(help)
+                let help = advice::for_unknown(
+                    &term.name,
+                    |name| self.lookup(name).is_some(),
+                    self.own.keys(),
+                );
+                UnitError::new(
+                    UNKNOWN_UNIT,
+                    term.span,
+                    format!("`{}` is not a known unit", term.name),
+                )
+                .help(help)
             }
             CombineFault::Exponent(term) => UnitError::new(
                 BAD_EXPONENT,
                 term.span,
-                format!("this power of `{}` has an exponent that no unit can have", term.name),
+                format!(
+                    "this power of `{}` has an exponent that no unit can have",
+                    term.name
+                ),
             ),
         }
     }
@@ -159,7 +198,11 @@ impl UnitTable {
 
 /// Finds a name: as a whole before any prefix is split off, so that `min` is the minute and `cd` the
 /// candela; the file's own units before the built-in ones.
-fn lookup(name: &str, own: &HashMap<String, Scale>, builtin: &HashMap<&'static str, Scale>) -> Option<Scale> {
+fn lookup(
+    name: &str,
+    own: &HashMap<String, Scale>,
+    builtin: &HashMap<&'static str, Scale>,
+) -> Option<Scale> {
     let whole = |name: &str| own.get(name).or_else(|| builtin.get(name)).copied();
     whole(name).or_else(|| {
         PREFIXES.iter().find_map(|(prefix, ten)| {
@@ -170,7 +213,11 @@ fn lookup(name: &str, own: &HashMap<String, Scale>, builtin: &HashMap<&'static s
                 Prefixes::All => true,
             };
             let factor = scale.factor.product(Factor::power_of_ten(*ten));
-            fits.then_some(Scale { factor, prefixes: Prefixes::None, ..scale })
+            fits.then_some(Scale {
+                factor,
+                prefixes: Prefixes::None,
+                ..scale
+            })
         })
     })
 }
@@ -188,7 +235,9 @@ fn combine(parsed: &Parsed, lookup: impl Fn(&str) -> Option<Scale>) -> Result<Sc
         let dimension = scale.dimension.powr(term.exponent, STEPS);
         let dimension = dimension.ok_or_else(|| CombineFault::Exponent(term.clone()))?;
         result.dimension = result.dimension.product(dimension);
-        result.factor = result.factor.product(scale.factor.powr(term.exponent, STEPS));
+        result.factor = result
+            .factor
+            .product(scale.factor.powr(term.exponent, STEPS));
         result.origin = scale.origin.filter(|_| parsed.bare);
     }
     Ok(result)
@@ -197,12 +246,18 @@ fn combine(parsed: &Parsed, lookup: impl Fn(&str) -> Option<Scale>) -> Result<Sc
 /// Checks the name of a unit that a file defines.
 fn own_name(name: &str) -> Result<String, UnitError> {
     let fault = || {
-        UnitError::new(BAD_DEFINITION, 0..name.len(), format!("`{name}` cannot be the name of a unit"))
-            .help("use a single name without spaces and operators, such as `count` or `FS`")
+        UnitError::new(
+            BAD_DEFINITION,
+            0..name.len(),
+            format!("`{name}` cannot be the name of a unit"),
+        )
+        .help("use a single name without spaces and operators, such as `count` or `FS`")
     };
     match tokens(name).map_err(|_| fault())?.as_slice() {
         [token] if token.span == (0..name.len()) => match &token.kind {
-            Kind::Name(unified) if !["sqrt", "pi", "π"].contains(&unified.as_str()) => Ok(unified.clone()),
+            Kind::Name(unified) if !["sqrt", "pi", "π"].contains(&unified.as_str()) => {
+                Ok(unified.clone())
+            }
             _ => Err(fault()),
         },
         _ => Err(fault()),
@@ -212,27 +267,43 @@ fn own_name(name: &str) -> Result<String, UnitError> {
 /// The first of `names` that a definition uses, with or without a prefix, and where.
 fn used(definition: &str, names: &[String]) -> Option<NamedTerm> {
     let depends = |term: &NamedTerm| {
-        let prefixed = |name: &String| PREFIXES.iter().any(|(p, _)| term.name.strip_prefix(p) == Some(name.as_str()));
-        names.contains(&term.name) || (!BUILTIN.contains_key(term.name.as_str()) && names.iter().any(prefixed))
+        let prefixed = |name: &String| {
+            PREFIXES
+                .iter()
+                .any(|(p, _)| term.name.strip_prefix(p) == Some(name.as_str()))
+        };
+        names.contains(&term.name)
+            || (!BUILTIN.contains_key(term.name.as_str()) && names.iter().any(prefixed))
     };
-    parse(definition, Numbers::Any).ok()?.terms.into_iter().find(depends)
+    parse(definition, Numbers::Any)
+        .ok()?
+        .terms
+        .into_iter()
+        .find(depends)
 }
 
 fn circular((name, definition): (&str, &str), names: &[String]) -> Option<DefinitionError> {
     let term = used(definition, names)?;
-    let message = format!("`{name}` cannot be defined by `{}`, which is itself waiting for a definition", term.name);
+    let message = format!(
+        "`{name}` cannot be defined by `{}`, which is itself waiting for a definition",
+        term.name
+    );
     Some(DefinitionError::Definition(
-        UnitError::new(BAD_DEFINITION, term.span, message)
-            .help("these definitions run in a circle; define one of them by units that are built in"),
+        UnitError::new(BAD_DEFINITION, term.span, message).help(
+            "these definitions run in a circle; define one of them by units that are built in",
+        ),
     ))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::builtin::UnitKind;
     use super::*;
 
     fn unit(text: &str) -> Unit {
-        UnitTable::default().parse(text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
+        UnitTable::default()
+            .parse(text)
+            .unwrap_or_else(|e| panic!("{text}: {e:?}"))
     }
 
     fn error(text: &str) -> UnitError {
@@ -242,7 +313,10 @@ mod tests {
     #[test]
     fn every_prefix_goes_with_every_si_unit() {
         let exponent = |ten: i32| format!("1e{ten}").parse::<f64>().unwrap();
-        for row in UNITS.iter().filter(|u| u.kind == UnitKind::Si && u.prefixes == Prefixes::All) {
+        for row in UNITS
+            .iter()
+            .filter(|u| u.kind == UnitKind::Si && u.prefixes == Prefixes::All)
+        {
             for (prefix, ten) in PREFIXES {
                 let text = format!("{prefix}{}", row.symbol);
                 // Names that exist as a whole win: cd, Pa, kg, min, ft, mil …
@@ -250,20 +324,22 @@ mod tests {
                     continue;
                 }
                 let scaled = unit(&text);
-                assert_eq!(scaled.factor.ratio(unit(row.symbol).factor), exponent(*ten), "{text}");
+                assert_eq!(
+                    scaled.factor.ratio(unit(row.symbol).factor),
+                    exponent(*ten),
+                    "{text}"
+                );
                 assert_eq!(scaled.dimension, unit(row.symbol).dimension, "{text}");
             }
         }
     }
-
-    use super::super::builtin::UnitKind;
 
     #[test]
     fn whole_names_win_over_prefixes() {
         let dimension = |text: &str| unit(text).dimension.to_string();
         assert_eq!(dimension("min"), "s");
         assert_eq!(dimension("cd"), "cd");
-        assert_eq!(dimension("Pa"), "m^-1·kg·s^-2");
+        assert_eq!(dimension("Pa"), "kg·m^-1·s^-2");
         assert_eq!(dimension("mol"), "mol");
         assert_eq!(dimension("ft"), "m");
         assert_eq!(dimension("dB"), "dB");
@@ -309,19 +385,43 @@ mod tests {
             ("mΩ/kΩ", 1e-6),
         ] {
             let found = unit(text).factor.value();
-            assert!((found / value - 1.0).abs() < 4e-16, "{text}: {found} instead of {value}");
+            assert!(
+                (found / value - 1.0).abs() < 4e-16,
+                "{text}: {found} instead of {value}"
+            );
         }
     }
 
     #[test]
     fn laboratory_spellings_are_read() {
         for (a, b) in [
-            ("℃", "°C"), ("degC", "°C"), ("\u{2126}", "Ω"), ("ohm", "Ω"), ("μV/V", "uV/V"), ("deg/s", "°/s"), ("\"", "arcsec"),
-            ("'", "arcmin"), ("″", "arcsec"), ("°/h", "deg/h"), ("g_n", "gn"), ("µV/(V·K)", "uV/V/K"), ("l", "L"),
-            ("m/s²/√Hz", "m/s^2/sqrt(Hz)"), ("％", "%"), ("r/min", "rpm"), ("ml", "mL"), ("ppm/℃", "ppm/K"),
+            ("℃", "°C"),
+            ("degC", "°C"),
+            ("\u{2126}", "Ω"),
+            ("ohm", "Ω"),
+            ("μV/V", "uV/V"),
+            ("deg/s", "°/s"),
+            ("\"", "arcsec"),
+            ("'", "arcmin"),
+            ("″", "arcsec"),
+            ("°/h", "deg/h"),
+            ("g_n", "gn"),
+            ("µV/(V·K)", "uV/V/K"),
+            ("l", "L"),
+            ("m/s²/√Hz", "m/s^2/sqrt(Hz)"),
+            ("％", "%"),
+            ("r/min", "rpm"),
+            ("ml", "mL"),
+            ("ppm/℃", "ppm/K"),
         ] {
             let (a, b) = (unit(a), unit(b));
-            assert_eq!((a.dimension, a.factor, a.origin), (b.dimension, b.factor, b.origin), "{} {}", a.symbol, b.symbol);
+            assert_eq!(
+                (a.dimension, a.factor, a.origin),
+                (b.dimension, b.factor, b.origin),
+                "{} {}",
+                a.symbol,
+                b.symbol
+            );
         }
         assert_eq!(unit(" m/s^2 ").symbol, "m/s^2");
         assert_eq!(unit("1"), Unit::one());
@@ -355,7 +455,11 @@ mod tests {
         assert_eq!(suggestion("m2"), "write `m^2`");
         assert_eq!(suggestion("mm3"), "write `mm^3`");
         assert_eq!(suggestion("meters"), "write `m`");
-        assert!(suggestion("arcsecs").contains("arcsec"));
+        assert!(suggestion("arcsecs").contains("`arcsec`"));
+        assert_eq!(suggestion("Nm"), "write `N·m` for the product");
+        assert!(suggestion("Pas").contains("`Pa·s`"));
+        assert!(suggestion("arcmni").contains("`arcmin`"));
+        assert_eq!(suggestion("m/s2"), "write `s^2`");
         assert!(suggestion("Vrms").contains("`V`"));
         assert!(suggestion("dBm").contains("[unit]"));
         assert!(suggestion("M").contains("`m`"));
@@ -370,9 +474,20 @@ mod tests {
         table.define("g", "9.80665 m/s^2").unwrap();
         assert_eq!(table.parse("ppm·FS").unwrap().factor.value(), 1e-5);
         assert_eq!(table.parse("tick/s").unwrap().dimension.to_string(), "s^-1");
-        assert_eq!(table.parse("µg").unwrap().conversion_to(&unit("µgn")).unwrap().factor, 1.0);
+        assert_eq!(
+            table
+                .parse("µg")
+                .unwrap()
+                .conversion_to(&unit("µgn"))
+                .unwrap()
+                .factor,
+            1.0
+        );
         assert_eq!(table.parse("kg").unwrap(), unit("kg"), "mass stays mass");
-        assert_eq!(table.parse("mA/g").unwrap().dimension, unit("mA/gn").dimension);
+        assert_eq!(
+            table.parse("mA/g").unwrap().dimension,
+            unit("mA/gn").dimension
+        );
         table.define("Cels", "°C").unwrap();
         assert!(table.parse("Cels").unwrap().is_point());
         table.define("dK", "10^-1 °C").unwrap();
@@ -384,7 +499,13 @@ mod tests {
         let mut table = UnitTable::default();
         assert_eq!(table.define_all([("b", "2 ka_"), ("a_", "3 mm")]), []);
         assert_eq!(table.parse("b").unwrap().factor.value(), 6.0);
-        let faults = table.define_all([("x_", "2 y_"), ("ok", "V"), ("y_", "x_/2"), ("q w", "V"), ("z", "2 nix")]);
+        let faults = table.define_all([
+            ("x_", "2 y_"),
+            ("ok", "V"),
+            ("y_", "x_/2"),
+            ("q w", "V"),
+            ("z", "2 nix"),
+        ]);
         let codes: Vec<_> = faults
             .iter()
             .map(|(i, fault)| match fault {
@@ -392,10 +513,27 @@ mod tests {
                 DefinitionError::Definition(e) => (*i, "definition", e.span.clone()),
             })
             .collect();
-        assert_eq!(codes, [(0, "definition", 2..4), (2, "definition", 0..2), (3, "name", 0..3), (4, "definition", 2..5)]);
+        assert_eq!(
+            codes,
+            [
+                (0, "definition", 2..4),
+                (2, "definition", 0..2),
+                (3, "name", 0..3),
+                (4, "definition", 2..5)
+            ]
+        );
         assert!(table.parse("ok").is_ok());
-        assert!(matches!(table.define("V", "0 m"), Err(DefinitionError::Definition(_))));
-        assert!(matches!(table.define("", "m"), Err(DefinitionError::Name(_))));
-        assert!(matches!(table.define("2x", "m"), Err(DefinitionError::Name(_))));
+        assert!(matches!(
+            table.define("V", "0 m"),
+            Err(DefinitionError::Definition(_))
+        ));
+        assert!(matches!(
+            table.define("", "m"),
+            Err(DefinitionError::Name(_))
+        ));
+        assert!(matches!(
+            table.define("2x", "m"),
+            Err(DefinitionError::Name(_))
+        ));
     }
 }

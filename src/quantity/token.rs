@@ -50,7 +50,9 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
             '√' => Kind::Root,
             _ if superscript(c).is_some() => {
                 let digits = superscript(c).into_iter().chain(std::iter::from_fn(|| {
-                    chars.next_if(|(_, c)| superscript(*c).is_some()).and_then(|(_, c)| superscript(c))
+                    chars
+                        .next_if(|(_, c)| superscript(*c).is_some())
+                        .and_then(|(_, c)| superscript(c))
                 }));
                 Kind::Superscript(digits.collect::<String>().parse().ok())
             }
@@ -65,12 +67,19 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, UnitError> {
             }
             _ => {
                 let span = start..start + c.len_utf8();
-                return Err(UnitError::new(MALFORMED_UNIT, span, format!("`{c}` has no meaning in a unit"))
-                    .help("units are written as in `m/s^2`, `µV/(V·K)` or `°/√h`"));
+                return Err(UnitError::new(
+                    MALFORMED_UNIT,
+                    span,
+                    format!("`{c}` has no meaning in a unit"),
+                )
+                .help("units are written as in `m/s^2`, `µV/(V·K)` or `°/√h`"));
             }
         };
         let end = chars.peek().map_or(text.len(), |(next, _)| *next);
-        result.push(Token { kind, span: start..end });
+        result.push(Token {
+            kind,
+            span: start..end,
+        });
     }
     Ok(result)
 }
@@ -89,7 +98,7 @@ pub(super) fn unified(name: &str) -> String {
 
 /// Characters and the spelling that stands for all of them.
 const LOOK_ALIKES: &[(&[char], &str)] = &[
-    (&['\u{3bc}'], "µ"), // Greek mu for the micro sign
+    (&['\u{3bc}'], "µ"),  // Greek mu for the micro sign
     (&['\u{2126}'], "Ω"), // ohm sign for Greek Omega
     (&['\u{212a}'], "K"), // kelvin sign
     (&['\u{212b}'], "Å"), // angstrom sign
@@ -123,7 +132,9 @@ fn superscript(c: char) -> Option<char> {
 
 /// Skips the rest of `12.5e-3`; an `e` counts only before digits, so that `1eV` stays readable.
 fn skip_number(chars: &mut Peekable<CharIndices<'_>>) {
-    let digits = |chars: &mut Peekable<CharIndices<'_>>| while chars.next_if(|(_, c)| c.is_ascii_digit()).is_some() {};
+    let digits = |chars: &mut Peekable<CharIndices<'_>>| {
+        while chars.next_if(|(_, c)| c.is_ascii_digit()).is_some() {}
+    };
     digits(chars);
     if chars.next_if(|(_, c)| *c == '.').is_some() {
         digits(chars);
@@ -148,7 +159,11 @@ mod tests {
             Kind::Name(name) => Some(name),
             _ => None,
         };
-        tokens(text).unwrap().into_iter().filter_map(named).collect()
+        tokens(text)
+            .unwrap()
+            .into_iter()
+            .filter_map(named)
+            .collect()
     }
 
     #[test]
@@ -161,13 +176,21 @@ mod tests {
 
     #[test]
     fn spans_are_in_the_text_as_written() {
-        let spans: Vec<_> = tokens("℃/√h").unwrap().into_iter().map(|t| t.span).collect();
+        let spans: Vec<_> = tokens("℃/√h")
+            .unwrap()
+            .into_iter()
+            .map(|t| t.span)
+            .collect();
         assert_eq!(spans, [0..3, 3..4, 4..7, 7..8]);
     }
 
     #[test]
     fn numbers_end_before_a_name() {
-        let kinds: Vec<_> = tokens("1eV 2e-3V 1.5E6").unwrap().into_iter().map(|t| t.span).collect();
+        let kinds: Vec<_> = tokens("1eV 2e-3V 1.5E6")
+            .unwrap()
+            .into_iter()
+            .map(|t| t.span)
+            .collect();
         assert_eq!(kinds, [0..1, 1..3, 4..8, 8..9, 10..15]);
     }
 
@@ -175,6 +198,9 @@ mod tests {
     fn superscripts_are_read_as_one_number() {
         let token = tokens("s⁻¹²").unwrap().pop().unwrap();
         assert_eq!(token.kind, Kind::Superscript(Some(-12)));
-        assert_eq!(tokens("s⁻").unwrap().pop().unwrap().kind, Kind::Superscript(None));
+        assert_eq!(
+            tokens("s⁻").unwrap().pop().unwrap().kind,
+            Kind::Superscript(None)
+        );
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
             Language::Chinese => format!("对 {} 没有影响的输入量：{shown}。", report.measurand(measurand).0),
         }));
     }
-    blocks.push(Block::Paragraph(footer(report, measurand)));
+    blocks.push(Block::Fields(footer(report, measurand)));
     if let Some(groups) = subtotals(report, measurand) {
         blocks.push(Block::Section(report.language.word(Word::Groups).to_string()));
         blocks.push(Block::Table(groups));
@@ -217,27 +217,30 @@ fn elision(language: Language, gum: &Gum, elided: &[usize]) -> String {
     }
 }
 
-/// y, u_c, ν_eff, k and U on one line.
-fn footer(report: &Report<'_>, measurand: usize) -> String {
+/// y, u_c, ν_eff, k and U.
+fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, String)> {
     let gum = &report.evaluation.results[measurand].gum;
     let (name, unit) = report.measurand(measurand);
     let l = report.language;
-    let with = |number: String, unit: String| if unit.is_empty() { number } else { format!("{number} {unit}") };
+    let with = |number: String, unit: &str| if unit.is_empty() { number } else { format!("{number} {unit}") };
     let difference = difference_symbol(unit);
     let dof = match &gum.freedom {
         Freedom::Refused { lower_bound, .. } => format!("≥ {}", freedom(*lower_bound)),
         Freedom::Ensembles(v) | Freedom::WelchSatterthwaite(v) => format!("= {}", freedom(*v)),
         Freedom::Infinite => "= ∞".to_string(),
     };
-    let parts = [
-        format!("{name} = {}", with(aligned(gum.estimate, gum.u, 2), symbol(unit))),
-        format!("u_c = {}", with(significant(gum.u, TABLE_DIGITS), difference.clone())),
-        format!("ν_eff {dof}"),
-        format!("k = {} ({})", significant(gum.coverage.k, TABLE_DIGITS), super::comparison::basis_of_k(&gum.coverage, l)),
-        format!("U = {}", with(significant(gum.coverage.expanded, TABLE_DIGITS), difference)),
-        format!("p = {}", probability(gum.coverage.probability)),
-    ];
-    parts.join(l.pick(", ", "，"))
+    let coverage = &gum.coverage;
+    let k = significant(coverage.k, TABLE_DIGITS);
+    let (basis, p) = (super::comparison::basis_of_k(coverage, l), probability(coverage.probability));
+    [
+        (Word::Estimate, format!("{name} = {}", with(aligned(gum.estimate, gum.u, 2), &symbol(unit)))),
+        (Word::CombinedUncertainty, format!("u_c = {}", with(significant(gum.u, TABLE_DIGITS), &difference))),
+        (Word::FreedomEffective, format!("ν_eff {dof}")),
+        (Word::Factor, l.pick(format!("k = {k} ({basis}, p = {p})"), format!("k = {k}（{basis}，p = {p}）"))),
+        (Word::Expanded, format!("U = {}", with(significant(coverage.expanded, TABLE_DIGITS), &difference))),
+    ]
+    .map(|(word, text)| (l.word(word).to_string(), text))
+    .to_vec()
 }
 
 fn subtotals(report: &Report<'_>, measurand: usize) -> Option<Table> {
@@ -300,7 +303,7 @@ pub(super) fn origins(report: &Report<'_>) -> Vec<Block> {
             Language::Chinese => format!("…… 其余 {left_out} 个较小的分量见 JSON 输出"),
         }));
     }
-    vec![Block::Section(l.word(Word::Origin).to_string()), Block::Table(table)]
+    vec![Block::Section(l.word(Word::Origin).to_string()), Block::Table(table.without_empty_columns())]
 }
 
 fn provenance(component: &Component, language: Language) -> String {

@@ -90,9 +90,15 @@ impl Comparison {
 
     /// Obtained minus claimed in units of the last digit that the claim states.
     pub(super) fn last_digits(&self) -> Option<f64> {
-        let place = Rounded::exact(self.claimed)?.place();
+        let place = self.last_place()?;
         let rounded = Rounded::at_place(self.obtained?, place, Rounding::HalfEven)?;
         Some(((rounded.to_f64() - self.claimed) / 10f64.powi(place)).round())
+    }
+
+    /// Power of ten of the last digit that the claim states. k = 2 is meant as 2.00.
+    fn last_place(&self) -> Option<i32> {
+        let place = Rounded::exact(self.claimed)?.place();
+        Some(if self.figure == Figure::CoverageFactor { place.min(-2) } else { place })
     }
 
     /// Obtained divided by claimed.
@@ -103,13 +109,13 @@ impl Comparison {
     fn verdict(&self, language: Language) -> String {
         let Some(last) = self.last_digits() else { return NONE.to_string() };
         if last == 0.0 {
-            return language.pick("agrees to the last digit stated", "与所给末位一致").to_string();
+            return language.pick("agrees", "一致").to_string();
         }
         /// Beyond this many units of the last digit the percentage says more.
-        const FEW: f64 = 20.0;
+        const FEW: f64 = 9.0;
         if last.abs() <= FEW {
             let signed = if last > 0.0 { format!("+{last}") } else { format!("{last}") };
-            return language.pick(format!("differs by {signed} in the last digit"), format!("末位相差 {signed}"));
+            return language.pick(format!("differs by {signed}"), format!("相差 {signed}"));
         }
         match self.ratio() {
             Some(ratio) if (0.5..2.0).contains(&ratio) => {
@@ -184,7 +190,7 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
         ("", ColumnKind::Words),
         (l.word(Word::Obtained), ColumnKind::Numbers),
         (l.word(Word::Ratio), ColumnKind::Numbers),
-        ("", ColumnKind::Wrapped),
+        (l.pick("in the last digit claimed", "在声称值的末位上"), ColumnKind::Wrapped),
     ]);
     for (n, claim) in report.budget.claims.iter().enumerate() {
         if several {
@@ -225,7 +231,7 @@ fn push(table: &mut Table, comparison: &Comparison, language: Language) {
     let obtained = comparison.obtained.map_or_else(
         || NONE.to_string(),
         |o| {
-            let place = Rounded::exact(comparison.claimed).map_or(0, |c| c.place());
+            let place = comparison.last_place().unwrap_or(0);
             let rounded = Rounded::at_place(o, place - 2, Rounding::HalfEven);
             rounded.map_or_else(|| exact(o), |r| if r.is_zero() { significant(o, 3) } else { r.to_string() })
         },

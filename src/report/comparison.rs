@@ -59,15 +59,16 @@ fn table(report: &Report<'_>, measurand: usize, result: &MeasurandResult) -> Tab
     row(l.word(Word::CoverageFactor).into(), three(gum.coverage.k), monte_carlo.map(|_| optional(implied, &three)));
     let half = gum.coverage.half_width_for_p;
     let name = match l {
-        Language::English => format!("{p} interval, y ± k·u / symmetric"),
-        Language::Chinese => format!("{p} 包含区间，y ± k·u／概率对称"),
+        Language::English => format!("{p} interval, symmetric"),
+        Language::Chinese => format!("{p} 包含区间，概率对称"),
     };
     row(name, interval([gum.estimate - half, gum.estimate + half]), monte_carlo.map(|mc| interval(mc.symmetric)));
     if let Some(mc) = monte_carlo {
         row(l.pick(format!("{p} interval, shortest"), format!("{p} 包含区间，最短")), String::new(), Some(interval(mc.shortest)));
         if let (Some(skewness), Some(kurtosis)) = (mc.skewness, mc.excess_kurtosis) {
             let text = format!("{}, {}", aligned(skewness, 0.1, 1), aligned(kurtosis, 0.1, 1));
-            row(format!("{}, {}", l.word(Word::Skewness), l.word(Word::Kurtosis)), String::new(), Some(text));
+            let label = [l.word(Word::Skewness), l.word(Word::Kurtosis)].join(l.pick(", ", "、"));
+            row(label, String::new(), Some(text));
         }
     }
     if let Some(run) = &report.evaluation.run {
@@ -97,7 +98,7 @@ fn trials(run: &Run, measurand: usize, language: Language) -> String {
 fn verdict(report: &Report<'_>, measurand: usize, v: &Validation) -> String {
     let unit = difference_symbol(report.measurand(measurand).1);
     let unit = if unit.is_empty() { unit } else { format!(" {unit}") };
-    let (low, high, delta) = (aligned(v.d_low, v.delta, 2), aligned(v.d_high, v.delta, 2), exact(v.delta));
+    let (low, high, delta) = (significant(v.d_low, 2), significant(v.d_high, 2), exact(v.delta));
     match report.language {
         Language::English => format!(
             "Clause 8, {} of u: d_low = {low}, d_high = {high}, δ = {delta}{unit}: GUM is {}",
@@ -123,7 +124,7 @@ pub(super) fn basis_of_k(coverage: &Coverage, language: Language) -> String {
             format!("{shape} distribution, dominated by {}", language.list(dominant))
         }
         (CoverageBasis::Output { dominant, shape }, Language::Chinese) => {
-            format!("{}，{}占优势", super::statement::shape_in_chinese(shape), language.list(dominant))
+            format!("{}，{} 占优势", super::statement::shape_in_chinese(shape), language.list(dominant))
         }
         (CoverageBasis::Fixed, Language::English) => "fixed".to_string(),
         (CoverageBasis::Fixed, Language::Chinese) => "约定值".to_string(),

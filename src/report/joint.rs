@@ -43,7 +43,7 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
 fn matrix(report: &Report<'_>, correlation: &DMatrix<f64>, head: &str) -> Table {
     let n = report.evaluation.results.len();
     let name = |i: usize| report.measurand(i).0.to_string();
-    let label = format!("{}, {head}", report.language.word(Word::Correlation));
+    let label = [report.language.word(Word::Correlation), head].join(report.language.pick(", ", "，"));
     let mut columns = vec![Column { head: label, kind: ColumnKind::Words }];
     columns.extend((0..n).map(|i| Column { head: name(i), kind: ColumnKind::Numbers }));
     let mut table = Table { columns, rows: Vec::new() };
@@ -65,15 +65,16 @@ fn regions(report: &Report<'_>) -> Table {
     let Some(joint) = &report.evaluation.joint else { return table };
     let regions = joint.regions.as_ref();
     let show = |x: Option<f64>| x.map_or(Cell::Empty, |x| significant(x, TABLE_DIGITS).into());
+    let comma = l.pick(", ", "，");
     let mut row = |label: String, gum: Option<f64>, trials: Option<f64>| table.push(vec![label.into(), show(gum), show(trials)]);
-    row(format!("k_p, {}", l.word(Word::Ellipsoid)), Some(joint.k_ellipsoid), regions.map(|r| r.k_ellipsoid));
-    row(format!("k_q, {}", l.word(Word::Hyperrectangle)), Some(joint.k_rectangle), regions.map(|r| r.k_rectangle));
+    row(format!("k_p{comma}{}", l.word(Word::Ellipsoid)), Some(joint.k_ellipsoid), regions.map(|r| r.k_ellipsoid));
+    row(format!("k_q{comma}{}", l.word(Word::Hyperrectangle)), Some(joint.k_rectangle), regions.map(|r| r.k_rectangle));
     if let Some(regions) = regions {
         let size = match report.evaluation.results.len() {
             2 => l.pick("area", "面积"),
             _ => l.pick("volume", "体积"),
         };
-        row(format!("{size}, {}", l.word(Word::Ellipsoid)), None, Some(regions.ellipsoid_volume));
+        row(format!("{size}{comma}{}", l.word(Word::Ellipsoid)), None, Some(regions.ellipsoid_volume));
         if let Some(smallest) = regions.smallest_volume {
             row(l.pick(format!("{size}, smallest region"), format!("{size}，最小区域")), None, Some(smallest));
         }

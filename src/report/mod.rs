@@ -22,6 +22,8 @@ mod text;
 
 #[cfg(test)]
 mod fixtures;
+#[cfg(test)]
+mod tests;
 
 pub use json::{FORMAT, json};
 pub use language::Language;

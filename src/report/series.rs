@@ -3,7 +3,7 @@
 use super::Report;
 use super::document::Block;
 use super::language::Word;
-use super::number::{NONE, TABLE_DIGITS, aligned, probability, significant};
+use super::number::{TABLE_DIGITS, aligned, probability, significant};
 use super::table::{Cell, ColumnKind, Row, Table};
 use super::text::{Page, draw};
 use super::{claim, markdown, remarks, symbol};
@@ -26,7 +26,7 @@ fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
         let unit = symbol(unit);
         let title = if unit.is_empty() { name.to_string() } else { format!("{name} / {unit}") };
         blocks.push(Block::Section(title));
-        blocks.push(Block::Table(table(rows, measurand)));
+        blocks.push(Block::Table(table(rows, measurand).without_empty_columns()));
     }
     let common = common_remarks(rows);
     if !common.is_empty() {
@@ -55,7 +55,7 @@ fn table(rows: &[Report<'_>], measurand: usize) -> Table {
         let gum = &result.gum;
         let scale = result.monte_carlo.as_ref().and_then(|mc| mc.u).unwrap_or(gum.u);
         let interval = result.monte_carlo.as_ref().map(|mc| mc.symmetric.map(|x| aligned(x, scale, TABLE_DIGITS)));
-        let verdict = result.validation.map_or(NONE, |v| match v.map(|v| v.validated) {
+        let verdict = result.validation.map_or("", |v| match v.map(|v| v.validated) {
             [true, _] | [_, true] => l.pick("validated", "通过"),
             _ => l.pick("not validated", "未通过"),
         });

@@ -67,7 +67,10 @@ impl<'a> Subject<'a> {
         let u = self.small(u);
         let k = self.factor(coverage);
         match self.form() {
-            Form::PlusMinus => format!("{} {}", self.equation(&pair), self.explained(&pair.uncertainty_text(), &u, &k, coverage, dof)),
+            Form::PlusMinus => {
+                let space = self.language.pick(" ", "");
+                format!("{}{space}{}", self.equation(&pair), self.explained(&pair.uncertainty_text(), &u, &k, coverage, dof))
+            }
             Form::Apart => self.apart(&pair, &u, &k, coverage, dof),
         }
     }
@@ -109,7 +112,7 @@ impl<'a> Subject<'a> {
                 if dominant.len() == 1 { "s" } else { "" },
             ),
             (CoverageBasis::Output { dominant, shape }, Language::Chinese) => format!(
-                "；{}占优势，被测量的分布按{}处理，k = {k} 对应的包含概率为 {p}",
+                "；{} 占优势，被测量的分布按{}处理，k = {k} 对应的包含概率为 {p}",
                 self.language.list(dominant),
                 shape_in_chinese(shape),
             ),
@@ -138,7 +141,7 @@ impl<'a> Subject<'a> {
                 format!(" k was found from the {shape} distribution that {} give{} the result.", self.language.list(dominant), if dominant.len() == 1 { "s" } else { "" })
             }
             (CoverageBasis::Output { dominant, shape }, Language::Chinese) => {
-                format!("{}占优势，k 按{}确定。", self.language.list(dominant), shape_in_chinese(shape))
+                format!("{} 占优势，k 按{}确定。", self.language.list(dominant), shape_in_chinese(shape))
             }
             _ => String::new(),
         };

@@ -2,8 +2,9 @@
 
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-/// Spaces between columns.
+/// Spaces between columns, and what is left of them on a narrow page.
 const GAP: usize = 2;
+const NARROW_GAP: usize = 1;
 
 /// A table.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -74,21 +75,43 @@ impl Table {
         self.rows.push(Row::Cells(cells));
     }
 
+    /// Drops the columns in which no row has anything.
+    pub(super) fn without_empty_columns(mut self) -> Self {
+        for i in (0..self.columns.len()).rev() {
+            let blank = |row: &Row| match row {
+                Row::Cells(cells) => cells.get(i).is_none_or(|c| *c == Cell::Empty || *c == Cell::Text(String::new())),
+                Row::Rule | Row::Across(_) => true,
+            };
+            if !self.rows.iter().all(blank) {
+                continue;
+            }
+            self.columns.remove(i);
+            for row in &mut self.rows {
+                if let Row::Cells(cells) = row
+                    && i < cells.len()
+                {
+                    cells.remove(i);
+                }
+            }
+        }
+        self
+    }
+
     /// The lines of the table within `width` columns of the terminal where that is possible: the
     /// head, a rule, the rows.
     pub(super) fn lines(&self, width: usize) -> Vec<String> {
-        let widths = self.fitted(width);
-        let full = widths.iter().filter(|w| **w > 0).map(|w| w + GAP).sum::<usize>().saturating_sub(GAP);
+        let (widths, gap) = self.fitted(width);
+        let full = total(&widths, gap);
         let rule = "─".repeat(full);
         let mut lines = Vec::with_capacity(self.rows.len() + 2);
         if self.columns.iter().any(|c| !c.head.is_empty()) {
             let heads: Vec<Cell> = self.columns.iter().map(|c| Cell::Text(c.head.clone())).collect();
-            self.draw(&heads, &widths, &mut lines);
+            self.draw(&heads, &widths, gap, &mut lines);
             lines.push(rule.clone());
         }
         for row in &self.rows {
             match row {
-                Row::Cells(cells) => self.draw(cells, &widths, &mut lines),
+                Row::Cells(cells) => self.draw(cells, &widths, gap, &mut lines),
                 Row::Rule => lines.push(rule.clone()),
                 Row::Across(text) => lines.extend(wrapped(text, full.max(40).min(width))),
             }
@@ -107,31 +130,40 @@ impl Table {
         widths
     }
 
-    /// Column widths that fit the page; zero drops a column.
-    fn fitted(&self, width: usize) -> Vec<usize> {
+    /// Column widths and gap that fit the page; a width of zero drops a column. What gives way, in
+    /// this order: bars, space between columns, wrapped words, other words.
+    fn fitted(&self, page: usize) -> (Vec<usize>, usize) {
         let mut widths = self.natural();
-        let mut excess = (widths.iter().filter(|w| **w > 0).map(|w| w + GAP).sum::<usize>()).saturating_sub(width + GAP);
-        for (kind, least) in [(ColumnKind::Bar, BAR / 2), (ColumnKind::Wrapped, 24), (ColumnKind::Words, 8)] {
-            while excess > 0 {
-                // The widest of its kind gives way first.
-                let widest = (0..widths.len()).filter(|i| self.columns[*i].kind == kind).max_by_key(|i| widths[*i]);
-                let Some(i) = widest.filter(|i| widths[*i] > least) else { break };
-                widths[i] -= 1;
-                excess -= 1;
-            }
-            if kind == ColumnKind::Bar && excess > 0 {
-                for i in 0..widths.len() {
-                    if self.columns[i].kind == ColumnKind::Bar && widths[i] > 0 {
-                        excess = excess.saturating_sub(widths[i] + GAP);
-                        widths[i] = 0;
-                    }
-                }
+        for gap in [GAP, NARROW_GAP] {
+            let mut with_bars = widths.clone();
+            self.shrink(ColumnKind::Bar, SHORTEST_BAR, page, gap, &mut with_bars);
+            if total(&with_bars, gap) <= page {
+                return (with_bars, gap);
             }
         }
-        widths
+        for (width, column) in widths.iter_mut().zip(&self.columns) {
+            if column.kind == ColumnKind::Bar {
+                *width = 0;
+            }
+        }
+        self.shrink(ColumnKind::Wrapped, 24, page, GAP, &mut widths);
+        if total(&widths, GAP) <= page {
+            return (widths, GAP);
+        }
+        self.shrink(ColumnKind::Words, 5, page, NARROW_GAP, &mut widths);
+        (widths, NARROW_GAP)
     }
 
-    fn draw(&self, cells: &[Cell], widths: &[usize], lines: &mut Vec<String>) {
+    /// Takes from the widest columns of a kind until the table fits or they are down to `least`.
+    fn shrink(&self, kind: ColumnKind, least: usize, page: usize, gap: usize, widths: &mut [usize]) {
+        while total(widths, gap) > page {
+            let widest = (0..widths.len()).filter(|i| self.columns[*i].kind == kind).max_by_key(|i| widths[*i]);
+            let Some(i) = widest.filter(|i| widths[*i] > least) else { return };
+            widths[i] -= 1;
+        }
+    }
+
+    fn draw(&self, cells: &[Cell], widths: &[usize], gap: usize, lines: &mut Vec<String>) {
         let mut columns: Vec<(usize, ColumnKind, Vec<String>)> = Vec::with_capacity(widths.len());
         for (i, (column, width)) in self.columns.iter().zip(widths).enumerate() {
             if *width > 0 {
@@ -149,13 +181,19 @@ impl Table {
                     if *kind == ColumnKind::Numbers { format!("{space}{text}") } else { format!("{text}{space}") }
                 })
                 .collect();
-            lines.push(parts.join(&" ".repeat(GAP)).trim_end().to_string());
+            lines.push(parts.join(&" ".repeat(gap)).trim_end().to_string());
         }
     }
 }
 
-/// Natural width of a bar.
+/// Width of a table with these columns.
+fn total(widths: &[usize], gap: usize) -> usize {
+    widths.iter().filter(|w| **w > 0).map(|w| w + gap).sum::<usize>().saturating_sub(gap)
+}
+
+/// Natural width of a bar, and the least that still says something.
 const BAR: usize = 10;
+const SHORTEST_BAR: usize = 4;
 
 impl Cell {
     fn width(&self) -> usize {
@@ -282,7 +320,7 @@ mod tests {
         let lines = sample().lines(44);
         assert!(lines.iter().all(|l| l.width() <= 44), "{lines:#?}");
         assert!(lines.iter().all(|l| !l.contains('█')));
-        assert!(lines.iter().any(|l| l.trim() == "root of three"), "{lines:#?}");
+        assert!(lines.iter().any(|l| l.trim() == "divided by the root of three"), "{lines:#?}");
     }
 
     #[test]

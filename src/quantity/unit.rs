@@ -1,16 +1,8 @@
-//! Units: names, prefixes, conversion.
+//! Units: conversion, differences, products and powers.
 
-use super::Dimension;
-
-/// Ratio of a unit to the coherent SI unit: `numerator / denominator · 10^ten · π^pi`, kept apart so
-/// that ratios between units are exact in double precision wherever they can be.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Factor {
-    pub numerator: f64,
-    pub denominator: f64,
-    pub ten: i32,
-    pub pi: i32,
-}
+use super::dimension::Dimension;
+use super::factor::Factor;
+use super::symbol::Composer;
 
 /// A unit of measurement.
 ///
@@ -18,22 +10,389 @@ pub struct Factor {
 /// Differences of point quantities are in K.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unit {
+    /// What kind of quantity it measures.
     pub dimension: Dimension,
+    /// Ratio to the coherent SI unit.
     pub factor: Factor,
+    /// Zero of a point unit in the coherent SI unit (273.15 for °C).
     pub origin: Option<f64>,
     /// As it is to be printed, e.g. `mA/V`, `°/s`, `1`.
     pub symbol: String,
 }
 
-/// The units known to a file: the built-in ones and those of its `[unit]` table.
-#[derive(Debug, Clone, Default)]
-pub struct UnitTable;
+/// From a numerical value in one unit to that in another: `value · factor + offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conversion {
+    /// Multiplies the value.
+    pub factor: f64,
+    /// Added afterwards; zero unless a point unit takes part.
+    pub offset: f64,
+}
 
-/// Why a unit text was refused.
-#[derive(Debug, Clone, PartialEq)]
-pub struct UnitError {
-    /// Bytes of the unit text.
-    pub span: std::ops::Range<usize>,
-    pub message: String,
-    pub help: Option<String>,
+impl Conversion {
+    /// Converts a numerical value.
+    pub fn apply(self, value: f64) -> f64 {
+        value * self.factor + self.offset
+    }
+
+    /// Whether it leaves every value as it is.
+    pub fn is_identity(self) -> bool {
+        self.factor == 1.0 && self.offset == 0.0
+    }
+}
+
+impl Unit {
+    /// The unit one, `1`.
+    pub fn one() -> Unit {
+        Unit {
+            dimension: Dimension::NONE,
+            factor: Factor::ONE,
+            origin: None,
+            symbol: "1".to_owned(),
+        }
+    }
+
+    /// Whether this is the unit one itself (rad, % and ° are of dimension one, but not this unit).
+    pub fn is_one(&self) -> bool {
+        self.symbol == "1"
+    }
+
+    /// Whether this is a scale with an origin, such as °C.
+    pub fn is_point(&self) -> bool {
+        self.origin.is_some()
+    }
+
+    /// The unit of differences: K for °C, 5/9 K for °F, the unit itself for all others.
+    #[must_use]
+    pub fn difference(&self) -> Unit {
+        if self.origin.is_none() {
+            return self.clone();
+        }
+        Unit {
+            origin: None,
+            symbol: difference_symbol(&self.symbol),
+            ..self.clone()
+        }
+    }
+
+    /// How to convert values in this unit to values in `other`; `None` if the dimensions differ.
+    ///
+    /// A temperature in K converts to °C as a thermodynamic temperature. For differences, uncertainties
+    /// and slopes convert between the [`difference`](Self::difference) units.
+    pub fn conversion_to(&self, other: &Unit) -> Option<Conversion> {
+        if self.dimension != other.dimension {
+            return None;
+        }
+        let shift = self.origin.unwrap_or(0.0) - other.origin.unwrap_or(0.0);
+        let offset = if shift == 0.0 {
+            0.0
+        } else {
+            shift / other.factor.value()
+        };
+        Some(Conversion {
+            factor: self.factor.ratio(other.factor),
+            offset,
+        })
+    }
+
+    /// The unit of a product; point units count as units of differences.
+    #[must_use]
+    pub fn product(&self, other: &Unit) -> Unit {
+        let (a, b) = (self.difference(), other.difference());
+        let mut composer = Composer::new();
+        composer.times(&a.symbol, 1);
+        composer.times(&b.symbol, 1);
+        Unit {
+            dimension: a.dimension.product(b.dimension),
+            factor: a.factor.product(b.factor),
+            origin: None,
+            symbol: composer.finish(),
+        }
+    }
+
+    /// The unit of a quotient; point units count as units of differences.
+    #[must_use]
+    pub fn quotient(&self, other: &Unit) -> Unit {
+        let (a, b) = (self.difference(), other.difference());
+        let mut composer = Composer::new();
+        composer.times(&a.symbol, 1);
+        composer.times(&b.symbol, -1);
+        Unit {
+            dimension: a.dimension.quotient(b.dimension),
+            factor: a.factor.quotient(b.factor),
+            origin: None,
+            symbol: composer.finish(),
+        }
+    }
+
+    /// The unit of a rational power `num/den`; `None` where an exponent is no multiple of 1/60 or is
+    /// out of range.
+    pub fn powr(&self, num: i32, den: i32) -> Option<Unit> {
+        let base = self.difference();
+        Some(Unit {
+            dimension: base.dimension.powr(num, den)?,
+            factor: base.factor.powr(num, den),
+            origin: None,
+            symbol: Composer::power(&base.symbol, num, den)?,
+        })
+    }
+
+    /// The coherent SI unit of a dimension, named by its base units: `m·s^-2`.
+    pub fn coherent(dimension: Dimension) -> Unit {
+        Unit {
+            dimension,
+            factor: Factor::ONE,
+            origin: None,
+            symbol: dimension.to_string(),
+        }
+    }
+
+    /// The symbol as it is to be set in a document: `m·s⁻²` for `m*s^-2`, `kΩ` for `kohm`, `µm` for
+    /// `um`.
+    pub fn typeset(&self) -> String {
+        Composer::typeset(&self.symbol)
+    }
+}
+
+/// `K` for `°C` and `mK` for `m°C`; `Δ°F` for a scale without a unit of its own for differences.
+fn difference_symbol(point: &str) -> String {
+    let unified = super::token::unified(point);
+    match unified
+        .strip_suffix("°C")
+        .or_else(|| unified.strip_suffix("degC"))
+    {
+        Some(prefix) => format!("{prefix}K"),
+        None if unified == "degF" => "Δ°F".to_owned(),
+        None => format!("Δ{unified}"),
+    }
+}
+
+/// What a clash between the units of two quantities may come from, for the confusions that are
+/// classical: gram and acceleration of free fall, °C in a product, hour and Planck constant.
+///
+/// The order of the two does not matter.
+pub fn hint_for_clash(expected: &Unit, found: &Unit) -> Option<String> {
+    clash_with(expected, found).or_else(|| clash_with(found, expected))
+}
+
+/// The hint when `suspect` is the unit that is not what its writer meant.
+fn clash_with(other: &Unit, suspect: &Unit) -> Option<String> {
+    let quotient = suspect.dimension.quotient(other.dimension);
+    let names = super::symbol::names(&suspect.symbol);
+    let named = |wanted: &str| names.iter().any(|name| name == wanted);
+    let prefixed = |base: &str| {
+        names.iter().find(|name| {
+            ["", "m", "µ", "u", "n"]
+                .iter()
+                .any(|p| **name == format!("{p}{base}"))
+        })
+    };
+    let is = |d: Dimension, exponents: [i8; 8]| {
+        let wanted = Dimension::of(exponents);
+        d == wanted || d == Dimension::NONE.quotient(wanted)
+    };
+    // Gram stands where metre per second squared should.
+    if let Some(gram) = prefixed("g").filter(|_| is(quotient, [-1, 1, 2, 0, 0, 0, 0, 0])) {
+        return Some(format!(
+            "`{gram}` is a unit of mass (gram); the standard acceleration of free fall is `{gram}n`, \
+             or define `g = \"9.80665 m/s^2\"` in the [unit] table"
+        ));
+    }
+    if suspect.is_point() && suspect.dimension != other.dimension {
+        let symbol = &suspect.symbol;
+        return Some(format!(
+            "a temperature in {symbol} has an arbitrary zero; subtract a reference as in `T - 20 '{symbol}'`, \
+             use `kelvin(T)`, or give the quantity in K"
+        ));
+    }
+    if named("h") && is(quotient, [-2, -1, 2, 0, 0, 0, 0, 0]) {
+        return Some(
+            "`h` is the hour; the Planck constant is a quantity, not a unit: \
+                     declare `[constant.h] value = 6.62607015e-34, unit = \"J·s\"`"
+                .to_owned(),
+        );
+    }
+    if named("pH") {
+        return Some(
+            "`pH` is read as picohenry; for the acidity define `pH = \"1\"` in the [unit] table"
+                .to_owned(),
+        );
+    }
+    if named("S") && is(quotient, [-2, -1, 2, 2, 0, 0, 0, 0]) {
+        return Some("`S` is the siemens (conductance); the second is `s`".to_owned());
+    }
+    if named("F") && is(quotient, [-2, -1, 4, 2, -1, 0, 0, 0]) {
+        return Some("`F` is the farad (capacitance); degrees Fahrenheit are `°F`".to_owned());
+    }
+    if named("C") && is(quotient, [0, 0, 1, 1, -1, 0, 0, 0]) {
+        return Some(
+            "`C` is the coulomb (charge); degrees Celsius are `°C`, differences `K`".to_owned(),
+        );
+    }
+    if (named("dB") || named("Np")) && other.dimension.is_none() {
+        return Some(
+            "a level in dB is no plain ratio; convert it as in `10^(L / 20 'dB')` for amplitudes, \
+                     `10^(L / 10 'dB')` for powers"
+                .to_owned(),
+        );
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::UnitTable;
+    use super::*;
+    use proptest::prelude::*;
+
+    fn unit(text: &str) -> Unit {
+        UnitTable::default()
+            .parse(text)
+            .unwrap_or_else(|e| panic!("{text}: {e:?}"))
+    }
+
+    fn convert(value: f64, from: &str, to: &str) -> f64 {
+        unit(from).conversion_to(&unit(to)).unwrap().apply(value)
+    }
+
+    fn factor(from: &str, to: &str) -> f64 {
+        unit(from).conversion_to(&unit(to)).unwrap().factor
+    }
+
+    #[test]
+    fn ratios_are_exact_where_a_double_can_be() {
+        assert_eq!(factor("mm", "µm"), 1000.0);
+        assert_eq!(factor("°", "arcsec"), 3600.0);
+        assert_eq!(factor("deg/s", "°/h"), 3600.0);
+        assert_eq!(factor("mV/V", "1"), 0.001);
+        assert_eq!(factor("µm/m", "ppm"), 1.0);
+        assert_eq!(factor("ppm", "%"), 1e-4);
+        assert_eq!(factor("km/h", "m/s"), 1.0 / 3.6);
+        assert_eq!(factor("gn", "mGal"), 980_665.0);
+        assert_eq!(factor("rpm", "°/s"), 6.0);
+        assert_eq!(factor("r/min", "°/s"), 6.0);
+        assert_eq!(factor("°/√h", "°/s/√Hz"), 1.0 / 60.0);
+        assert_eq!(factor("°/h/√Hz", "°/√h"), 1.0 / 60.0);
+        assert_eq!(factor("m/s²/√Hz", "µgn/√Hz"), 1e11 / 980_665.0);
+        assert_eq!(factor("kWh", "MJ"), 3.6);
+        assert_eq!(factor("in", "mm"), 25.4);
+        assert_eq!(factor("mi", "km"), 1.609344);
+        assert_eq!(factor("L", "cm^3"), 1000.0);
+        assert_eq!(factor("kgf/cm^2", "Pa"), 98_066.5);
+        assert_eq!(factor("mA/gn", "A/(m/s^2)"), 100.0 / 980_665.0);
+    }
+
+    #[test]
+    fn temperatures_convert_with_their_origin() {
+        assert_eq!(convert(20.0, "°C", "K"), 293.15);
+        assert_eq!(convert(293.15, "K", "℃"), 20.0);
+        assert!((convert(212.0, "°F", "°C") - 100.0).abs() < 1e-12);
+        assert!((convert(-40.0, "°C", "°F") + 40.0).abs() < 1e-12);
+        assert!((convert(300.0, "mK", "°C") + 272.85).abs() < 1e-12);
+        assert_eq!(unit("°C").conversion_to(&unit("m")), None);
+        assert!(unit("°C").conversion_to(&unit("°C")).unwrap().is_identity());
+    }
+
+    #[test]
+    fn differences_of_points_have_no_origin() {
+        assert_eq!(unit("°C").difference(), unit("K"));
+        assert_eq!(unit("m°C").difference(), unit("mK"));
+        let fahrenheit = unit("°F").difference();
+        assert_eq!(fahrenheit, unit("Δ°F"));
+        assert_eq!(
+            fahrenheit.conversion_to(&unit("K")).unwrap(),
+            Conversion {
+                factor: 5.0 / 9.0,
+                offset: 0.0
+            }
+        );
+        assert_eq!(unit("mm").difference(), unit("mm"));
+        assert_eq!(
+            unit("ppm/°C").conversion_to(&unit("ppm/K")).unwrap().factor,
+            1.0
+        );
+        assert!(!unit("ppm/°C").is_point());
+    }
+
+    #[test]
+    fn products_have_sensible_symbols() {
+        let product = |a: &str, b: &str| unit(a).product(&unit(b)).symbol;
+        let quotient = |a: &str, b: &str| unit(a).quotient(&unit(b)).symbol;
+        assert_eq!(quotient("V", "V"), "1");
+        assert_eq!(quotient("mA", "gn"), "mA/gn");
+        assert_eq!(product("mA/gn", "gn"), "mA");
+        assert_eq!(quotient("m", "s^2"), "m/s^2");
+        assert_eq!(product("m·s^-2", "kg"), "m·kg·s^-2");
+        assert_eq!(product("m/s²", "s"), "m/s");
+        assert_eq!(product("°/s", "s"), "°");
+        assert_eq!(quotient("1", "K"), "1/K");
+        assert_eq!(quotient("V", "m·K"), "V/(m·K)");
+        assert_eq!(product("ppm/°C", "K"), "ppm");
+        assert_eq!(product("µV/V", "V"), "µV");
+        assert_eq!(product("ppm", "1"), "ppm");
+        assert_eq!(product("°C", "m"), "K·m");
+        assert_eq!(quotient("V", "√Hz"), "V/√Hz");
+        assert_eq!(unit("mm").powr(2, 1).unwrap().symbol, "mm^2");
+        assert_eq!(unit("mm^2").powr(1, 2).unwrap(), unit("mm"));
+        assert_eq!(unit("m/s").powr(-1, 1).unwrap().symbol, "s/m");
+        assert_eq!(unit("Hz").powr(-1, 2).unwrap().symbol, "1/√Hz");
+        assert_eq!(unit("m").powr(1, 7), None);
+        assert_eq!(unit("V").powr(0, 1), Some(Unit::one()));
+    }
+
+    #[test]
+    fn the_typeset_form_is_that_of_documents() {
+        assert_eq!(unit("m*s**-2").typeset(), "m·s⁻²");
+        assert_eq!(unit("um/m").typeset(), "µm/m");
+        assert_eq!(unit("kohm").typeset(), "kΩ");
+        assert_eq!(unit("deg/s").typeset(), "°/s");
+        assert_eq!(unit("W/(m^2 K)").typeset(), "W/(m²·K)");
+        assert_eq!(unit("1").typeset(), "1");
+    }
+
+    #[test]
+    fn classical_confusions_get_a_hint() {
+        let hint = |a: &str, b: &str| hint_for_clash(&unit(a), &unit(b)).unwrap_or_default();
+        assert!(hint("m/s^2", "g").contains("`gn`"));
+        assert!(hint("mA/g", "mA/gn").contains("`gn`"));
+        assert!(hint("m/s^2", "mg").contains("`mgn`"));
+        assert!(hint("V", "°C").contains("T - 20 '°C'"));
+        assert!(hint("J·s", "h").contains("Planck"));
+        assert!(hint("1", "pH").contains("picohenry"));
+        assert!(hint("s", "S").contains("siemens"));
+        assert!(hint("K", "C").contains("coulomb"));
+        assert!(hint("1", "dB").contains("amplitudes"));
+        assert_eq!(hint("m", "s"), "");
+        assert_eq!(hint("g", "kg"), "");
+    }
+
+    proptest! {
+        #[test]
+        fn conversion_there_and_back_gives_the_value_again(
+            value in -1e6..1e6f64,
+            pair in proptest::sample::select(vec![
+                ("mm", "in"), ("°C", "K"), ("°F", "°C"), ("arcsec", "rad"), ("psi", "mmHg"), ("Np", "dB"),
+                ("m/s²/√Hz", "mGal/√Hz"), ("°/√h", "rad/√s"), ("eV", "kWh"), ("m°C", "°F"),
+            ]),
+        ) {
+            let there = convert(value, pair.0, pair.1);
+            let back = convert(there, pair.1, pair.0);
+            let scale = value.abs().max(unit(pair.0).origin.unwrap_or(0.0) * 1e3).max(1.0);
+            prop_assert!((back - value).abs() <= 4.0 * f64::EPSILON * scale * 1e3);
+        }
+
+        #[test]
+        fn quotient_undoes_product(
+            a in proptest::sample::select(vec!["mm", "µV/V", "°/√h", "kg·m^2", "1/K", "psi"]),
+            b in proptest::sample::select(vec!["s", "mA/gn", "√Hz", "in^3", "%", "°C"]),
+        ) {
+            let (a, b) = (unit(a), unit(b));
+            let back = a.product(&b).quotient(&b);
+            prop_assert_eq!(back.dimension, a.dimension);
+            prop_assert_eq!(back.factor.ratio(a.factor), 1.0);
+            let again = unit(&a.product(&b).symbol);
+            prop_assert_eq!(again.dimension, a.product(&b).dimension);
+            prop_assert_eq!(again.factor.ratio(a.product(&b).factor), 1.0);
+        }
+    }
 }

@@ -1,0 +1,150 @@
+//! What may have been meant by a name that is no unit.
+
+use super::builtin::{PREFIXES, Prefixes, UNITS};
+use crate::fault::nearest;
+
+/// The mend for an unknown unit name, in the imperative.
+pub(super) fn for_unknown<'a>(
+    name: &str,
+    is_known: impl Fn(&str) -> bool,
+    own: impl Iterator<Item = &'a String>,
+) -> String {
+    if let Some((_, advice)) = FREQUENT.iter().find(|(wrong, _)| *wrong == name) {
+        return (*advice).to_owned();
+    }
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    if letters != name && is_known(letters) {
+        return format!("write `{letters}^{}`", &name[letters.len()..]);
+    }
+    if let Some(symbol) = by_english_name(name) {
+        return format!("write `{symbol}`");
+    }
+    if let Some(base) = QUALIFIERS
+        .iter()
+        .find_map(|q| name.strip_suffix(q))
+        .filter(|base| is_known(base))
+    {
+        return format!("write `{base}`, and say in the description which kind of value it is");
+    }
+    let own: Vec<&String> = own.collect();
+    let prefixed: Vec<String> = PREFIXES
+        .iter()
+        .flat_map(|(prefix, _)| {
+            let takes_prefix = UNITS.iter().filter(|u| u.prefixes == Prefixes::All);
+            takes_prefix.map(move |u| format!("{prefix}{}", u.symbol))
+        })
+        .collect();
+    let known = || {
+        let builtin = UNITS
+            .iter()
+            .flat_map(|u| std::iter::once(&u.symbol).chain(u.aliases))
+            .copied();
+        own.iter()
+            .map(|name| name.as_str())
+            .chain(builtin)
+            .chain(prefixed.iter().map(String::as_str))
+    };
+    let same_letters = known().find(|known| known.to_lowercase() == name.to_lowercase());
+    // In names of one or two letters every other unit is only one letter away.
+    let similar = || nearest(name, known()).filter(|_| name.chars().count() > 2);
+    match same_letters {
+        Some(known) => format!("write `{known}`"),
+        None => match similar() {
+            Some(known) => format!(
+                "did you mean `{known}`? A unit of your own is declared in the [unit] table"
+            ),
+            None => format!(
+                "declare it in the [unit] table, as in `{name} = \"10 V\"` or `{name} = \"1\"`"
+            ),
+        },
+    }
+}
+
+/// The symbol of a unit that was written out: `Volt`, `meters`, `degrees Celsius`.
+fn by_english_name(name: &str) -> Option<&'static str> {
+    let name = name.to_lowercase();
+    let singular = name.strip_suffix('s').unwrap_or(&name);
+    let british = singular.replace("meter", "metre").replace("liter", "litre");
+    let wanted = [name.as_str(), singular, british.as_str()];
+    UNITS
+        .iter()
+        .find(|u| wanted.contains(&u.name_en.to_lowercase().as_str()))
+        .map(|u| u.symbol)
+}
+
+/// Ends of names that say which kind of value is meant, which is not the unit's office.
+const QUALIFIERS: &[&str] = &[
+    "rms", "RMS", "pp", "p-p", "pk", "dc", "DC", "ac", "AC", "_rms", "_pp", "_dc", "_ac",
+];
+
+/// Frequent mistakes that the distance between names would not explain.
+const FREQUENT: &[(&str, &str)] = &[
+    (
+        "M",
+        "the prefix mega needs a unit; the metre is `m`, the unit of amount concentration `mol/L`",
+    ),
+    ("sec", "write `s`"),
+    ("secs", "write `s`"),
+    ("hr", "write `h`"),
+    ("hrs", "write `h`"),
+    ("mins", "write `min`"),
+    ("amp", "write `A`"),
+    ("amps", "write `A`"),
+    (
+        "gm",
+        "write `g` for the gram, `gn` for the standard acceleration of free fall",
+    ),
+    ("cc", "write `cm^3`"),
+    ("micron", "write `µm`"),
+    ("microns", "write `µm`"),
+    ("mho", "write `S`"),
+    ("RH", "write `%RH`"),
+    ("oC", "write `°C`"),
+    ("C°", "write `°C`"),
+    ("Celsius", "write `°C`"),
+    ("Fahrenheit", "write `°F`"),
+    ("degrees", "write `°` for an angle, `°C` for a temperature"),
+    ("degree", "write `°` for an angle, `°C` for a temperature"),
+    (
+        "ppt",
+        "write `ppm` or `ppb` and a suitable number: ppt stands for 10^-3 and for 10^-12",
+    ),
+    ("kph", "write `km/h`"),
+    ("kmh", "write `km/h`"),
+    (
+        "dBm",
+        "declare the level with its reference in the [unit] table: `dBm = \"dB\"`",
+    ),
+    (
+        "dBV",
+        "declare the level with its reference in the [unit] table: `dBV = \"dB\"`",
+    ),
+    (
+        "dBµV",
+        "declare the level with its reference in the [unit] table: `dBµV = \"dB\"`",
+    ),
+    (
+        "dBuV",
+        "declare the level with its reference in the [unit] table: `dBuV = \"dB\"`",
+    ),
+    (
+        "dBc",
+        "declare the level with its reference in the [unit] table: `dBc = \"dB\"`",
+    ),
+    (
+        "FS",
+        "declare the full scale in the [unit] table, as in `FS = \"10 V\"`",
+    ),
+    (
+        "rdg",
+        "write the amount relative to the reading, in `%` or `ppm`",
+    ),
+    (
+        "digit",
+        "write `count`, or declare the step in the [unit] table, as in `digit = \"1 mV\"`",
+    ),
+    (
+        "digits",
+        "write `count`, or declare the step in the [unit] table, as in `digits = \"1 mV\"`",
+    ),
+];

@@ -1,0 +1,153 @@
+//! Error codes of units, with their explanations.
+
+use std::ops::Range;
+
+use crate::fault::{Code, Fault};
+
+/// Why a unit text was refused.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnitError {
+    /// Which kind of fault.
+    pub code: Code,
+    /// Bytes of the unit text.
+    pub span: Range<usize>,
+    /// One sentence without a final stop.
+    pub message: String,
+    /// The mend, in the imperative.
+    pub help: Option<String>,
+}
+
+impl UnitError {
+    pub(super) fn new(code: Code, span: Range<usize>, message: impl Into<String>) -> Self {
+        UnitError {
+            code,
+            span,
+            message: message.into(),
+            help: None,
+        }
+    }
+
+    #[must_use]
+    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+impl From<UnitError> for Fault {
+    fn from(error: UnitError) -> Fault {
+        Fault {
+            help: error.help,
+            ..Fault::new(error.code, error.span, error.message).label(error.code.title)
+        }
+    }
+}
+
+/// All codes of this module, for `gumption explain`.
+pub const CODES: &[Code] = &[
+    UNKNOWN_UNIT,
+    MALFORMED_UNIT,
+    AMBIGUOUS_SOLIDUS,
+    NUMBER_IN_UNIT,
+    BAD_EXPONENT,
+    EMPTY_UNIT,
+    BAD_DEFINITION,
+];
+
+/// A name that is no unit.
+pub const UNKNOWN_UNIT: Code = Code {
+    id: "U001",
+    title: "unknown unit",
+    explanation: "\
+The name is neither a unit that gumption knows, nor a prefix followed by one, nor a unit of the \
+file's own [unit] table. Upper and lower case matter: mV and MV, s and S, Pa and pA are different. \
+A unit of your own is declared once per file:
+
+    [unit]
+    FS = \"10 V\"
+    tick = \"1\"",
+};
+
+/// A unit text that does not follow the syntax.
+pub const MALFORMED_UNIT: Code = Code {
+    id: "U002",
+    title: "malformed unit",
+    explanation: "\
+A unit is written as a product of names with exponents: `m/s^2`, `m·s^-2`, `µV/(V·K)`, `°/√h`. \
+Products are `·`, `*` or a space, quotients `/`, powers `^2`, `**2` or `²`; parentheses group.",
+};
+
+/// A product after a solidus.
+pub const AMBIGUOUS_SOLIDUS: Code = Code {
+    id: "U003",
+    title: "ambiguous solidus",
+    explanation: "\
+`W/m·K` is read by some as W/(m·K) and by others as (W/m)·K, a factor of K² apart. ISO 80000-1 and \
+the SI Brochure therefore ask for parentheses or negative exponents: `W/(m·K)`, `W·m^-1·K^-1`.",
+};
+
+/// A number other than 1 in a unit.
+pub const NUMBER_IN_UNIT: Code = Code {
+    id: "U004",
+    title: "number in a unit",
+    explanation: "\
+A unit text holds names only; the number 1 alone stands for dimension one and may be a numerator \
+(`1/K`). Numbers belong to values, or to a definition in the file's own table:
+
+    [unit]
+    rev = \"2 pi rad\"
+    FS = \"10 V\"",
+};
+
+/// An exponent that is no small rational number.
+pub const BAD_EXPONENT: Code = Code {
+    id: "U005",
+    title: "unfit exponent",
+    explanation: "\
+Exponents of units are whole numbers or simple fractions between -60 and 60: `m^2`, `s^-1`, \
+`Hz^(1/2)`, `Hz^0.5`. The root may also be written `√Hz` or `sqrt(Hz)`. Fractions need parentheses, \
+because `s^1/2` means (s^1)/2.",
+};
+
+/// An empty unit text.
+pub const EMPTY_UNIT: Code = Code {
+    id: "U006",
+    title: "empty unit",
+    explanation: "\
+A quantity of dimension one has the unit \"1\" (or %, ppm, rad, ° …). An empty text leaves open \
+whether the unit was forgotten.",
+};
+
+/// A definition in the `[unit]` table that cannot be used.
+pub const BAD_DEFINITION: Code = Code {
+    id: "U007",
+    title: "unfit definition of a unit",
+    explanation: "\
+A file's own units are defined by other units, with a positive number if need be; the order does not \
+matter, but no unit may depend on itself. The name must be a single name as it would stand in a unit \
+text, without operators, and may replace a built-in one:
+
+    [unit]
+    g = \"9.80665 m/s^2\"
+    count = \"1\"",
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_unique_and_explained() {
+        for (i, code) in CODES.iter().enumerate() {
+            assert_eq!(code.id, format!("U{:03}", i + 1));
+            assert!(code.explanation.len() > 80 && !code.title.ends_with('.'));
+        }
+    }
+
+    #[test]
+    fn an_error_becomes_a_fault_at_the_same_place() {
+        let fault: Fault = UnitError::new(UNKNOWN_UNIT, 2..4, "no").help("mend").into();
+        assert_eq!((fault.span, fault.label.as_str()), (2..4, "unknown unit"));
+        assert_eq!(fault.help.as_deref(), Some("mend"));
+    }
+}

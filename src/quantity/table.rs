@@ -1,0 +1,535 @@
+//! The units known to a file, and the reading of unit texts.
+
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
+use super::advice;
+use super::builtin::{BuiltinUnit, Definition, PREFIXES, Prefixes, UNITS};
+use super::dimension::{Dimension, STEPS};
+use super::factor::Factor;
+use super::faults::{BAD_DEFINITION, BAD_EXPONENT, UNKNOWN_UNIT, UnitError};
+use super::syntax::{NamedTerm, Numbers, Parsed, parse};
+use super::token::{Kind, tokens, unified};
+use super::unit::Unit;
+
+/// The units known to a file: the built-in ones and those of its `[unit]` table.
+#[derive(Debug, Clone, Default)]
+pub struct UnitTable {
+    own: HashMap<String, Scale>,
+}
+
+/// What stands behind a name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Scale {
+    dimension: Dimension,
+    factor: Factor,
+    origin: Option<f64>,
+    prefixes: Prefixes,
+}
+
+/// Which part of an entry of the `[unit]` table is at fault; the span is in that part.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DefinitionError {
+    /// The name (the key).
+    Name(UnitError),
+    /// The definition (the value).
+    Definition(UnitError),
+}
+
+static BUILTIN: LazyLock<HashMap<&'static str, Scale>> = LazyLock::new(|| {
+    let mut known = HashMap::new();
+    for row in UNITS {
+        let scale =
+            builtin_scale(row, &known).expect("a built-in definition uses only the rows before it");
+        for name in std::iter::once(&row.symbol).chain(row.aliases) {
+            known.insert(*name, scale);
+        }
+    }
+    known
+});
+
+fn builtin_scale(row: &BuiltinUnit, known: &HashMap<&'static str, Scale>) -> Option<Scale> {
+    let equal = |text: &str| {
+        let parsed = parse(text, Numbers::Any).ok()?;
+        combine(&parsed, |name| lookup(name, &HashMap::new(), known)).ok()
+    };
+    let mut scale = match row.definition {
+        Definition::Base(place, ten) => {
+            let mut exponents = [0; 8];
+            *exponents.get_mut(place)? = 1;
+            Scale::coherent(Dimension::of(exponents), Factor::power_of_ten(ten))
+        }
+        Definition::Equal(text) => equal(text)?,
+        Definition::Point(step, zero) => Scale {
+            origin: Some(zero),
+            ..equal(step)?
+        },
+        Definition::Decibels(count) => {
+            let factor = Factor {
+                numerator: count,
+                ..Factor::ONE
+            };
+            Scale::coherent(Dimension::of([0, 0, 0, 0, 0, 0, 0, 1]), factor)
+        }
+    };
+    scale.prefixes = row.prefixes;
+    Some(scale)
+}
+
+impl Scale {
+    fn coherent(dimension: Dimension, factor: Factor) -> Scale {
+        Scale {
+            dimension,
+            factor,
+            origin: None,
+            prefixes: Prefixes::All,
+        }
+    }
+}
+
+impl UnitTable {
+    /// Reads a unit text such as `mA/gn`, `µV/(V·K)`, `°/√h` or `1`.
+    ///
+    /// A point unit (°C) stays one only where it stands alone; in a compound unit (`ppm/°C`) it means
+    /// the unit of its differences.
+    ///
+    /// # Errors
+    /// The first fault of the text.
+    pub fn parse(&self, text: &str) -> Result<Unit, UnitError> {
+        let parsed = parse(text, Numbers::OneOnly)?;
+        let scale =
+            combine(&parsed, |name| self.lookup(name)).map_err(|fault| self.explained(fault))?;
+        Ok(Unit {
+            dimension: scale.dimension,
+            factor: scale.factor,
+            origin: scale.origin,
+            symbol: text.trim().to_owned(),
+        })
+    }
+
+    /// Adds a unit of the file's own, defined by other units with a number if need be: `"1"`,
+    /// `"10 V"`, `"9.80665 m/s^2"`. It takes SI prefixes, and replaces a built-in unit of that name.
+    ///
+    /// # Errors
+    /// When the name is not a single name, or the definition is faulty.
+    pub fn define(&mut self, name: &str, definition: &str) -> Result<(), DefinitionError> {
+        let key = own_name(name).map_err(DefinitionError::Name)?;
+        let scale = parse(definition, Numbers::Any)
+            .and_then(|parsed| {
+                combine(&parsed, |name| self.lookup(name)).map_err(|fault| self.explained(fault))
+            })
+            .map_err(DefinitionError::Definition)?;
+        self.own.insert(
+            key,
+            Scale {
+                prefixes: Prefixes::All,
+                ..scale
+            },
+        );
+        Ok(())
+    }
+
+    /// Adds all units of a file, whatever their order; the faults come with the index of their entry.
+    pub fn define_all<'a>(
+        &mut self,
+        entries: impl IntoIterator<Item = (&'a str, &'a str)>,
+    ) -> Vec<(usize, DefinitionError)> {
+        let mut waiting: Vec<(usize, (&str, &str))> = entries.into_iter().enumerate().collect();
+        let mut faults = Vec::new();
+        while !waiting.is_empty() {
+            let names: Vec<String> = waiting.iter().map(|(_, (name, _))| unified(name)).collect();
+            let (ready, blocked): (Vec<_>, Vec<_>) = waiting
+                .iter()
+                .copied()
+                .partition(|(_, (_, definition))| used(definition, &names).is_none());
+            if ready.is_empty() {
+                faults.extend(
+                    blocked
+                        .iter()
+                        .filter_map(|(i, entry)| Some((*i, circular(*entry, &names)?))),
+                );
+                break;
+            }
+            for (i, (name, definition)) in ready {
+                faults.extend(self.define(name, definition).err().map(|fault| (i, fault)));
+            }
+            waiting = blocked;
+        }
+        faults.sort_by_key(|(i, _)| *i);
+        faults
+    }
+
+    /// All built-in units, in the order of the documentation.
+    pub fn builtin() -> impl Iterator<Item = &'static BuiltinUnit> {
+        UNITS.iter()
+    }
+
+    fn lookup(&self, name: &str) -> Option<Scale> {
+        lookup(name, &self.own, &BUILTIN)
+    }
+
+    /// Adds what may have been meant to an unknown name.
+    fn explained(&self, fault: CombineFault) -> UnitError {
+        match fault {
+            CombineFault::Unknown(term) => {
+                let help = advice::for_unknown(
+                    &term.name,
+                    |name| self.lookup(name).is_some(),
+                    self.own.keys(),
+                );
+                UnitError::new(
+                    UNKNOWN_UNIT,
+                    term.span,
+                    format!("`{}` is not a known unit", term.name),
+                )
+                .help(help)
+            }
+            CombineFault::Exponent(term) => UnitError::new(
+                BAD_EXPONENT,
+                term.span,
+                format!(
+                    "this power of `{}` has an exponent that no unit can have",
+                    term.name
+                ),
+            ),
+        }
+    }
+}
+
+/// Finds a name: as a whole before any prefix is split off, so that `min` is the minute and `cd` the
+/// candela; the file's own units before the built-in ones.
+fn lookup(
+    name: &str,
+    own: &HashMap<String, Scale>,
+    builtin: &HashMap<&'static str, Scale>,
+) -> Option<Scale> {
+    let whole = |name: &str| own.get(name).or_else(|| builtin.get(name)).copied();
+    whole(name).or_else(|| {
+        PREFIXES.iter().find_map(|(prefix, ten)| {
+            let scale = whole(name.strip_prefix(prefix)?)?;
+            let fits = match scale.prefixes {
+                Prefixes::None => false,
+                Prefixes::Multiples => *ten >= 3,
+                Prefixes::All => true,
+            };
+            let factor = scale.factor.product(Factor::power_of_ten(*ten));
+            fits.then_some(Scale {
+                factor,
+                prefixes: Prefixes::None,
+                ..scale
+            })
+        })
+    })
+}
+
+enum CombineFault {
+    Unknown(NamedTerm),
+    Exponent(NamedTerm),
+}
+
+/// The product that a text stands for.
+fn combine(parsed: &Parsed, lookup: impl Fn(&str) -> Option<Scale>) -> Result<Scale, CombineFault> {
+    let mut result = Scale::coherent(Dimension::NONE, parsed.number);
+    for term in &parsed.terms {
+        let scale = lookup(&term.name).ok_or_else(|| CombineFault::Unknown(term.clone()))?;
+        let dimension = scale.dimension.powr(term.exponent, STEPS);
+        let dimension = dimension.ok_or_else(|| CombineFault::Exponent(term.clone()))?;
+        result.dimension = result.dimension.product(dimension);
+        result.factor = result
+            .factor
+            .product(scale.factor.powr(term.exponent, STEPS));
+        result.origin = scale.origin.filter(|_| parsed.bare);
+    }
+    Ok(result)
+}
+
+/// Checks the name of a unit that a file defines.
+fn own_name(name: &str) -> Result<String, UnitError> {
+    let fault = || {
+        UnitError::new(
+            BAD_DEFINITION,
+            0..name.len(),
+            format!("`{name}` cannot be the name of a unit"),
+        )
+        .help("use a single name without spaces and operators, such as `count` or `FS`")
+    };
+    match tokens(name).map_err(|_| fault())?.as_slice() {
+        [token] if token.span == (0..name.len()) => match &token.kind {
+            Kind::Name(unified) if !["sqrt", "pi", "π"].contains(&unified.as_str()) => {
+                Ok(unified.clone())
+            }
+            _ => Err(fault()),
+        },
+        _ => Err(fault()),
+    }
+}
+
+/// The first of `names` that a definition uses, with or without a prefix, and where.
+fn used(definition: &str, names: &[String]) -> Option<NamedTerm> {
+    let depends = |term: &NamedTerm| {
+        let prefixed = |name: &String| {
+            PREFIXES
+                .iter()
+                .any(|(p, _)| term.name.strip_prefix(p) == Some(name.as_str()))
+        };
+        names.contains(&term.name)
+            || (!BUILTIN.contains_key(term.name.as_str()) && names.iter().any(prefixed))
+    };
+    parse(definition, Numbers::Any)
+        .ok()?
+        .terms
+        .into_iter()
+        .find(depends)
+}
+
+fn circular((name, definition): (&str, &str), names: &[String]) -> Option<DefinitionError> {
+    let term = used(definition, names)?;
+    let message = format!(
+        "`{name}` cannot be defined by `{}`, which is itself waiting for a definition",
+        term.name
+    );
+    Some(DefinitionError::Definition(
+        UnitError::new(BAD_DEFINITION, term.span, message).help(
+            "these definitions run in a circle; define one of them by units that are built in",
+        ),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::builtin::UnitKind;
+    use super::*;
+
+    fn unit(text: &str) -> Unit {
+        UnitTable::default()
+            .parse(text)
+            .unwrap_or_else(|e| panic!("{text}: {e:?}"))
+    }
+
+    fn error(text: &str) -> UnitError {
+        UnitTable::default().parse(text).expect_err(text)
+    }
+
+    #[test]
+    fn every_prefix_goes_with_every_si_unit() {
+        let exponent = |ten: i32| format!("1e{ten}").parse::<f64>().unwrap();
+        for row in UNITS
+            .iter()
+            .filter(|u| u.kind == UnitKind::Si && u.prefixes == Prefixes::All)
+        {
+            for (prefix, ten) in PREFIXES {
+                let text = format!("{prefix}{}", row.symbol);
+                // Names that exist as a whole win: cd, Pa, kg, min, ft, mil …
+                if BUILTIN.contains_key(text.as_str()) {
+                    continue;
+                }
+                let scaled = unit(&text);
+                assert_eq!(
+                    scaled.factor.ratio(unit(row.symbol).factor),
+                    exponent(*ten),
+                    "{text}"
+                );
+                assert_eq!(scaled.dimension, unit(row.symbol).dimension, "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn whole_names_win_over_prefixes() {
+        let dimension = |text: &str| unit(text).dimension.to_string();
+        assert_eq!(dimension("min"), "s");
+        assert_eq!(dimension("cd"), "cd");
+        assert_eq!(dimension("Pa"), "m^-1·kg·s^-2");
+        assert_eq!(dimension("mol"), "mol");
+        assert_eq!(dimension("ft"), "m");
+        assert_eq!(dimension("dB"), "dB");
+        assert_eq!(dimension("ppm"), "1");
+        assert_eq!(dimension("T"), "kg·s^-2·A^-1");
+        assert_eq!(dimension("mGal"), "m·s^-2");
+        assert_eq!(unit("dam").factor.value(), 10.0);
+        assert_eq!(unit("das").factor.value(), 10.0);
+        assert_eq!(unit("mg").factor.value(), 1e-6);
+        assert_eq!(unit("kg").factor.value(), 1.0);
+        assert_eq!(unit("mmol").factor.value(), 1e-3);
+        assert_eq!(unit("us").factor.value(), 1e-6);
+        assert_eq!(unit("u").dimension.to_string(), "kg");
+        assert_eq!(unit("h").factor.value(), 3600.0);
+        assert_eq!(unit("d").factor.value(), 86400.0);
+    }
+
+    #[test]
+    fn values_are_those_of_the_si_brochure_and_sp_811() {
+        for (text, value) in [
+            ("a", 31_557_600.0),
+            ("au", 149_597_870_700.0),
+            ("eV", 1.602176634e-19),
+            ("Da", 1.66053906892e-27),
+            ("atm", 101_325.0),
+            ("Torr", 101_325.0 / 760.0),
+            ("mmHg", 133.322387415),
+            ("inHg", 3_386.388640341),
+            ("psi", 6_894.757293168362),
+            ("lbf", 4.4482216152605),
+            ("hp", 745.6998715822702),
+            ("kn", 1852.0 / 3600.0),
+            ("Oe", 1000.0 / (4.0 * std::f64::consts::PI)),
+            ("Np", 8.685889638065037),
+            ("°", std::f64::consts::PI / 180.0),
+            ("mas", std::f64::consts::PI / 648_000_000.0),
+            ("gon", std::f64::consts::PI / 200.0),
+            ("Ah", 3600.0),
+            ("cP", 1e-3),
+            ("cSt", 1e-6),
+            ("gr", 6.479891e-5),
+            ("Ci", 3.7e10),
+            ("mΩ/kΩ", 1e-6),
+        ] {
+            let found = unit(text).factor.value();
+            assert!(
+                (found / value - 1.0).abs() < 4e-16,
+                "{text}: {found} instead of {value}"
+            );
+        }
+    }
+
+    #[test]
+    fn laboratory_spellings_are_read() {
+        for (a, b) in [
+            ("℃", "°C"),
+            ("degC", "°C"),
+            ("\u{2126}", "Ω"),
+            ("ohm", "Ω"),
+            ("μV/V", "uV/V"),
+            ("deg/s", "°/s"),
+            ("\"", "arcsec"),
+            ("'", "arcmin"),
+            ("″", "arcsec"),
+            ("°/h", "deg/h"),
+            ("g_n", "gn"),
+            ("µV/(V·K)", "uV/V/K"),
+            ("l", "L"),
+            ("m/s²/√Hz", "m/s^2/sqrt(Hz)"),
+            ("％", "%"),
+            ("r/min", "rpm"),
+            ("ml", "mL"),
+            ("ppm/℃", "ppm/K"),
+        ] {
+            let (a, b) = (unit(a), unit(b));
+            assert_eq!(
+                (a.dimension, a.factor, a.origin),
+                (b.dimension, b.factor, b.origin),
+                "{} {}",
+                a.symbol,
+                b.symbol
+            );
+        }
+        assert_eq!(unit(" m/s^2 ").symbol, "m/s^2");
+        assert_eq!(unit("1"), Unit::one());
+        assert_eq!(unit("rad").factor, Factor::ONE);
+        assert_eq!(unit("rad").symbol, "rad");
+    }
+
+    #[test]
+    fn every_builtin_symbol_and_alias_is_read_and_unique() {
+        let mut seen = std::collections::HashSet::new();
+        for row in UNITS {
+            for name in std::iter::once(&row.symbol).chain(row.aliases) {
+                assert!(seen.insert(*name), "{name} is listed twice");
+                assert_eq!(unit(name).symbol, *name);
+                assert_eq!(&unified(name), name);
+            }
+            let typeset = unit(row.symbol).typeset();
+            assert_eq!(unit(&typeset).factor, unit(row.symbol).factor);
+        }
+    }
+
+    #[test]
+    fn unknown_units_are_located_and_explained() {
+        let suggestion = |text: &str| error(text).help.unwrap();
+        assert_eq!(error("mV/KHz").span, 3..6);
+        assert_eq!(error("℃/foo").span, 4..7);
+        assert_eq!(error("mV/KHz").message, "`KHz` is not a known unit");
+        assert_eq!(suggestion("KHz"), "write `kHz`");
+        assert_eq!(suggestion("sec"), "write `s`");
+        assert_eq!(suggestion("Volt"), "write `V`");
+        assert_eq!(suggestion("m2"), "write `m^2`");
+        assert_eq!(suggestion("mm3"), "write `mm^3`");
+        assert_eq!(suggestion("meters"), "write `m`");
+        assert!(suggestion("arcsecs").contains("arcsec"));
+        assert!(suggestion("Vrms").contains("`V`"));
+        assert!(suggestion("dBm").contains("[unit]"));
+        assert!(suggestion("M").contains("`m`"));
+        assert!(suggestion("frobs").contains("[unit]"));
+    }
+
+    #[test]
+    fn a_file_may_define_units() {
+        let mut table = UnitTable::default();
+        table.define("FS", "10 V").unwrap();
+        table.define("tick", "1").unwrap();
+        table.define("g", "9.80665 m/s^2").unwrap();
+        assert_eq!(table.parse("ppm·FS").unwrap().factor.value(), 1e-5);
+        assert_eq!(table.parse("tick/s").unwrap().dimension.to_string(), "s^-1");
+        assert_eq!(
+            table
+                .parse("µg")
+                .unwrap()
+                .conversion_to(&unit("µgn"))
+                .unwrap()
+                .factor,
+            1.0
+        );
+        assert_eq!(table.parse("kg").unwrap(), unit("kg"), "mass stays mass");
+        assert_eq!(
+            table.parse("mA/g").unwrap().dimension,
+            unit("mA/gn").dimension
+        );
+        table.define("Cels", "°C").unwrap();
+        assert!(table.parse("Cels").unwrap().is_point());
+        table.define("dK", "10^-1 °C").unwrap();
+        assert!(!table.parse("dK").unwrap().is_point());
+    }
+
+    #[test]
+    fn definitions_may_come_in_any_order_but_not_in_a_circle() {
+        let mut table = UnitTable::default();
+        assert_eq!(table.define_all([("b", "2 ka_"), ("a_", "3 mm")]), []);
+        assert_eq!(table.parse("b").unwrap().factor.value(), 6.0);
+        let faults = table.define_all([
+            ("x_", "2 y_"),
+            ("ok", "V"),
+            ("y_", "x_/2"),
+            ("q w", "V"),
+            ("z", "2 nix"),
+        ]);
+        let codes: Vec<_> = faults
+            .iter()
+            .map(|(i, fault)| match fault {
+                DefinitionError::Name(e) => (*i, "name", e.span.clone()),
+                DefinitionError::Definition(e) => (*i, "definition", e.span.clone()),
+            })
+            .collect();
+        assert_eq!(
+            codes,
+            [
+                (0, "definition", 2..4),
+                (2, "definition", 0..2),
+                (3, "name", 0..3),
+                (4, "definition", 2..5)
+            ]
+        );
+        assert!(table.parse("ok").is_ok());
+        assert!(matches!(
+            table.define("V", "0 m"),
+            Err(DefinitionError::Definition(_))
+        ));
+        assert!(matches!(
+            table.define("", "m"),
+            Err(DefinitionError::Name(_))
+        ));
+        assert!(matches!(
+            table.define("2x", "m"),
+            Err(DefinitionError::Name(_))
+        ));
+    }
+}

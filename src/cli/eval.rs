@@ -3,7 +3,7 @@
 use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 
-use gumption::budget::{self, Adaptive, Budget, Heading, MonteCarloSettings, Trials};
+use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Trials};
 use gumption::propagate::{self, Evaluation, MonteCarloChoice, Options};
 use gumption::report::{self, Language, Page, Report};
 use serde_json::Value;

@@ -1,12 +1,12 @@
 //! What a certificate claims beside what the evaluation gives.
 
 use crate::budget::Claim;
-use crate::quantity::Rounding;
+use crate::quantity::Decimal;
 
 use super::Report;
 use super::document::Block;
 use super::language::{Language, Word};
-use super::number::{NONE, Rounded, exact, significant};
+use super::number::{NONE, at_place, exact, print, significant};
 use super::table::{Cell, ColumnKind, Row, Table};
 
 /// One claimed figure against one obtained figure.
@@ -91,13 +91,13 @@ impl Comparison {
     /// Obtained minus claimed in units of the last digit that the claim states.
     pub(super) fn last_digits(&self) -> Option<f64> {
         let place = self.last_place()?;
-        let rounded = Rounded::at_place(self.obtained?, place, Rounding::HalfEven)?;
-        Some(((rounded.to_f64() - self.claimed) / 10f64.powi(place)).round())
+        let rounded = at_place(self.obtained.filter(|o| o.is_finite())?, place);
+        Some((rounded.shifted(-place).to_f64() - Decimal::from_f64(self.claimed).shifted(-place).to_f64()).round())
     }
 
     /// Power of ten of the last digit that the claim states. k = 2 is meant as 2.00.
     fn last_place(&self) -> Option<i32> {
-        let place = Rounded::exact(self.claimed)?.place();
+        let place = Decimal::from_f64(self.claimed).place()?;
         Some(if self.figure == Figure::CoverageFactor { place.min(-2) } else { place })
     }
 
@@ -232,8 +232,8 @@ fn push(table: &mut Table, comparison: &Comparison, language: Language) {
         || NONE.to_string(),
         |o| {
             let place = comparison.last_place().unwrap_or(0);
-            let rounded = Rounded::at_place(o, place - 2, Rounding::HalfEven);
-            rounded.map_or_else(|| exact(o), |r| if r.is_zero() { significant(o, 3) } else { r.to_string() })
+            let rounded = at_place(o, place - 2);
+            if rounded.is_zero() { significant(o, 3) } else { print(&rounded) }
         },
     );
     let ratio = comparison.ratio().map_or_else(|| NONE.to_string(), |r| significant(r, 4));

@@ -78,8 +78,5 @@ fn symbol(unit: &Unit) -> String {
 
 /// The unit of a difference, in which uncertainties are: kelvin for a Celsius temperature.
 fn difference_symbol(unit: &Unit) -> String {
-    match (unit.origin, unit.symbol.as_str()) {
-        (Some(_), "°C") => "K".to_string(),
-        _ => symbol(unit),
-    }
+    symbol(&unit.difference())
 }

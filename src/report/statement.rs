@@ -6,10 +6,10 @@
 
 use crate::budget::{Conventions, CoverageRule};
 use crate::propagate::{Basis, Coverage, CoverageBasis, FindingKind, Freedom, MonteCarlo};
-use crate::quantity::{Rounding, Unit};
+use crate::quantity::{Decimal, Rounded, RoundingRule, Unit, space_before};
 
 use super::language::Language;
-use super::number::{Rounded, exact, freedom, grouped, probability, times_ten};
+use super::number::{NONE, STYLE, at_place, exact, freedom, grouped, print, probability, significant};
 use super::{Report, difference_symbol, symbol};
 
 /// One sentence (or a few) per measurand, and one for the correlation of several.
@@ -63,21 +63,21 @@ impl<'a> Subject<'a> {
         if expanded == 0.0 || !expanded.is_finite() {
             return self.without_uncertainty(estimate);
         }
-        let pair = Pair::new(&[estimate], expanded, self.conventions, self.unit);
+        let pair = rule(self.conventions).align(estimate, expanded);
         let u = self.small(u);
         let k = self.factor(coverage);
         match self.form() {
             Form::PlusMinus => {
                 let space = self.language.pick(" ", "");
-                format!("{}{space}{}", self.equation(&pair), self.explained(&pair.uncertainty_text(), &u, &k, coverage, dof))
+                format!("{}{space}{}", self.equation(&pair), self.explained(&self.amount(&pair.uncertainty), &u, &k, coverage, dof))
             }
             Form::Apart => self.apart(&pair, &u, &k, coverage, dof),
         }
     }
 
     /// `I = (9.9990 ± 0.0017) mA.`
-    fn equation(&self, pair: &Pair) -> String {
-        format!("{} = {}{}", self.name, pair.plus_minus(), self.language.pick(".", "。"))
+    fn equation(&self, pair: &Rounded) -> String {
+        format!("{} = {}{}", self.name, pair.plus_minus_unit(&self.unit.symbol, STYLE), self.language.pick(".", "。"))
     }
 
     fn explained(&self, expanded: &str, u: &str, k: &str, coverage: &Coverage, dof: &Freedom) -> String {
@@ -124,9 +124,9 @@ impl<'a> Subject<'a> {
     }
 
     /// `y = …, U = …, k = 2` or, where p is stated, `U_95 = …, k_95 = 2.26, ν_eff = 9`.
-    fn apart(&self, pair: &Pair, u: &str, k: &str, coverage: &Coverage, dof: &Freedom) -> String {
+    fn apart(&self, pair: &Rounded, u: &str, k: &str, coverage: &Coverage, dof: &Freedom) -> String {
         let name = self.name;
-        let (y, expanded) = (pair.value_text(), pair.uncertainty_text());
+        let (y, expanded) = (self.value(&pair.estimate), self.amount(&pair.uncertainty));
         let index = if self.names_probability(coverage) {
             format!("_{}", probability(self.stated_probability(coverage)).trim_end_matches(" %"))
         } else {
@@ -192,19 +192,21 @@ impl<'a> Subject<'a> {
         if scale <= 0.0 || !scale.is_finite() {
             return self.without_uncertainty(centre);
         }
-        let set = Pair::new(&[centre, interval[0], interval[1]], scale, self.conventions, self.unit);
-        let (value, low, high) = (set.value_text(), set.nth_text(1), set.nth_text(2));
+        let rule = rule(self.conventions);
+        let pair = rule.align(centre, scale);
+        let [low, high] = interval.map(|end| self.value(&rule.to_place_of(&pair, end)));
+        let value = self.value(&pair.estimate);
         let trials = self.report.evaluation.run.as_ref().map_or(0, |run| run.trials);
         let trials = grouped(trials);
         let name = self.name;
         match (monte_carlo.u, self.language) {
             (Some(_), Language::English) => format!(
                 "{name}: estimate {value}, standard uncertainty u = {u}, {which} {p} coverage interval from {low} to {high}. These figures were found by the Monte Carlo method with {trials} trials, because the distribution of the result is not one for which an estimate with a symmetric expanded uncertainty would be right.",
-                u = set.uncertainty_text(),
+                u = self.amount(&pair.uncertainty),
             ),
             (Some(_), Language::Chinese) => format!(
                 "{name}：估计值 {value}，标准不确定度 u = {u}，包含概率 {p} 的{which}包含区间为 {low} 至 {high}。以上结果由蒙特卡洛法（{trials} 次试验）得到，因为该输出量的分布不适合用估计值加对称的扩展不确定度表示。",
-                u = set.uncertainty_text(),
+                u = self.amount(&pair.uncertainty),
             ),
             (None, Language::English) => format!(
                 "{name}: median {value}, {which} {p} coverage interval from {low} to {high}, found by the Monte Carlo method with {trials} trials. No standard uncertainty is stated, because the distribution of the result has none."
@@ -223,10 +225,19 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// A value of the measurand with its unit.
+    fn value(&self, number: &Decimal) -> String {
+        with_unit(&print(number), &symbol(self.unit))
+    }
+
+    /// A lone uncertainty with its unit.
+    fn amount(&self, number: &Decimal) -> String {
+        with_unit(&print(number), &difference_symbol(self.unit))
+    }
+
     /// A standard uncertainty beside U: two digits whatever the profile says about U.
     fn small(&self, u: f64) -> String {
-        let rounded = Rounded::significant(u, 2, Rounding::HalfEven);
-        with_unit(&rounded.map_or_else(String::new, |r| r.to_string()), &difference_symbol(self.unit))
+        with_unit(&significant(u, 2), &difference_symbol(self.unit))
     }
 }
 
@@ -236,7 +247,7 @@ fn shown_freedom(used: f64, found: &Freedom) -> f64 {
 }
 
 fn two_decimals(k: f64) -> String {
-    Rounded::at_place(k, -2, Rounding::HalfEven).map_or_else(String::new, |r| r.over(0))
+    print(&at_place(k, -2))
 }
 
 pub(super) fn shape_in_chinese(shape: &str) -> String {
@@ -253,79 +264,17 @@ pub(super) fn shape_in_chinese(shape: &str) -> String {
 fn with_unit(number: &str, unit: &str) -> String {
     match unit {
         "" => number.to_string(),
-        // Plane angle symbols stand without a space (SI brochure 5.4.3).
-        "°" | "'" | "\"" | "′" | "″" => format!("{number}{unit}"),
-        _ => format!("{number} {unit}"),
+        _ => format!("{number}{}{unit}", space_before(unit)),
     }
 }
 
-/// Values and an uncertainty rounded to one last place, with one power of ten, in one unit.
-struct Pair {
-    values: Vec<Rounded>,
-    uncertainty: Rounded,
-    power: i32,
-    unit: String,
-    difference: String,
-}
-
-impl Pair {
-    fn new(values: &[f64], uncertainty: f64, conventions: &Conventions, unit: &Unit) -> Self {
-        let uncertainty = rounded_uncertainty(uncertainty, conventions);
-        let place = uncertainty.place();
-        // The estimate is rounded to nearest even where U is rounded up: carrying it up as well would
-        // move it away from the best estimate.
-        let rounding = match conventions.rounding {
-            Rounding::Up => Rounding::HalfEven,
-            nearest => nearest,
-        };
-        let values: Vec<Rounded> = values.iter().filter_map(|v| Rounded::at_place(*v, place, rounding)).collect();
-        let leading = values.iter().filter(|v| !v.is_zero()).map(Rounded::leading).chain([uncertainty.leading()]).max();
-        let leading = leading.unwrap_or(0);
-        let plain = place <= 0 && (-4..10).contains(&leading);
-        Pair {
-            values,
-            uncertainty,
-            power: if plain { 0 } else { leading },
-            unit: symbol(unit),
-            difference: difference_symbol(unit),
-        }
+/// How the profile rounds U and y.
+fn rule(conventions: &Conventions) -> RoundingRule {
+    RoundingRule {
+        digits: conventions.digits,
+        rounding: conventions.rounding,
+        up_if_lowered_by_5_percent: conventions.up_if_lowered_by_5_percent,
     }
-
-    fn plus_minus(&self) -> String {
-        let value = self.values.first().map_or_else(String::new, |v| v.over(self.power));
-        let bracket = format!("({value} ± {}){}", self.uncertainty.over(self.power), times_ten(self.power));
-        with_unit(&bracket, &self.unit)
-    }
-
-    fn value_text(&self) -> String {
-        self.nth_text(0)
-    }
-
-    fn nth_text(&self, i: usize) -> String {
-        let value = self.values.get(i).map_or_else(String::new, |v| v.over(self.power));
-        with_unit(&format!("{value}{}", times_ten(self.power)), &self.unit)
-    }
-
-    /// The lone uncertainty, with its own power of ten.
-    fn uncertainty_text(&self) -> String {
-        with_unit(&self.uncertainty.to_string(), &self.difference)
-    }
-}
-
-/// U or u by the conventions of the profile; EA-4/02 6.3 takes the next higher value where rounding
-/// would lower U by more than 5 %.
-fn rounded_uncertainty(x: f64, conventions: &Conventions) -> Rounded {
-    let rounded = |rounding| Rounded::significant(x, conventions.digits, rounding).unwrap_or_else(zero);
-    let nearest = rounded(conventions.rounding);
-    let printed: f64 = nearest.to_f64();
-    if conventions.up_if_lowered_by_5_percent && printed < 0.95 * x {
-        return rounded(Rounding::Up);
-    }
-    nearest
-}
-
-fn zero() -> Rounded {
-    Rounded::exact(0.0).expect("zero is finite")
 }
 
 fn correlations(report: &Report<'_>) -> Option<String> {
@@ -364,6 +313,5 @@ fn correlations(report: &Report<'_>) -> Option<String> {
 /// A correlation coefficient: two decimals, more digits near ±1 (GUM 7.2.6).
 pub(super) fn coefficient(r: f64) -> String {
     let place = if r.abs() < 0.9 || r.abs() == 1.0 { -2 } else { ((1.0 - r.abs()).log10().floor() as i32 - 1).clamp(-6, -3) };
-    let rounded = Rounded::at_place(r, place, Rounding::HalfEven);
-    rounded.map_or_else(|| super::number::NONE.to_string(), |r| r.over(0))
+    if r.is_finite() { at_place(r, place).print_plain(STYLE) } else { NONE.to_string() }
 }

@@ -26,6 +26,9 @@ pub(super) fn for_unknown<'a>(
     {
         return format!("write `{base}`, and say in the description which kind of value it is");
     }
+    if let Some(advice) = as_product(name, &is_known) {
+        return advice;
+    }
     let own: Vec<&String> = own.collect();
     let prefixed: Vec<String> = PREFIXES
         .iter()
@@ -58,6 +61,23 @@ pub(super) fn for_unknown<'a>(
             ),
         },
     }
+}
+
+/// A product written without a sign: `Nm`, `Pas`, `mVs`. Suggesting a mere change of case, the
+/// nanometre for the first, would be dangerous.
+fn as_product(name: &str, is_known: impl Fn(&str) -> bool) -> Option<String> {
+    let (first, second) = ["cm", "mm", "km", "m", "s", "h"]
+        .iter()
+        .find_map(|second| {
+            let first = name.strip_suffix(second).filter(|first| is_known(first))?;
+            Some((first, *second))
+        })?;
+    Some(match second {
+        "s" => format!(
+            "units have no plural: write `{first}`, or `{first}·s` for the product with the second"
+        ),
+        _ => format!("write `{first}·{second}` for the product"),
+    })
 }
 
 /// The symbol of a unit that was written out: `Volt`, `meters`, `degrees Celsius`.

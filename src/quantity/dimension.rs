@@ -6,8 +6,17 @@ use std::fmt;
 /// exact.
 pub(super) const STEPS: i32 = 60;
 
-/// SI symbols of the coherent units of the eight base quantities, in the order in which they print.
-const BASE_SYMBOLS: [&str; 8] = ["m", "kg", "s", "A", "K", "mol", "cd", "dB"];
+/// SI symbols of the base units with their places, in the order in which the SI Brochure writes them.
+const BASE_SYMBOLS: [(&str, usize); 8] = [
+    ("kg", 1),
+    ("m", 0),
+    ("s", 2),
+    ("A", 3),
+    ("K", 4),
+    ("mol", 5),
+    ("cd", 6),
+    ("dB", 7),
+];
 
 /// Exponents of length, mass, time, electric current, thermodynamic temperature, amount of
 /// substance, luminous intensity, and logarithmic level (dB, Np), each in sixtieths so that
@@ -118,7 +127,7 @@ impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let factors: Vec<String> = BASE_SYMBOLS
             .iter()
-            .zip(self.0)
+            .map(|(symbol, place)| (symbol, self.0[*place]))
             .filter(|(_, exponent)| *exponent != 0)
             .map(|(symbol, exponent)| format!("{symbol}{}", exponent_text(exponent.into())))
             .collect();

@@ -264,13 +264,13 @@ impl Fraction {
     fn canonical(self) -> Option<Fraction> {
         let mut f = self.reduced();
         for (divisor, complement) in [(2, 5), (5, 2)] {
-            while f.denominator % divisor == 0 {
+            while f.denominator.is_multiple_of(divisor) {
                 f.denominator /= divisor;
                 f.numerator = f.numerator.checked_mul(complement)?;
                 f.ten = f.ten.checked_sub(1)?;
             }
         }
-        while f.numerator % 10 == 0 && f.numerator > 0 {
+        while f.numerator.is_multiple_of(10) && f.numerator > 0 {
             f.numerator /= 10;
             f.ten = f.ten.checked_add(1)?;
         }

@@ -2,10 +2,13 @@
 
 mod advice;
 mod builtin;
+mod clash;
 mod decimal;
 mod dimension;
+mod docs;
 mod factor;
 pub mod faults;
+mod print;
 mod rounded;
 mod symbol;
 mod syntax;
@@ -14,10 +17,13 @@ mod token;
 mod unit;
 
 pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind};
-pub use decimal::{Decimal, Grouping, PowerStyle, Rounding, Style};
+pub use clash::hint_for_clash;
+pub use decimal::{Decimal, Rounding};
 pub use dimension::Dimension;
+pub use docs::unit_documentation;
 pub use factor::Factor;
 pub use faults::UnitError;
+pub use print::{Grouping, PowerStyle, Style};
 pub use rounded::{Rounded, RoundingRule, space_before};
 pub use table::{DefinitionError, UnitTable};
-pub use unit::{Conversion, Unit, hint_for_clash};
+pub use unit::{Conversion, Unit};

@@ -1,7 +1,8 @@
 //! An estimate and its uncertainty, rounded to the same last place (GUM 7.2.6, EA-4/02 6.3,
 //! JJF 1059.1 5.3.8).
 
-use super::decimal::{Decimal, Rounding, Style, needed_power};
+use super::decimal::{Decimal, Rounding};
+use super::print::{Style, needed_power};
 
 /// The conventions by which results are rounded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,7 +173,7 @@ pub fn space_before(unit: &str) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::super::decimal::PowerStyle;
+    use super::super::print::PowerStyle;
     use super::*;
     use proptest::prelude::*;
 

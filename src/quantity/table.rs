@@ -339,7 +339,7 @@ mod tests {
         let dimension = |text: &str| unit(text).dimension.to_string();
         assert_eq!(dimension("min"), "s");
         assert_eq!(dimension("cd"), "cd");
-        assert_eq!(dimension("Pa"), "m^-1·kg·s^-2");
+        assert_eq!(dimension("Pa"), "kg·m^-1·s^-2");
         assert_eq!(dimension("mol"), "mol");
         assert_eq!(dimension("ft"), "m");
         assert_eq!(dimension("dB"), "dB");
@@ -455,7 +455,11 @@ mod tests {
         assert_eq!(suggestion("m2"), "write `m^2`");
         assert_eq!(suggestion("mm3"), "write `mm^3`");
         assert_eq!(suggestion("meters"), "write `m`");
-        assert!(suggestion("arcsecs").contains("arcsec"));
+        assert!(suggestion("arcsecs").contains("`arcsec`"));
+        assert_eq!(suggestion("Nm"), "write `N·m` for the product");
+        assert!(suggestion("Pas").contains("`Pa·s`"));
+        assert!(suggestion("arcmni").contains("`arcmin`"));
+        assert_eq!(suggestion("m/s2"), "write `s^2`");
         assert!(suggestion("Vrms").contains("`V`"));
         assert!(suggestion("dBm").contains("[unit]"));
         assert!(suggestion("M").contains("`m`"));

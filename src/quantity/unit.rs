@@ -167,78 +167,6 @@ fn difference_symbol(point: &str) -> String {
     }
 }
 
-/// What a clash between the units of two quantities may come from, for the confusions that are
-/// classical: gram and acceleration of free fall, °C in a product, hour and Planck constant.
-///
-/// The order of the two does not matter.
-pub fn hint_for_clash(expected: &Unit, found: &Unit) -> Option<String> {
-    clash_with(expected, found).or_else(|| clash_with(found, expected))
-}
-
-/// The hint when `suspect` is the unit that is not what its writer meant.
-fn clash_with(other: &Unit, suspect: &Unit) -> Option<String> {
-    let quotient = suspect.dimension.quotient(other.dimension);
-    let names = super::symbol::names(&suspect.symbol);
-    let named = |wanted: &str| names.iter().any(|name| name == wanted);
-    let prefixed = |base: &str| {
-        names.iter().find(|name| {
-            ["", "m", "µ", "u", "n"]
-                .iter()
-                .any(|p| **name == format!("{p}{base}"))
-        })
-    };
-    let is = |d: Dimension, exponents: [i8; 8]| {
-        let wanted = Dimension::of(exponents);
-        d == wanted || d == Dimension::NONE.quotient(wanted)
-    };
-    // Gram stands where metre per second squared should.
-    if let Some(gram) = prefixed("g").filter(|_| is(quotient, [-1, 1, 2, 0, 0, 0, 0, 0])) {
-        return Some(format!(
-            "`{gram}` is a unit of mass (gram); the standard acceleration of free fall is `{gram}n`, \
-             or define `g = \"9.80665 m/s^2\"` in the [unit] table"
-        ));
-    }
-    if suspect.is_point() && suspect.dimension != other.dimension {
-        let symbol = &suspect.symbol;
-        return Some(format!(
-            "a temperature in {symbol} has an arbitrary zero; subtract a reference as in `T - 20 '{symbol}'`, \
-             use `kelvin(T)`, or give the quantity in K"
-        ));
-    }
-    if named("h") && is(quotient, [-2, -1, 2, 0, 0, 0, 0, 0]) {
-        return Some(
-            "`h` is the hour; the Planck constant is a quantity, not a unit: \
-                     declare `[constant.h] value = 6.62607015e-34, unit = \"J·s\"`"
-                .to_owned(),
-        );
-    }
-    if named("pH") {
-        return Some(
-            "`pH` is read as picohenry; for the acidity define `pH = \"1\"` in the [unit] table"
-                .to_owned(),
-        );
-    }
-    if named("S") && is(quotient, [-2, -1, 2, 2, 0, 0, 0, 0]) {
-        return Some("`S` is the siemens (conductance); the second is `s`".to_owned());
-    }
-    if named("F") && is(quotient, [-2, -1, 4, 2, -1, 0, 0, 0]) {
-        return Some("`F` is the farad (capacitance); degrees Fahrenheit are `°F`".to_owned());
-    }
-    if named("C") && is(quotient, [0, 0, 1, 1, -1, 0, 0, 0]) {
-        return Some(
-            "`C` is the coulomb (charge); degrees Celsius are `°C`, differences `K`".to_owned(),
-        );
-    }
-    if (named("dB") || named("Np")) && other.dimension.is_none() {
-        return Some(
-            "a level in dB is no plain ratio; convert it as in `10^(L / 20 'dB')` for amplitudes, \
-                     `10^(L / 10 'dB')` for powers"
-                .to_owned(),
-        );
-    }
-    None
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::UnitTable;
@@ -348,22 +276,6 @@ mod tests {
         assert_eq!(unit("deg/s").typeset(), "°/s");
         assert_eq!(unit("W/(m^2 K)").typeset(), "W/(m²·K)");
         assert_eq!(unit("1").typeset(), "1");
-    }
-
-    #[test]
-    fn classical_confusions_get_a_hint() {
-        let hint = |a: &str, b: &str| hint_for_clash(&unit(a), &unit(b)).unwrap_or_default();
-        assert!(hint("m/s^2", "g").contains("`gn`"));
-        assert!(hint("mA/g", "mA/gn").contains("`gn`"));
-        assert!(hint("m/s^2", "mg").contains("`mgn`"));
-        assert!(hint("V", "°C").contains("T - 20 '°C'"));
-        assert!(hint("J·s", "h").contains("Planck"));
-        assert!(hint("1", "pH").contains("picohenry"));
-        assert!(hint("s", "S").contains("siemens"));
-        assert!(hint("K", "C").contains("coulomb"));
-        assert!(hint("1", "dB").contains("amplitudes"));
-        assert_eq!(hint("m", "s"), "");
-        assert_eq!(hint("g", "kg"), "");
     }
 
     proptest! {

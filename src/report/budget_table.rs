@@ -193,8 +193,10 @@ fn shared_components(report: &Report<'_>) -> Vec<usize> {
 
 /// `normal (B)`.
 fn distribution(component: &Component, language: Language) -> String {
-    let name = language.pick(component.distribution.name(), component.distribution.name_zh());
-    format!("{name} ({})", kind(component.evaluation))
+    let named = component.distribution.kind();
+    // The table has no room for second names and for the word distribution in every row.
+    let short = named.name_zh.split('(').next().unwrap_or_default().trim_end_matches("分布");
+    format!("{} ({})", language.pick(named.key, short), kind(component.evaluation))
 }
 
 fn kind(evaluation: Kind) -> &'static str {

@@ -741,7 +741,7 @@ fn component<'a>(c: &'a Component, inputs: &'a [Input]) -> ComponentJson<'a> {
             Owner::Source(name) => Some(name),
         },
         unit: &c.unit.symbol,
-        distribution: DistributionJson { name: c.distribution.name().to_string(), parameters: parameters(&c.distribution) },
+        distribution: DistributionJson { name: c.distribution.kind().key.to_string(), parameters: parameters(&c.distribution) },
         standard_uncertainty: number(c.u),
         degrees_of_freedom: number(c.dof),
         evaluation: match c.evaluation {

@@ -56,7 +56,12 @@ struct Row {
 
 impl Row {
     fn report(&self, language: Language) -> Report<'_> {
-        Report { budget: &self.budget, evaluation: &self.evaluation, label: self.label.as_deref(), language }
+        Report {
+            budget: &self.budget,
+            evaluation: &self.evaluation,
+            label: self.label.as_deref(),
+            language,
+        }
     }
 }
 
@@ -75,7 +80,11 @@ pub(super) fn run(args: &Args) -> Outcome {
             texts.push(render(args, &rows));
         }
     }
-    let text = if args.json { render_json(values) } else { texts.join(separator(args)) };
+    let text = if args.json {
+        render_json(values)
+    } else {
+        texts.join(separator(args))
+    };
     if text.is_empty() {
         return worst;
     }
@@ -99,10 +108,18 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
     let mut rows = Vec::with_capacity(loaded.rows.len());
     for budget::Row { label, budget } in loaded.rows {
         match propagate::evaluate(&budget, &options(args, &budget)) {
-            Ok(evaluation) => rows.push(Row { label, budget, evaluation }),
+            Ok(evaluation) => rows.push(Row {
+                label,
+                budget,
+                evaluation,
+            }),
             Err(error) => {
                 let row = label.map(|l| format!(", {l}")).unwrap_or_default();
-                output::warn(&format!("error: {}{row}: {}\n", file.display(), report::failure(&error, args.lang)));
+                output::warn(&format!(
+                    "error: {}{row}: {}\n",
+                    file.display(),
+                    report::failure(&error, args.lang)
+                ));
                 *worst = (*worst).max(Outcome::Negative);
             }
         }
@@ -119,24 +136,41 @@ fn options(args: &Args, budget: &Budget) -> Options {
     } else {
         MonteCarloChoice::With(MonteCarloSettings {
             seed: args.seed.unwrap_or(budget.monte_carlo.seed),
-            trials: args.trials.clone().unwrap_or_else(|| budget.monte_carlo.trials.clone()),
+            trials: args
+                .trials
+                .clone()
+                .unwrap_or_else(|| budget.monte_carlo.trials.clone()),
         })
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    Options { monte_carlo, threads: args.threads.map_or(cores, usize::from) }
+    Options {
+        monte_carlo,
+        threads: args.threads.map_or(cores, usize::from),
+    }
 }
 
 /// One file as text or Markdown: a series as a table, then its first row, or all, in full.
 fn render(args: &Args, rows: &[Row]) -> String {
-    let page = Page { width: args.width, styled: args.output.is_none() && output::may_style(&stdout()) };
+    let page = Page {
+        width: args.width,
+        styled: args.output.is_none() && output::may_style(&stdout()),
+    };
     let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(args.lang)).collect();
     let mut parts = Vec::new();
     if reports.len() > 1 {
-        parts.push(if args.markdown { report::series_markdown(&reports) } else { report::series_text(&reports, page) });
+        parts.push(if args.markdown {
+            report::series_markdown(&reports)
+        } else {
+            report::series_text(&reports, page)
+        });
     }
     let in_full = if args.full { reports.len() } else { 1 };
     for one in &reports[..in_full.min(reports.len())] {
-        parts.push(if args.markdown { report::markdown(one) } else { report::text(one, page) });
+        parts.push(if args.markdown {
+            report::markdown(one)
+        } else {
+            report::text(one, page)
+        });
     }
     parts.join(separator(args))
 }
@@ -159,9 +193,16 @@ fn parse_trials(text: &str) -> Result<Trials, String> {
     /// Fewer say nothing about an interval; more would run for days.
     const RANGE: std::ops::RangeInclusive<f64> = 1e3..=1e12;
     if text == "adaptive" {
-        return Ok(Trials::Adaptive { procedure: Adaptive::Stein, digits: 2, max: 100_000_000 });
+        return Ok(Trials::Adaptive {
+            procedure: Adaptive::Stein,
+            digits: 2,
+            max: 100_000_000,
+        });
     }
-    let number: f64 = text.replace('_', "").parse().map_err(|_| "write a number such as 1_000_000 or 1e6, or `adaptive`".to_string())?;
+    let number: f64 = text
+        .replace('_', "")
+        .parse()
+        .map_err(|_| "write a number such as 1_000_000 or 1e6, or `adaptive`".to_string())?;
     if !RANGE.contains(&number) || number.fract() != 0.0 {
         return Err("write a whole number of trials from 1000 to 1e12, or `adaptive`".to_string());
     }
@@ -170,7 +211,9 @@ fn parse_trials(text: &str) -> Result<Trials, String> {
 
 /// Narrower pages cannot hold a budget table.
 fn parse_width(text: &str) -> Result<usize, String> {
-    let width: usize = text.parse().map_err(|_| "write a number of columns, such as 100".to_string())?;
+    let width: usize = text
+        .parse()
+        .map_err(|_| "write a number of columns, such as 100".to_string())?;
     Ok(width.clamp(60, 200))
 }
 
@@ -182,8 +225,15 @@ mod tests {
     fn trials_are_written_in_several_ways() {
         assert_eq!(parse_trials("1_000_000"), Ok(Trials::Fixed(1_000_000)));
         assert_eq!(parse_trials("2e5"), Ok(Trials::Fixed(200_000)));
-        assert!(matches!(parse_trials("adaptive"), Ok(Trials::Adaptive { .. })));
-        assert!(["10", "-1", "1.5e3x", "1e13", "nan", "1000.5", ""].iter().all(|t| parse_trials(t).is_err()));
+        assert!(matches!(
+            parse_trials("adaptive"),
+            Ok(Trials::Adaptive { .. })
+        ));
+        assert!(
+            ["10", "-1", "1.5e3x", "1e13", "nan", "1000.5", ""]
+                .iter()
+                .all(|t| parse_trials(t).is_err())
+        );
     }
 
     #[test]

@@ -34,7 +34,13 @@ enum Section {
 }
 
 impl Section {
-    const ALL: [Section; 5] = [Section::Concepts, Section::Distributions, Section::Functions, Section::Profiles, Section::Errors];
+    const ALL: [Section; 5] = [
+        Section::Concepts,
+        Section::Distributions,
+        Section::Functions,
+        Section::Profiles,
+        Section::Errors,
+    ];
 
     fn title(self) -> &'static str {
         match self {
@@ -69,7 +75,12 @@ impl Topic {
 
     fn explained(&self) -> String {
         let paragraphs = self.text.split("\n\n").map(wrapped);
-        format!("{}: {}\n\n{}\n", self.name, self.title, paragraphs.collect::<Vec<_>>().join("\n\n"))
+        format!(
+            "{}: {}\n\n{}\n",
+            self.name,
+            self.title,
+            paragraphs.collect::<Vec<_>>().join("\n\n")
+        )
     }
 }
 
@@ -100,10 +111,16 @@ fn wrapped(paragraph: &str) -> String {
 }
 
 fn unknown(wanted: &str, topics: &[Topic]) -> String {
-    let names: Vec<String> = topics.iter().flat_map(|t| std::iter::once(&t.name).chain(&t.aliases)).map(|n| folded(n)).collect();
+    let names: Vec<String> = topics
+        .iter()
+        .flat_map(|t| std::iter::once(&t.name).chain(&t.aliases))
+        .map(|n| folded(n))
+        .collect();
     let guess = nearest(&folded(wanted), names.iter().map(String::as_str));
     let hint = guess.map_or_else(String::new, |g| format!("; did you mean `{g}`?"));
-    format!("there is nothing to explain under `{wanted}`{hint}\nRun `gumption explain` for a list.")
+    format!(
+        "there is nothing to explain under `{wanted}`{hint}\nRun `gumption explain` for a list."
+    )
 }
 
 fn list(topics: &[Topic]) -> String {
@@ -111,7 +128,11 @@ fn list(topics: &[Topic]) -> String {
     for section in Section::ALL {
         text.push_str(&format!("\n{}\n", section.title()));
         let of_section: Vec<&Topic> = topics.iter().filter(|t| t.section == section).collect();
-        let width = of_section.iter().map(|t| t.name.chars().count()).max().unwrap_or(0);
+        let width = of_section
+            .iter()
+            .map(|t| t.name.chars().count())
+            .max()
+            .unwrap_or(0);
         for topic in of_section {
             text.push_str(&format!("  {:width$}  {}\n", topic.name, topic.title));
         }
@@ -128,15 +149,22 @@ fn topics() -> Vec<Topic> {
         title: c.title.to_string(),
         text: c.text.to_string(),
     }));
-    topics.extend(distribution::KINDS.iter().map(|kind| Topic {
-        section: Section::Distributions,
-        name: kind.key.to_string(),
-        aliases: kind.aliases.iter().map(|a| (*a).to_string()).chain([kind.name_zh.to_string()]).collect(),
-        title: format!("{} ({})", kind.name_en, kind.name_zh),
-        text: format!(
-            "{}\n\nUse it when {}.\n\n  expectation  {}\n  variance     {}\n  source       {}",
-            kind.parameters, kind.use_when, kind.expectation, kind.variance, kind.source
-        ),
+    topics.extend(distribution::KINDS.iter().map(|kind| {
+        Topic {
+            section: Section::Distributions,
+            name: kind.key.to_string(),
+            aliases: kind
+                .aliases
+                .iter()
+                .map(|a| (*a).to_string())
+                .chain([kind.name_zh.to_string()])
+                .collect(),
+            title: format!("{} ({})", kind.name_en, kind.name_zh),
+            text: format!(
+                "{}\n\nUse it when {}.\n\n  expectation  {}\n  variance     {}\n  source       {}",
+                kind.parameters, kind.use_when, kind.expectation, kind.variance, kind.source
+            ),
+        }
     }));
     topics.extend(model::functions().iter().map(|f| Topic {
         section: Section::Functions,
@@ -149,8 +177,8 @@ fn topics() -> Vec<Topic> {
         section: Section::Profiles,
         name: p.name.to_string(),
         aliases: Vec::new(),
-        title: p.title.to_string(),
-        text: p.text.to_string(),
+        title: p.source.to_string(),
+        text: format!("{}\n\n{}", p.en, p.zh),
     }));
     topics.extend(codes().map(|code| Topic {
         section: Section::Errors,
@@ -164,7 +192,10 @@ fn topics() -> Vec<Topic> {
 
 /// The codes of all modules.
 fn codes() -> impl Iterator<Item = &'static Code> {
-    budget::faults::CODES.iter().chain(model::faults::CODES).chain(quantity::faults::CODES)
+    budget::faults::CODES
+        .iter()
+        .chain(model::faults::CODES)
+        .chain(quantity::faults::CODES)
 }
 
 #[cfg(test)]
@@ -174,7 +205,11 @@ mod tests {
     #[test]
     fn every_topic_has_words() {
         for topic in topics() {
-            assert!(!topic.title.is_empty() && topic.text.len() > 10, "{}", topic.name);
+            assert!(
+                !topic.title.is_empty() && topic.text.len() > 10,
+                "{}",
+                topic.name
+            );
         }
     }
 
@@ -182,7 +217,9 @@ mod tests {
     fn names_are_unique_within_a_section() {
         let topics = topics();
         for (i, topic) in topics.iter().enumerate() {
-            let same = topics[i + 1..].iter().any(|t| t.section == topic.section && t.is_called(&topic.name));
+            let same = topics[i + 1..]
+                .iter()
+                .any(|t| t.section == topic.section && t.is_called(&topic.name));
             assert!(!same, "{}", topic.name);
         }
     }
@@ -196,7 +233,13 @@ mod tests {
     #[test]
     fn topics_are_found_by_their_other_names() {
         let topics = topics();
-        for name in ["welch-satterthwaite", "Clause 8", "stein", "rectangular", "U001"] {
+        for name in [
+            "welch-satterthwaite",
+            "Clause 8",
+            "stein",
+            "rectangular",
+            "U001",
+        ] {
             assert!(topics.iter().any(|t| t.is_called(name)), "{name}");
         }
     }

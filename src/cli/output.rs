@@ -9,7 +9,9 @@ use super::Outcome;
 pub(super) fn print(text: &str) -> Outcome {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => complain(&format!("cannot write to standard output: {error}")),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            complain(&format!("cannot write to standard output: {error}"))
+        }
         _ => Outcome::Done,
     }
 }
@@ -74,7 +76,8 @@ mod tests {
 
     #[test]
     fn an_existing_file_is_left_alone() {
-        let path = std::env::temp_dir().join(format!("gumption-create-{}.toml", std::process::id()));
+        let path =
+            std::env::temp_dir().join(format!("gumption-create-{}.toml", std::process::id()));
         let _ = std::fs::remove_file(&path);
         assert_eq!(create(&path, "first"), Outcome::Done);
         assert_eq!(create(&path, "second"), Outcome::BadInput);
@@ -86,6 +89,9 @@ mod tests {
 
     #[test]
     fn a_directory_that_does_not_exist_is_named() {
-        assert_eq!(replace(Path::new("/nowhere/at/all.txt"), ""), Outcome::BadInput);
+        assert_eq!(
+            replace(Path::new("/nowhere/at/all.txt"), ""),
+            Outcome::BadInput
+        );
     }
 }

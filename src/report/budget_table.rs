@@ -6,7 +6,9 @@ use crate::propagate::{Contribution, FindingKind, Freedom, Gum};
 
 use super::document::Block;
 use super::language::{Language, Word};
-use super::number::{NONE, TABLE_DIGITS, aligned, exact, freedom, percent, probability, significant};
+use super::number::{
+    NONE, TABLE_DIGITS, aligned, exact, freedom, percent, probability, significant,
+};
 use super::statement::coefficient;
 use super::table::{Cell, ColumnKind, Row, Table};
 use super::{Report, difference_symbol, symbol};
@@ -31,16 +33,28 @@ pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
     let selection = select(report, measurand);
     let mut blocks = vec![Block::Table(table(report, measurand, &selection))];
     if !selection.without_effect.is_empty() {
-        let names: Vec<String> = selection.without_effect.iter().map(|i| report.budget.inputs[*i].name.clone()).collect();
+        let names: Vec<String> = selection
+            .without_effect
+            .iter()
+            .map(|i| report.budget.inputs[*i].name.clone())
+            .collect();
         let shown = shortened(&names, report.language);
         blocks.push(Block::Paragraph(match report.language {
-            Language::English => format!("Without effect on {}: {shown}.", report.measurand(measurand).0),
-            Language::Chinese => format!("对 {} 没有影响的输入量：{shown}。", report.measurand(measurand).0),
+            Language::English => format!(
+                "Without effect on {}: {shown}.",
+                report.measurand(measurand).0
+            ),
+            Language::Chinese => format!(
+                "对 {} 没有影响的输入量：{shown}。",
+                report.measurand(measurand).0
+            ),
         }));
     }
     blocks.push(Block::Fields(footer(report, measurand)));
     if let Some(groups) = subtotals(report, measurand) {
-        blocks.push(Block::Section(report.language.word(Word::Groups).to_string()));
+        blocks.push(Block::Section(
+            report.language.word(Word::Groups).to_string(),
+        ));
         blocks.push(Block::Table(groups));
     }
     blocks
@@ -67,14 +81,28 @@ fn select(report: &Report<'_>, measurand: usize) -> Selection {
         let flagged = |k: &FindingKind| matches!(k, FindingKind::VanishingSensitivity { input } if input == name);
         several && contributions[*i].sensitivity == 0.0 && !report.finds(measurand, flagged)
     };
-    let (without_effect, mut shown): (Vec<usize>, Vec<usize>) = (0..contributions.len()).partition(hidden);
+    let (without_effect, mut shown): (Vec<usize>, Vec<usize>) =
+        (0..contributions.len()).partition(hidden);
     let mut elided = Vec::new();
     if shown.len() > LONG {
-        shown.sort_by(|a, b| contributions[*b].share.abs().total_cmp(&contributions[*a].share.abs()));
-        let keep = shown.iter().take(LONG).take_while(|i| contributions[**i].share.abs() >= SMALL).count();
+        shown.sort_by(|a, b| {
+            contributions[*b]
+                .share
+                .abs()
+                .total_cmp(&contributions[*a].share.abs())
+        });
+        let keep = shown
+            .iter()
+            .take(LONG)
+            .take_while(|i| contributions[**i].share.abs() >= SMALL)
+            .count();
         elided = shown.split_off(keep);
     }
-    Selection { shown, elided, without_effect }
+    Selection {
+        shown,
+        elided,
+        without_effect,
+    }
 }
 
 fn table(report: &Report<'_>, measurand: usize, selection: &Selection) -> Table {
@@ -97,7 +125,9 @@ fn table(report: &Report<'_>, measurand: usize, selection: &Selection) -> Table 
         input_rows(report, gum, *i, &mut table);
     }
     if !selection.elided.is_empty() {
-        table.rows.push(Row::Across(elision(l, gum, &selection.elided)));
+        table
+            .rows
+            .push(Row::Across(elision(l, gum, &selection.elided)));
     }
     source_rows(report, gum, &mut table);
     table.rows.push(Row::Rule);
@@ -141,7 +171,13 @@ fn input_rows(report: &Report<'_>, gum: &Gum, i: usize, table: &mut Table) {
     }
 }
 
-fn component_row(report: &Report<'_>, gum: &Gum, (input, line): (&Input, &Contribution), term: &Term, table: &mut Table) {
+fn component_row(
+    report: &Report<'_>,
+    gum: &Gum,
+    (input, line): (&Input, &Contribution),
+    term: &Term,
+    table: &mut Table,
+) {
     let component = &report.budget.components[term.component];
     let u = term.coefficient.abs() * component.u;
     let share = match component.owner {
@@ -157,7 +193,11 @@ fn component_row(report: &Report<'_>, gum: &Gum, (input, line): (&Input, &Contri
         distribution(component, report.language).into(),
         freedom(component.dof).into(),
         Cell::Empty,
-        significant(line.sensitivity * term.coefficient * component.u, TABLE_DIGITS).into(),
+        significant(
+            line.sensitivity * term.coefficient * component.u,
+            TABLE_DIGITS,
+        )
+        .into(),
         share,
     ]);
 }
@@ -168,7 +208,9 @@ fn source_rows(report: &Report<'_>, gum: &Gum, table: &mut Table) {
         return;
     }
     table.rows.push(Row::Rule);
-    table.rows.push(Row::Across(report.language.word(Word::Shared).to_string()));
+    table
+        .rows
+        .push(Row::Across(report.language.word(Word::Shared).to_string()));
     for t in sources {
         let (component, line) = (&report.budget.components[t], &gum.components[t]);
         table.push(vec![
@@ -188,15 +230,27 @@ fn source_rows(report: &Report<'_>, gum: &Gum, table: &mut Table) {
 
 fn shared_components(report: &Report<'_>) -> Vec<usize> {
     let components = report.budget.components.iter().enumerate();
-    components.filter(|(_, c)| matches!(c.owner, Owner::Source(_))).map(|(t, _)| t).collect()
+    components
+        .filter(|(_, c)| matches!(c.owner, Owner::Source(_)))
+        .map(|(t, _)| t)
+        .collect()
 }
 
 /// `normal (B)`.
 fn distribution(component: &Component, language: Language) -> String {
     let named = component.distribution.kind();
     // The table has no room for second names and for the word distribution in every row.
-    let short = named.name_zh.split('(').next().unwrap_or_default().trim_end_matches("分布");
-    format!("{} ({})", language.pick(named.key, short), kind(component.evaluation))
+    let short = named
+        .name_zh
+        .split('(')
+        .next()
+        .unwrap_or_default()
+        .trim_end_matches("分布");
+    format!(
+        "{} ({})",
+        language.pick(named.key, short),
+        kind(component.evaluation)
+    )
 }
 
 fn kind(evaluation: Kind) -> &'static str {
@@ -207,15 +261,28 @@ fn kind(evaluation: Kind) -> &'static str {
 }
 
 fn elision(language: Language, gum: &Gum, elided: &[usize]) -> String {
-    let largest = elided.iter().map(|i| gum.inputs[*i].share.abs()).fold(0.0, f64::max);
+    let largest = elided
+        .iter()
+        .map(|i| gum.inputs[*i].share.abs())
+        .fold(0.0, f64::max);
     let together: f64 = elided.iter().map(|i| gum.inputs[*i].share).sum();
     let count = elided.len();
     let together = percent(together);
     match (largest < SMALL, language) {
-        (true, Language::English) => format!("… {count} inputs below 0.1 % each, together {together} %"),
-        (true, Language::Chinese) => format!("…… 其余 {count} 个输入量各小于 0.1 %，合计 {together} %"),
-        (false, Language::English) => format!("… {count} inputs of at most {} % each, together {together} %", percent(largest)),
-        (false, Language::Chinese) => format!("…… 其余 {count} 个输入量各不大于 {} %，合计 {together} %", percent(largest)),
+        (true, Language::English) => {
+            format!("… {count} inputs below 0.1 % each, together {together} %")
+        }
+        (true, Language::Chinese) => {
+            format!("…… 其余 {count} 个输入量各小于 0.1 %，合计 {together} %")
+        }
+        (false, Language::English) => format!(
+            "… {count} inputs of at most {} % each, together {together} %",
+            percent(largest)
+        ),
+        (false, Language::Chinese) => format!(
+            "…… 其余 {count} 个输入量各不大于 {} %，合计 {together} %",
+            percent(largest)
+        ),
     }
 }
 
@@ -224,7 +291,13 @@ fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, String)> {
     let gum = &report.evaluation.results[measurand].gum;
     let (name, unit) = report.measurand(measurand);
     let l = report.language;
-    let with = |number: String, unit: &str| if unit.is_empty() { number } else { format!("{number} {unit}") };
+    let with = |number: String, unit: &str| {
+        if unit.is_empty() {
+            number
+        } else {
+            format!("{number} {unit}")
+        }
+    };
     let difference = difference_symbol(unit);
     let dof = match &gum.freedom {
         Freedom::Refused { lower_bound, .. } => format!("≥ {}", freedom(*lower_bound)),
@@ -233,13 +306,40 @@ fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, String)> {
     };
     let coverage = &gum.coverage;
     let k = significant(coverage.k, TABLE_DIGITS);
-    let (basis, p) = (super::comparison::basis_of_k(coverage, l), probability(coverage.probability));
+    let (basis, p) = (
+        super::comparison::basis_of_k(coverage, l),
+        probability(coverage.probability),
+    );
     [
-        (Word::Estimate, format!("{name} = {}", with(aligned(gum.estimate, gum.u, 2), &symbol(unit)))),
-        (Word::CombinedUncertainty, format!("u_c = {}", with(significant(gum.u, TABLE_DIGITS), &difference))),
+        (
+            Word::Estimate,
+            format!(
+                "{name} = {}",
+                with(aligned(gum.estimate, gum.u, 2), &symbol(unit))
+            ),
+        ),
+        (
+            Word::CombinedUncertainty,
+            format!(
+                "u_c = {}",
+                with(significant(gum.u, TABLE_DIGITS), &difference)
+            ),
+        ),
         (Word::FreedomEffective, format!("ν_eff {dof}")),
-        (Word::Factor, l.pick(format!("k = {k} ({basis}, p = {p})"), format!("k = {k}（{basis}，p = {p}）"))),
-        (Word::Expanded, format!("U = {}", with(significant(coverage.expanded, TABLE_DIGITS), &difference))),
+        (
+            Word::Factor,
+            l.pick(
+                format!("k = {k} ({basis}, p = {p})"),
+                format!("k = {k}（{basis}，p = {p}）"),
+            ),
+        ),
+        (
+            Word::Expanded,
+            format!(
+                "U = {}",
+                with(significant(coverage.expanded, TABLE_DIGITS), &difference)
+            ),
+        ),
     ]
     .map(|(word, text)| (l.word(word).to_string(), text))
     .to_vec()
@@ -267,9 +367,18 @@ fn subtotals(report: &Report<'_>, measurand: usize) -> Option<Table> {
     ]);
     for (group, share) in groups {
         // Under correlation a group may lower u(y): it then has no standard uncertainty of its own.
-        let u = if share >= 0.0 { significant(share.sqrt() * gum.u, TABLE_DIGITS) } else { NONE.to_string() };
+        let u = if share >= 0.0 {
+            significant(share.sqrt() * gum.u, TABLE_DIGITS)
+        } else {
+            NONE.to_string()
+        };
         let name = group.unwrap_or(l.pick("(without group)", "（未分组）"));
-        table.push(vec![name.into(), u.into(), percent(share).into(), Cell::Share(share)]);
+        table.push(vec![
+            name.into(),
+            u.into(),
+            percent(share).into(),
+            Cell::Share(share),
+        ]);
     }
     Some(table)
 }
@@ -286,33 +395,51 @@ pub(super) fn origins(report: &Report<'_>) -> Vec<Block> {
     let components = &report.budget.components;
     let mut order: Vec<usize> = (0..components.len()).collect();
     let weight = |t: usize| -> f64 {
-        let shares = report.evaluation.results.iter().filter_map(|r| r.gum.components.get(t));
+        let shares = report
+            .evaluation
+            .results
+            .iter()
+            .filter_map(|r| r.gum.components.get(t));
         shares.map(|c| c.share.abs()).fold(0.0, f64::max)
     };
     if order.len() > LONG {
         order.sort_by(|a, b| weight(*b).total_cmp(&weight(*a)));
         order.truncate(LONG);
+        order.retain(|t| weight(*t) >= SMALL);
     }
     for t in &order {
         let component = &components[*t];
         let from = provenance(component, l);
-        table.push(vec![component.name.clone().into(), kind(component.evaluation).into(), component.how.clone().into(), from.into()]);
+        table.push(vec![
+            component.name.clone().into(),
+            kind(component.evaluation).into(),
+            component.how.clone().into(),
+            from.into(),
+        ]);
     }
     let left_out = components.len() - order.len();
     if left_out > 0 {
         table.rows.push(Row::Across(match l {
-            Language::English => format!("… and {left_out} smaller ones; all are in the JSON output"),
+            Language::English => {
+                format!("… and {left_out} smaller ones; all are in the JSON output")
+            }
             Language::Chinese => format!("…… 其余 {left_out} 个较小的分量见 JSON 输出"),
         }));
     }
-    vec![Block::Section(l.word(Word::Origin).to_string()), Block::Table(table.without_empty_columns())]
+    vec![
+        Block::Section(l.word(Word::Origin).to_string()),
+        Block::Table(table.without_empty_columns()),
+    ]
 }
 
 fn provenance(component: &Component, language: Language) -> String {
     let certificate = component.certificate.iter();
     let mut parts: Vec<String> = certificate
         .flat_map(|c| {
-            let due = c.due.as_ref().map(|due| language.pick(format!("due {due}"), format!("有效期至 {due}")));
+            let due = c
+                .due
+                .as_ref()
+                .map(|due| language.pick(format!("due {due}"), format!("有效期至 {due}")));
             [c.number.clone(), c.laboratory.clone(), c.date.clone(), due]
         })
         .flatten()
@@ -333,7 +460,12 @@ pub(super) fn correlated(report: &Report<'_>) -> Vec<Block> {
             for (j, b) in group.members.iter().enumerate().skip(i + 1) {
                 let r = group.correlation[(i, j)];
                 if r != 0.0 {
-                    pairs.push(format!("r({}, {}) = {}", name(*a), name(*b), coefficient(r)));
+                    pairs.push(format!(
+                        "r({}, {}) = {}",
+                        name(*a),
+                        name(*b),
+                        coefficient(r)
+                    ));
                 }
             }
         }
@@ -344,9 +476,15 @@ pub(super) fn correlated(report: &Report<'_>) -> Vec<Block> {
     let left_out = pairs.len().saturating_sub(MOST);
     pairs.truncate(MOST);
     if left_out > 0 {
-        pairs.push(l.pick(format!("… and {left_out} more"), format!("…… 其余 {left_out} 对")));
+        pairs.push(l.pick(
+            format!("… and {left_out} more"),
+            format!("…… 其余 {left_out} 对"),
+        ));
     }
-    vec![Block::Section(l.word(Word::CorrelatedComponents).to_string()), Block::List(pairs)]
+    vec![
+        Block::Section(l.word(Word::CorrelatedComponents).to_string()),
+        Block::List(pairs),
+    ]
 }
 
 /// Exactly known quantities.
@@ -364,7 +502,11 @@ pub(super) fn constants(report: &Report<'_>) -> Vec<Block> {
                 numbers.push(format!("… ({})", c.values.len()));
             }
             let mut text = numbers.join(", ");
-            for more in [Some(&unit), c.description.as_ref(), c.source.as_ref()].into_iter().flatten().filter(|t| !t.is_empty()) {
+            for more in [Some(&unit), c.description.as_ref(), c.source.as_ref()]
+                .into_iter()
+                .flatten()
+                .filter(|t| !t.is_empty())
+            {
                 text.push_str(if more == &unit { " " } else { "; " });
                 text.push_str(more);
             }
@@ -374,5 +516,8 @@ pub(super) fn constants(report: &Report<'_>) -> Vec<Block> {
     if lines.is_empty() {
         return Vec::new();
     }
-    vec![Block::Section(report.language.word(Word::Exact).to_string()), Block::Fields(lines)]
+    vec![
+        Block::Section(report.language.word(Word::Exact).to_string()),
+        Block::Fields(lines),
+    ]
 }

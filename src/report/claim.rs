@@ -92,39 +92,62 @@ impl Comparison {
     pub(super) fn last_digits(&self) -> Option<f64> {
         let place = self.last_place()?;
         let rounded = at_place(self.obtained.filter(|o| o.is_finite())?, place);
-        Some((rounded.shifted(-place).to_f64() - Decimal::from_f64(self.claimed).shifted(-place).to_f64()).round())
+        Some(
+            (rounded.shifted(-place).to_f64()
+                - Decimal::from_f64(self.claimed).shifted(-place).to_f64())
+            .round(),
+        )
     }
 
     /// Power of ten of the last digit that the claim states. k = 2 is meant as 2.00.
     fn last_place(&self) -> Option<i32> {
         let place = Decimal::from_f64(self.claimed).place()?;
-        Some(if self.figure == Figure::CoverageFactor { place.min(-2) } else { place })
+        Some(if self.figure == Figure::CoverageFactor {
+            place.min(-2)
+        } else {
+            place
+        })
     }
 
     /// Obtained divided by claimed.
     pub(super) fn ratio(&self) -> Option<f64> {
-        self.obtained.filter(|_| self.claimed != 0.0).map(|o| o / self.claimed).filter(|r| r.is_finite())
+        self.obtained
+            .filter(|_| self.claimed != 0.0)
+            .map(|o| o / self.claimed)
+            .filter(|r| r.is_finite())
     }
 
     fn verdict(&self, language: Language) -> String {
-        let Some(last) = self.last_digits() else { return NONE.to_string() };
+        let Some(last) = self.last_digits() else {
+            return NONE.to_string();
+        };
         if last == 0.0 {
             return language.pick("agrees", "一致").to_string();
         }
         /// Beyond this many units of the last digit the percentage says more.
         const FEW: f64 = 9.0;
         if last.abs() <= FEW {
-            let signed = if last > 0.0 { format!("+{last}") } else { format!("{last}") };
+            let signed = if last > 0.0 {
+                format!("+{last}")
+            } else {
+                format!("{last}")
+            };
             return language.pick(format!("differs by {signed}"), format!("相差 {signed}"));
         }
         match self.ratio() {
             Some(ratio) if (0.5..2.0).contains(&ratio) => {
                 let percent = significant(100.0 * (ratio - 1.0), 2);
-                language.pick(format!("differs by {percent} %"), format!("相差 {percent} %"))
+                language.pick(
+                    format!("differs by {percent} %"),
+                    format!("相差 {percent} %"),
+                )
             }
             Some(ratio) => {
                 let times = significant(ratio, 3);
-                language.pick(format!("is {times} times the claim"), format!("为声称值的 {times} 倍"))
+                language.pick(
+                    format!("is {times} times the claim"),
+                    format!("为声称值的 {times} 倍"),
+                )
             }
             None => language.pick("differs", "不一致").to_string(),
         }
@@ -133,39 +156,91 @@ impl Comparison {
 
 /// Every figure of a claim against both methods.
 pub(super) fn compare(report: &Report<'_>, claim: &Claim) -> Vec<Comparison> {
-    let Some(result) = report.evaluation.results.get(claim.measurand) else { return Vec::new() };
+    let Some(result) = report.evaluation.results.get(claim.measurand) else {
+        return Vec::new();
+    };
     let (gum, monte_carlo) = (&result.gum, result.monte_carlo.as_ref());
     let mut comparisons = Vec::new();
-    let mut add = |figure, claimed: Option<f64>, first: Option<f64>, trials: Option<Option<f64>>| {
-        let Some(claimed) = claimed else { return };
-        comparisons.push(Comparison { figure, method: Method::Gum, claimed, obtained: first });
-        if let Some(obtained) = trials {
-            comparisons.push(Comparison { figure, method: Method::MonteCarlo, claimed, obtained });
-        }
-    };
+    let mut add =
+        |figure, claimed: Option<f64>, first: Option<f64>, trials: Option<Option<f64>>| {
+            let Some(claimed) = claimed else { return };
+            comparisons.push(Comparison {
+                figure,
+                method: Method::Gum,
+                claimed,
+                obtained: first,
+            });
+            if let Some(obtained) = trials {
+                comparisons.push(Comparison {
+                    figure,
+                    method: Method::MonteCarlo,
+                    claimed,
+                    obtained,
+                });
+            }
+        };
     let half = gum.coverage.half_width_for_p;
     let width = monte_carlo.map(|mc| (mc.symmetric[1] - mc.symmetric[0]) / 2.0);
-    add(Figure::Value, claim.value, Some(gum.estimate), monte_carlo.map(|mc| mc.estimate));
-    add(Figure::StandardUncertainty, claim.u, Some(gum.u), monte_carlo.map(|mc| mc.u));
+    add(
+        Figure::Value,
+        claim.value,
+        Some(gum.estimate),
+        monte_carlo.map(|mc| mc.estimate),
+    );
+    add(
+        Figure::StandardUncertainty,
+        claim.u,
+        Some(gum.u),
+        monte_carlo.map(|mc| mc.u),
+    );
     // A claimed U with its own k is compared for that k: what differs is then u, not the convention.
     let expanded = claim.k.map_or(gum.coverage.expanded, |k| k * gum.u);
     let from_trials = match claim.k {
         Some(k) => monte_carlo.map(|mc| mc.u.map(|u| k * u)),
         None => width.map(Some),
     };
-    add(Figure::Expanded, claim.expanded, Some(expanded), from_trials);
+    add(
+        Figure::Expanded,
+        claim.expanded,
+        Some(expanded),
+        from_trials,
+    );
     add(Figure::CoverageFactor, claim.k, Some(gum.coverage.k), None);
-    add(Figure::DegreesOfFreedom, claim.dof, Some(gum.freedom.value()), None);
-    let [low, high] = claim.interval.map_or([None, None], |[a, b]| [Some(a), Some(b)]);
-    add(Figure::IntervalLow, low, Some(gum.estimate - half), monte_carlo.map(|mc| Some(mc.symmetric[0])));
-    add(Figure::IntervalHigh, high, Some(gum.estimate + half), monte_carlo.map(|mc| Some(mc.symmetric[1])));
+    add(
+        Figure::DegreesOfFreedom,
+        claim.dof,
+        Some(gum.freedom.value()),
+        None,
+    );
+    let [low, high] = claim
+        .interval
+        .map_or([None, None], |[a, b]| [Some(a), Some(b)]);
+    add(
+        Figure::IntervalLow,
+        low,
+        Some(gum.estimate - half),
+        monte_carlo.map(|mc| Some(mc.symmetric[0])),
+    );
+    add(
+        Figure::IntervalHigh,
+        high,
+        Some(gum.estimate + half),
+        monte_carlo.map(|mc| Some(mc.symmetric[1])),
+    );
     comparisons
 }
 
 /// Whether the claimed figures of a measurand agree with GUM, for a series table.
 pub(super) fn summary(report: &Report<'_>, measurand: usize) -> Option<String> {
-    let claims = report.budget.claims.iter().filter(|c| c.measurand == measurand);
-    let all: Vec<Comparison> = claims.flat_map(|c| compare(report, c)).filter(|c| c.method == Method::Gum).collect();
+    let claims = report
+        .budget
+        .claims
+        .iter()
+        .filter(|c| c.measurand == measurand);
+    let all: Vec<Comparison> = claims
+        .flat_map(|c| compare(report, c))
+        .filter(|c| c.method == Method::Gum)
+        .collect();
     if all.is_empty() {
         return None;
     }
@@ -173,11 +248,17 @@ pub(super) fn summary(report: &Report<'_>, measurand: usize) -> Option<String> {
         .iter()
         .filter(|c| c.agrees() != Some(true))
         .map(|c| {
-            let ratio = c.ratio().map_or_else(|| NONE.to_string(), |r| significant(r, 3));
+            let ratio = c
+                .ratio()
+                .map_or_else(|| NONE.to_string(), |r| significant(r, 3));
             format!("{} ×{ratio}", c.figure.label(report.language))
         })
         .collect();
-    Some(if differing.is_empty() { report.language.pick("agrees", "一致").to_string() } else { differing.join(", ") })
+    Some(if differing.is_empty() {
+        report.language.pick("agrees", "一致").to_string()
+    } else {
+        differing.join(", ")
+    })
 }
 
 /// The table of all claims.
@@ -190,7 +271,10 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
         ("", ColumnKind::Words),
         (l.word(Word::Obtained), ColumnKind::Numbers),
         (l.word(Word::Ratio), ColumnKind::Numbers),
-        (l.pick("in the last digit claimed", "在声称值的末位上"), ColumnKind::Wrapped),
+        (
+            l.pick("in the last digit claimed", "在声称值的末位上"),
+            ColumnKind::Wrapped,
+        ),
     ]);
     for (n, claim) in report.budget.claims.iter().enumerate() {
         if several {
@@ -208,7 +292,12 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     }
     let mut blocks = vec![Block::Section(l.word(Word::Claim).to_string())];
     if let ([claim], false) = (report.budget.claims.as_slice(), several) {
-        let words: Vec<&str> = claim.source.iter().chain(&claim.note).map(String::as_str).collect();
+        let words: Vec<&str> = claim
+            .source
+            .iter()
+            .chain(&claim.note)
+            .map(String::as_str)
+            .collect();
         if !words.is_empty() {
             blocks.push(Block::Paragraph(words.join(l.pick("; ", "；"))));
         }
@@ -218,24 +307,53 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
 }
 
 fn title(report: &Report<'_>, claim: &Claim) -> String {
-    let name = report.measurand(claim.measurand.min(report.evaluation.results.len().saturating_sub(1))).0;
-    let words: Vec<&str> = std::iter::once(name).chain(claim.source.iter().chain(&claim.note).map(String::as_str)).collect();
+    let name = report
+        .measurand(
+            claim
+                .measurand
+                .min(report.evaluation.results.len().saturating_sub(1)),
+        )
+        .0;
+    let words: Vec<&str> = std::iter::once(name)
+        .chain(claim.source.iter().chain(&claim.note).map(String::as_str))
+        .collect();
     words.join(report.language.pick("; ", "；"))
 }
 
 fn push(table: &mut Table, comparison: &Comparison, language: Language) {
     let repeated = comparison.method == Method::MonteCarlo;
-    let claimed: Cell = if repeated { Cell::Empty } else { exact(comparison.claimed).into() };
-    let label: Cell = if repeated { Cell::Empty } else { comparison.figure.label(language).into() };
+    let claimed: Cell = if repeated {
+        Cell::Empty
+    } else {
+        exact(comparison.claimed).into()
+    };
+    let label: Cell = if repeated {
+        Cell::Empty
+    } else {
+        comparison.figure.label(language).into()
+    };
     // Two digits beyond the claim's last show what rounding hides.
     let obtained = comparison.obtained.map_or_else(
         || NONE.to_string(),
         |o| {
             let place = comparison.last_place().unwrap_or(0);
             let rounded = at_place(o, place - 2);
-            if rounded.is_zero() { significant(o, 3) } else { print(&rounded) }
+            if rounded.is_zero() {
+                significant(o, 3)
+            } else {
+                print(&rounded)
+            }
         },
     );
-    let ratio = comparison.ratio().map_or_else(|| NONE.to_string(), |r| significant(r, 4));
-    table.push(vec![label, claimed, comparison.method.label(language).into(), obtained.into(), ratio.into(), comparison.verdict(language).into()]);
+    let ratio = comparison
+        .ratio()
+        .map_or_else(|| NONE.to_string(), |r| significant(r, 4));
+    table.push(vec![
+        label,
+        claimed,
+        comparison.method.label(language).into(),
+        obtained.into(),
+        ratio.into(),
+        comparison.verdict(language).into(),
+    ]);
 }

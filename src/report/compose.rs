@@ -17,10 +17,17 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
     let several = report.evaluation.results.len() > 1;
     for m in 0..report.evaluation.results.len() {
         let name = report.measurand(m).0;
-        blocks.push(Block::Section(l.pick(format!("Uncertainty budget of {name}"), format!("{name} 的不确定度评定"))));
+        blocks.push(Block::Section(l.pick(
+            format!("Uncertainty budget of {name}"),
+            format!("{name} 的不确定度评定"),
+        )));
         blocks.extend(budget_table::blocks(report, m));
         let head = l.word(Word::SideBySide);
-        blocks.push(Block::Section(if several { l.pick(format!("{name}: {head}"), format!("{name}：{head}")) } else { head.to_string() }));
+        blocks.push(Block::Section(if several {
+            l.pick(format!("{name}: {head}"), format!("{name}：{head}"))
+        } else {
+            head.to_string()
+        }));
         blocks.extend(comparison::blocks(report, m));
     }
     blocks.extend(joint::blocks(report));
@@ -58,7 +65,10 @@ fn heading(report: &Report<'_>) -> Vec<Block> {
     .collect();
     for measurand in &report.budget.measurands {
         if let Some(description) = &measurand.description {
-            fields.push((l.word(Word::Measurand).to_string(), format!("{}: {description}", measurand.name)));
+            fields.push((
+                l.word(Word::Measurand).to_string(),
+                format!("{}: {description}", measurand.name),
+            ));
         }
     }
     let mut blocks = vec![Block::Title(title)];
@@ -78,9 +88,16 @@ fn model(report: &Report<'_>) -> Vec<Block> {
             }
         }
     }
-    let mut blocks = vec![Block::Section(report.language.word(Word::Model).to_string()), Block::Formula(lines)];
-    let words: Vec<(String, String)> =
-        report.budget.inputs.iter().filter_map(|i| Some((i.name.clone(), i.description.clone()?))).collect();
+    let mut blocks = vec![
+        Block::Section(report.language.word(Word::Model).to_string()),
+        Block::Formula(lines),
+    ];
+    let words: Vec<(String, String)> = report
+        .budget
+        .inputs
+        .iter()
+        .filter_map(|i| Some((i.name.clone(), i.description.clone()?)))
+        .collect();
     /// A longer list of words says nothing that the file does not say better.
     const MOST: usize = 40;
     if !words.is_empty() && words.len() <= MOST {
@@ -96,8 +113,13 @@ fn footer(report: &Report<'_>) -> Vec<String> {
     let p = probability(conventions.coverage_probability);
     let digits = conventions.digits;
     let k = match (conventions.coverage_factor, l) {
-        (CoverageRule::Output, Language::English) => "k from t, or from the distribution of the result where a few components dominate".to_string(),
-        (CoverageRule::Output, Language::Chinese) => "k 取自 t 分布，少数分量占优势时取自输出量的分布".to_string(),
+        (CoverageRule::Output, Language::English) => {
+            "k from t, or from the distribution of the result where a few components dominate"
+                .to_string()
+        }
+        (CoverageRule::Output, Language::Chinese) => {
+            "k 取自 t 分布，少数分量占优势时取自输出量的分布".to_string()
+        }
         (CoverageRule::StudentT, Language::English) => "k from the t-distribution".to_string(),
         (CoverageRule::StudentT, Language::Chinese) => "k 取自 t 分布".to_string(),
         (CoverageRule::Normal, Language::English) => "k from the normal distribution".to_string(),
@@ -122,13 +144,20 @@ fn footer(report: &Report<'_>) -> Vec<String> {
     let mut lines = vec![match l {
         Language::English => {
             let plural = if digits == 1 { "digit" } else { "digits" };
-            format!("Profile {profile}: p = {p}, {k}, {digits} {plural} of U, {rounding}, Monte Carlo: {scale}.")
+            format!(
+                "Profile {profile}: p = {p}, {k}, {digits} {plural} of U, {rounding}, Monte Carlo: {scale}."
+            )
         }
-        Language::Chinese => format!("规范 {profile}：p = {p}，{k}，U 取 {digits} 位有效数字，{rounding}，蒙特卡洛法：{scale}。"),
+        Language::Chinese => format!(
+            "规范 {profile}：p = {p}，{k}，U 取 {digits} 位有效数字，{rounding}，蒙特卡洛法：{scale}。"
+        ),
     }];
     if !conventions.overrides.is_empty() {
         let changes = conventions.overrides.join(", ");
-        lines.push(l.pick(format!("Changed by the file: {changes}."), format!("文件中另行规定：{changes}。")));
+        lines.push(l.pick(
+            format!("Changed by the file: {changes}."),
+            format!("文件中另行规定：{changes}。"),
+        ));
     }
     lines.push(format!("gumption {}", env!("CARGO_PKG_VERSION")));
     lines

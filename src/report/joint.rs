@@ -11,12 +11,22 @@ use super::table::{Cell, Column, ColumnKind, Table};
 
 /// Correlation matrices and the factors of the coverage regions.
 pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
-    let Some(joint) = &report.evaluation.joint else { return Vec::new() };
+    let Some(joint) = &report.evaluation.joint else {
+        return Vec::new();
+    };
     let l = report.language;
     let mut blocks = vec![Block::Section(l.word(Word::Joint).to_string())];
-    blocks.push(Block::Table(matrix(report, &joint.correlation, l.word(Word::Gum))));
+    blocks.push(Block::Table(matrix(
+        report,
+        &joint.correlation,
+        l.word(Word::Gum),
+    )));
     if let Some(correlation) = &joint.monte_carlo_correlation {
-        blocks.push(Block::Table(matrix(report, correlation, l.word(Word::MonteCarlo))));
+        blocks.push(Block::Table(matrix(
+            report,
+            correlation,
+            l.word(Word::MonteCarlo),
+        )));
     }
     if joint.degenerate {
         blocks.push(Block::Paragraph(
@@ -43,13 +53,29 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
 fn matrix(report: &Report<'_>, correlation: &DMatrix<f64>, head: &str) -> Table {
     let n = report.evaluation.results.len();
     let name = |i: usize| report.measurand(i).0.to_string();
-    let label = [report.language.word(Word::Correlation), head].join(report.language.pick(", ", "，"));
-    let mut columns = vec![Column { head: label, kind: ColumnKind::Words }];
-    columns.extend((0..n).map(|i| Column { head: name(i), kind: ColumnKind::Numbers }));
-    let mut table = Table { columns, rows: Vec::new() };
+    let label =
+        [report.language.word(Word::Correlation), head].join(report.language.pick(", ", "，"));
+    let mut columns = vec![Column {
+        head: label,
+        kind: ColumnKind::Words,
+    }];
+    columns.extend((0..n).map(|i| Column {
+        head: name(i),
+        kind: ColumnKind::Numbers,
+    }));
+    let mut table = Table {
+        columns,
+        rows: Vec::new(),
+    };
     for i in 0..n {
         let mut cells: Vec<Cell> = vec![name(i).into()];
-        cells.extend((0..n).map(|j| Cell::Text(correlation.get((i, j)).map_or_else(String::new, |r| coefficient(*r)))));
+        cells.extend((0..n).map(|j| {
+            Cell::Text(
+                correlation
+                    .get((i, j))
+                    .map_or_else(String::new, |r| coefficient(*r)),
+            )
+        }));
         table.push(cells);
     }
     table
@@ -62,21 +88,44 @@ fn regions(report: &Report<'_>) -> Table {
         (l.word(Word::Gum), ColumnKind::Numbers),
         (l.word(Word::MonteCarlo), ColumnKind::Numbers),
     ]);
-    let Some(joint) = &report.evaluation.joint else { return table };
+    let Some(joint) = &report.evaluation.joint else {
+        return table;
+    };
     let regions = joint.regions.as_ref();
     let show = |x: Option<f64>| x.map_or(Cell::Empty, |x| significant(x, TABLE_DIGITS).into());
     let comma = l.pick(", ", "，");
-    let mut row = |label: String, gum: Option<f64>, trials: Option<f64>| table.push(vec![label.into(), show(gum), show(trials)]);
-    row(format!("k_p{comma}{}", l.word(Word::Ellipsoid)), Some(joint.k_ellipsoid), regions.map(|r| r.k_ellipsoid));
-    row(format!("k_q{comma}{}", l.word(Word::Hyperrectangle)), Some(joint.k_rectangle), regions.map(|r| r.k_rectangle));
+    let mut row = |label: String, gum: Option<f64>, trials: Option<f64>| {
+        table.push(vec![label.into(), show(gum), show(trials)])
+    };
+    row(
+        format!("k_p{comma}{}", l.word(Word::Ellipsoid)),
+        Some(joint.k_ellipsoid),
+        regions.map(|r| r.k_ellipsoid),
+    );
+    row(
+        format!("k_q{comma}{}", l.word(Word::Hyperrectangle)),
+        Some(joint.k_rectangle),
+        regions.map(|r| r.k_rectangle),
+    );
     if let Some(regions) = regions {
         let size = match report.evaluation.results.len() {
             2 => l.pick("area", "面积"),
             _ => l.pick("volume", "体积"),
         };
-        row(format!("{size}{comma}{}", l.word(Word::Ellipsoid)), None, Some(regions.ellipsoid_volume));
+        row(
+            format!("{size}{comma}{}", l.word(Word::Ellipsoid)),
+            None,
+            Some(regions.ellipsoid_volume),
+        );
         if let Some(smallest) = regions.smallest_volume {
-            row(l.pick(format!("{size}, smallest region"), format!("{size}，最小区域")), None, Some(smallest));
+            row(
+                l.pick(
+                    format!("{size}, smallest region"),
+                    format!("{size}，最小区域"),
+                ),
+                None,
+                Some(smallest),
+            );
         }
     }
     table

@@ -8,8 +8,13 @@ use nalgebra::DMatrix;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 
-use crate::budget::{Adaptive, Claim, Component, CoverageRule, Evaluation as Kind, Input, Law, Owner, TScale};
-use crate::propagate::{Basis, Contribution, Coverage, CoverageBasis, Freedom, Gum, JointResult, MeasurandResult, MonteCarlo, Run, Validation};
+use crate::budget::{
+    Adaptive, Claim, Component, CoverageRule, Evaluation as Kind, Input, Law, Owner, TScale,
+};
+use crate::propagate::{
+    Basis, Contribution, Coverage, CoverageBasis, Freedom, Gum, JointResult, MeasurandResult,
+    MonteCarlo, Run, Validation,
+};
 use crate::quantity::Rounding;
 
 use super::language::Language;
@@ -59,7 +64,9 @@ fn numbers(xs: &[f64]) -> Vec<Number> {
 }
 
 fn matrix(m: &DMatrix<f64>) -> Vec<Vec<Number>> {
-    m.row_iter().map(|row| row.iter().copied().map(Number).collect()).collect()
+    m.row_iter()
+        .map(|row| row.iter().copied().map(Number).collect())
+        .collect()
 }
 
 record! {
@@ -547,9 +554,18 @@ impl<'a> Document<'a> {
                 note: heading.note.as_deref(),
             },
             conventions: conventions(&budget.conventions),
-            measurands: evaluation.results.iter().enumerate().map(|(m, r)| measurand(report, m, r)).collect(),
+            measurands: evaluation
+                .results
+                .iter()
+                .enumerate()
+                .map(|(m, r)| measurand(report, m, r))
+                .collect(),
             inputs: budget.inputs.iter().map(input).collect(),
-            components: budget.components.iter().map(|c| component(c, &budget.inputs)).collect(),
+            components: budget
+                .components
+                .iter()
+                .map(|c| component(c, &budget.inputs))
+                .collect(),
             correlated: budget
                 .groups
                 .iter()
@@ -578,7 +594,11 @@ impl<'a> Document<'a> {
                 .collect(),
             joint: evaluation.joint.as_ref().map(joint),
             monte_carlo_run: evaluation.run.as_ref().map(run),
-            claims: budget.claims.iter().map(|c| claim_json(report, c)).collect(),
+            claims: budget
+                .claims
+                .iter()
+                .map(|c| claim_json(report, c))
+                .collect(),
             findings: evaluation
                 .findings
                 .iter()
@@ -588,10 +608,23 @@ impl<'a> Document<'a> {
                     message: remarks::finding_sentence(report, f.measurand, &f.kind),
                 })
                 .collect(),
-            remarks: budget.remarks.iter().map(|r| RemarkJson { en: &r.en, zh: &r.zh }).collect(),
+            remarks: budget
+                .remarks
+                .iter()
+                .map(|r| RemarkJson {
+                    en: &r.en,
+                    zh: &r.zh,
+                })
+                .collect(),
             statement: StatementJson {
-                en: statement(&Report { language: Language::English, ..*report }),
-                zh: statement(&Report { language: Language::Chinese, ..*report }),
+                en: statement(&Report {
+                    language: Language::English,
+                    ..*report
+                }),
+                zh: statement(&Report {
+                    language: Language::Chinese,
+                    ..*report
+                }),
             },
         }
     }
@@ -630,7 +663,11 @@ fn measurand<'a>(report: &Report<'a>, m: usize, result: &'a MeasurandResult) -> 
     MeasurandJson {
         name,
         unit: &unit.symbol,
-        description: report.budget.measurands.get(m).and_then(|m| m.description.as_deref()),
+        description: report
+            .budget
+            .measurands
+            .get(m)
+            .and_then(|m| m.description.as_deref()),
         equation: &report.budget.model.outputs()[m].equation,
         basis: match result.basis {
             Basis::Gum => "gum",
@@ -643,16 +680,27 @@ fn measurand<'a>(report: &Report<'a>, m: usize, result: &'a MeasurandResult) -> 
             matters: s.matters,
         }),
         monte_carlo: result.monte_carlo.as_ref().map(monte_carlo),
-        validation: result.validation.as_ref().map(|both| both.iter().map(validation).collect()),
+        validation: result
+            .validation
+            .as_ref()
+            .map(|both| both.iter().map(validation).collect()),
     }
 }
 
 fn gum(gum: &Gum) -> GumJson<'_> {
-    let Coverage { k, basis, probability, expanded, half_width_for_p } = &gum.coverage;
+    let Coverage {
+        k,
+        basis,
+        probability,
+        expanded,
+        half_width_for_p,
+    } = &gum.coverage;
     let (from, dof, shape, dominant) = match basis {
         CoverageBasis::Normal => ("normal", None, None, &[][..]),
         CoverageBasis::StudentT { dof } => ("t", Some(number(*dof)), None, &[][..]),
-        CoverageBasis::Output { dominant, shape } => ("output", None, Some(*shape), dominant.as_slice()),
+        CoverageBasis::Output { dominant, shape } => {
+            ("output", None, Some(*shape), dominant.as_slice())
+        }
         CoverageBasis::Fixed => ("fixed", None, None, &[][..]),
     };
     GumJson {
@@ -724,7 +772,14 @@ fn input(input: &Input) -> InputJson<'_> {
         group: input.group.as_deref(),
         unit: &input.unit.symbol,
         estimate: number(input.estimate),
-        terms: input.terms.iter().map(|t| TermJson { component: t.component as u64, coefficient: number(t.coefficient) }).collect(),
+        terms: input
+            .terms
+            .iter()
+            .map(|t| TermJson {
+                component: t.component as u64,
+                coefficient: number(t.coefficient),
+            })
+            .collect(),
     }
 }
 
@@ -741,7 +796,10 @@ fn component<'a>(c: &'a Component, inputs: &'a [Input]) -> ComponentJson<'a> {
             Owner::Source(name) => Some(name),
         },
         unit: &c.unit.symbol,
-        distribution: DistributionJson { name: c.distribution.kind().key.to_string(), parameters: parameters(&c.distribution) },
+        distribution: DistributionJson {
+            name: c.distribution.kind().key.to_string(),
+            parameters: parameters(&c.distribution),
+        },
         standard_uncertainty: number(c.u),
         degrees_of_freedom: number(c.dof),
         evaluation: match c.evaluation {
@@ -762,20 +820,55 @@ fn component<'a>(c: &'a Component, inputs: &'a [Input]) -> ComponentJson<'a> {
 fn parameters(distribution: &crate::distribution::Distribution) -> Value {
     use crate::distribution::Distribution as D;
     let list = |pairs: &[(&str, f64)]| -> Value {
-        pairs.iter().map(|(name, x)| ((*name).to_string(), serde_json::json!(Number(*x)))).collect::<serde_json::Map<_, _>>().into()
+        pairs
+            .iter()
+            .map(|(name, x)| ((*name).to_string(), serde_json::json!(Number(*x))))
+            .collect::<serde_json::Map<_, _>>()
+            .into()
     };
     match distribution {
         D::Normal { mean, sd } => list(&[("mean", *mean), ("sd", *sd)]),
-        D::StudentT { location, scale, dof } => list(&[("location", *location), ("scale", *scale), ("dof", *dof)]),
-        D::Uniform { lower, upper } | D::Arcsine { lower, upper } => list(&[("lower", *lower), ("upper", *upper)]),
-        D::Triangular { lower, mode, upper } => list(&[("lower", *lower), ("mode", *mode), ("upper", *upper)]),
-        D::Trapezoidal { lower, upper, beta } => list(&[("lower", *lower), ("upper", *upper), ("beta", *beta)]),
-        D::CurvilinearTrapezoid { lower, upper, d } => list(&[("lower", *lower), ("upper", *upper), ("d", *d)]),
+        D::StudentT {
+            location,
+            scale,
+            dof,
+        } => list(&[("location", *location), ("scale", *scale), ("dof", *dof)]),
+        D::Uniform { lower, upper } | D::Arcsine { lower, upper } => {
+            list(&[("lower", *lower), ("upper", *upper)])
+        }
+        D::Triangular { lower, mode, upper } => {
+            list(&[("lower", *lower), ("mode", *mode), ("upper", *upper)])
+        }
+        D::Trapezoidal { lower, upper, beta } => {
+            list(&[("lower", *lower), ("upper", *upper), ("beta", *beta)])
+        }
+        D::CurvilinearTrapezoid { lower, upper, d } => {
+            list(&[("lower", *lower), ("upper", *upper), ("d", *d)])
+        }
         D::Exponential { origin, mean } => list(&[("origin", *origin), ("mean", *mean)]),
-        D::Gamma { origin, shape, scale } => list(&[("origin", *origin), ("shape", *shape), ("scale", *scale)]),
-        D::LogNormal { origin, mu, sigma } => list(&[("origin", *origin), ("mu", *mu), ("sigma", *sigma)]),
-        D::Beta { alpha, beta, lower, upper } => list(&[("alpha", *alpha), ("beta", *beta), ("lower", *lower), ("upper", *upper)]),
-        D::Discrete { values, probabilities } => {
+        D::Gamma {
+            origin,
+            shape,
+            scale,
+        } => list(&[("origin", *origin), ("shape", *shape), ("scale", *scale)]),
+        D::LogNormal { origin, mu, sigma } => {
+            list(&[("origin", *origin), ("mu", *mu), ("sigma", *sigma)])
+        }
+        D::Beta {
+            alpha,
+            beta,
+            lower,
+            upper,
+        } => list(&[
+            ("alpha", *alpha),
+            ("beta", *beta),
+            ("lower", *lower),
+            ("upper", *upper),
+        ]),
+        D::Discrete {
+            values,
+            probabilities,
+        } => {
             serde_json::json!({ "values": numbers(values), "probabilities": numbers(probabilities) })
         }
         D::Empirical { sample } => serde_json::json!({ "sample": numbers(sample) }),
@@ -822,7 +915,12 @@ fn run(run: &Run) -> RunJson {
 
 fn claim_json<'a>(report: &Report<'a>, claim: &'a Claim) -> ClaimJson<'a> {
     ClaimJson {
-        measurand: report.budget.model.outputs().get(claim.measurand).map_or("", |o| o.name.as_str()),
+        measurand: report
+            .budget
+            .model
+            .outputs()
+            .get(claim.measurand)
+            .map_or("", |o| o.name.as_str()),
         source: claim.source.as_deref(),
         note: claim.note.as_deref(),
         coverage_probability: claim.coverage_probability.map(Number),

@@ -123,7 +123,10 @@ impl Language {
             Word::Note => ("Note", "备注"),
             Word::Object => ("Object", "被校对象"),
             Word::Obtained => ("obtained", "计算值"),
-            Word::Origin => ("Where the standard uncertainties come from", "标准不确定度的来源与评定"),
+            Word::Origin => (
+                "Where the standard uncertainties come from",
+                "标准不确定度的来源与评定",
+            ),
             Word::Quantity => ("quantity", "输入量"),
             Word::Ratio => ("ratio", "比值"),
             Word::Remarks => ("What to know before using these figures", "使用结果前须知"),
@@ -132,7 +135,10 @@ impl Language {
             Word::SecondOrderU => ("u with second-order terms", "计入二阶项的标准不确定度"),
             Word::Sensitivity => ("c", "灵敏系数 c"),
             Word::Share => ("%", "占比 %"),
-            Word::Shared => ("Shared sources (already contained in the inputs above)", "共同来源（已计入上列各输入量）"),
+            Word::Shared => (
+                "Shared sources (already contained in the inputs above)",
+                "共同来源（已计入上列各输入量）",
+            ),
             Word::SideBySide => ("GUM and Monte Carlo side by side", "GUM 法与蒙特卡洛法对照"),
             Word::Skewness => ("skewness", "偏度"),
             Word::Source => ("Source of the figures", "数据来源"),
@@ -155,7 +161,9 @@ impl std::str::FromStr for Language {
         match text {
             "en" => Ok(Language::English),
             "zh" => Ok(Language::Chinese),
-            other => Err(format!("`{other}` is not a language of the report: write `en` or `zh`")),
+            other => Err(format!(
+                "`{other}` is not a language of the report: write `en` or `zh`"
+            )),
         }
     }
 }

@@ -21,21 +21,48 @@ fn draw_block(block: &Block) -> String {
         Block::Title(title) => format!("# {}", escaped(title)),
         Block::Section(title) => format!("## {}", escaped(title)),
         Block::Fields(fields) => {
-            let line = |(name, text): &(String, String)| format!("- **{}**: {}", escaped(name), escaped(text));
+            let line = |(name, text): &(String, String)| {
+                format!("- **{}**: {}", escaped(name), escaped(text))
+            };
             fields.iter().map(line).collect::<Vec<_>>().join("\n")
         }
         Block::Paragraph(text) => escaped(text),
         Block::Formula(lines) => format!("```text\n{}\n```", lines.join("\n")),
         Block::Table(table) => draw_table(table),
-        Block::List(items) => items.iter().map(|i| format!("- {}", escaped(i))).collect::<Vec<_>>().join("\n"),
-        Block::Statement(sentences) => sentences.iter().map(|s| format!("> {}", escaped(s))).collect::<Vec<_>>().join("\n>\n"),
-        Block::Footer(lines) => format!("---\n\n{}", lines.iter().map(|l| escaped(l)).collect::<Vec<_>>().join("  \n")),
+        Block::List(items) => items
+            .iter()
+            .map(|i| format!("- {}", escaped(i)))
+            .collect::<Vec<_>>()
+            .join("\n"),
+        Block::Statement(sentences) => sentences
+            .iter()
+            .map(|s| format!("> {}", escaped(s)))
+            .collect::<Vec<_>>()
+            .join("\n>\n"),
+        Block::Footer(lines) => format!(
+            "---\n\n{}",
+            lines
+                .iter()
+                .map(|l| escaped(l))
+                .collect::<Vec<_>>()
+                .join("  \n")
+        ),
     }
 }
 
 fn draw_table(table: &Table) -> String {
     let heads: Vec<String> = table.columns.iter().map(|c| escaped(&c.head)).collect();
-    let marks: Vec<&str> = table.columns.iter().map(|c| if c.kind == ColumnKind::Numbers { "---:" } else { ":---" }).collect();
+    let marks: Vec<&str> = table
+        .columns
+        .iter()
+        .map(|c| {
+            if c.kind == ColumnKind::Numbers {
+                "---:"
+            } else {
+                ":---"
+            }
+        })
+        .collect();
     let mut lines = vec![row(&heads), row(&marks)];
     for line in &table.rows {
         match line {
@@ -83,7 +110,7 @@ fn escaped(text: &str) -> String {
             '`' => code = !code,
             '|' => out.push('\\'),
             '\\' | '*' | '<' | '~' if !code => out.push('\\'),
-            '_' if !code && !(inside_word && next_is_word) => out.push('\\'),
+            '_' if !code && (!inside_word || !next_is_word) => out.push('\\'),
             _ => {}
         }
         out.push(if c == '\n' { ' ' } else { c });
@@ -108,6 +135,9 @@ mod tests {
         table.push(vec![Cell::Part("x|y".to_string())]);
         table.rows.push(Row::Rule);
         table.rows.push(Row::Across("rest".to_string()));
-        assert_eq!(draw_table(&table), "| a | b |\n| :--- | ---: |\n| &emsp;x\\|y |  |\n| *rest* |  |");
+        assert_eq!(
+            draw_table(&table),
+            "| a | b |\n| :--- | ---: |\n| &emsp;x\\|y |  |\n| *rest* |  |"
+        );
     }
 }

@@ -61,19 +61,30 @@ impl<'a> Report<'a> {
     /// Whether a finding of this kind concerns the measurand.
     fn finds(&self, measurand: usize, is_it: impl Fn(&FindingKind) -> bool) -> bool {
         let concerned = |m: Option<usize>| m.is_none() || m == Some(measurand);
-        self.evaluation.findings.iter().any(|f| concerned(f.measurand) && is_it(&f.kind))
+        self.evaluation
+            .findings
+            .iter()
+            .any(|f| concerned(f.measurand) && is_it(&f.kind))
     }
 
     /// p of the coverage intervals.
     fn coverage_probability(&self) -> f64 {
-        let of_run = self.evaluation.run.as_ref().map(|run| run.coverage_probability);
+        let of_run = self
+            .evaluation
+            .run
+            .as_ref()
+            .map(|run| run.coverage_probability);
         of_run.unwrap_or(self.budget.conventions.coverage_probability)
     }
 }
 
 /// The unit as printed after a number; nothing for dimension one.
 fn symbol(unit: &Unit) -> String {
-    if unit.symbol == "1" { String::new() } else { unit.symbol.clone() }
+    if unit.symbol == "1" {
+        String::new()
+    } else {
+        unit.symbol.clone()
+    }
 }
 
 /// The unit of a difference, in which uncertainties are: kelvin for a Celsius temperature.

@@ -11,11 +11,18 @@ pub(super) const NONE: &str = "—";
 pub(super) const TABLE_DIGITS: u8 = 3;
 
 /// Powers of ten as `×10^-5`: legible in every font of a terminal.
-pub(super) const STYLE: Style = Style { grouping: crate::quantity::Grouping::None, power: PowerStyle::Caret };
+pub(super) const STYLE: Style = Style {
+    grouping: crate::quantity::Grouping::None,
+    power: PowerStyle::Caret,
+};
 
 /// A decimal number, or a dash for none.
 pub(super) fn print(number: &Decimal) -> String {
-    if number.is_finite() || number.to_f64().is_infinite() { number.print(STYLE) } else { NONE.to_string() }
+    if number.is_finite() || number.to_f64().is_infinite() {
+        number.print(STYLE)
+    } else {
+        NONE.to_string()
+    }
 }
 
 /// `x` with this many significant digits. Zeros that would only fill up to the decimal marker are
@@ -24,7 +31,11 @@ pub(super) fn significant(x: f64, digits: u8) -> String {
     let rounded = Decimal::from_f64(x).round_to_significant(digits, Rounding::HalfEven);
     match (rounded.leading_place(), rounded.place()) {
         (Some(leading), Some(place)) if place > 0 => {
-            format!("{}{}", rounded.shifted(-leading).print_plain(STYLE), STYLE.power(leading))
+            format!(
+                "{}{}",
+                rounded.shifted(-leading).print_plain(STYLE),
+                STYLE.power(leading)
+            )
         }
         _ => print(&rounded),
     }
@@ -40,7 +51,9 @@ pub(super) fn exact(x: f64) -> String {
 pub(super) fn aligned(x: f64, scale: f64, digits: u8) -> String {
     /// A double has no more.
     const MOST: i32 = 15;
-    let Some(place) = place_of(scale, digits) else { return exact(x) };
+    let Some(place) = place_of(scale, digits) else {
+        return exact(x);
+    };
     let rounded = at_place(x, place);
     match rounded.leading_place() {
         None if x != 0.0 => significant(x, 2),
@@ -88,7 +101,7 @@ pub(super) fn grouped(n: u64) -> String {
     let digits = n.to_string();
     let mut text = String::with_capacity(digits.len() * 4 / 3);
     for (i, c) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i) % 3 == 0 {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
             text.push(' ');
         }
         text.push(c);

@@ -45,7 +45,11 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
 }
 
 /// One finding in the report's language.
-pub(super) fn finding_sentence(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> String {
+pub(super) fn finding_sentence(
+    report: &Report<'_>,
+    measurand: Option<usize>,
+    kind: &FindingKind,
+) -> String {
     match report.language {
         Language::English => english(report, measurand, kind),
         Language::Chinese => chinese(report, measurand, kind),
@@ -142,8 +146,14 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
 
 /// An amount in the unit of the measurand's differences.
 fn amount(report: &Report<'_>, measurand: Option<usize>, number: String) -> String {
-    let unit = measurand.map(|m| super::difference_symbol(report.measurand(m).1)).unwrap_or_default();
-    if unit.is_empty() { number } else { format!("{number} {unit}") }
+    let unit = measurand
+        .map(|m| super::difference_symbol(report.measurand(m).1))
+        .unwrap_or_default();
+    if unit.is_empty() {
+        number
+    } else {
+        format!("{number} {unit}")
+    }
 }
 
 /// Why a budget could not be evaluated, and what to do.
@@ -153,13 +163,17 @@ pub fn failure(error: &EvaluationError, language: Language) -> String {
             "The model of {measurand} has no finite value at the estimates of its inputs (for example a division by zero or the root of a negative number). Check the estimates and the formula."
         ),
         (EvaluationError::NoValue { measurand }, Language::Chinese) => {
-            format!("在输入量的估计值处，{measurand} 的测量模型没有有限值（例如除以零或对负数开方）。请核对估计值和公式。")
+            format!(
+                "在输入量的估计值处，{measurand} 的测量模型没有有限值（例如除以零或对负数开方）。请核对估计值和公式。"
+            )
         }
         (EvaluationError::NoDerivative { measurand, input }, Language::English) => format!(
             "The model of {measurand} has no finite derivative with respect to {input} at the estimates, so the GUM method cannot be used, and Monte Carlo was switched off. Run the evaluation with Monte Carlo."
         ),
         (EvaluationError::NoDerivative { measurand, input }, Language::Chinese) => {
-            format!("在估计值处，{measurand} 的测量模型对 {input} 的导数不是有限值，GUM 法不适用，而蒙特卡洛法被关闭。请运行蒙特卡洛法。")
+            format!(
+                "在估计值处，{measurand} 的测量模型对 {input} 的导数不是有限值，GUM 法不适用，而蒙特卡洛法被关闭。请运行蒙特卡洛法。"
+            )
         }
         (EvaluationError::AllTrialsFailed { measurand }, Language::English) => format!(
             "Not one Monte Carlo trial gave a finite value of {measurand}. Check the distributions of the inputs and the formula."

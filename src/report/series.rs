@@ -19,18 +19,26 @@ pub fn series_markdown(rows: &[Report<'_>]) -> String {
 }
 
 fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
-    let Some(first) = rows.first() else { return Vec::new() };
+    let Some(first) = rows.first() else {
+        return Vec::new();
+    };
     let mut blocks = vec![Block::Title(first.budget.heading.title.clone())];
     for measurand in 0..first.evaluation.results.len() {
         let (name, unit) = first.measurand(measurand);
         let unit = symbol(unit);
-        let title = if unit.is_empty() { name.to_string() } else { format!("{name} / {unit}") };
+        let title = if unit.is_empty() {
+            name.to_string()
+        } else {
+            format!("{name} / {unit}")
+        };
         blocks.push(Block::Section(title));
         blocks.push(Block::Table(table(rows, measurand).without_empty_columns()));
     }
     let common = common_remarks(rows);
     if !common.is_empty() {
-        blocks.push(Block::Section(first.language.word(Word::Remarks).to_string()));
+        blocks.push(Block::Section(
+            first.language.word(Word::Remarks).to_string(),
+        ));
         blocks.push(Block::List(common));
     }
     blocks
@@ -39,7 +47,10 @@ fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
 fn table(rows: &[Report<'_>], measurand: usize) -> Table {
     let l = rows[0].language;
     let p = probability(rows[0].coverage_probability());
-    let interval = l.pick(format!("Monte Carlo {p} interval"), format!("蒙特卡洛法 {p} 区间"));
+    let interval = l.pick(
+        format!("Monte Carlo {p} interval"),
+        format!("蒙特卡洛法 {p} 区间"),
+    );
     let mut table = Table::new([
         (l.word(Word::Row), ColumnKind::Words),
         ("y", ColumnKind::Numbers),
@@ -53,12 +64,21 @@ fn table(rows: &[Report<'_>], measurand: usize) -> Table {
     for report in rows {
         let result = &report.evaluation.results[measurand];
         let gum = &result.gum;
-        let scale = result.monte_carlo.as_ref().and_then(|mc| mc.u).unwrap_or(gum.u);
-        let interval = result.monte_carlo.as_ref().map(|mc| mc.symmetric.map(|x| aligned(x, scale, TABLE_DIGITS)));
-        let verdict = result.validation.map_or("", |v| match v.map(|v| v.validated) {
-            [true, _] | [_, true] => l.pick("validated", "通过"),
-            _ => l.pick("not validated", "未通过"),
-        });
+        let scale = result
+            .monte_carlo
+            .as_ref()
+            .and_then(|mc| mc.u)
+            .unwrap_or(gum.u);
+        let interval = result
+            .monte_carlo
+            .as_ref()
+            .map(|mc| mc.symmetric.map(|x| aligned(x, scale, TABLE_DIGITS)));
+        let verdict = result
+            .validation
+            .map_or("", |v| match v.map(|v| v.validated) {
+                [true, _] | [_, true] => l.pick("validated", "通过"),
+                _ => l.pick("not validated", "未通过"),
+            });
         let claim = claim::summary(report, measurand);
         table.rows.push(Row::Cells(vec![
             report.label.unwrap_or_default().into(),
@@ -92,7 +112,10 @@ fn common_remarks(rows: &[Report<'_>]) -> Vec<String> {
         .into_iter()
         .map(|(text, labels)| match everywhere(&labels) {
             true => text,
-            false => l.pick(format!("{}: {text}", l.list(&labels)), format!("{}：{text}", l.list(&labels))),
+            false => l.pick(
+                format!("{}: {text}", l.list(&labels)),
+                format!("{}：{text}", l.list(&labels)),
+            ),
         })
         .collect()
 }

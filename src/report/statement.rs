@@ -9,12 +9,16 @@ use crate::propagate::{Basis, Coverage, CoverageBasis, FindingKind, Freedom, Mon
 use crate::quantity::{Decimal, Rounded, RoundingRule, Unit, space_before};
 
 use super::language::Language;
-use super::number::{NONE, STYLE, at_place, exact, freedom, grouped, print, probability, significant};
+use super::number::{
+    NONE, STYLE, at_place, exact, freedom, grouped, print, probability, significant,
+};
 use super::{Report, difference_symbol, symbol};
 
 /// One sentence (or a few) per measurand, and one for the correlation of several.
 pub fn statement(report: &Report<'_>) -> Vec<String> {
-    let mut sentences: Vec<String> = (0..report.evaluation.results.len()).map(|m| of_measurand(report, m)).collect();
+    let mut sentences: Vec<String> = (0..report.evaluation.results.len())
+        .map(|m| of_measurand(report, m))
+        .collect();
     sentences.extend(correlations(report));
     sentences
 }
@@ -23,8 +27,13 @@ fn of_measurand(report: &Report<'_>, measurand: usize) -> String {
     let result = &report.evaluation.results[measurand];
     let subject = Subject::new(report, measurand);
     match (result.basis, &result.monte_carlo) {
-        (Basis::MonteCarlo, Some(monte_carlo)) => subject.from_monte_carlo(monte_carlo),
-        _ => subject.from_gum(result.gum.estimate, result.gum.u, &result.gum.coverage, &result.gum.freedom),
+        (Basis::MonteCarlo, Some(monte_carlo)) => subject.monte_carlo_sentence(monte_carlo),
+        _ => subject.gum_sentence(
+            result.gum.estimate,
+            result.gum.u,
+            &result.gum.coverage,
+            &result.gum.freedom,
+        ),
     }
 }
 
@@ -50,15 +59,28 @@ enum Form {
 impl<'a> Subject<'a> {
     fn new(report: &'a Report<'a>, measurand: usize) -> Self {
         let (name, unit) = report.measurand(measurand);
-        Subject { report, measurand, name, unit, conventions: &report.budget.conventions, language: report.language }
+        Subject {
+            report,
+            measurand,
+            name,
+            unit,
+            conventions: &report.budget.conventions,
+            language: report.language,
+        }
     }
 
     fn form(&self) -> Form {
-        let apart = ["JJF", "CNAS"].iter().any(|p| self.conventions.profile.starts_with(p));
-        if apart || !self.conventions.state_probability { Form::Apart } else { Form::PlusMinus }
+        let apart = ["JJF", "CNAS"]
+            .iter()
+            .any(|p| self.conventions.profile.starts_with(p));
+        if apart || !self.conventions.state_probability {
+            Form::Apart
+        } else {
+            Form::PlusMinus
+        }
     }
 
-    fn from_gum(&self, estimate: f64, u: f64, coverage: &Coverage, dof: &Freedom) -> String {
+    fn gum_sentence(&self, estimate: f64, u: f64, coverage: &Coverage, dof: &Freedom) -> String {
         let expanded = coverage.expanded;
         if expanded == 0.0 || !expanded.is_finite() {
             return self.without_uncertainty(estimate);
@@ -69,7 +91,11 @@ impl<'a> Subject<'a> {
         match self.form() {
             Form::PlusMinus => {
                 let space = self.language.pick(" ", "");
-                format!("{}{space}{}", self.equation(&pair), self.explained(&self.amount(&pair.uncertainty), &u, &k, coverage, dof))
+                format!(
+                    "{}{space}{}",
+                    self.equation(&pair),
+                    self.explained(&self.amount(&pair.uncertainty), &u, &k, coverage, dof)
+                )
             }
             Form::Apart => self.apart(&pair, &u, &k, coverage, dof),
         }
@@ -77,16 +103,30 @@ impl<'a> Subject<'a> {
 
     /// `I = (9.9990 ± 0.0017) mA.`
     fn equation(&self, pair: &Rounded) -> String {
-        format!("{} = {}{}", self.name, pair.plus_minus_unit(&self.unit.symbol, STYLE), self.language.pick(".", "。"))
+        format!(
+            "{} = {}{}",
+            self.name,
+            pair.plus_minus_unit(&self.unit.symbol, STYLE),
+            self.language.pick(".", "。")
+        )
     }
 
-    fn explained(&self, expanded: &str, u: &str, k: &str, coverage: &Coverage, dof: &Freedom) -> String {
+    fn explained(
+        &self,
+        expanded: &str,
+        u: &str,
+        k: &str,
+        coverage: &Coverage,
+        dof: &Freedom,
+    ) -> String {
         let reason = self.reason(k, coverage, dof);
         match self.language {
             Language::English => format!(
                 "The number after ± is the expanded uncertainty U = {expanded}, the combined standard uncertainty u_c = {u} times the coverage factor k = {k}{reason}."
             ),
-            Language::Chinese => format!("其中 ± 号后的数为扩展不确定度 U = {expanded}，由合成标准不确定度 u_c = {u} 乘以包含因子 k = {k} 得到{reason}。"),
+            Language::Chinese => format!(
+                "其中 ± 号后的数为扩展不确定度 U = {expanded}，由合成标准不确定度 u_c = {u} 乘以包含因子 k = {k} 得到{reason}。"
+            ),
         }
     }
 
@@ -96,15 +136,22 @@ impl<'a> Subject<'a> {
         match (&coverage.basis, self.language) {
             (CoverageBasis::Fixed, _) if !self.conventions.state_probability => String::new(),
             (CoverageBasis::Normal, Language::English) => {
-                format!(", which for a normal distribution corresponds to a coverage probability of about {p}")
+                format!(
+                    ", which for a normal distribution corresponds to a coverage probability of about {p}"
+                )
             }
-            (CoverageBasis::Normal, Language::Chinese) => format!("；对于正态分布，包含概率约为 {p}"),
+            (CoverageBasis::Normal, Language::Chinese) => {
+                format!("；对于正态分布，包含概率约为 {p}")
+            }
             (CoverageBasis::StudentT { dof: used }, Language::English) => format!(
-                ", which for a t-distribution with ν_eff = {} effective degrees of freedom corresponds to a coverage probability of about {p}",
-                freedom(shown_freedom(*used, dof)),
+                ", which for a t-distribution with ν_eff {} effective degrees of freedom corresponds to a coverage probability of about {p}",
+                shown_freedom(*used, dof),
             ),
             (CoverageBasis::StudentT { dof: used }, Language::Chinese) => {
-                format!("；按有效自由度 ν_eff = {} 的 t 分布，包含概率约为 {p}", freedom(shown_freedom(*used, dof)))
+                format!(
+                    "；按有效自由度 ν_eff {} 的 t 分布，包含概率约为 {p}",
+                    shown_freedom(*used, dof)
+                )
             }
             (CoverageBasis::Output { dominant, shape }, Language::English) => format!(
                 ", found from the assumed {shape} distribution of the result, in which {} dominate{}, for a coverage probability of {p}",
@@ -124,24 +171,44 @@ impl<'a> Subject<'a> {
     }
 
     /// `y = …, U = …, k = 2` or, where p is stated, `U_95 = …, k_95 = 2.26, ν_eff = 9`.
-    fn apart(&self, pair: &Rounded, u: &str, k: &str, coverage: &Coverage, dof: &Freedom) -> String {
+    fn apart(
+        &self,
+        pair: &Rounded,
+        u: &str,
+        k: &str,
+        coverage: &Coverage,
+        dof: &Freedom,
+    ) -> String {
         let name = self.name;
         let (y, expanded) = (self.value(&pair.estimate), self.amount(&pair.uncertainty));
         let index = if self.names_probability(coverage) {
-            format!("_{}", probability(self.stated_probability(coverage)).trim_end_matches(" %"))
+            format!(
+                "_{}",
+                probability(self.stated_probability(coverage)).trim_end_matches(" %")
+            )
         } else {
             String::new()
         };
         let nu = match &coverage.basis {
-            CoverageBasis::StudentT { dof: used } => format!(", ν_eff = {}", freedom(shown_freedom(*used, dof))),
+            CoverageBasis::StudentT { dof: used } => {
+                format!(", ν_eff {}", shown_freedom(*used, dof))
+            }
             _ => String::new(),
         };
         let shape = match (&coverage.basis, self.language) {
             (CoverageBasis::Output { dominant, shape }, Language::English) => {
-                format!(" k was found from the {shape} distribution that {} give{} the result.", self.language.list(dominant), if dominant.len() == 1 { "s" } else { "" })
+                format!(
+                    " k was found from the {shape} distribution that {} give{} the result.",
+                    self.language.list(dominant),
+                    if dominant.len() == 1 { "s" } else { "" }
+                )
             }
             (CoverageBasis::Output { dominant, shape }, Language::Chinese) => {
-                format!("{} 占优势，k 按{}确定。", self.language.list(dominant), shape_in_chinese(shape))
+                format!(
+                    "{} 占优势，k 按{}确定。",
+                    self.language.list(dominant),
+                    shape_in_chinese(shape)
+                )
             }
             _ => String::new(),
         };
@@ -177,9 +244,15 @@ impl<'a> Subject<'a> {
         }
     }
 
-    fn from_monte_carlo(&self, monte_carlo: &MonteCarlo) -> String {
-        let shortest = self.report.finds(self.measurand, |kind| *kind == FindingKind::Asymmetric);
-        let interval = if shortest { monte_carlo.shortest } else { monte_carlo.symmetric };
+    fn monte_carlo_sentence(&self, monte_carlo: &MonteCarlo) -> String {
+        let shortest = self
+            .report
+            .finds(self.measurand, |kind| *kind == FindingKind::Asymmetric);
+        let interval = if shortest {
+            monte_carlo.shortest
+        } else {
+            monte_carlo.symmetric
+        };
         let p = probability(self.report.coverage_probability());
         let which = match (shortest, self.language) {
             (true, Language::English) => "shortest",
@@ -196,7 +269,12 @@ impl<'a> Subject<'a> {
         let pair = rule.align(centre, scale);
         let [low, high] = interval.map(|end| self.value(&rule.to_place_of(&pair, end)));
         let value = self.value(&pair.estimate);
-        let trials = self.report.evaluation.run.as_ref().map_or(0, |run| run.trials);
+        let trials = self
+            .report
+            .evaluation
+            .run
+            .as_ref()
+            .map_or(0, |run| run.trials);
         let trials = grouped(trials);
         let name = self.name;
         match (monte_carlo.u, self.language) {
@@ -220,8 +298,14 @@ impl<'a> Subject<'a> {
     fn without_uncertainty(&self, estimate: f64) -> String {
         let value = with_unit(&exact(estimate), &symbol(self.unit));
         match self.language {
-            Language::English => format!("{} = {value}. No uncertainty can be stated: the evaluation gives none.", self.name),
-            Language::Chinese => format!("{} = {value}。本评定未得到不确定度，无法给出扩展不确定度。", self.name),
+            Language::English => format!(
+                "{} = {value}. No uncertainty can be stated: the evaluation gives none.",
+                self.name
+            ),
+            Language::Chinese => format!(
+                "{} = {value}。本评定未得到不确定度，无法给出扩展不确定度。",
+                self.name
+            ),
         }
     }
 
@@ -241,9 +325,14 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// ν as a sentence states it: truncated as it was used for k where that is a whole number.
-fn shown_freedom(used: f64, found: &Freedom) -> f64 {
-    if used.is_finite() { used } else { found.value() }
+/// ν as it was used for k; a lower bound where ν_eff is not defined.
+fn shown_freedom(used: f64, found: &Freedom) -> String {
+    let relation = if matches!(found, Freedom::Refused { .. }) {
+        "≥"
+    } else {
+        "="
+    };
+    format!("{relation} {}", freedom(used))
 }
 
 fn two_decimals(k: f64) -> String {
@@ -279,7 +368,11 @@ fn rule(conventions: &Conventions) -> RoundingRule {
 
 fn correlations(report: &Report<'_>) -> Option<String> {
     let joint = report.evaluation.joint.as_ref()?;
-    let from_trials = report.evaluation.results.iter().any(|r| r.basis == Basis::MonteCarlo);
+    let from_trials = report
+        .evaluation
+        .results
+        .iter()
+        .any(|r| r.basis == Basis::MonteCarlo);
     let matrix = match &joint.monte_carlo_correlation {
         Some(matrix) if from_trials => matrix,
         _ => &joint.correlation,
@@ -289,7 +382,12 @@ fn correlations(report: &Report<'_>) -> Option<String> {
     for i in 0..n {
         for j in i + 1..n {
             if let Some(r) = matrix.get((i, j)) {
-                pairs.push(format!("r({}, {}) = {}", report.measurand(i).0, report.measurand(j).0, coefficient(*r)));
+                pairs.push(format!(
+                    "r({}, {}) = {}",
+                    report.measurand(i).0,
+                    report.measurand(j).0,
+                    coefficient(*r)
+                ));
             }
         }
     }
@@ -312,6 +410,14 @@ fn correlations(report: &Report<'_>) -> Option<String> {
 
 /// A correlation coefficient: two decimals, more digits near ±1 (GUM 7.2.6).
 pub(super) fn coefficient(r: f64) -> String {
-    let place = if r.abs() < 0.9 || r.abs() == 1.0 { -2 } else { ((1.0 - r.abs()).log10().floor() as i32 - 1).clamp(-6, -3) };
-    if r.is_finite() { at_place(r, place).print_plain(STYLE) } else { NONE.to_string() }
+    let place = if r.abs() < 0.9 || r.abs() == 1.0 {
+        -2
+    } else {
+        ((1.0 - r.abs()).log10().floor() as i32 - 1).clamp(-6, -3)
+    };
+    if r.is_finite() {
+        at_place(r, place).print_plain(STYLE)
+    } else {
+        NONE.to_string()
+    }
 }

@@ -66,8 +66,17 @@ impl<T: Into<String>> From<T> for Cell {
 impl Table {
     /// A table without rows.
     pub(super) fn new<const N: usize>(columns: [(&str, ColumnKind); N]) -> Self {
-        let columns = columns.into_iter().map(|(head, kind)| Column { head: head.to_string(), kind }).collect();
-        Table { columns, rows: Vec::new() }
+        let columns = columns
+            .into_iter()
+            .map(|(head, kind)| Column {
+                head: head.to_string(),
+                kind,
+            })
+            .collect();
+        Table {
+            columns,
+            rows: Vec::new(),
+        }
     }
 
     /// Adds a row of cells.
@@ -79,7 +88,9 @@ impl Table {
     pub(super) fn without_empty_columns(mut self) -> Self {
         for i in (0..self.columns.len()).rev() {
             let blank = |row: &Row| match row {
-                Row::Cells(cells) => cells.get(i).is_none_or(|c| *c == Cell::Empty || *c == Cell::Text(String::new())),
+                Row::Cells(cells) => cells
+                    .get(i)
+                    .is_none_or(|c| *c == Cell::Empty || *c == Cell::Text(String::new())),
                 Row::Rule | Row::Across(_) => true,
             };
             if !self.rows.iter().all(blank) {
@@ -105,7 +116,11 @@ impl Table {
         let rule = "─".repeat(full);
         let mut lines = Vec::with_capacity(self.rows.len() + 2);
         if self.columns.iter().any(|c| !c.head.is_empty()) {
-            let heads: Vec<Cell> = self.columns.iter().map(|c| Cell::Text(c.head.clone())).collect();
+            let heads: Vec<Cell> = self
+                .columns
+                .iter()
+                .map(|c| Cell::Text(c.head.clone()))
+                .collect();
             self.draw(&heads, &widths, gap, &mut lines);
             lines.push(rule.clone());
         }
@@ -155,10 +170,21 @@ impl Table {
     }
 
     /// Takes from the widest columns of a kind until the table fits or they are down to `least`.
-    fn shrink(&self, kind: ColumnKind, least: usize, page: usize, gap: usize, widths: &mut [usize]) {
+    fn shrink(
+        &self,
+        kind: ColumnKind,
+        least: usize,
+        page: usize,
+        gap: usize,
+        widths: &mut [usize],
+    ) {
         while total(widths, gap) > page {
-            let widest = (0..widths.len()).filter(|i| self.columns[*i].kind == kind).max_by_key(|i| widths[*i]);
-            let Some(i) = widest.filter(|i| widths[*i] > least) else { return };
+            let widest = (0..widths.len())
+                .filter(|i| self.columns[*i].kind == kind)
+                .max_by_key(|i| widths[*i]);
+            let Some(i) = widest.filter(|i| widths[*i] > least) else {
+                return;
+            };
             widths[i] -= 1;
         }
     }
@@ -171,14 +197,22 @@ impl Table {
                 columns.push((*width, column.kind, cell.set(column.kind, *width)));
             }
         }
-        let height = columns.iter().map(|(_, _, set)| set.len()).max().unwrap_or(0);
+        let height = columns
+            .iter()
+            .map(|(_, _, set)| set.len())
+            .max()
+            .unwrap_or(0);
         for h in 0..height {
             let parts: Vec<String> = columns
                 .iter()
                 .map(|(width, kind, set)| {
                     let text = set.get(h).map_or("", String::as_str);
                     let space = " ".repeat(width.saturating_sub(text.width()));
-                    if *kind == ColumnKind::Numbers { format!("{space}{text}") } else { format!("{text}{space}") }
+                    if *kind == ColumnKind::Numbers {
+                        format!("{space}{text}")
+                    } else {
+                        format!("{text}{space}")
+                    }
                 })
                 .collect();
             lines.push(parts.join(&" ".repeat(gap)).trim_end().to_string());
@@ -188,7 +222,12 @@ impl Table {
 
 /// Width of a table with these columns.
 fn total(widths: &[usize], gap: usize) -> usize {
-    widths.iter().filter(|w| **w > 0).map(|w| w + gap).sum::<usize>().saturating_sub(gap)
+    widths
+        .iter()
+        .filter(|w| **w > 0)
+        .map(|w| w + gap)
+        .sum::<usize>()
+        .saturating_sub(gap)
 }
 
 /// Natural width of a bar, and the least that still says something.
@@ -284,7 +323,11 @@ fn may_break([second, last]: [char; 2], next: char) -> bool {
         let number = second.is_ascii_digit() && (next.is_ascii_digit() || next == '%');
         return next != ' ' && !number && !BINDS.contains(next) && !BINDS.contains(second);
     }
-    (is_wide(last) || is_wide(next)) && next != ' ' && last != '（' && last != '“' && !ENDS.contains(next)
+    (is_wide(last) || is_wide(next))
+        && next != ' '
+        && last != '（'
+        && last != '“'
+        && !ENDS.contains(next)
 }
 
 fn is_wide(c: char) -> bool {
@@ -302,8 +345,18 @@ mod tests {
             ("how", ColumnKind::Wrapped),
             ("", ColumnKind::Bar),
         ]);
-        table.push(vec!["V".into(), "0.12".into(), "half-width of the interval divided by the root of three".into(), Cell::Share(0.5)]);
-        table.push(vec![Cell::Part("校准".to_string()), "1.5".into(), "U/k".into(), Cell::Share(1.0)]);
+        table.push(vec![
+            "V".into(),
+            "0.12".into(),
+            "half-width of the interval divided by the root of three".into(),
+            Cell::Share(0.5),
+        ]);
+        table.push(vec![
+            Cell::Part("校准".to_string()),
+            "1.5".into(),
+            "U/k".into(),
+            Cell::Share(1.0),
+        ]);
         table.rows.push(Row::Rule);
         table
     }
@@ -311,8 +364,14 @@ mod tests {
     #[test]
     fn keeps_every_column_on_a_wide_page() {
         let lines = sample().lines(100);
-        assert_eq!(lines[2], "V         0.12  half-width of the interval divided by the root of three  █████");
-        assert_eq!(lines[3], "  校准     1.5  U/k                                                      ██████████");
+        assert_eq!(
+            lines[2],
+            "V         0.12  half-width of the interval divided by the root of three  █████"
+        );
+        assert_eq!(
+            lines[3],
+            "  校准     1.5  U/k                                                      ██████████"
+        );
     }
 
     #[test]
@@ -320,7 +379,12 @@ mod tests {
         let lines = sample().lines(44);
         assert!(lines.iter().all(|l| l.width() <= 44), "{lines:#?}");
         assert!(lines.iter().all(|l| !l.contains('█')));
-        assert!(lines.iter().any(|l| l.trim() == "divided by the root of three"), "{lines:#?}");
+        assert!(
+            lines
+                .iter()
+                .any(|l| l.trim() == "divided by the root of three"),
+            "{lines:#?}"
+        );
     }
 
     #[test]
@@ -333,7 +397,10 @@ mod tests {
 
     #[test]
     fn chinese_breaks_between_characters_but_not_before_a_stop() {
-        assert_eq!(wrapped("扩展不确定度。包含因子", 12), ["扩展不确定", "度。包含因子"]);
+        assert_eq!(
+            wrapped("扩展不确定度。包含因子", 12),
+            ["扩展不确定", "度。包含因子"]
+        );
         assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
     }
 }

@@ -18,7 +18,10 @@ pub struct Page {
 
 impl Default for Page {
     fn default() -> Self {
-        Page { width: 100, styled: false }
+        Page {
+            width: 100,
+            styled: false,
+        }
     }
 }
 
@@ -32,7 +35,11 @@ impl Page {
     }
 
     fn escaped(self, code: &str, text: &str) -> String {
-        if self.styled { format!("\x1b[{code}m{text}\x1b[0m") } else { text.to_string() }
+        if self.styled {
+            format!("\x1b[{code}m{text}\x1b[0m")
+        } else {
+            text.to_string()
+        }
     }
 }
 
@@ -68,7 +75,11 @@ fn draw_block(block: &Block, page: Page, lines: &mut Vec<String>) {
         }
         Block::Section(title) => lines.push(page.bold(title)),
         Block::Fields(fields) => {
-            let label = fields.iter().map(|(label, _)| label.width()).max().unwrap_or(0);
+            let label = fields
+                .iter()
+                .map(|(label, _)| label.width())
+                .max()
+                .unwrap_or(0);
             for (name, text) in fields {
                 let space = " ".repeat(label - name.width());
                 hanging(&format!("  {name}{space}  "), text, page, lines);
@@ -76,9 +87,18 @@ fn draw_block(block: &Block, page: Page, lines: &mut Vec<String>) {
         }
         Block::Paragraph(text) => hanging("  ", text, page, lines),
         Block::Formula(formulas) => lines.extend(formulas.iter().map(|f| format!("    {f}"))),
-        Block::Table(table) => lines.extend(table.lines(page.width.saturating_sub(2)).into_iter().map(|l| format!("  {l}"))),
-        Block::List(items) => items.iter().for_each(|item| hanging("  • ", item, page, lines)),
-        Block::Statement(sentences) => sentences.iter().for_each(|s| hanging("  ┃ ", s, page, lines)),
+        Block::Table(table) => lines.extend(
+            table
+                .lines(page.width.saturating_sub(2))
+                .into_iter()
+                .map(|l| format!("  {l}")),
+        ),
+        Block::List(items) => items
+            .iter()
+            .for_each(|item| hanging("  • ", item, page, lines)),
+        Block::Statement(sentences) => sentences
+            .iter()
+            .for_each(|s| hanging("  ┃ ", s, page, lines)),
         Block::Footer(small) => {
             for line in small.iter().flat_map(|s| wrapped(s, page.width)) {
                 lines.push(page.dim(&line));
@@ -89,7 +109,11 @@ fn draw_block(block: &Block, page: Page, lines: &mut Vec<String>) {
 
 /// Text after a mark, its further lines below its first one; the bar of a statement goes on.
 fn hanging(mark: &str, text: &str, page: Page, lines: &mut Vec<String>) {
-    let further = if mark.contains('┃') { mark.to_string() } else { " ".repeat(mark.width()) };
+    let further = if mark.contains('┃') {
+        mark.to_string()
+    } else {
+        " ".repeat(mark.width())
+    };
     let width = page.width.saturating_sub(mark.width()).max(20);
     for (i, line) in text.lines().flat_map(|l| wrapped(l, width)).enumerate() {
         lines.push(format!("{}{line}", if i == 0 { mark } else { &further }));

@@ -1,0 +1,50 @@
+//! The instruction set that the kernels run on.
+//!
+//! [`level`] is what programs use; [`levels`] lets a test run a kernel on every instruction set
+//! that this processor has and compare the bits.
+
+use std::sync::OnceLock;
+
+pub use fearless_simd::Level;
+
+/// The best instruction set of this processor, detected on the first call.
+pub fn level() -> Level {
+    static DETECTED: OnceLock<Level> = OnceLock::new();
+    *DETECTED.get_or_init(Level::new)
+}
+
+/// Every instruction set that this processor has, from the plainest to the best.
+pub fn levels() -> Vec<Level> {
+    let best = level();
+    // The list is empty on processors with a single level, hence the push of `best` at the end.
+    #[allow(unused_mut)]
+    let mut plainer: Vec<Level> = Vec::new();
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    {
+        if best.as_sse4_2().is_some() {
+            plainer.extend(best.as_sse2().map(Level::Sse2));
+        }
+        if best.as_avx2().is_some() {
+            plainer.extend(best.as_sse4_2().map(Level::Sse4_2));
+        }
+        if best.as_avx512().is_some() {
+            plainer.extend(best.as_avx2().map(Level::Avx2));
+        }
+    }
+    plainer.push(best);
+    plainer
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_level_is_the_best_one_and_none_occurs_twice() {
+        let names: Vec<String> = levels().iter().map(|l| format!("{l:?}")).collect();
+        assert_eq!(names.last(), Some(&format!("{:?}", level())));
+        let mut unique = names.clone();
+        unique.dedup();
+        assert_eq!(names, unique);
+    }
+}

@@ -1,0 +1,98 @@
+//! Codes of the faults in a model text.
+
+use crate::fault::Code;
+
+macro_rules! codes {
+    ($($name:ident = $id:literal, $title:literal, $explanation:literal;)*) => {
+        $(
+            #[doc = $title]
+            pub const $name: Code = Code { id: $id, title: $title, explanation: $explanation };
+        )*
+
+        /// All codes of this module.
+        pub const CODES: &[Code] = &[$($name),*];
+    };
+}
+
+codes! {
+    UNEXPECTED = "M0101", "something else was expected here",
+        "The formula cannot be read on from this place: a value, an operator or a word is missing.\n\n    y = a + * b      wrong: two operators follow one another\n    y = a + b        right";
+    UNCLOSED = "M0102", "a bracket is never closed",
+        "Every `(` needs its `)` and every `[` its `]` before the statement ends.\n\n    y = (a + b / c      wrong\n    y = (a + b) / c     right";
+    EQUALS = "M0103", "`=` stands inside an expression",
+        "One `=` gives a name to an expression. To compare two quantities, as in `if` and `solve`, write `==`.\n\n    y = if(a = b, 1, 2)      wrong\n    y = if(a == b, 1, 2)     right";
+    MISSING_OPERATOR = "M0104", "an operator is missing between two values",
+        "Products need their `*`, because `ab` is the name of one quantity. A unit stands between single quotes.\n\n    y = 2x        wrong\n    y = 2 * x     right";
+    CHARACTER = "M0105", "a character has no meaning in a model",
+        "Models are written with names, numbers, the operators + - * / ^, comparisons, brackets and units between single quotes.\n\n    y = 5 %         wrong\n    y = 5 '%'       right";
+    NUMBER = "M0106", "a number is malformed",
+        "Numbers have a decimal point (not a comma) and may have an exponent; `_` may stand between digits.\n\n    y = 1.2.3      wrong\n    y = 1.5e-3     right";
+    CHAINED_COMPARISON = "M0107", "comparisons cannot follow one another",
+        "A comparison has two sides. Join two comparisons by `and`.\n\n    y = if(0 < x < 1, a, b)              wrong\n    y = if(0 < x and x < 1, a, b)        right";
+    TOO_DEEP = "M0108", "the formula is nested too deep",
+        "Brackets, signs and calls stand inside one another more often than anybody can read. Name the parts.\n\n    y = f(f(f(f(…))))      wrong\n    a = f(f(x)); f(f(a))   right";
+    NO_EFFECT = "M0109", "the value of this line goes nowhere",
+        "Only the last line of a measurand's model may be a bare expression: it is the measurand's value. Any other line gives a name to something.\n\n    a + b ; c * d          wrong: what is a + b for?\n    s = a + b ; s * d      right";
+    NO_VALUE = "M0110", "the model has no value",
+        "The last line of a measurand's model must be its value: an expression, or `name = expression`.\n\n    f(x) = x^2             wrong: only defines a function\n    f(x) = x^2 ; f(a)      right";
+    LEFT_SIDE = "M0111", "this cannot stand left of `=`",
+        "A statement defines a name, or a function of names. An equation to be solved is written with `solve`.\n\n    a + b = c                        wrong\n    a = solve(a + b == c, a, 1)      right";
+    BRACKET_PAIR = "M0112", "brackets do not pair",
+        "A `)` closes a `(`, a `]` closes a `[`, and nothing else.\n\n    y = mean([a, b)]      wrong\n    y = mean([a, b])      right";
+    UNIT_TEXT = "M0113", "a unit is out of place",
+        "A unit stands between single quotes right after a number, or where a function asks for one.\n\n    y = x 'mm'             wrong: x has its unit already\n    y = value_in(x, 'mm')  right: the number of x in mm";
+
+    UNKNOWN_NAME = "M0201", "a name is not known",
+        "A model may use the file's inputs and constants, names defined by statements above, `pi` and numbers. Upper and lower case differ.\n\n    y = Lenght / t      wrong, when the input is called Length\n    y = Length / t      right";
+    UNKNOWN_FUNCTION = "M0202", "a function is not known",
+        "`gumption explain functions` lists the functions. Own functions are defined by a statement.\n\n    y = sine(x)      wrong\n    y = sin(x)       right";
+    ARGUMENTS = "M0203", "a function is given the wrong number of arguments",
+        "The signature says what the function takes.\n\n    y = atan2(y)         wrong\n    y = atan2(y, x)      right";
+    DEFINED_TWICE = "M0204", "a name is defined twice",
+        "A name stands for one thing in the whole file, so that a reader never has to ask which one is meant.\n\n    a = x + 1 ; a = a * 2      wrong\n    a = x + 1 ; b = a * 2      right";
+    RESERVED = "M0205", "a name belongs to the language",
+        "Inputs, constants and intermediate quantities may not be called like a function or like `pi`.\n\n    [input.min]        wrong: min is a function\n    [input.t_min]      right";
+    FUNCTION_AS_VALUE = "M0206", "a function is used without arguments",
+        "A function has a value only at its arguments.\n\n    y = sqrt / 2         wrong\n    y = sqrt(x) / 2      right";
+    VALUE_AS_FUNCTION = "M0207", "a quantity is called like a function",
+        "A name followed by `(` is a function call. Write the `*` of a product.\n\n    y = a(b + c)        wrong, when a is a quantity\n    y = a * (b + c)     right";
+    USED_BEFORE = "M0208", "a name is used before it is defined",
+        "Statements are read from top to bottom; a quantity cannot depend on itself. Equations that define a quantity implicitly are written with `solve`.\n\n    d = a - d * h                        wrong\n    d = solve(d == a - d * h, d, 1)      right";
+    NO_MODEL = "M0209", "a measurand has no model",
+        "A measurand needs `model = \"…\"`, or the model at the top of the file must define a quantity of its name.\n\n    [measurand.P]\n    model = \"U * I\"";
+
+    LENGTHS = "M0301", "vectors have different lengths",
+        "Vectors are combined element by element, so they need equal lengths; a scalar goes with any vector.\n\n    [1, 2, 3] + [1, 2]      wrong\n    [1, 2, 3] + 1           right";
+    SHAPE = "M0302", "a vector stands where a number belongs, or the reverse",
+        "Reductions such as `mean` need a vector; conditions, indices and starting values need a single number.\n\n    y = mean(x)      wrong, when x is a single quantity\n    y = mean([x, z]) right";
+    INDEX = "M0303", "an index is not one of the vector's places",
+        "Elements are counted from 1, and the index must be a whole number written in the model.\n\n    y = x[0]      wrong\n    y = x[1]      right: the first element";
+    VECTOR_RESULT = "M0304", "the value of a measurand is a vector",
+        "A measurand is a single quantity. Reduce the vector, or make each element a measurand.\n\n    model = \"x - y\"            wrong, when x is a vector\n    model = \"mean(x - y)\"      right";
+    NESTED_VECTOR = "M0305", "a vector stands inside a vector",
+        "Vectors hold single quantities; there are no matrices.\n\n    [[1, 2], [3, 4]]      wrong\n    [1, 2, 3, 4]          right";
+    TRUTH_AS_NUMBER = "M0306", "a comparison is used as a number",
+        "A comparison is true or false. Choose between two values by `if`.\n\n    y = (a < b) * c           wrong\n    y = if(a < b, c, 0)       right";
+    NUMBER_AS_TRUTH = "M0307", "a number is used as a condition",
+        "Conditions are comparisons, or several joined by `and`, `or`, `not`.\n\n    y = if(a, b, c)           wrong\n    y = if(a > 0, b, c)       right";
+
+    CLASH = "M0401", "quantities of different kinds are added or compared",
+        "Only quantities of the same dimension can be added, subtracted, compared or put into one vector. A number without a unit has dimension one.\n\n    y = L + 5           wrong, when L is a length\n    y = L + 5 'mm'      right";
+    NOT_ONE = "M0402", "a function needs a quantity of dimension one",
+        "Functions such as exp, ln and sin take numbers (or angles). Divide by a reference quantity, or take the number in a stated unit.\n\n    y = ln(p)                       wrong, when p is a pressure\n    y = ln(p / (1 'bar'))           right\n    y = ln(value_in(p, 'bar'))      right";
+    EXPONENT = "M0403", "an exponent cannot be used here",
+        "Exponents are numbers. A quantity with a unit needs an exponent that is a constant simple fraction, or the unit of the power would not be known.\n\n    y = L^n        wrong, when L is a length and n an input\n    y = L^2        right";
+    POINT = "M0404", "a temperature with an origin is used like a difference",
+        "`20 °C` is a point on a scale, not an amount: twice that is meaningless. Differences between points are in K.\n\n    y = alpha * T                   wrong, when T is in °C\n    y = alpha * (T - 20 '°C')       right\n    y = R * kelvin(T)               right: thermodynamic temperature";
+    RESULT_UNIT = "M0405", "the value does not fit the measurand's unit",
+        "The model was checked and gives a quantity of another dimension than the measurand's unit.\n\n    [measurand.P] model = \"U * I\", unit = \"V\"      wrong\n    [measurand.P] model = \"U * I\", unit = \"W\"      right";
+    RESULT_NEEDS_UNIT = "M0406", "the measurand needs a unit",
+        "The model gives a quantity with a dimension; say in which unit it is wanted.\n\n    [measurand.P] model = \"U * I\"                   wrong\n    [measurand.P] model = \"U * I\", unit = \"W\"      right";
+    BARE_ANGLE = "M0407", "a bare number meets an angle",
+        "A number without a unit would be radians, which is hardly meant beside an angle in degrees.\n\n    y = phi + 90          wrong, when phi is in °\n    y = phi + 90 '°'      right";
+
+    TOO_LARGE = "M0501", "the model is too large",
+        "Written out element by element the model has too many operations. Shorten the vectors or the functions that call one another.\n\n    g(x) = f(f(f(x))) …      each level multiplies the work";
+    UNKNOWN_OF_SOLVE = "M0502", "the unknown of `solve` is not fit",
+        "`solve(equation, unknown, start)` needs a new name as its unknown, and the equation must contain it.\n\n    d = solve(a == b, d, 1)          wrong: d does not occur\n    d = solve(d * exp(d) == a, d, 1) right";
+}

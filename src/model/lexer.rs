@@ -1,0 +1,292 @@
+//! Text → tokens.
+
+use super::faults;
+use super::syntax::Span;
+use crate::fault::Fault;
+
+/// A token and where it stands.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Token {
+    pub kind: Kind,
+    pub span: Span,
+}
+
+/// What a token is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    Number { value: f64, text: String },
+    Name(String),
+    /// Text between single quotes.
+    Quoted(String),
+    /// Operators, brackets and commas, in their plain spelling (`*` for `×`).
+    Sign(&'static str),
+    /// `if then else and or not`
+    Word(&'static str),
+    /// `;`, or the end of a line.
+    End,
+    /// The end of the text.
+    Eof,
+}
+
+const WORDS: [&str; 6] = ["if", "then", "else", "and", "or", "not"];
+
+/// Spellings of operators, longest first.
+const SIGNS: [(&str, &str); 30] = [
+    ("**", "^"),
+    ("<=", "<="),
+    (">=", ">="),
+    ("==", "=="),
+    ("!=", "!="),
+    ("&&", "and"),
+    ("||", "or"),
+    ("≤", "<="),
+    ("≥", ">="),
+    ("≠", "!="),
+    ("×", "*"),
+    ("·", "*"),
+    ("⋅", "*"),
+    ("∙", "*"),
+    ("÷", "/"),
+    ("−", "-"),
+    ("–", "-"),
+    ("+", "+"),
+    ("-", "-"),
+    ("*", "*"),
+    ("/", "/"),
+    ("^", "^"),
+    ("<", "<"),
+    (">", ">"),
+    ("=", "="),
+    ("(", "("),
+    (")", ")"),
+    ("[", "["),
+    ("]", "]"),
+    (",", ","),
+];
+
+const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/// Splits a text; what is no token is reported and left out.
+pub fn tokens(text: &str, faults: &mut Vec<Fault>) -> Vec<Token> {
+    let mut lexer = Lexer { text, at: 0, tokens: Vec::new(), faults };
+    while let Some(next) = lexer.rest().chars().next() {
+        lexer.token(next);
+    }
+    lexer.push(Kind::Eof, text.len()..text.len());
+    lexer.tokens
+}
+
+struct Lexer<'a> {
+    text: &'a str,
+    at: usize,
+    tokens: Vec<Token>,
+    faults: &'a mut Vec<Fault>,
+}
+
+impl<'a> Lexer<'a> {
+    fn rest(&self) -> &'a str {
+        &self.text[self.at..]
+    }
+
+    fn push(&mut self, kind: Kind, span: Span) {
+        self.at = span.end;
+        self.tokens.push(Token { kind, span });
+    }
+
+    fn token(&mut self, next: char) {
+        let start = self.at;
+        if next == '\n' || next == ';' {
+            self.push(Kind::End, start..start + 1);
+        } else if next.is_whitespace() || next == '\u{feff}' {
+            self.at += next.len_utf8();
+        } else if next == '#' {
+            self.at += self.rest().find('\n').unwrap_or(self.rest().len());
+        } else if next.is_ascii_digit() || self.starts_with_point_and_digit() {
+            self.number();
+        } else if next == '\'' {
+            self.quoted();
+        } else if SUPERSCRIPTS.contains(next) || next == '⁻' {
+            self.superscript();
+        } else if next.is_alphabetic() || next == '_' {
+            self.name();
+        } else if let Some((spelt, plain)) =
+            SIGNS.iter().find(|(spelt, _)| self.rest().starts_with(spelt))
+        {
+            let kind = match WORDS.iter().find(|w| w == &plain) {
+                Some(word) => Kind::Word(word),
+                None => Kind::Sign(plain),
+            };
+            self.push(kind, start..start + spelt.len());
+        } else {
+            self.unknown(next);
+        }
+    }
+
+    fn starts_with_point_and_digit(&self) -> bool {
+        let mut chars = self.rest().chars();
+        chars.next() == Some('.') && chars.next().is_some_and(|c| c.is_ascii_digit())
+    }
+
+    /// Digits with an optional point, exponent, and `_` between digits.
+    fn number(&mut self) {
+        let bytes = self.rest().as_bytes();
+        let digits = |from: usize| {
+            from + bytes[from..].iter().take_while(|b| b.is_ascii_digit() || **b == b'_').count()
+        };
+        let mut end = digits(0);
+        if bytes.get(end) == Some(&b'.') {
+            end = digits(end + 1);
+        }
+        if matches!(bytes.get(end), Some(b'e' | b'E')) {
+            let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+            let first = end + 1 + sign;
+            if bytes.get(first).is_some_and(u8::is_ascii_digit) {
+                end = digits(first);
+            } else if sign == 1 || !self.rest()[end + 1..].starts_with(is_name_part) {
+                // `1e` or `1e+`: an exponent without digits (`2e_0` is a number beside a name).
+                end = first;
+            }
+        }
+        if bytes.get(end) == Some(&b'.') {
+            end = bytes[end..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count() + end;
+        }
+        let span = self.at..self.at + end;
+        let text = &self.text[span.clone()];
+        match text.replace('_', "").parse::<f64>() {
+            Ok(value) if value.is_finite() => {
+                self.push(Kind::Number { value, text: text.to_string() }, span);
+            }
+            _ => {
+                self.faults.push(
+                    Fault::new(faults::NUMBER, span.clone(), format!("`{text}` is not a number"))
+                        .label("not a number")
+                        .help("write numbers like `12`, `0.5` or `1.5e-3`"),
+                );
+                self.push(Kind::Number { value: 1.0, text: text.to_string() }, span);
+            }
+        }
+    }
+
+    fn name(&mut self) {
+        let rest = self.rest();
+        let end = rest.find(|c| !is_name_part(c)).unwrap_or(rest.len());
+        let (text, span) = (&rest[..end], self.at..self.at + end);
+        let kind = match WORDS.iter().find(|w| **w == text) {
+            Some(word) => Kind::Word(word),
+            None => Kind::Name(text.to_string()),
+        };
+        self.push(kind, span);
+    }
+
+    /// `x²` is `x ^ 2`.
+    fn superscript(&mut self) {
+        let rest = self.rest();
+        let is_part = |c: char| SUPERSCRIPTS.contains(c) || c == '⁻';
+        let end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+        let span = self.at..self.at + end;
+        let plain: String = rest[..end]
+            .chars()
+            .map(|c| match SUPERSCRIPTS.chars().position(|s| s == c) {
+                Some(digit) => char::from(b'0' + digit as u8),
+                None => '-',
+            })
+            .collect();
+        match plain.parse::<f64>() {
+            Ok(value) => {
+                self.push(Kind::Sign("^"), span.clone());
+                if value < 0.0 {
+                    self.push(Kind::Sign("-"), span.clone());
+                }
+                let text = plain.trim_start_matches('-').to_string();
+                self.push(Kind::Number { value: value.abs(), text }, span);
+            }
+            Err(_) => {
+                let text = &self.text[span.clone()];
+                self.faults.push(
+                    Fault::new(faults::NUMBER, span.clone(), format!("`{text}` is not an exponent"))
+                        .label("not a number")
+                        .help("write the exponent after `^`, as in `x^2`"),
+                );
+                self.at = span.end;
+            }
+        }
+    }
+
+    fn quoted(&mut self) {
+        let inner = &self.rest()[1..];
+        let line = &inner[..inner.find('\n').unwrap_or(inner.len())];
+        let start = self.at;
+        match line.find('\'') {
+            Some(end) => self.push(Kind::Quoted(line[..end].to_string()), start..start + end + 2),
+            None => {
+                let span = start..start + 1 + line.trim_end().len();
+                self.faults.push(
+                    Fault::new(faults::UNIT_TEXT, span.clone(), "this unit has no closing quote")
+                        .label("opened here")
+                        .help("write a unit between single quotes right after its number: `25 'mm'`"),
+                );
+                self.push(Kind::Quoted(line.trim_end().to_string()), span);
+            }
+        }
+    }
+
+    fn unknown(&mut self, c: char) {
+        let span = self.at..self.at + c.len_utf8();
+        let help = match c {
+            '°' | '%' | '‰' | 'µ' => {
+                format!("a unit stands between single quotes right after its number: `5 '{c}'`")
+            }
+            '"' | '`' | '’' | '‘' => {
+                "a unit stands between single quotes: `25 'mm'`".to_string()
+            }
+            ':' => "write `=` to define a quantity".to_string(),
+            '√' => "write `sqrt(x)`".to_string(),
+            '{' | '}' => "use round brackets".to_string(),
+            '&' | '|' | '!' => "write `and`, `or`, `not`".to_string(),
+            '.' => "write the decimal point between digits, as in `0.5`".to_string(),
+            _ => "remove it".to_string(),
+        };
+        self.faults.push(
+            Fault::new(faults::CHARACTER, span.clone(), format!("`{c}` has no meaning in a model"))
+                .label("not part of the model language")
+                .help(help),
+        );
+        self.at = span.end;
+    }
+}
+
+fn is_name_part(c: char) -> bool {
+    (c.is_alphanumeric() || c == '_') && !SUPERSCRIPTS.contains(c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kinds(text: &str) -> Vec<Kind> {
+        let mut faults = Vec::new();
+        let found = tokens(text, &mut faults).into_iter().map(|t| t.kind).collect();
+        assert_eq!(faults, []);
+        found
+    }
+
+    #[test]
+    fn names_numbers_units() {
+        assert_eq!(
+            kinds("θ₁ = 1_000.5e-3 '°C' # room"),
+            [
+                Kind::Name("θ₁".into()),
+                Kind::Sign("="),
+                Kind::Number { value: 1.0005, text: "1_000.5e-3".into() },
+                Kind::Quoted("°C".into()),
+                Kind::Eof
+            ]
+        );
+    }
+
+    #[test]
+    fn other_spellings_of_operators() {
+        assert_eq!(kinds("a × b ≤ c ** d"), kinds("a * b <= c ^ d"));
+        assert_eq!(kinds("a − b²"), kinds("a - b^2"));
+    }
+}

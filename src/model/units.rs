@@ -1,0 +1,380 @@
+//! The rules of units: where two units meet, which conversion joins them, and what does not go.
+
+use super::faults;
+use super::graph::Id;
+use super::lower::{Kind, Lowering, Value};
+use super::printer;
+use super::syntax::{Expr, Infix, Node, Span};
+use crate::fault::Fault;
+use crate::quantity::{Dimension, Factor, Unit, hint_for_clash};
+
+/// A quantity and the expression it came from.
+#[derive(Clone, Copy)]
+pub struct Operand<'a> {
+    pub value: &'a Value,
+    pub expr: &'a Expr,
+}
+
+/// Two operands in one unit.
+pub struct Joined {
+    pub left: Value,
+    pub right: Value,
+    /// The common unit.
+    pub unit: Unit,
+}
+
+impl Lowering<'_> {
+    /// The same quantity, its numbers in another unit of its dimension.
+    pub fn converted(&mut self, value: &Value, unit: &Unit) -> Option<Value> {
+        let conversion = value.unit()?.conversion_to(unit)?;
+        let mut out = value.clone();
+        for id in &mut out.elements {
+            *id = self.builder.scale(*id, conversion.factor);
+            if conversion.offset != 0.0 {
+                let offset = self.builder.constant(conversion.offset);
+                *id = self.builder.add(*id, offset);
+            }
+        }
+        out.kind = Kind::Quantity(unit.clone());
+        Some(out)
+    }
+
+    /// The quantity of a value that must not be a truth.
+    pub fn quantity(&mut self, value: &Value, expr: &Expr) -> Option<Unit> {
+        match &value.kind {
+            Kind::Quantity(unit) => Some(unit.clone()),
+            Kind::Truth => {
+                let text = printer::expression(expr);
+                self.report(
+                    Fault::new(
+                        faults::TRUTH_AS_NUMBER,
+                        expr.span.clone(),
+                        format!("`{text}` is true or false, not a number"),
+                    )
+                    .label("a condition")
+                    .help(format!("choose between two values: `if({text}, 1, 0)`")),
+                );
+                None
+            }
+        }
+    }
+
+    /// A condition.
+    pub fn truth(&mut self, value: &Value, expr: &Expr) -> Option<()> {
+        if value.kind == Kind::Truth {
+            return Some(());
+        }
+        let text = printer::expression(expr);
+        self.report(
+            Fault::new(
+                faults::NUMBER_AS_TRUTH,
+                expr.span.clone(),
+                format!("`{text}` is a number, not a condition"),
+            )
+            .label("expected a comparison")
+            .help(format!("compare it, as in `{text} > 0`")),
+        );
+        None
+    }
+
+    /// The unit of a quantity that must not have an origin.
+    pub fn difference(&mut self, operand: Operand<'_>) -> Option<Unit> {
+        let unit = self.quantity(operand.value, operand.expr)?;
+        if unit.is_point() {
+            self.point_fault(operand.expr, &unit);
+            return None;
+        }
+        Some(unit)
+    }
+
+    /// A quantity of dimension one as a plain number (% divided by 100, ° converted to rad).
+    pub fn number(&mut self, operand: Operand<'_>, taker: &str) -> Option<Value> {
+        let unit = self.quantity(operand.value, operand.expr)?;
+        if operand.value.zero || unit.dimension == Dimension::NONE {
+            return self.converted(&operand.value.with_unit_if_zero(&Unit::one()), &Unit::one());
+        }
+        if unit.is_point() {
+            self.point_fault(operand.expr, &unit);
+            return None;
+        }
+        let text = printer::expression(operand.expr);
+        let symbol = &unit.symbol;
+        let help = hint_for_clash(&Unit::one(), &unit).unwrap_or_else(|| {
+            format!(
+                "divide by a reference quantity, or write `value_in({text}, '{symbol}')` for its number in {symbol}"
+            )
+        });
+        self.report(
+            Fault::new(
+                faults::NOT_ONE,
+                operand.expr.span.clone(),
+                format!("{taker} needs a number, but `{text}` is in {symbol}"),
+            )
+            .label(format!("in {symbol}"))
+            .help(help),
+        );
+        None
+    }
+
+    /// Brings two operands to the unit of the left one, for comparing, choosing and joining.
+    pub fn join(&mut self, left: Operand<'_>, right: Operand<'_>, what: &str) -> Option<Joined> {
+        let a = self.quantity(left.value, left.expr);
+        let b = self.quantity(right.value, right.expr);
+        let (a, b) = (a?, b?);
+        if a.is_point() != b.is_point() {
+            let (point, unit) = if a.is_point() { (left, a) } else { (right, b) };
+            self.point_fault(point.expr, &unit);
+            return None;
+        }
+        let (to, zeros) = match (left.value.zero, right.value.zero) {
+            (_, true) => (a.clone(), true),
+            (true, false) => (b.clone(), true),
+            (false, false) => (self.common_unit(left, right, &a, &b, what)?, false),
+        };
+        if zeros {
+            let left = left.value.with_unit_if_zero(&to);
+            let right = right.value.with_unit_if_zero(&to);
+            return Some(Joined { left, right, unit: to });
+        }
+        let left = self.converted(left.value, &to)?;
+        let right = self.converted(right.value, &to)?;
+        Some(Joined { left, right, unit: to })
+    }
+
+    /// In which unit two quantities meet: that of the left one, but plain numbers where a number
+    /// meets %, ppm and the like.
+    fn common_unit(
+        &mut self,
+        left: Operand<'_>,
+        right: Operand<'_>,
+        a: &Unit,
+        b: &Unit,
+        what: &str,
+    ) -> Option<Unit> {
+        if a.dimension != b.dimension {
+            self.clash(left, right, what);
+            return None;
+        }
+        if a.dimension != Dimension::NONE || a.factor == b.factor {
+            return Some(a.clone());
+        }
+        for (number, angle, unit) in [(left, right, b), (right, left, a)] {
+            if number.value.literal && unit.factor.pi != 0 {
+                self.bare_angle(number.expr, angle.expr, unit);
+                return None;
+            }
+        }
+        let plain = a.factor == Factor::ONE || b.factor == Factor::ONE;
+        Some(if plain { Unit::one() } else { a.clone() })
+    }
+
+    /// Sum or difference with the arithmetic of temperature scales: point - point is a difference,
+    /// point ± difference is a point.
+    pub fn sum(&mut self, left: Operand<'_>, infix: Infix, right: Operand<'_>) -> Option<Joined> {
+        let a = self.quantity(left.value, left.expr);
+        let b = self.quantity(right.value, right.expr);
+        let (a, b) = (a?, b?);
+        match (a.is_point(), infix, b.is_point()) {
+            (false, _, false) => self.join(left, right, if infix == Infix::Add { "added" } else { "subtracted" }),
+            (true, Infix::Sub, true) => {
+                let joined = self.join(left, right, "subtracted")?;
+                Some(Joined { unit: a.difference(), ..joined })
+            }
+            (true, _, false) => {
+                let step = left.value.with_kind(Kind::Quantity(a.difference()));
+                let joined = self.join(Operand { value: &step, ..left }, right, "added")?;
+                Some(Joined { left: left.value.clone(), right: joined.right, unit: a })
+            }
+            (false, Infix::Add, true) => {
+                let step = right.value.with_kind(Kind::Quantity(b.difference()));
+                // The other way round, so that the conversion is to the scale of the point.
+                let joined = self.join(Operand { value: &step, ..right }, left, "added")?;
+                Some(Joined { left: joined.right, right: right.value.clone(), unit: b })
+            }
+            _ => {
+                self.point_fault(right.expr, &b);
+                None
+            }
+        }
+    }
+
+    /// The fault of a point temperature in a product, function or sum of points.
+    pub fn point_fault(&mut self, expr: &Expr, unit: &Unit) {
+        let text = printer::expression(expr);
+        let symbol = &unit.symbol;
+        let difference = unit.difference().symbol;
+        self.report(
+            Fault::new(
+                faults::POINT,
+                expr.span.clone(),
+                format!("`{text}` is in {symbol}, a scale with an arbitrary zero, and cannot be used as an amount"),
+            )
+            .label(format!("a point on the {symbol} scale"))
+            .help(format!(
+                "write the difference from a reference, `{text} - 20 '{symbol}'` (in {difference}), write `kelvin({text})`, or give the quantity in K"
+            )),
+        );
+    }
+
+    /// The fault of two dimensions that meet.
+    pub fn clash(&mut self, left: Operand<'_>, right: Operand<'_>, what: &str) {
+        let (Some(a), Some(b)) = (left.value.unit().cloned(), right.value.unit().cloned()) else { return };
+        let (left_text, right_text) = (printer::expression(left.expr), printer::expression(right.expr));
+        let help = self.clash_help(left, right, &a, &b);
+        self.report(
+            Fault::new(
+                faults::CLASH,
+                right.expr.span.clone(),
+                format!("`{left_text}` ({}) and `{right_text}` ({}) cannot be {what}", in_words(&a), in_words(&b)),
+            )
+            .label(in_words(&b))
+            .related(left.expr.span.clone(), in_words(&a))
+            .help(help),
+        );
+    }
+
+    fn clash_help(&self, left: Operand<'_>, right: Operand<'_>, a: &Unit, b: &Unit) -> String {
+        for (operand, other) in [(right, a), (left, b)] {
+            if let (true, Node::Number { text, .. }) = (operand.value.literal, &operand.expr.node) {
+                return format!("give the number a unit: `{text} '{}'`", other.symbol);
+            }
+        }
+        if let Some(hint) = hint_for_clash(a, b) {
+            return hint;
+        }
+        let suspects = left.expr.names().into_iter().map(|n| (n, b)).chain(right.expr.names().into_iter().map(|n| (n, a)));
+        for (name, other) in suspects {
+            if self.has_no_unit(name) {
+                return format!("if `{name}` has a unit, state it: `unit = \"{}\"`", other.symbol);
+            }
+        }
+        format!("both must be of one dimension; check the formula and the units {} and {}", a.symbol, b.symbol)
+    }
+
+    fn bare_angle(&mut self, number: &Expr, angle: &Expr, unit: &Unit) {
+        let text = printer::expression(number);
+        self.report(
+            Fault::new(
+                faults::BARE_ANGLE,
+                number.span.clone(),
+                format!("`{text}` has no unit, but meets `{}`, an angle in {}", printer::expression(angle), unit.symbol),
+            )
+            .label("would be radians")
+            .related(angle.span.clone(), format!("in {}", unit.symbol))
+            .help(format!("write `{text} '{}'`, or `{text} 'rad'` if radians are meant", unit.symbol)),
+        );
+    }
+
+    /// base^exponent.
+    pub fn powered(&mut self, base: Operand<'_>, exponent: Operand<'_>, span: Span) -> Option<Value> {
+        let unit = self.difference(base);
+        let exponents = self.exponent(exponent);
+        let (unit, exponents) = (unit?, exponents?);
+        if unit.dimension == Dimension::NONE {
+            let bases = self.converted(base.value, &Unit::one())?;
+            let mut out = self.elementwise(&bases, &exponents, span, |b, x, y| {
+                match b.constant_at(y) {
+                    Some(c) => b.power(x, c),
+                    None => b.call_binary("^", x, y),
+                }
+            })?;
+            out.kind = Kind::Quantity(Unit::one());
+            return Some(out);
+        }
+        let constant = match exponents.elements[..] {
+            [id] if !exponents.vector => self.builder.constant_at(id),
+            _ => None,
+        };
+        let powered = constant.and_then(|c| {
+            let (num, den) = rational(c)?;
+            Some((c, unit.powr(num, den)?))
+        });
+        let Some((c, powered)) = powered else {
+            self.exponent_fault(base.expr, exponent.expr, &unit, constant);
+            return None;
+        };
+        let mut out = base.value.clone();
+        for id in &mut out.elements {
+            *id = self.builder.power(*id, c);
+        }
+        out.kind = Kind::Quantity(powered);
+        Some(out)
+    }
+
+    fn exponent(&mut self, exponent: Operand<'_>) -> Option<Value> {
+        let unit = self.quantity(exponent.value, exponent.expr)?;
+        if unit.dimension == Dimension::NONE {
+            return self.converted(exponent.value, &Unit::one());
+        }
+        let text = printer::expression(exponent.expr);
+        self.report(
+            Fault::new(
+                faults::EXPONENT,
+                exponent.expr.span.clone(),
+                format!("the exponent `{text}` is in {}", unit.symbol),
+            )
+            .label("expected a number")
+            .help("divide the exponent by a quantity of the same kind"),
+        );
+        None
+    }
+
+    fn exponent_fault(&mut self, base: &Expr, exponent: &Expr, unit: &Unit, constant: Option<f64>) {
+        let (base_text, text) = (printer::expression(base), printer::expression(exponent));
+        let symbol = &unit.symbol;
+        let why = match constant {
+            Some(c) => format!("{symbol} has no power {c}"),
+            None => format!("the unit of the power of `{base_text}` (in {symbol}) would depend on `{text}`"),
+        };
+        self.report(
+            Fault::new(faults::EXPONENT, exponent.span.clone(), why)
+                .label("expected a constant simple fraction")
+                .related(base.span.clone(), format!("in {symbol}"))
+                .help(format!("divide the base by a reference quantity: `({base_text} / (1 '{symbol}'))^{text}`")),
+        );
+    }
+
+    /// Whether a name is a quantity without a unit, which may simply have been forgotten.
+    fn has_no_unit(&self, name: &str) -> bool {
+        self.symbol(name).is_some_and(|s| s.unit.is_one())
+    }
+}
+
+impl Value {
+    /// A literal 0 fits any unit.
+    pub fn with_unit_if_zero(&self, unit: &Unit) -> Value {
+        if self.zero { self.with_kind(Kind::Quantity(unit.clone())) } else { self.clone() }
+    }
+
+    /// The same numbers as another kind of thing.
+    pub fn with_kind(&self, kind: Kind) -> Value {
+        Value { kind, ..self.clone() }
+    }
+
+    /// Its unit, unless it is a condition.
+    pub fn unit(&self) -> Option<&Unit> {
+        match &self.kind {
+            Kind::Quantity(unit) => Some(unit),
+            Kind::Truth => None,
+        }
+    }
+
+    /// A single quantity.
+    pub fn scalar(id: Id, unit: Unit) -> Value {
+        Value { elements: vec![id], vector: false, kind: Kind::Quantity(unit), zero: false, literal: false }
+    }
+}
+
+/// `in mm`, or `a number without unit`.
+pub fn in_words(unit: &Unit) -> String {
+    if unit.is_one() { "a number without unit".to_string() } else { format!("in {}", unit.symbol) }
+}
+
+/// c as a fraction whose denominator divides 60.
+fn rational(c: f64) -> Option<(i32, i32)> {
+    [1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30, 60].into_iter().find_map(|den| {
+        let num = c * f64::from(den);
+        let near = (num - num.round()).abs() <= 1e-12 * num.abs().max(1.0);
+        (near && num.abs() < 1e6).then_some((num.round() as i32, den))
+    })
+}

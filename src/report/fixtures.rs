@@ -6,8 +6,8 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use crate::budget::{
-    Budget, Certificate, Claim, Component, Conventions, CoverageRule, Evaluation as Kind, Group,
-    Heading, Input, Law, Measurand, MonteCarloSettings, Owner, Remark, TScale, Term, Trials,
+    Budget, Certificate, Claim, Component, CoverageRule, Evaluation as Kind, Group, Heading, Input,
+    Law, Measurand, MonteCarloSettings, Owner, PROFILES, Remark, Term, Trials,
 };
 use crate::distribution::Distribution;
 use crate::model::{MeasurandSource, Model, Request, Role, Symbol, compile};
@@ -15,7 +15,7 @@ use crate::propagate::{
     Basis, Contribution, Coverage, CoverageBasis, Evaluation, Finding, FindingKind, Freedom, Gum,
     Histogram, JointResult, MeasurandResult, MonteCarlo, Regions, Run, SecondOrder, Validation,
 };
-use crate::quantity::{Dimension, Factor, Rounding, Unit, UnitTable};
+use crate::quantity::{Dimension, Factor, Unit, UnitTable};
 
 use super::{Language, Report};
 
@@ -48,20 +48,6 @@ pub(super) fn unit(symbol: &str) -> Unit {
         factor,
         origin: None,
         symbol: symbol.to_string(),
-    }
-}
-
-pub(super) fn conventions() -> Conventions {
-    Conventions {
-        profile: "GUM".to_string(),
-        overrides: Vec::new(),
-        coverage_probability: 0.95,
-        coverage_factor: CoverageRule::Output,
-        rounding: Rounding::HalfEven,
-        digits: 2,
-        up_if_lowered_by_5_percent: false,
-        t_scale: TScale::Scale,
-        state_probability: true,
     }
 }
 
@@ -156,7 +142,7 @@ impl Bench {
                 title: title.to_string(),
                 ..Heading::default()
             },
-            conventions: conventions(),
+            conventions: PROFILES[0].conventions(),
             monte_carlo: MonteCarloSettings {
                 seed: 1,
                 trials: Trials::Fixed(1_000_000),

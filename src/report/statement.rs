@@ -5,6 +5,7 @@
 //! pretend symmetry.
 
 use crate::budget::{Conventions, CoverageRule};
+use crate::distribution::KINDS;
 use crate::propagate::{Basis, Coverage, CoverageBasis, FindingKind, Freedom, MonteCarlo};
 use crate::quantity::{Decimal, Rounded, RoundingRule, Unit, space_before};
 
@@ -339,15 +340,10 @@ fn two_decimals(k: f64) -> String {
     print(&at_place(k, -2))
 }
 
+/// The Chinese name of a shape that [`CoverageBasis::Output`] names in English.
 pub(super) fn shape_in_chinese(shape: &str) -> String {
-    match shape {
-        "rectangular" | "uniform" => "均匀（矩形）分布".to_string(),
-        "trapezoidal" => "梯形分布".to_string(),
-        "triangular" => "三角分布".to_string(),
-        "U-shaped" | "arcsine" => "反正弦分布".to_string(),
-        "normal" => "正态分布".to_string(),
-        other => format!("实际分布（{other}）"),
-    }
+    let known = KINDS.iter().find(|k| k.name_en == shape || k.key == shape);
+    known.map_or_else(|| shape.to_string(), |k| k.name_zh.to_string())
 }
 
 fn with_unit(number: &str, unit: &str) -> String {

@@ -146,7 +146,7 @@ pub fn call(l: &mut Lowering<'_>, e: &Expr, name: &Name, arguments: &[Expr]) -> 
     form_call(l, e, info, arguments)
 }
 
-fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
+pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
     let text = &name.text;
     let users = l.scope.iter().filter(|(_, b)| matches!(b, Binding::Function(_))).map(|(n, _)| n.as_str());
     let mut known: Vec<&str> = users.chain(functions().iter().map(|f| f.name)).collect();

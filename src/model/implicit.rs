@@ -12,8 +12,8 @@ const NEAR: f64 = 1e-8;
 
 /// y(p) as a jet; not a number where no root is found.
 pub fn root<const N: usize>(residual: &Graph, start: f64, parameters: &[Jet<N>]) -> Jet<N> {
-    let fixed: Vec<f64> = parameters.iter().map(Jet::value).collect();
-    let Some((value, slope)) = Newton::new(residual, &fixed).run(start) else {
+    let fixed = parameters.iter().map(Jet::value);
+    let Some((value, slope)) = Newton::new(residual).run(start, fixed) else {
         return Jet::constant(f64::NAN);
     };
     // Each chord step with the slope at the root makes one more derivative right.
@@ -38,8 +38,8 @@ pub fn slopes<const N: usize>(residual: &Graph, y: Jet<N>, parameters: &[Jet<N>]
     gradient[1..].iter().map(|by_p| *by_p * by_y).collect()
 }
 
-/// Newton's method at fixed parameters.
-struct Newton<'g> {
+/// Newton's method at fixed parameters; used again and again for the trials of a block.
+pub struct Newton<'g> {
     residual: &'g Graph,
     inputs: Vec<Jet<2>>,
     values: Vec<Jet<2>>,
@@ -48,9 +48,9 @@ struct Newton<'g> {
 }
 
 impl<'g> Newton<'g> {
-    fn new(residual: &'g Graph, parameters: &[f64]) -> Self {
-        let inputs = std::iter::once(f64::NAN).chain(parameters.iter().copied()).map(Jet::constant).collect();
-        Newton { residual, inputs, values: Vec::new(), bracket: [None, None] }
+    /// Prepares for one equation.
+    pub fn new(residual: &'g Graph) -> Self {
+        Newton { residual, inputs: Vec::new(), values: Vec::new(), bracket: [None, None] }
     }
 
     /// F and F_y at y; remembers on which side of the root y is.
@@ -70,7 +70,10 @@ impl<'g> Newton<'g> {
     ///
     /// A step that does not lessen |F| is halved; once F has changed its sign, a step that leaves the
     /// bracket goes to its middle instead.
-    fn run(&mut self, start: f64) -> Option<(f64, f64)> {
+    pub fn run(&mut self, start: f64, parameters: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+        self.bracket = [None, None];
+        self.inputs.clear();
+        self.inputs.extend(std::iter::once(start).chain(parameters).map(Jet::constant));
         let mut y = start;
         let mut size = start.abs();
         let (mut f, mut slope) = self.at(y);

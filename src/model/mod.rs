@@ -6,9 +6,34 @@
 //! ([`BlockRunner`]), with units (done by [`compile`]), and as formulas ([`Output::equation`]).
 //! All numbers are in the user's units: the tape converts only where two units meet.
 
+mod block;
+mod check;
+pub mod faults;
+mod functions;
+mod graph;
+mod hints;
+mod implicit;
+mod jet;
+mod lexer;
+mod lower;
+mod operation;
+mod parser;
+mod printer;
+mod syntax;
+mod units;
+
+#[cfg(test)]
+mod tests;
+
 use std::ops::Range;
 
 use nalgebra::DMatrix;
+
+pub use block::BlockRunner;
+pub use check::compile;
+pub use functions::{FunctionInfo, functions};
+
+use jet::Jet;
 
 use crate::fault::Fault;
 use crate::quantity::{Unit, UnitTable};
@@ -100,14 +125,9 @@ pub struct Along {
 pub struct Model {
     inputs: usize,
     outputs: Vec<Output>,
-}
-
-/// Checks names, shapes and units of a model and compiles it.
-///
-/// # Errors
-/// All faults of all texts.
-pub fn compile(_request: &Request<'_>) -> Result<Model, Vec<ModelFault>> {
-    todo!()
+    graph: graph::Graph,
+    program: block::Program,
+    unused: Vec<usize>,
 }
 
 impl Model {
@@ -122,58 +142,61 @@ impl Model {
     }
 
     /// f(x) for every output, in its unit.
-    pub fn values(&self, _x: &[f64]) -> Vec<f64> {
-        todo!()
+    pub fn values(&self, x: &[f64]) -> Vec<f64> {
+        let values = self.graph.evaluate(&jets::<1>(x, x));
+        self.graph.outputs.iter().map(|id| values[*id as usize].value()).collect()
     }
 
     /// ∂f_o/∂x_i, outputs × inputs, by one reverse sweep per output.
-    pub fn gradients(&self, _x: &[f64]) -> DMatrix<f64> {
-        todo!()
+    pub fn gradients(&self, x: &[f64]) -> DMatrix<f64> {
+        let values = self.graph.evaluate(&jets::<1>(x, x));
+        let mut out = DMatrix::zeros(self.outputs.len(), self.inputs);
+        for (row, id) in self.graph.outputs.iter().enumerate() {
+            for (column, slope) in self.graph.gradient(&values, *id, self.inputs).iter().enumerate() {
+                out[(row, column)] = slope.value();
+            }
+        }
+        out
     }
 
     /// First, second and third derivatives along `direction`, for every output.
-    pub fn along(&self, _x: &[f64], _direction: &[f64]) -> Vec<Along> {
-        todo!()
+    ///
+    /// The reverse sweep is done in numbers that carry two derivatives along the direction, so the
+    /// result is exact.
+    pub fn along(&self, x: &[f64], direction: &[f64]) -> Vec<Along> {
+        let values = self.graph.evaluate(&jets::<3>(x, direction));
+        let sweep = |id: &graph::Id| {
+            let gradient = self.graph.gradient(&values, *id, self.inputs);
+            let part = |k: usize| gradient.iter().map(|g| g.0[k]).collect();
+            Along { gradient: part(0), second: part(1), third: part(2) }
+        };
+        self.graph.outputs.iter().map(sweep).collect()
     }
 
     /// Whether each input takes part in any nonlinear operation; the others have no second derivatives.
     pub fn nonlinear_inputs(&self) -> Vec<bool> {
-        todo!()
+        hints::nonlinear_inputs(&self.graph, self.inputs)
     }
 
     /// Which of the request's symbols no measurand depends on.
     pub fn unused_symbols(&self) -> Vec<usize> {
-        todo!()
+        self.unused.clone()
     }
 
     /// Operations whose derivative does not exist or hides something at `x` (kink, step, branch), in
-    /// words: `abs(x - a) has a kink at 0`.
-    pub fn irregularities(&self, _x: &[f64]) -> Vec<String> {
-        todo!()
+    /// words: `abs(x - a) has a kink where x - a is 0, which is just here`.
+    pub fn irregularities(&self, x: &[f64]) -> Vec<String> {
+        hints::irregularities(&self.graph, x)
     }
 
     /// Divisors and function arguments that come within `reach` standard uncertainties of a pole or of
     /// the end of a domain, given the covariance-free u of every input: `x2 (divisor) is 1.4 u from 0`.
-    pub fn near_singular(&self, _x: &[f64], _u: &[f64], _reach: f64) -> Vec<String> {
-        todo!()
+    pub fn near_singular(&self, x: &[f64], u: &[f64], reach: f64) -> Vec<String> {
+        hints::near_singular(&self.graph, x, u, reach)
     }
 }
 
-/// Runs a model over blocks of 256 trials; owns the scratch registers.
-#[derive(Debug, Clone)]
-pub struct BlockRunner<'m> {
-    model: &'m Model,
-}
-
-impl<'m> BlockRunner<'m> {
-    /// Prepares the scratch registers.
-    pub fn new(model: &'m Model) -> Self {
-        BlockRunner { model }
-    }
-
-    /// Evaluates all outputs for 256 trials: `inputs[i]` and `outputs[o]` are blocks.
-    pub fn run(&mut self, _inputs: &[gumption_lanes::Block], _outputs: &mut [gumption_lanes::Block]) {
-        let _ = self.model;
-        todo!()
-    }
+/// The point x, moving along a direction.
+fn jets<const N: usize>(x: &[f64], direction: &[f64]) -> Vec<Jet<N>> {
+    x.iter().zip(direction).map(|(x, d)| Jet::line(*x, *d)).collect()
 }

@@ -6,10 +6,9 @@
 use std::f64::consts::{FRAC_PI_2, LN_2, LN_10, PI};
 use std::hash::{Hash, Hasher};
 
-use gumption_lanes::{Block, LANES};
+use gumption_lanes::{Block, LANES, Level, ops as kernels};
 
 use super::jet::Jet;
-use super::kernels::{self, Level};
 
 /// What a function does to units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,16 +118,6 @@ macro_rules! lanewise {
     };
 }
 
-macro_rules! lanewise2 {
-    ($f:expr) => {
-        |_, a, b, out| {
-            for lane in 0..LANES {
-                out.0[lane] = $f(a.0[lane], b.0[lane]);
-            }
-        }
-    };
-}
-
 macro_rules! row {
     ($name:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr) => {
         row!($name, $doc, $dimension, $scalar, $derivatives, $block, Smoothness::Smooth, None)
@@ -153,7 +142,7 @@ use Smoothness::{Branch, Corner, Smooth, Steps};
 /// Functions of one argument.
 pub static UNARY: &[Unary] = &[
     row!("-", "opposite", Same, |x| -x, |x| [-x, -1.0, 0.0, 0.0], kernels::neg),
-    row!("not", "negation of a condition", Truth, negate, |x| [negate(x), 0.0, 0.0, 0.0], lanewise!(negate)),
+    row!("not", "negation of a condition", Truth, negate, |x| [negate(x), 0.0, 0.0, 0.0], kernels::not),
     row!("^2", "square", Operator, |x| x * x, |x| [x * x, 2.0 * x, 2.0, 0.0], kernels::sq),
     row!("abs", "absolute value", Same, f64::abs, |x| [x.abs(), sign(x), 0.0, 0.0], kernels::abs, Corner, None),
     row!("sqrt", "square root", Root(2), f64::sqrt, sqrt, kernels::sqrt, Smooth, Some(|_| 0.0)),
@@ -178,7 +167,7 @@ pub static UNARY: &[Unary] = &[
     row!("sign", "-1, 0 or 1", Sign, sign, |x| [sign(x), 0.0, 0.0, 0.0], kernels::sign, Steps, None),
     row!("floor", "next whole number below", One, f64::floor, |x| [x.floor(), 0.0, 0.0, 0.0], kernels::floor, Steps, None),
     row!("ceil", "next whole number above", One, f64::ceil, |x| [x.ceil(), 0.0, 0.0, 0.0], kernels::ceil, Steps, None),
-    row!("round", "nearest whole number, halves to even", One, f64::round_ties_even, |x| [x.round_ties_even(), 0.0, 0.0, 0.0], kernels::round, Steps, None),
+    row!("round", "nearest whole number, halves away from zero", One, f64::round, |x| [x.round(), 0.0, 0.0, 0.0], kernels::round, Steps, None),
 ];
 
 /// Functions of two arguments, operators included.
@@ -192,15 +181,15 @@ pub static BINARY: &[Binary] = &[
     binary("hypot", "square root of the sum of squares", Same, libm::hypot, Rule::Hypot, kernels::hypot, Smooth),
     binary("min", "smallest argument or element", Same, smaller, Rule::Pick, kernels::min, Corner),
     binary("max", "largest argument or element", Same, larger, Rule::Pick, kernels::max, Corner),
-    binary("quantize", "x rounded to the nearest multiple of a step; its derivative is the mean slope, 1", Same, quantize, Rule::Staircase, lanewise2!(quantize), Smooth),
-    binary("<", "less than", Ratio, |a, b| truth(a < b), Rule::Constant, lanewise2!(|a, b| truth(a < b)), Corner),
-    binary("<=", "at most", Ratio, |a, b| truth(a <= b), Rule::Constant, lanewise2!(|a, b| truth(a <= b)), Corner),
-    binary(">", "greater than", Ratio, |a, b| truth(a > b), Rule::Constant, lanewise2!(|a, b| truth(a > b)), Corner),
-    binary(">=", "at least", Ratio, |a, b| truth(a >= b), Rule::Constant, lanewise2!(|a, b| truth(a >= b)), Corner),
-    binary("==", "equal", Ratio, |a, b| truth(a == b), Rule::Constant, lanewise2!(|a, b| truth(a == b)), Corner),
-    binary("!=", "different", Ratio, |a, b| truth(a != b), Rule::Constant, lanewise2!(|a, b| truth(a != b)), Corner),
-    binary("and", "both", Truth, |a, b| a * b, Rule::Constant, kernels::mul, Smooth),
-    binary("or", "at least one", Truth, larger, Rule::Constant, kernels::max, Smooth),
+    binary("quantize", "x rounded to the nearest multiple of a step; its derivative is the mean slope, 1", Same, quantize, Rule::Staircase, quantize_block, Smooth),
+    binary("<", "less than", Ratio, |a, b| truth(a < b), Rule::Constant, kernels::lt, Corner),
+    binary("<=", "at most", Ratio, |a, b| truth(a <= b), Rule::Constant, kernels::le, Corner),
+    binary(">", "greater than", Ratio, |a, b| truth(a > b), Rule::Constant, kernels::gt, Corner),
+    binary(">=", "at least", Ratio, |a, b| truth(a >= b), Rule::Constant, kernels::ge, Corner),
+    binary("==", "equal", Ratio, |a, b| truth(a == b), Rule::Constant, kernels::eq, Corner),
+    binary("!=", "different", Ratio, |a, b| truth(a != b), Rule::Constant, kernels::ne, Corner),
+    binary("and", "both", Truth, |a, b| a * b, Rule::Constant, kernels::and, Smooth),
+    binary("or", "at least one", Truth, larger, Rule::Constant, kernels::or, Smooth),
 ];
 
 const fn binary(
@@ -368,7 +357,14 @@ fn larger(a: f64, b: f64) -> f64 {
 }
 
 fn quantize(x: f64, step: f64) -> f64 {
-    (x / step).round_ties_even() * step
+    (x / step).round() * step
+}
+
+fn quantize_block(level: Level, x: &Block, step: &Block, out: &mut Block) {
+    let mut steps = Block::ZERO;
+    kernels::div(level, x, step, out);
+    kernels::round(level, out, &mut steps);
+    kernels::mul(level, &steps, step, out);
 }
 
 fn sqrt(x: f64) -> [f64; 4] {

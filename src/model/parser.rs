@@ -10,34 +10,41 @@ const MAX_DEPTH: usize = 64;
 
 type Parsed<T> = Result<T, Box<Fault>>;
 
-/// The statements of a text with their places; faults go to `faults`. `is_unit` tells whether a
+/// What was read of a text.
+pub struct Reading {
+    pub statements: Vec<Statement>,
+    /// Names defined by statements that have a fault.
+    pub faulty: Vec<String>,
+}
+
+/// The statements of a text; faults go to `faults`. `is_unit` tells whether a
 /// name would do as a unit, for better help.
 pub fn parse(
     text: &str,
     is_unit: &dyn Fn(&str) -> bool,
     faults: &mut Vec<Fault>,
-) -> Vec<(Statement, Span)> {
+) -> Reading {
     let tokens = tokens(text, faults);
     let mut parser = Parser { text, tokens, at: 0, open: Vec::new(), depth: 0, assigned: false, is_unit };
-    let mut statements = Vec::new();
+    let mut reading = Reading { statements: Vec::new(), faulty: Vec::new() };
     while parser.tokens[parser.at].kind != Kind::Eof {
         if parser.tokens[parser.at].kind == Kind::End {
             parser.at += 1;
             continue;
         }
-        let start = parser.tokens[parser.at].span.start;
+        let start = parser.tokens[parser.at].kind.clone();
         match parser.statement() {
-            Ok(statement) => {
-                let end = parser.tokens[parser.at.saturating_sub(1)].span.end;
-                statements.push((statement, start..end));
-            }
+            Ok(statement) => reading.statements.push(statement),
             Err(fault) => {
                 faults.push(*fault);
+                if let (true, Kind::Name(name)) = (parser.assigned, start) {
+                    reading.faulty.push(name);
+                }
                 parser.recover();
             }
         }
     }
-    statements
+    reading
 }
 
 struct Parser<'a> {

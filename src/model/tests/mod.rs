@@ -1,0 +1,1 @@
+//! Tests of the model language as its users see it.

@@ -225,6 +225,10 @@ pub struct Conventions {
     /// p of the coverage interval, 0.95 or 0.9545 …
     pub coverage_probability: f64,
     pub coverage_factor: CoverageRule,
+    /// What [`CoverageRule::Output`] takes for the output's distribution.
+    pub output_shape: OutputShape,
+    /// How ν_eff enters t.
+    pub degrees_of_freedom: DofRule,
     pub rounding: Rounding,
     /// Significant digits of U: 1 or 2.
     pub digits: u8,
@@ -247,6 +251,28 @@ pub enum CoverageRule {
     Normal,
     /// This number.
     Fixed(f64),
+}
+
+/// The distribution of an output in which one or two contributions dominate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OutputShape {
+    /// The convolution of the dominant contributions with a normal remainder: k has the stated
+    /// probability.
+    #[default]
+    Convolution,
+    /// The dominant contributions alone, applied to the whole of u(y): the published figures of
+    /// EA-4/02 S9 and S10.
+    DominantAlone,
+}
+
+/// How effective degrees of freedom that are no integer enter t_p(ν_eff).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DofRule {
+    /// Cut to the next lower integer (GUM G.4.1 and H.1.6, EA-4/02 appendix E, JJF 1059.1, M3003).
+    #[default]
+    Truncated,
+    /// As they are, which is the exact form of the interpolation that GUM G.4.1 also allows.
+    Real,
 }
 
 /// What a t-distributed input's stated u is in the Monte Carlo method.

@@ -34,7 +34,11 @@ impl Kind {
     pub fn describe(&self) -> String {
         format!(
             "{} {}: expectation {}, variance {} ({}); use when {}",
-            self.name_en, self.parameters, self.expectation, self.variance, self.source,
+            self.name_en,
+            self.parameters,
+            self.expectation,
+            self.variance,
+            self.source,
             self.use_when
         )
     }
@@ -218,7 +222,9 @@ pub const KINDS: &[Kind] = &[
 
 /// The kind with this key or alias.
 pub fn kind_named(name: &str) -> Option<&'static Kind> {
-    KINDS.iter().find(|kind| kind.key == name || kind.aliases.contains(&name))
+    KINDS
+        .iter()
+        .find(|kind| kind.key == name || kind.aliases.contains(&name))
 }
 
 impl Distribution {
@@ -272,7 +278,10 @@ mod tests {
         names.sort_unstable();
         names.dedup();
         assert_eq!(names.len(), all);
-        assert_eq!(kind_named("rectangular").map(|kind| kind.key), Some("uniform"));
+        assert_eq!(
+            kind_named("rectangular").map(|kind| kind.key),
+            Some("uniform")
+        );
         assert_eq!(kind_named("u-shaped").map(|kind| kind.key), Some("arcsine"));
         assert_eq!(kind_named("cauchy"), None);
     }

@@ -144,13 +144,19 @@ impl Distribution {
                 finite("mean", *mean)?;
                 positive("standard deviation", *sd)
             }
-            Self::StudentT { location, scale, dof } => {
+            Self::StudentT {
+                location,
+                scale,
+                dof,
+            } => {
                 finite("location", *location)?;
                 positive("scale", *scale)?;
                 if *dof > 0.0 {
                     Ok(())
                 } else {
-                    Err(format!("the degrees of freedom are {dof}, but must be greater than zero"))
+                    Err(format!(
+                        "the degrees of freedom are {dof}, but must be greater than zero"
+                    ))
                 }
             }
             Self::Uniform { lower, upper } | Self::Arcsine { lower, upper } => {
@@ -175,7 +181,11 @@ impl Distribution {
                 finite("origin", *origin)?;
                 positive("mean", *mean)
             }
-            Self::Gamma { origin, shape, scale } => {
+            Self::Gamma {
+                origin,
+                shape,
+                scale,
+            } => {
                 finite("origin", *origin)?;
                 positive("shape", *shape)?;
                 positive("scale", *scale)
@@ -185,12 +195,20 @@ impl Distribution {
                 finite("mu", *mu)?;
                 positive("sigma", *sigma)
             }
-            Self::Beta { alpha, beta, lower, upper } => {
+            Self::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => {
                 positive("alpha", *alpha)?;
                 positive("beta", *beta)?;
                 ascending(*lower, *upper)
             }
-            Self::Discrete { values, probabilities } => discrete(values, probabilities),
+            Self::Discrete {
+                values,
+                probabilities,
+            } => discrete(values, probabilities),
             Self::Empirical { sample } => {
                 if sample.is_empty() {
                     return Err("the sample is empty, but must hold at least one value".to_owned());
@@ -206,7 +224,9 @@ impl Distribution {
         let mut image = self.clone();
         match &mut image {
             Self::Normal { mean: place, .. }
-            | Self::StudentT { location: place, .. }
+            | Self::StudentT {
+                location: place, ..
+            }
             | Self::Exponential { origin: place, .. }
             | Self::Gamma { origin: place, .. }
             | Self::LogNormal { origin: place, .. } => *place += by,
@@ -238,26 +258,66 @@ impl Distribution {
         if by == 0.0 || !by.is_finite() {
             return None;
         }
-        if by > 0.0 { Some(self.stretched(by)) } else { Some(self.mirrored()?.stretched(-by)) }
+        if by > 0.0 {
+            Some(self.stretched(by))
+        } else {
+            Some(self.mirrored()?.stretched(-by))
+        }
     }
 
     /// Distribution of X·`by` for a positive factor.
     fn stretched(&self, by: f64) -> Self {
         let mut image = self.clone();
         match &mut image {
-            Self::Normal { mean: place, sd: size }
-            | Self::StudentT { location: place, scale: size, .. }
-            | Self::Exponential { origin: place, mean: size }
-            | Self::Gamma { origin: place, scale: size, .. }
-            | Self::Uniform { lower: place, upper: size }
-            | Self::Arcsine { lower: place, upper: size }
-            | Self::Trapezoidal { lower: place, upper: size, .. }
-            | Self::Beta { lower: place, upper: size, .. } => {
+            Self::Normal {
+                mean: place,
+                sd: size,
+            }
+            | Self::StudentT {
+                location: place,
+                scale: size,
+                ..
+            }
+            | Self::Exponential {
+                origin: place,
+                mean: size,
+            }
+            | Self::Gamma {
+                origin: place,
+                scale: size,
+                ..
+            }
+            | Self::Uniform {
+                lower: place,
+                upper: size,
+            }
+            | Self::Arcsine {
+                lower: place,
+                upper: size,
+            }
+            | Self::Trapezoidal {
+                lower: place,
+                upper: size,
+                ..
+            }
+            | Self::Beta {
+                lower: place,
+                upper: size,
+                ..
+            } => {
                 *place *= by;
                 *size *= by;
             }
-            Self::Triangular { lower, mode: third, upper }
-            | Self::CurvilinearTrapezoid { lower, upper, d: third } => {
+            Self::Triangular {
+                lower,
+                mode: third,
+                upper,
+            }
+            | Self::CurvilinearTrapezoid {
+                lower,
+                upper,
+                d: third,
+            } => {
                 *lower *= by;
                 *third *= by;
                 *upper *= by;
@@ -277,7 +337,10 @@ impl Distribution {
     fn mirrored(&self) -> Option<Self> {
         let mut image = self.clone();
         match &mut image {
-            Self::Normal { mean: place, .. } | Self::StudentT { location: place, .. } => {
+            Self::Normal { mean: place, .. }
+            | Self::StudentT {
+                location: place, ..
+            } => {
                 *place = -*place;
             }
             Self::Uniform { lower, upper }
@@ -289,11 +352,19 @@ impl Distribution {
             Self::Triangular { lower, mode, upper } => {
                 (*lower, *mode, *upper) = (-*upper, -*mode, -*lower);
             }
-            Self::Beta { alpha, beta, lower, upper } => {
+            Self::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => {
                 (*alpha, *beta) = (*beta, *alpha);
                 (*lower, *upper) = (-*upper, -*lower);
             }
-            Self::Discrete { values, probabilities } => {
+            Self::Discrete {
+                values,
+                probabilities,
+            } => {
                 *values = values.iter().rev().map(|x| -x).collect();
                 *probabilities = probabilities.iter().rev().copied().collect();
             }
@@ -318,7 +389,10 @@ impl Distribution {
             }
             Self::Beta { alpha, beta, .. } => alpha == beta,
             Self::Exponential { .. } | Self::Gamma { .. } | Self::LogNormal { .. } => false,
-            Self::Discrete { values, probabilities } => {
+            Self::Discrete {
+                values,
+                probabilities,
+            } => {
                 balanced(values)
                     && probabilities
                         .iter()
@@ -351,7 +425,9 @@ fn positive(name: &str, x: f64) -> Result<(), String> {
     if x > 0.0 && x.is_finite() {
         Ok(())
     } else {
-        Err(format!("the {name} is {x}, but must be a finite number greater than zero"))
+        Err(format!(
+            "the {name} is {x}, but must be a finite number greater than zero"
+        ))
     }
 }
 
@@ -359,7 +435,9 @@ fn within(name: &str, x: f64, low: f64, high: f64) -> Result<(), String> {
     if (low..=high).contains(&x) {
         Ok(())
     } else {
-        Err(format!("the {name} is {x}, but must be from {low} to {high}"))
+        Err(format!(
+            "the {name} is {x}, but must be from {low} to {high}"
+        ))
     }
 }
 
@@ -369,13 +447,17 @@ fn ascending(lower: f64, upper: f64) -> Result<(), String> {
     if lower < upper {
         Ok(())
     } else {
-        Err(format!("the lower limit {lower} must be below the upper limit {upper}"))
+        Err(format!(
+            "the lower limit {lower} must be below the upper limit {upper}"
+        ))
     }
 }
 
 fn sorted(name: &str, values: &[f64]) -> Result<(), String> {
     if let Some(x) = values.iter().find(|x| !x.is_finite()) {
-        return Err(format!("the {name} holds {x}, but must hold finite numbers"));
+        return Err(format!(
+            "the {name} holds {x}, but must hold finite numbers"
+        ));
     }
     match values.windows(2).find(|pair| pair[0] > pair[1]) {
         None => Ok(()),

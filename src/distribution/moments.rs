@@ -14,11 +14,20 @@ impl Distribution {
             | Self::Arcsine { lower, upper } => Some(0.5 * (lower + upper)),
             Self::Triangular { lower, mode, upper } => Some((lower + mode + upper) / 3.0),
             Self::Exponential { origin, mean } => Some(origin + mean),
-            Self::Gamma { origin, shape, scale } => Some(origin + shape * scale),
-            Self::LogNormal { origin, mu, sigma } => Some(origin + (mu + 0.5 * sigma * sigma).exp()),
-            Self::Beta { alpha, beta, lower, upper } => {
-                Some((lower * beta + upper * alpha) / (alpha + beta))
+            Self::Gamma {
+                origin,
+                shape,
+                scale,
+            } => Some(origin + shape * scale),
+            Self::LogNormal { origin, mu, sigma } => {
+                Some(origin + (mu + 0.5 * sigma * sigma).exp())
             }
+            Self::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => Some((lower * beta + upper * alpha) / (alpha + beta)),
             Self::Discrete { .. } | Self::Empirical { .. } => Some(self.finite_mean()),
         }
     }
@@ -52,7 +61,12 @@ impl Distribution {
                 let square = sigma * sigma;
                 Some(square.exp_m1() * (2.0 * mu + square).exp())
             }
-            Self::Beta { alpha, beta, lower, upper } => {
+            Self::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => {
                 let n = alpha + beta;
                 Some((upper - lower).powi(2) * (alpha / n) * (beta / n) / (n + 1.0))
             }
@@ -121,9 +135,7 @@ impl Distribution {
             }
             Self::Arcsine { lower, upper } => Some(3.0 / 128.0 * (upper - lower).powi(4)),
             Self::Exponential { mean, .. } => Some(9.0 * mean.powi(4)),
-            Self::Gamma { shape, scale, .. } => {
-                Some(3.0 * shape * (shape + 2.0) * scale.powi(4))
-            }
+            Self::Gamma { shape, scale, .. } => Some(3.0 * shape * (shape + 2.0) * scale.powi(4)),
             Self::LogNormal { sigma, .. } => {
                 let w = (sigma * sigma).exp();
                 let kurtosis = w * w * (w * w + 2.0 * w + 3.0) - 3.0;
@@ -159,8 +171,14 @@ impl Distribution {
     /// Calls `visit(value, probability)` for the kinds with finitely many values.
     fn for_each_value(&self, mut visit: impl FnMut(f64, f64)) {
         match self {
-            Self::Discrete { values, probabilities } => {
-                values.iter().zip(probabilities.iter()).for_each(|(x, p)| visit(*x, *p));
+            Self::Discrete {
+                values,
+                probabilities,
+            } => {
+                values
+                    .iter()
+                    .zip(probabilities.iter())
+                    .for_each(|(x, p)| visit(*x, *p));
             }
             Self::Empirical { sample } => {
                 let p = 1.0 / sample.len() as f64;
@@ -173,5 +191,9 @@ impl Distribution {
 
 /// ν/(ν − less), also for infinite ν.
 fn over(dof: f64, less: f64) -> f64 {
-    if dof.is_infinite() { 1.0 } else { dof / (dof - less) }
+    if dof.is_infinite() {
+        1.0
+    } else {
+        dof / (dof - less)
+    }
 }

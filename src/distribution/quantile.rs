@@ -17,19 +17,31 @@ impl Distribution {
     pub fn cdf(&self, x: f64) -> f64 {
         match self {
             Self::Normal { mean, sd } => normal_cdf((x - mean) / sd),
-            Self::StudentT { location, scale, dof } => student_t_cdf((x - location) / scale, *dof),
+            Self::StudentT {
+                location,
+                scale,
+                dof,
+            } => student_t_cdf((x - location) / scale, *dof),
             Self::Triangular { lower, mode, upper } => triangle_below(x, *lower, *mode, *upper),
             Self::Exponential { origin, mean } => -(-((x - origin) / mean).max(0.0)).exp_m1(),
-            Self::Gamma { origin, shape, scale } => {
-                gamma_regularized(*shape, ((x - origin) / scale).max(0.0))
-            }
+            Self::Gamma {
+                origin,
+                shape,
+                scale,
+            } => gamma_regularized(*shape, ((x - origin) / scale).max(0.0)),
             Self::LogNormal { origin, mu, sigma } => {
                 normal_cdf(((x - origin).max(0.0).ln() - mu) / sigma)
             }
-            Self::Beta { alpha, beta, lower, upper } => {
-                beta_fraction(x, *alpha, *beta, *lower, *upper, Tail::Lower)
-            }
-            Self::Discrete { values, probabilities } => values
+            Self::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => beta_fraction(x, *alpha, *beta, *lower, *upper, Tail::Lower),
+            Self::Discrete {
+                values,
+                probabilities,
+            } => values
                 .iter()
                 .zip(probabilities.iter())
                 .take_while(|(value, _)| **value <= x)
@@ -55,18 +67,27 @@ impl Distribution {
     pub fn sf(&self, x: f64) -> f64 {
         match self {
             Self::Normal { mean, sd } => normal_sf((x - mean) / sd),
-            Self::StudentT { location, scale, dof } => student_t_sf((x - location) / scale, *dof),
+            Self::StudentT {
+                location,
+                scale,
+                dof,
+            } => student_t_sf((x - location) / scale, *dof),
             Self::Triangular { lower, mode, upper } => triangle_below(-x, -upper, -mode, -lower),
             Self::Exponential { origin, mean } => (-((x - origin) / mean).max(0.0)).exp(),
-            Self::Gamma { origin, shape, scale } => {
-                gamma_regularized_upper(*shape, ((x - origin) / scale).max(0.0))
-            }
+            Self::Gamma {
+                origin,
+                shape,
+                scale,
+            } => gamma_regularized_upper(*shape, ((x - origin) / scale).max(0.0)),
             Self::LogNormal { origin, mu, sigma } => {
                 normal_sf(((x - origin).max(0.0).ln() - mu) / sigma)
             }
-            Self::Beta { alpha, beta, lower, upper } => {
-                beta_fraction(x, *alpha, *beta, *lower, *upper, Tail::Upper)
-            }
+            Self::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => beta_fraction(x, *alpha, *beta, *lower, *upper, Tail::Upper),
             Self::Discrete { .. } | Self::Empirical { .. } => 1.0 - self.cdf(x),
             Self::Uniform { .. }
             | Self::Trapezoidal { .. }
@@ -88,21 +109,31 @@ impl Distribution {
         }
         match self {
             Self::Normal { mean, sd } => mean + sd * normal_quantile(p),
-            Self::StudentT { location, scale, dof } => location + scale * student_t_quantile(p, *dof),
+            Self::StudentT {
+                location,
+                scale,
+                dof,
+            } => location + scale * student_t_quantile(p, *dof),
             Self::Triangular { lower, mode, upper } => triangle_quantile(p, *lower, *mode, *upper),
             Self::Exponential { origin, mean } => origin - mean * (-p).ln_1p(),
-            Self::Gamma { origin, shape, scale } => {
-                origin + scale * inverse_gamma_regularized(*shape, p)
-            }
+            Self::Gamma {
+                origin,
+                shape,
+                scale,
+            } => origin + scale * inverse_gamma_regularized(*shape, p),
             Self::LogNormal { origin, mu, sigma } => {
                 origin + (mu + sigma * normal_quantile(p)).exp()
             }
-            Self::Beta { alpha, beta, lower, upper } => {
-                lower + (upper - lower) * inverse_beta_regularized(*alpha, *beta, p)
-            }
-            Self::Discrete { values, probabilities } => {
-                discrete_quantile(values.iter().zip(probabilities.iter()), p)
-            }
+            Self::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => lower + (upper - lower) * inverse_beta_regularized(*alpha, *beta, p),
+            Self::Discrete {
+                values,
+                probabilities,
+            } => discrete_quantile(values.iter().zip(probabilities.iter()), p),
             Self::Empirical { sample } => ranked(sample, (p * sample.len() as f64).ceil()),
             Self::Uniform { .. }
             | Self::Trapezoidal { .. }
@@ -124,21 +155,31 @@ impl Distribution {
         }
         match self {
             Self::Normal { mean, sd } => mean - sd * normal_quantile(q),
-            Self::StudentT { location, scale, dof } => location - scale * student_t_quantile(q, *dof),
+            Self::StudentT {
+                location,
+                scale,
+                dof,
+            } => location - scale * student_t_quantile(q, *dof),
             Self::Triangular { lower, mode, upper } => -triangle_quantile(q, -upper, -mode, -lower),
             Self::Exponential { origin, mean } => origin - mean * q.ln(),
-            Self::Gamma { origin, shape, scale } => {
-                origin + scale * inverse_gamma_regularized_upper(*shape, q)
-            }
+            Self::Gamma {
+                origin,
+                shape,
+                scale,
+            } => origin + scale * inverse_gamma_regularized_upper(*shape, q),
             Self::LogNormal { origin, mu, sigma } => {
                 origin + (mu - sigma * normal_quantile(q)).exp()
             }
-            Self::Beta { alpha, beta, lower, upper } => {
-                upper - (upper - lower) * inverse_beta_regularized(*beta, *alpha, q)
-            }
-            Self::Discrete { values, probabilities } => {
-                discrete_quantile(values.iter().zip(probabilities.iter()).rev(), q)
-            }
+            Self::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => upper - (upper - lower) * inverse_beta_regularized(*beta, *alpha, q),
+            Self::Discrete {
+                values,
+                probabilities,
+            } => discrete_quantile(values.iter().zip(probabilities.iter()).rev(), q),
             Self::Empirical { sample } => {
                 let n = sample.len() as f64;
                 ranked(sample, n - (q * n).ceil() + 1.0)

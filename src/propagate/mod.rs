@@ -2,9 +2,23 @@
 //!
 //! [`evaluate`] gives one [`Evaluation`], from which every renderer of [`crate::report`] draws.
 
+mod covariance;
+mod coverage;
+mod findings;
+mod freedom;
+mod gum;
+mod joint;
+mod monte_carlo;
+mod second_order;
+mod shape;
+mod validation;
+
 use nalgebra::DMatrix;
 
-use crate::budget::Adaptive;
+use crate::budget::{Adaptive, Budget, MonteCarloSettings};
+use gum::Linear;
+use monte_carlo::{GumForMc, McOutcome};
+use second_order::{Outcome, Terms};
 
 /// What both methods found for one budget.
 #[derive(Debug, Clone)]
@@ -23,6 +37,8 @@ pub struct Evaluation {
 #[derive(Debug, Clone)]
 pub struct MeasurandResult {
     pub gum: Gum,
+    /// `None` when the model is linear in all uncertain inputs, and when the second-order terms are
+    /// no correction (not finite, or larger than the variance they are to correct).
     pub second_order: Option<SecondOrder>,
     pub monte_carlo: Option<MonteCarlo>,
     /// GUM-S1 clause 8 for two and for one significant digit of u(y); `None` without Monte Carlo.
@@ -79,9 +95,12 @@ pub enum Freedom {
     WelchSatterthwaite(f64),
     /// As above, where correlated components of equal ν count as one term (Willink 2007).
     Ensembles(f64),
-    /// Not defined: correlated components with different finite ν. `lower_bound` is the smallest
-    /// of them, used for a conservative k.
-    Refused { lower_bound: f64, members: Vec<String> },
+    /// Not defined: `members` are correlated and have different ν. `lower_bound` is ν_eff with the
+    /// smallest of their ν for all of them, used for a conservative k.
+    Refused {
+        lower_bound: f64,
+        members: Vec<String>,
+    },
 }
 
 impl Freedom {
@@ -113,10 +132,15 @@ pub struct Coverage {
 #[derive(Debug, Clone, PartialEq)]
 pub enum CoverageBasis {
     Normal,
-    /// t with these (truncated or interpolated) degrees of freedom.
-    StudentT { dof: f64 },
+    /// t with these degrees of freedom, truncated or not as the conventions say.
+    StudentT {
+        dof: f64,
+    },
     /// Distribution of the linearised output: the named components dominate.
-    Output { dominant: Vec<String>, shape: &'static str },
+    Output {
+        dominant: Vec<String>,
+        shape: &'static str,
+    },
     /// The profile or file fixes it.
     Fixed,
 }
@@ -242,7 +266,11 @@ pub enum FindingKind {
     /// c = 0 while u(x) > 0 and the input does act at second order (or in Monte Carlo).
     VanishingSensitivity { input: String },
     /// Second-order terms change u or the estimate at the digits reported.
-    SecondOrderMatters { shift: f64, u_first: f64, u_second: f64 },
+    SecondOrderMatters {
+        shift: f64,
+        u_first: f64,
+        u_second: f64,
+    },
     /// Clause 8: GUM is not validated; the statement uses Monte Carlo.
     NotValidated,
     /// No Monte Carlo was run and first order is doubtful.
@@ -254,7 +282,10 @@ pub enum FindingKind {
     /// The adaptive procedure stopped at its maximum.
     NotConverged { trials: u64 },
     /// ν_eff refused.
-    FreedomRefused { members: Vec<String>, lower_bound: f64 },
+    FreedomRefused {
+        members: Vec<String>,
+        lower_bound: f64,
+    },
     /// ν_eff is small (< 10): k is large and uncertain.
     FewDegreesOfFreedom { dof: f64 },
     /// The model has a kink or a step at the estimates (abs, min, max, if, round …).
@@ -279,18 +310,129 @@ pub struct Options {
 pub enum MonteCarloChoice {
     AsBudget,
     Off,
-    With(crate::budget::MonteCarloSettings),
+    With(MonteCarloSettings),
+}
+
+impl MonteCarloChoice {
+    fn settings<'a>(&'a self, budget: &'a Budget) -> Option<&'a MonteCarloSettings> {
+        match self {
+            MonteCarloChoice::AsBudget => Some(&budget.monte_carlo),
+            MonteCarloChoice::Off => None,
+            MonteCarloChoice::With(settings) => Some(settings),
+        }
+    }
 }
 
 /// Evaluates a budget by both methods.
 ///
 /// # Errors
 /// When the model has no finite value or derivative at the estimates, so that nothing can be said.
-pub fn evaluate(
-    _budget: &crate::budget::Budget,
-    _options: &Options,
-) -> Result<Evaluation, EvaluationError> {
-    todo!()
+/// A missing derivative is no error when Monte Carlo is run: u(y) of the GUM is not finite then, and
+/// the statement uses Monte Carlo.
+pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationError> {
+    let settings = options.monte_carlo.settings(budget);
+    let linear = gum::linearise(budget)?;
+    if settings.is_none() {
+        require_derivatives(budget, &linear)?;
+    }
+    let second_order = second_order::evaluate(budget, &linear);
+    let monte_carlo = settings
+        .map(|settings| monte_carlo::run(budget, settings, &scales(&linear), options.threads))
+        .transpose()?;
+    let results: Vec<MeasurandResult> = second_order
+        .iter()
+        .enumerate()
+        .map(|(measurand, outcome)| {
+            let monte_carlo = monte_carlo
+                .as_ref()
+                .and_then(|mc| mc.outputs.get(measurand));
+            both_methods(
+                budget,
+                first_order(budget, &linear, measurand),
+                outcome,
+                monte_carlo,
+            )
+        })
+        .collect();
+    let joint = joint::evaluate(budget, &linear, monte_carlo.as_ref());
+    let evidence = findings::Evidence {
+        budget,
+        linear: &linear,
+        results: &results,
+        second_order: &second_order,
+        monte_carlo: monte_carlo.as_ref(),
+    };
+    let findings = evidence.findings();
+    Ok(Evaluation {
+        results,
+        joint,
+        run: monte_carlo.map(|McOutcome { run, .. }| run),
+        findings,
+    })
+}
+
+fn require_derivatives(budget: &Budget, linear: &Linear) -> Result<(), EvaluationError> {
+    for (measurand, output) in budget.model.outputs().iter().enumerate() {
+        if let Some(input) = linear.missing_derivative(measurand) {
+            return Err(EvaluationError::NoDerivative {
+                measurand: output.name.clone(),
+                input: budget.inputs[input].name.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn scales(linear: &Linear) -> Vec<GumForMc> {
+    let pairs = linear.values.iter().zip(&linear.measurands);
+    pairs
+        .map(|(&estimate, measurand)| GumForMc {
+            estimate,
+            u: measurand.u,
+        })
+        .collect()
+}
+
+/// The GUM result of one measurand.
+fn first_order(budget: &Budget, linear: &Linear, measurand: usize) -> Gum {
+    let of = &linear.measurands[measurand];
+    let freedom = freedom::effective(&linear.covariance, &of.form);
+    let coverage = coverage::evaluate(&coverage::Situation {
+        conventions: &budget.conventions,
+        components: &budget.components,
+        covariance: &linear.covariance,
+        of,
+        freedom: &freedom,
+    });
+    Gum {
+        estimate: linear.values[measurand],
+        u: of.u,
+        inputs: linear.input_lines(measurand),
+        components: linear.component_lines(measurand, budget.components.len()),
+        freedom: freedom.report(|component| budget.components[component].name.clone()),
+        coverage,
+    }
+}
+
+/// Puts the results of one measurand side by side.
+fn both_methods(
+    budget: &Budget,
+    gum: Gum,
+    second_order: &Outcome,
+    monte_carlo: Option<&MonteCarlo>,
+) -> MeasurandResult {
+    let validation = monte_carlo.map(|mc| validation::validate(&gum, mc));
+    let second_order = match &second_order.terms {
+        Terms::Found(found) => Some(found.clone()),
+        Terms::Linear | Terms::Divergent => None,
+    };
+    MeasurandResult {
+        gum,
+        second_order,
+        monte_carlo: monte_carlo.cloned(),
+        basis: findings::basis(validation.as_ref(), budget.conventions.digits),
+        validation,
+    }
 }
 
 /// Why a budget cannot be evaluated at all.

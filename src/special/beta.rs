@@ -20,7 +20,15 @@ pub fn beta_regularized(a: f64, b: f64, x: f64) -> f64 {
     if !(0.0..=1.0).contains(&x) {
         return f64::NAN;
     }
-    beta_probability(Point { a, b, x, y: 1.0 - x }, Side::Lower)
+    beta_probability(
+        Point {
+            a,
+            b,
+            x,
+            y: 1.0 - x,
+        },
+        Side::Lower,
+    )
 }
 
 /// 1 − I_x(a, b) without loss of digits when it is small.
@@ -28,7 +36,15 @@ pub fn beta_regularized_upper(a: f64, b: f64, x: f64) -> f64 {
     if !(0.0..=1.0).contains(&x) {
         return f64::NAN;
     }
-    beta_probability(Point { a, b, x, y: 1.0 - x }, Side::Upper)
+    beta_probability(
+        Point {
+            a,
+            b,
+            x,
+            y: 1.0 - x,
+        },
+        Side::Upper,
+    )
 }
 
 /// The x with I_x(a, b) = p.
@@ -37,7 +53,11 @@ pub fn beta_regularized_upper(a: f64, b: f64, x: f64) -> f64 {
 /// `inverse_beta_regularized(b, a, 1 − p)`.
 pub fn inverse_beta_regularized(a: f64, b: f64, p: f64) -> f64 {
     let odds = beta_quantile_odds(a, b, p, Side::Lower);
-    if odds > 1.0 { 1.0 / (1.0 + 1.0 / odds) } else { odds / (1.0 + odds) }
+    if odds > 1.0 {
+        1.0 / (1.0 + 1.0 / odds)
+    } else {
+        odds / (1.0 + odds)
+    }
 }
 
 /// A point of the beta density; y = 1 − x is kept beside x for its digits.
@@ -52,7 +72,12 @@ pub(super) struct Point {
 
 impl Point {
     pub(super) fn at_odds(a: f64, b: f64, odds: f64) -> Point {
-        Point { a, b, x: 1.0 / (1.0 + 1.0 / odds), y: 1.0 / (1.0 + odds) }
+        Point {
+            a,
+            b,
+            x: 1.0 / (1.0 + 1.0 / odds),
+            y: 1.0 / (1.0 + odds),
+        }
     }
 
     fn odds(&self) -> f64 {
@@ -128,7 +153,11 @@ pub(super) fn beta_quantile_odds(a: f64, b: f64, p: f64, side: Side) -> f64 {
     if !(a > 0.0 && a.is_finite() && b > 0.0 && b.is_finite() && (0.0..=1.0).contains(&p)) {
         return f64::NAN;
     }
-    let (target, side) = if p > 0.5 { (1.0 - p, side.other()) } else { (p, side) };
+    let (target, side) = if p > 0.5 {
+        (1.0 - p, side.other())
+    } else {
+        (p, side)
+    };
     match side {
         Side::Lower => lower_odds(a, b, target),
         Side::Upper => 1.0 / lower_odds(b, a, target),
@@ -171,9 +200,15 @@ mod tests {
     #[test]
     fn agree_with_the_table() {
         check(TABLE, "ln_beta", 1e-14, |a| ln_beta(a[0], a[1]));
-        check(TABLE, "beta_lower", 1e-13, |a| beta_regularized(a[0], a[1], a[2]));
-        check(TABLE, "beta_upper", 1e-13, |a| beta_regularized_upper(a[0], a[1], a[2]));
-        check(TABLE, "beta_inverse", 1e-12, |a| inverse_beta_regularized(a[0], a[1], a[2]));
+        check(TABLE, "beta_lower", 1e-13, |a| {
+            beta_regularized(a[0], a[1], a[2])
+        });
+        check(TABLE, "beta_upper", 1e-13, |a| {
+            beta_regularized_upper(a[0], a[1], a[2])
+        });
+        check(TABLE, "beta_inverse", 1e-12, |a| {
+            inverse_beta_regularized(a[0], a[1], a[2])
+        });
     }
 
     #[test]

@@ -34,9 +34,15 @@ mod tests {
 
     #[test]
     fn agree_with_the_table() {
-        check(TABLE, "chi_squared_cdf", 1e-13, |a| chi_squared_cdf(a[0], a[1]));
-        check(TABLE, "chi_squared_sf", 1e-13, |a| chi_squared_sf(a[0], a[1]));
-        check(TABLE, "chi_squared_quantile", 1e-12, |a| chi_squared_quantile(a[0], a[1]));
+        check(TABLE, "chi_squared_cdf", 1e-13, |a| {
+            chi_squared_cdf(a[0], a[1])
+        });
+        check(TABLE, "chi_squared_sf", 1e-13, |a| {
+            chi_squared_sf(a[0], a[1])
+        });
+        check(TABLE, "chi_squared_quantile", 1e-12, |a| {
+            chi_squared_quantile(a[0], a[1])
+        });
         check(TABLE, "chi_squared_upper_quantile", 1e-12, |a| {
             chi_squared_upper_quantile(a[0], a[1])
         });

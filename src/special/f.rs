@@ -35,7 +35,10 @@ fn probability(x: f64, numerator: f64, denominator: f64, side: Side) -> f64 {
     match (numerator.is_infinite(), denominator.is_infinite()) {
         (false, false) => {
             let odds = x * (numerator / denominator);
-            beta_probability(Point::at_odds(0.5 * numerator, 0.5 * denominator, odds), side)
+            beta_probability(
+                Point::at_odds(0.5 * numerator, 0.5 * denominator, odds),
+                side,
+            )
         }
         (false, true) => match side {
             Side::Lower => chi_squared_cdf(x * numerator, numerator),
@@ -81,7 +84,9 @@ mod tests {
         check(TABLE, "f_cdf", 1e-13, |a| f_cdf(a[0], a[1], a[2]));
         check(TABLE, "f_sf", 1e-13, |a| f_sf(a[0], a[1], a[2]));
         check(TABLE, "f_quantile", 1e-12, |a| f_quantile(a[0], a[1], a[2]));
-        check(TABLE, "f_upper_quantile", 1e-12, |a| f_upper_quantile(a[0], a[1], a[2]));
+        check(TABLE, "f_upper_quantile", 1e-12, |a| {
+            f_upper_quantile(a[0], a[1], a[2])
+        });
     }
 
     #[test]

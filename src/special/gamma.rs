@@ -53,7 +53,11 @@ pub(super) fn stirling_error(z: f64) -> f64 {
     ];
     let inverse = 1.0 / z;
     let square = inverse * inverse;
-    inverse * SERIES.iter().rev().fold(0.0, |sum, term| sum * square + term)
+    inverse
+        * SERIES
+            .iter()
+            .rev()
+            .fold(0.0, |sum, term| sum * square + term)
 }
 
 /// The gamma density in y = ln x.
@@ -103,7 +107,11 @@ fn inverse(a: f64, p: f64, side: Side) -> f64 {
         return f64::NAN;
     }
     // The smaller of the two probabilities carries the digits.
-    let (target, side) = if p > 0.5 { (1.0 - p, side.other()) } else { (p, side) };
+    let (target, side) = if p > 0.5 {
+        (1.0 - p, side.other())
+    } else {
+        (p, side)
+    };
     if target == 0.0 {
         return match side {
             Side::Lower => 0.0,
@@ -114,7 +122,10 @@ fn inverse(a: f64, p: f64, side: Side) -> f64 {
     if x < f64::MIN_POSITIVE {
         return 0.0;
     }
-    let moved = |point: &Point, delta: f64| Point { a, x: point.x * delta.exp() };
+    let moved = |point: &Point, delta: f64| Point {
+        a,
+        x: point.x * delta.exp(),
+    };
     solve(Point { a, x }, side, target.ln(), moved).x
 }
 
@@ -128,9 +139,7 @@ fn start(a: f64, target: f64, side: Side) -> f64 {
     let cube_root = 1.0 - 1.0 / (9.0 * a) + z / (3.0 * a.sqrt());
     match side {
         // P ≈ x^a/Γ(a+1) for small x.
-        Side::Lower if a < 10.0 || cube_root < 0.3 => {
-            ((target.ln() + ln_gamma(a + 1.0)) / a).exp()
-        }
+        Side::Lower if a < 10.0 || cube_root < 0.3 => ((target.ln() + ln_gamma(a + 1.0)) / a).exp(),
         // Q ≈ x^(a−1)·exp(−x)/Γ(a) for large x, and a body near zero otherwise.
         Side::Upper if a < 1.0 => {
             let x = -(target.ln() + ln_gamma(a));
@@ -152,8 +161,12 @@ mod tests {
         check(TABLE, "gamma", 2e-15, |a| gamma(a[0]));
         check(TABLE, "ln_gamma", 2e-15, |a| ln_gamma(a[0]));
         check(TABLE, "gamma_p", 1e-13, |a| gamma_regularized(a[0], a[1]));
-        check(TABLE, "gamma_q", 1e-13, |a| gamma_regularized_upper(a[0], a[1]));
-        check(TABLE, "gamma_p_inverse", 1e-12, |a| inverse_gamma_regularized(a[0], a[1]));
+        check(TABLE, "gamma_q", 1e-13, |a| {
+            gamma_regularized_upper(a[0], a[1])
+        });
+        check(TABLE, "gamma_p_inverse", 1e-12, |a| {
+            inverse_gamma_regularized(a[0], a[1])
+        });
         check(TABLE, "gamma_q_inverse", 1e-12, |a| {
             inverse_gamma_regularized_upper(a[0], a[1])
         });

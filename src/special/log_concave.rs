@@ -66,11 +66,18 @@ impl Tail {
 pub(super) fn tail<D: LogConcave>(density: &D, side: Side) -> Tail {
     let ln_density = density.ln_density();
     if density.slope() * side.sign() <= 0.0 {
-        return Tail { ln_density, ratio: outward(density, side) };
+        return Tail {
+            ln_density,
+            ratio: outward(density, side),
+        };
     }
     // The density rises towards this side first: the other tail is the simpler integral. Only
     // when it leaves too little is this one integrated over the hump.
-    let other = Tail { ln_density, ratio: outward(density, side.other()) }.value();
+    let other = Tail {
+        ln_density,
+        ratio: outward(density, side.other()),
+    }
+    .value();
     let ratio = if other < 0.9 {
         (1.0 - other) * (-ln_density).exp()
     } else {

@@ -33,6 +33,11 @@ pub fn normal_sf(x: f64) -> f64 {
     0.5 * erfc(z) - std::f64::consts::SQRT_2 * normal_pdf(x) * rounding
 }
 
+/// Probability of a value in ±x, exact also for small x.
+pub fn normal_two_sided(x: f64) -> f64 {
+    erf(x * std::f64::consts::FRAC_1_SQRT_2)
+}
+
 /// The x below which a fraction p of the distribution lies.
 pub fn normal_quantile(p: f64) -> f64 {
     let from_middle = p - 0.5;
@@ -54,7 +59,11 @@ pub fn normal_upper_quantile(q: f64) -> f64 {
 ///
 /// Exact also for small p.
 pub fn normal_two_sided_quantile(p: f64) -> f64 {
-    if p <= 0.85 { middle(0.5 * p) } else { tail(0.5 * (1.0 - p)) }
+    if p <= 0.85 {
+        middle(0.5 * p)
+    } else {
+        tail(0.5 * (1.0 - p))
+    }
 }
 
 /// Quantile at p = ½ + q for |q| ≤ 0.425; Wichura (1988), algorithm AS 241.
@@ -149,12 +158,6 @@ fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
-/// P(|X| ≤ x).
-#[cfg(test)]
-fn two_sided(x: f64) -> f64 {
-    erf(x * std::f64::consts::FRAC_1_SQRT_2)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -183,6 +186,6 @@ mod tests {
         assert!(normal_quantile(f64::NAN).is_nan());
         assert_eq!(normal_two_sided_quantile(1.0), f64::INFINITY);
         let tiny = normal_two_sided_quantile(1e-20);
-        assert!((two_sided(tiny) / 1e-20 - 1.0).abs() < 1e-15);
+        assert!((normal_two_sided(tiny) / 1e-20 - 1.0).abs() < 1e-15);
     }
 }

@@ -18,7 +18,10 @@ pub fn gauss_legendre(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     let middle = 0.5 * (low + high);
     let half = 0.5 * (high - low);
     RULE.into_iter().flat_map(move |(node, weight)| {
-        [(middle - half * node, half * weight), (middle + half * node, half * weight)]
+        [
+            (middle - half * node, half * weight),
+            (middle + half * node, half * weight),
+        ]
     })
 }
 
@@ -29,8 +32,13 @@ mod tests {
     #[test]
     fn exact_for_polynomials() {
         for degree in 0..=31 {
-            let found: f64 = gauss_legendre(0.0, 1.0).map(|(x, w)| w * x.powi(degree)).sum();
-            assert!((found * f64::from(degree + 1) - 1.0).abs() < 1e-14, "{degree}: {found}");
+            let found: f64 = gauss_legendre(0.0, 1.0)
+                .map(|(x, w)| w * x.powi(degree))
+                .sum();
+            assert!(
+                (found * f64::from(degree + 1) - 1.0).abs() < 1e-14,
+                "{degree}: {found}"
+            );
         }
     }
 }

@@ -1,0 +1,169 @@
+//! Every fault: its code, the marked text and the mend.
+
+use super::*;
+use crate::model::Place;
+use crate::model::faults::CODES;
+
+/// Inputs of the cases below.
+const INPUTS: &str = "a b n L:mm t:s phi:° T:°C v[3] w[2] p:bar g:g";
+
+/// Text, unit of the measurand, code, marked text, part of the help.
+const CASES: &[(&str, &str, &str, &str, &str)] = &[
+    ("a + * b", "", "M0101", "*", ""),
+    ("a + ", "", "M0101", "", ""),
+    ("a\n+ b", "", "M0101", "+", "end that line with `+`"),
+    ("if a > 0 else b", "", "M0101", "else", "write `if condition then a else b`"),
+    ("(a + b / n", "", "M0102", "(", "add `)`"),
+    ("c = f(a, [b, n\nd = a", "", "M0102", "[", "add `]`"),
+    ("if(a = b, 1, 2)", "", "M0103", "=", "write `==`"),
+    ("2a", "", "M0104", "a", "write `2 * a`"),
+    ("25 mm", "", "M0104", "mm", "`25 'mm'` if mm is the unit"),
+    ("a b", "", "M0104", "b", "write `a * b`"),
+    ("a ? b", "", "M0105", "?", "remove"),
+    ("5 °", "", "M0105", "°", "`5 '°'`"),
+    ("1.2.3 + a", "", "M0106", "1.2.3", "1.5e-3"),
+    ("1e999", "", "M0106", "1e999", ""),
+    ("if(0 < a < 1, a, b)", "", "M0107", "<", "a < b and b < c"),
+    ("a + b ; a * b", "", "M0109", "a + b", "give it a name"),
+    ("", "", "M0110", "", "formula"),
+    ("f(x) = x^2", "", "M0110", "f", "last line"),
+    ("a + b = n", "", "M0111", "a + b", "`name = expression`"),
+    ("mean([a, b)]", "", "M0112", ")", "write `]`"),
+    ("a + b)", "", "M0112", ")", "remove `)`"),
+    ("a 'mm'", "", "M0113", "'mm'", "value_in(x, 'mm')"),
+    ("'mm'", "", "M0113", "'mm'", "write `1 'mm'`"),
+    ("25 'mm", "", "M0113", "'mm", "`25 'mm'`"),
+    ("aa + bb1", "", "M0201", "aa", "did you mean `a`?"),
+    ("omega * a", "", "M0201", "omega", "[input.omega]"),
+    ("sine(a)", "", "M0202", "sine", "did you mean `sin`?"),
+    ("log(a)", "", "M0202", "log", "`ln` for the natural"),
+    ("atan2(a)", "", "M0203", "atan2(a)", "atan2(y, x)"),
+    ("f(x, y) = x; f(a)", "", "M0203", "f(a)", "f(x, y)"),
+    ("c = a; c = b; c", "", "M0204", "c", "choose another name"),
+    ("a = b", "", "M0204", "a", "choose another name"),
+    ("min = a; a", "", "M0205", "min", "min_1"),
+    ("sqrt / 2", "", "M0206", "sqrt", "write `sqrt(x)`"),
+    ("a(b + n)", "", "M0207", "a", "write `a * (b + n)`"),
+    ("c = d; d = a; c", "", "M0208", "d", "above this line"),
+    ("d = a - d * n", "", "M0208", "d", "solve(equation, d, start)"),
+    ("f(x) = f(x - 1); f(a)", "", "M0208", "f", "cannot call themselves"),
+    ("sum(v + w)", "", "M0301", "v + w", "equal lengths"),
+    ("mean(a)", "", "M0302", "a", "[a, …]"),
+    ("if(v > 0, a, b)[1] + [v[1]][1] + a[1]", "", "M0302", "a", "remove the index"),
+    ("v[0]", "", "M0303", "0", "counted from 1"),
+    ("v[4]", "", "M0303", "4", "counted from 1"),
+    ("v[a]", "", "M0303", "a", "counted from 1"),
+    ("2 * v", "", "M0304", "2 * v", "mean(2 * v)"),
+    ("sum([v, w])", "", "M0302", "v", "mean(v)"),
+    ("sum([[1, 2], [3, 4]])", "", "M0305", "[1, 2]", "one pair of brackets"),
+    ("(a < b) * n", "", "M0306", "(a < b)", "if(a < b, 1, 0)"),
+    ("if(a, b, n)", "", "M0307", "a", "a > 0"),
+    ("L + 5", "mm", "M0401", "5", "`5 'mm'`"),
+    ("L + t", "mm", "M0401", "t", "dimension"),
+    ("L + a * b", "mm", "M0401", "a * b", "if `a` has a unit, state it: `unit = \"mm\"`"),
+    ("if(L > t, a, b)", "", "M0401", "t", ""),
+    ("sum([L, t])", "mm", "M0401", "t", ""),
+    ("value_in(L, 's')", "", "M0401", "s", "value_in(L, 'mm')"),
+    ("sin(L)", "", "M0402", "L", "value_in(L, 'mm')"),
+    ("round(L)", "", "M0402", "L", "value_in(L, 'mm')"),
+    ("L^n", "mm", "M0403", "n", "(L / (1 'mm'))^n"),
+    ("a^L", "", "M0403", "L", "same kind"),
+    ("a * T", "", "M0404", "T", "T - 20 '°C'"),
+    ("T + T", "°C", "M0404", "T", "kelvin(T)"),
+    ("T", "K", "M0404", "T", "kelvin(T)"),
+    ("T - 20 '°C'", "°C", "M0404", "T - 20 '°C'", "unit = \"K\""),
+    ("L / t", "mm", "M0405", "L / t", "unit = \"mm/s\""),
+    ("phi + 90", "°", "M0407", "90", "`90 '°'`"),
+    ("solve(a == b, d, 1)", "", "M0502", "a == b", "contains `d`"),
+    ("solve(a == b, a, 1)", "", "M0502", "a", "new name"),
+    ("solve(d == b, 2, 1)", "", "M0502", "2", "new name"),
+];
+
+#[test]
+fn faults_mark_their_place_and_say_the_mend() {
+    for (text, wanted, code, marked, help) in CASES {
+        let faults = try_model(INPUTS, text, wanted).err().unwrap_or_else(|| panic!("{text} is accepted"));
+        let fault = &faults[0].fault;
+        assert_eq!(faults[0].place, Place::Measurand(0), "{text}");
+        assert_eq!(fault.code.id, *code, "{text}: {fault:#?}");
+        let found = &text[fault.span.clone()];
+        assert_eq!(found.trim(), *marked, "{text}: {fault:#?}");
+        assert!(fault.help.as_deref().unwrap_or_default().contains(help), "{text}: {fault:#?}");
+        assert!(!fault.message.is_empty() && !fault.message.ends_with('.'), "{text}");
+    }
+}
+
+#[test]
+fn unit_texts_are_marked_inside_the_quotes() {
+    let text = "L + 2 'm/xyz'";
+    let faults = try_model(INPUTS, text, "mm").unwrap_err();
+    assert_eq!(&text[faults[0].fault.span.clone()], "xyz");
+    assert_eq!(faults[0].fault.code.id.chars().next(), Some('U'));
+}
+
+#[test]
+fn several_faults_are_found_in_one_pass() {
+    let text = "c = a + * 2\nd = (L + t) * sin(L)\ne = c + unknown\nd * e";
+    let faults = try_model(INPUTS, text, "").unwrap_err();
+    let codes: Vec<&str> = faults.iter().map(|f| f.fault.code.id).collect();
+    assert_eq!(codes, ["M0101", "M0401", "M0402", "M0201"]);
+}
+
+#[test]
+fn faults_in_functions_are_shown_at_the_call() {
+    let text = "f(x) = x + L ; f(t)";
+    let fault = &try_model(INPUTS, text, "mm").unwrap_err()[0].fault;
+    assert_eq!(&text[fault.span.clone()], "f(t)");
+    assert_eq!(&text[fault.related[0].0.clone()], "L");
+    assert!(fault.message.starts_with("in `f`: "));
+}
+
+#[test]
+fn entries_are_blamed_for_what_they_lack() {
+    let units = UnitTable::default();
+    let symbols = symbols("U:V I:A max");
+    let measurands = [
+        MeasurandSource { name: "P", model: Some("U * I"), unit: None },
+        MeasurandSource { name: "Q", model: None, unit: None },
+    ];
+    let request = Request { symbols: &symbols, shared: Some("U / I"), measurands: &measurands, units: &units };
+    let faults = compile(&request).unwrap_err();
+    let found: Vec<(Place, &str)> = faults.iter().map(|f| (f.place, f.fault.code.id)).collect();
+    assert_eq!(
+        found,
+        [
+            (Place::Symbol(2), "M0205"),
+            (Place::Shared, "M0109"),
+            (Place::Entry(0), "M0406"),
+            (Place::Entry(1), "M0209"),
+        ]
+    );
+}
+
+#[test]
+fn limits_are_faults_not_crashes() {
+    let first = |text: &str| try_model("a v[3000]", text, "").unwrap_err()[0].fault.code.id;
+    assert_eq!(first(&format!("{}a{}", "(".repeat(5000), ")".repeat(5000))), "M0108");
+    assert_eq!(first(&format!("{}a", "-".repeat(5000))), "M0108");
+    assert_eq!(first(&format!("{}a", "2^".repeat(5000))), "M0108");
+    let doubling: String = (1..40).map(|k| format!("f{k}(x) = f{}(x) * f{}(x + 1)\n", k - 1, k - 1)).collect();
+    assert_eq!(first(&format!("f0(x) = x\n{doubling}f39(a)")), "M0501");
+    let wide = "w = v".to_string() + &" + sum(v * a) * v".repeat(2000);
+    assert_eq!(first(&format!("{wide}\nsum(w)")), "M0501");
+    // A long sum is no deep one.
+    let long = "a".to_string() + &" + a * 2".repeat(5000);
+    close(model("a", &long, "").values(&[1.0])[0], 10_001.0, 1e-15, "long sum");
+    // Functions within functions.
+    let tower: String = (1..200).map(|k| format!("f{k}(x) = f{}(x) + 1\n", k - 1)).collect();
+    assert_eq!(first(&format!("f0(x) = x\n{tower}f199(a)")), "M0108");
+}
+
+#[test]
+fn every_code_is_explained_and_tested() {
+    let mut tested: Vec<&str> = CASES.iter().map(|c| c.2).collect();
+    tested.extend(["M0108", "M0209", "M0406", "M0501"]);
+    for code in CODES {
+        assert!(tested.contains(&code.id), "{} is not tested", code.id);
+        assert!(code.explanation.contains("\n\n    "), "{} has no example", code.id);
+    }
+}

@@ -1,0 +1,204 @@
+//! The law of propagation of uncertainty, first order (GUM 5.1.2 and 5.2.2), for any number of
+//! measurands.
+//!
+//! What is propagated are the elementary components, not the inputs: a component that several
+//! inputs share enters once, with the sum of its effects. Covariances between inputs (GUM F.1.2.3)
+//! need no formula of their own then.
+
+use nalgebra::DMatrix;
+
+use super::covariance::{Covariance, Form, norm};
+use super::{Contribution, EvaluationError, freedom};
+use crate::budget::{Budget, Input};
+use crate::model::Model;
+
+/// A budget made linear at its estimates.
+#[derive(Debug, Clone)]
+pub(super) struct Linear {
+    /// x.
+    pub x: Vec<f64>,
+    /// f(x), one per measurand.
+    pub values: Vec<f64>,
+    /// c = ∂f/∂x, measurands × inputs.
+    pub gradient: DMatrix<f64>,
+    pub covariance: Covariance,
+    /// Each input as a combination of components.
+    pub inputs: Vec<InputForm>,
+    /// Each measurand as a combination of components.
+    pub measurands: Vec<MeasurandForm>,
+}
+
+/// An input in terms of components.
+#[derive(Debug, Clone)]
+pub(super) struct InputForm {
+    pub form: Form,
+    /// u(x).
+    pub u: f64,
+}
+
+/// A measurand in terms of components.
+#[derive(Debug, Clone)]
+pub(super) struct MeasurandForm {
+    pub form: Form,
+    /// In standard coordinates; its length is u(y).
+    pub standard: Vec<f64>,
+    /// u(y).
+    pub u: f64,
+}
+
+/// Values and derivatives at the estimates.
+///
+/// # Errors
+/// When a measurand has no finite value there.
+pub(super) fn linearise(budget: &Budget) -> Result<Linear, EvaluationError> {
+    let x: Vec<f64> = budget.inputs.iter().map(|input| input.estimate).collect();
+    let values = budget.model.values(&x);
+    if let Some(bad) = values.iter().position(|value| !value.is_finite()) {
+        return Err(EvaluationError::NoValue {
+            measurand: name(&budget.model, bad),
+        });
+    }
+    let gradient = budget.model.gradients(&x);
+    let covariance = Covariance::new(&budget.components, &budget.groups);
+    Ok(Linear::new(x, values, gradient, covariance, &budget.inputs))
+}
+
+fn name(model: &Model, output: usize) -> String {
+    model
+        .outputs()
+        .get(output)
+        .map(|o| o.name.clone())
+        .unwrap_or_default()
+}
+
+impl Linear {
+    /// Propagates through the derivatives.
+    pub(super) fn new(
+        x: Vec<f64>,
+        values: Vec<f64>,
+        gradient: DMatrix<f64>,
+        covariance: Covariance,
+        inputs: &[Input],
+    ) -> Self {
+        let measurands = (0..gradient.nrows())
+            .map(|o| {
+                let terms = inputs.iter().enumerate().flat_map(|(i, input)| {
+                    let c = gradient[(o, i)];
+                    input
+                        .terms
+                        .iter()
+                        .map(move |term| (term.component, c * term.coefficient))
+                });
+                let form = covariance.form(terms);
+                let standard = covariance.dense(&form);
+                let u = norm(standard.iter().copied());
+                MeasurandForm { form, standard, u }
+            })
+            .collect();
+        let inputs = inputs
+            .iter()
+            .map(|input| {
+                let terms = input
+                    .terms
+                    .iter()
+                    .map(|term| (term.component, term.coefficient));
+                let form = covariance.form(terms);
+                let u = covariance.uncertainty(&form);
+                InputForm { form, u }
+            })
+            .collect();
+        Linear {
+            x,
+            values,
+            gradient,
+            covariance,
+            inputs,
+            measurands,
+        }
+    }
+
+    /// The first input with u(x) > 0 whose sensitivity coefficient is not finite.
+    pub(super) fn missing_derivative(&self, measurand: usize) -> Option<usize> {
+        (0..self.inputs.len())
+            .find(|&i| self.inputs[i].u > 0.0 && !self.gradient[(measurand, i)].is_finite())
+    }
+
+    /// One line of the budget table per input.
+    ///
+    /// The share of an input is c_i Σ_j c_j u(x_i, x_j)/u²(y) (Kessel); it is negative for an input
+    /// whose correlation with others diminishes u(y).
+    pub(super) fn input_lines(&self, measurand: usize) -> Vec<Contribution> {
+        let of = &self.measurands[measurand];
+        let lines = self.inputs.iter().enumerate().map(|(i, input)| {
+            let sensitivity = self.gradient[(measurand, i)];
+            let share = input
+                .form
+                .iter()
+                .map(|&(component, weight)| self.share_of(of, component, sensitivity * weight));
+            Contribution {
+                sensitivity,
+                u: input.u,
+                contribution: effect(sensitivity, input.u),
+                share: if input.u > 0.0 { share.sum() } else { 0.0 },
+                dof: freedom::effective(&self.covariance, &input.form).dof,
+            }
+        });
+        lines.collect()
+    }
+
+    /// One line of the budget table per component.
+    pub(super) fn component_lines(&self, measurand: usize, count: usize) -> Vec<Contribution> {
+        let of = &self.measurands[measurand];
+        let mut lines: Vec<Contribution> = (0..count)
+            .map(|component| Contribution {
+                sensitivity: 0.0,
+                u: self.covariance.u(component),
+                contribution: 0.0,
+                share: 0.0,
+                dof: self.covariance.dof(component),
+            })
+            .collect();
+        for &(component, weight) in &of.form {
+            let line = &mut lines[component];
+            line.sensitivity = weight / line.u;
+            line.contribution = weight;
+            line.share = self.share_of(of, component, weight);
+        }
+        lines
+    }
+
+    /// Share of u²(y) of an effect `weight` that comes from `component`.
+    fn share_of(&self, of: &MeasurandForm, component: usize, weight: f64) -> f64 {
+        if of.u == 0.0 || weight == 0.0 {
+            return 0.0;
+        }
+        (weight / of.u) * (self.covariance.with(component, &of.standard) / of.u)
+    }
+
+    /// Covariance of two measurands.
+    pub(super) fn covariance_of(&self, a: usize, b: usize) -> f64 {
+        self.correlation_of(a, b) * self.measurands[a].u * self.measurands[b].u
+    }
+
+    /// Correlation of two measurands; zero where one of them is exact.
+    pub(super) fn correlation_of(&self, a: usize, b: usize) -> f64 {
+        if a == b {
+            return 1.0;
+        }
+        let (a, b) = (&self.measurands[a], &self.measurands[b]);
+        if a.u == 0.0 || b.u == 0.0 {
+            return 0.0;
+        }
+        let products = a
+            .standard
+            .iter()
+            .zip(&b.standard)
+            .map(|(s, t)| (s / a.u) * (t / b.u));
+        products.sum::<f64>().clamp(-1.0, 1.0)
+    }
+}
+
+/// c·u, zero for an exact input whatever c.
+fn effect(sensitivity: f64, u: f64) -> f64 {
+    if u == 0.0 { 0.0 } else { sensitivity * u }
+}

@@ -1,0 +1,71 @@
+//! Trials of a budget's model.
+
+use gumption_lanes::{Block, LANES};
+
+use super::engine::Source;
+use super::joint_draw::{JointDraw, Scratch};
+use crate::budget::Budget;
+use crate::model::{BlockRunner, Model};
+
+/// Draws the inputs of a budget and evaluates its model, block by block.
+pub(super) struct BudgetSource<'b> {
+    model: &'b Model,
+    draw: JointDraw<'b>,
+}
+
+impl<'b> BudgetSource<'b> {
+    /// Prepares the samplers of a budget.
+    pub(super) fn new(budget: &'b Budget, seed: u64) -> Self {
+        let draw = JointDraw::new(&budget.inputs, &budget.components, &budget.groups, seed);
+        BudgetSource {
+            model: &budget.model,
+            draw,
+        }
+    }
+}
+
+/// What a thread needs to draw trials.
+pub(super) struct Worker<'b> {
+    runner: BlockRunner<'b>,
+    scratch: Scratch,
+    inputs: Vec<Block>,
+    outputs: Vec<Block>,
+}
+
+impl<'b> Source for BudgetSource<'b> {
+    type Worker = Worker<'b>;
+
+    fn outputs(&self) -> usize {
+        self.model.outputs().len()
+    }
+
+    fn worker(&self) -> Worker<'b> {
+        Worker {
+            runner: BlockRunner::new(self.model),
+            scratch: self.draw.scratch(),
+            inputs: vec![Block::ZERO; self.model.inputs()],
+            outputs: vec![Block::ZERO; self.outputs()],
+        }
+    }
+
+    fn draw(&self, worker: &mut Worker<'b>, chunk: u64, trials: usize, columns: &mut [Vec<f64>]) {
+        let Worker {
+            runner,
+            scratch,
+            inputs,
+            outputs,
+        } = worker;
+        self.draw.start(scratch, chunk);
+        columns.iter_mut().for_each(Vec::clear);
+        let mut left = trials;
+        while left > 0 {
+            self.draw.next(scratch, inputs);
+            runner.run(inputs, outputs);
+            let count = left.min(LANES);
+            for (column, block) in columns.iter_mut().zip(outputs.iter()) {
+                column.extend_from_slice(&block.0[..count]);
+            }
+            left -= count;
+        }
+    }
+}

@@ -1,0 +1,322 @@
+//! Coverage intervals and the median from order statistics (JCGM 101 7.7), without a full sort.
+//!
+//! Only the two tails of (1 − p)·M values are sorted; selection separates them from the middle.
+//! Results are exactly those of a full sort.
+
+/// The ranks of JCGM 101 7.7.2: of M ordered values, an interval reaches from rank r to rank r + q.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Ranks {
+    /// q: pM, rounded to the nearest whole number.
+    pub(super) covered: usize,
+    /// r of the probabilistically symmetric interval.
+    pub(super) symmetric: usize,
+    /// M − q: r runs from 1 to this.
+    pub(super) last: usize,
+}
+
+impl Ranks {
+    /// For M ≥ 1 values and 0 < p < 1. With so few values that no rank is left outside, the
+    /// interval is the whole range.
+    pub(super) fn new(values: usize, p: f64) -> Self {
+        let nearest = (p * values as f64 + 0.5).floor() as usize;
+        let covered = nearest.min(values.saturating_sub(1));
+        let last = values - covered;
+        // (M − q)/2 when that is whole, else the integer part of (M − q + 1)/2.
+        Ranks {
+            covered,
+            symmetric: last.div_ceil(2),
+            last,
+        }
+    }
+}
+
+/// A sample whose two tails are in order.
+#[derive(Debug)]
+pub(super) struct Ordered<'a> {
+    values: &'a [f64],
+    /// So many values at either end are sorted.
+    depth: usize,
+    median: f64,
+}
+
+impl<'a> Ordered<'a> {
+    /// Arranges at least one finite value so that both tails of `depth` values are sorted.
+    pub(super) fn new(values: &'a mut [f64], depth: usize) -> Self {
+        let count = values.len();
+        let depth = depth.max(1);
+        if depth >= count.div_ceil(2) {
+            values.sort_unstable_by(f64::total_cmp);
+            let median = midpoint(values[(count - 1) / 2], values[count / 2]);
+            return Ordered {
+                values,
+                depth: count,
+                median,
+            };
+        }
+        values.select_nth_unstable_by(depth, f64::total_cmp);
+        let middle = count - 2 * depth;
+        values[depth..].select_nth_unstable_by(middle, f64::total_cmp);
+        values[..depth].sort_unstable_by(f64::total_cmp);
+        values[count - depth..].sort_unstable_by(f64::total_cmp);
+        let median = median_of(&mut values[depth..count - depth]);
+        Ordered {
+            values,
+            depth,
+            median,
+        }
+    }
+
+    /// How many values.
+    pub(super) fn count(&self) -> usize {
+        self.values.len()
+    }
+
+    /// How many values at either end are in order.
+    pub(super) fn depth(&self) -> usize {
+        self.depth
+    }
+
+    /// The middle value, or the mean of the two in the middle.
+    pub(super) fn median(&self) -> f64 {
+        self.median
+    }
+
+    /// All values, their tails in order.
+    pub(super) fn values(&self) -> &[f64] {
+        self.values
+    }
+
+    /// y₍rank₎, counted from 1; the rank lies in one of the sorted tails.
+    pub(super) fn at(&self, rank: usize) -> f64 {
+        debug_assert!(
+            rank <= self.depth || rank > self.count() - self.depth,
+            "rank {rank}"
+        );
+        self.values[rank - 1]
+    }
+
+    /// The probabilistically symmetric interval (7.7.2).
+    pub(super) fn symmetric(&self, ranks: Ranks) -> [f64; 2] {
+        [
+            self.at(ranks.symmetric),
+            self.at(ranks.symmetric + ranks.covered),
+        ]
+    }
+
+    /// The shortest interval (7.7.3). Among equally short ones, which rounded or discrete values
+    /// give, the one nearest to the symmetric interval.
+    pub(super) fn shortest(&self, ranks: Ranks) -> [f64; 2] {
+        let width = |r: usize| self.at(r + ranks.covered) - self.at(r);
+        let mut best = ranks.symmetric;
+        let mut least = width(best);
+        for r in 1..=ranks.last {
+            let w = width(r);
+            let nearer = r.abs_diff(ranks.symmetric) < best.abs_diff(ranks.symmetric);
+            if w < least || (w == least && nearer) {
+                (best, least) = (r, w);
+            }
+        }
+        [self.at(best), self.at(best + ranks.covered)]
+    }
+
+    /// Standard error of the order statistic of this rank.
+    ///
+    /// The number of values below the true quantile is binomial with standard deviation
+    /// √(M a (1 − a)), a = rank/M; half the distance between the values so many ranks below and
+    /// above is the standard error, whatever the distribution.
+    pub(super) fn standard_error(&self, rank: usize) -> f64 {
+        let count = self.count() as f64;
+        let share = rank as f64 / count;
+        let reach = (count * share * (1.0 - share)).sqrt();
+        (self.between(rank, reach) - self.between(rank, -reach)) / 2.0
+    }
+
+    /// The value at a fractional distance from a rank, kept inside the sorted tail of that rank.
+    fn between(&self, rank: usize, offset: f64) -> f64 {
+        let (first, last) = if self.depth == self.count() {
+            (1, self.count())
+        } else if rank <= self.depth {
+            (1, self.depth)
+        } else {
+            (self.count() - self.depth + 1, self.count())
+        };
+        let place = (rank as f64 + offset).clamp(first as f64, last as f64);
+        let below = place.floor();
+        let low = self.at(below as usize);
+        let high = self.at((below as usize + 1).min(last));
+        low + (place - below) * (high - low)
+    }
+}
+
+/// Median of at least one value.
+fn median_of(values: &mut [f64]) -> f64 {
+    let half = values.len() / 2;
+    let odd = values.len() % 2 == 1;
+    let (lower, middle, _) = values.select_nth_unstable_by(half, f64::total_cmp);
+    let middle = *middle;
+    if odd {
+        middle
+    } else {
+        midpoint(
+            lower.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            middle,
+        )
+    }
+}
+
+fn midpoint(a: f64, b: f64) -> f64 {
+    a + (b - a) / 2.0
+}
+
+/// The two ends of the symmetric interval alone, by selection: what each batch of an adaptive run
+/// needs.
+pub(super) fn symmetric_ends(values: &mut [f64], p: f64) -> [f64; 2] {
+    if values.is_empty() {
+        return [f64::NAN; 2];
+    }
+    let ranks = Ranks::new(values.len(), p);
+    let low = ranks.symmetric - 1;
+    let (_, low_value, above) = values.select_nth_unstable_by(low, f64::total_cmp);
+    let low_value = *low_value;
+    if ranks.covered == 0 {
+        return [low_value; 2];
+    }
+    let (_, high_value, _) = above.select_nth_unstable_by(ranks.covered - 1, f64::total_cmp);
+    [low_value, *high_value]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::Stream;
+    use super::*;
+
+    /// JCGM 101 7.7 word by word, on a full sort.
+    fn by_full_sort(sample: &[f64], p: f64) -> ([f64; 2], f64, f64) {
+        let mut y = sample.to_vec();
+        y.sort_by(f64::total_cmp);
+        let m = y.len();
+        let pm = p * m as f64;
+        let q = if pm.fract() == 0.0 {
+            pm as usize
+        } else {
+            (pm + 0.5) as usize
+        };
+        let r = if (m - q).is_multiple_of(2) {
+            (m - q) / 2
+        } else {
+            (m - q + 1) / 2
+        };
+        let shortest = (1..=m - q)
+            .map(|r| y[r + q - 1] - y[r - 1])
+            .fold(f64::INFINITY, f64::min);
+        let median = if m % 2 == 1 {
+            y[m / 2]
+        } else {
+            (y[m / 2 - 1] + y[m / 2]) / 2.0
+        };
+        ([y[r - 1], y[r + q - 1]], shortest, median)
+    }
+
+    #[test]
+    fn equals_a_full_sort() {
+        let mut stream = Stream::new(11);
+        for count in [7, 40, 41, 100, 999, 1000, 4096, 20_001] {
+            for p in [0.5, 0.6827, 0.9, 0.95, 0.9545, 0.99] {
+                let sample: Vec<f64> = (0..count).map(|_| -stream.uniform().ln()).collect();
+                let ranks = Ranks::new(count, p);
+                if ranks.last < 1 || (1.0 - p) * (count as f64) < 1.0 {
+                    continue;
+                }
+                let (symmetric, width, median) = by_full_sort(&sample, p);
+                let mut values = sample.clone();
+                let ordered = Ordered::new(&mut values, ranks.last);
+                assert_eq!(ordered.symmetric(ranks), symmetric, "{count} {p}");
+                let [low, high] = ordered.shortest(ranks);
+                assert_eq!(high - low, width, "{count} {p}");
+                assert!((ordered.median() - median).abs() < 1e-15, "{count} {p}");
+                assert_eq!(symmetric_ends(&mut sample.clone(), p), symmetric);
+            }
+        }
+    }
+
+    #[test]
+    fn ranks_of_the_standard() {
+        // 7.7.2: pM whole: q = 9500, (M − q)/2 = 250.
+        assert_eq!(
+            Ranks::new(10_000, 0.95),
+            Ranks {
+                covered: 9500,
+                symmetric: 250,
+                last: 500
+            }
+        );
+        // pM = 10 001·0.95 = 9500.95: q = 9501, M − q = 500.
+        assert_eq!(
+            Ranks::new(10_001, 0.95),
+            Ranks {
+                covered: 9501,
+                symmetric: 250,
+                last: 500
+            }
+        );
+        // M − q = 5: integer part of 6/2.
+        assert_eq!(Ranks::new(100, 0.95).symmetric, 3);
+        assert_eq!(Ranks::new(1_000_000, 0.9545).covered, 954_500);
+    }
+
+    #[test]
+    fn few_values_give_the_whole_range() {
+        for count in 1..6 {
+            let mut values: Vec<f64> = (0..count).map(|i| i as f64).collect();
+            let ranks = Ranks::new(count, 0.99);
+            let ordered = Ordered::new(&mut values, ranks.last);
+            assert_eq!(ordered.symmetric(ranks), [0.0, (count - 1) as f64]);
+            assert_eq!(ordered.shortest(ranks), [0.0, (count - 1) as f64]);
+        }
+    }
+
+    #[test]
+    fn equal_widths_prefer_the_symmetric_interval() {
+        let mut values: Vec<f64> = (0..1000).map(f64::from).collect();
+        let ranks = Ranks::new(1000, 0.9);
+        let ordered = Ordered::new(&mut values, ranks.last);
+        assert_eq!(ordered.shortest(ranks), ordered.symmetric(ranks));
+    }
+
+    #[test]
+    fn shortest_interval_of_a_one_sided_distribution_starts_at_its_end() {
+        // χ² with 2 degrees of freedom is exponential with mean 2: [0, −2 ln 0.05].
+        let mut stream = Stream::new(3);
+        let mut values: Vec<f64> = (0..400_000).map(|_| -2.0 * stream.uniform().ln()).collect();
+        let ranks = Ranks::new(values.len(), 0.95);
+        let ordered = Ordered::new(&mut values, ranks.last);
+        let [low, high] = ordered.shortest(ranks);
+        assert!(low < 0.01, "{low}");
+        assert!((high + 2.0 * 0.05_f64.ln()).abs() < 0.05, "{high}");
+        let [low, high] = ordered.symmetric(ranks);
+        assert!((low + 2.0 * 0.975_f64.ln()).abs() < 0.002, "{low}");
+        assert!((high + 2.0 * 0.025_f64.ln()).abs() < 0.05, "{high}");
+        assert!((ordered.median() - 2.0 * 2.0_f64.ln()).abs() < 0.01);
+    }
+
+    #[test]
+    fn standard_errors_are_the_scatter_of_repeated_runs() {
+        let count = 20_000;
+        let ranks = Ranks::new(count, 0.95);
+        let mut stream = Stream::new(5);
+        let mut ends = Vec::new();
+        let mut stated = 0.0;
+        for _ in 0..200 {
+            let mut values: Vec<f64> = (0..count).map(|_| stream.normal()).collect();
+            let ordered = Ordered::new(&mut values, ranks.last);
+            ends.push(ordered.symmetric(ranks)[1]);
+            stated += ordered.standard_error(ranks.symmetric + ranks.covered) / 200.0;
+        }
+        let mean = ends.iter().sum::<f64>() / 200.0;
+        let scatter = (ends.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / 199.0).sqrt();
+        // √(a(1−a)/M)/φ(z) for the 97.5 % point.
+        let exact = (0.025_f64 * 0.975 / count as f64).sqrt() / 0.058_445_1;
+        assert!((stated / exact - 1.0).abs() < 0.03, "{stated} {exact}");
+        assert!((scatter / exact - 1.0).abs() < 0.2, "{scatter} {exact}");
+    }
+}

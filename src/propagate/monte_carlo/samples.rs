@@ -1,0 +1,134 @@
+//! Known samples and parts of budgets for the tests of this chapter; the samples are independent of the
+//! engine's own generators.
+
+use super::engine::Source;
+use crate::budget::{Component, Evaluation, Input, Owner, Term};
+use crate::distribution::Distribution;
+use crate::quantity::Unit;
+
+/// SplitMix64 with the usual transforms.
+pub(super) struct Stream(u64);
+
+impl Stream {
+    pub(super) fn new(seed: u64) -> Self {
+        Stream(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0x5851_F42D_4C95_7F2D)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform on the open interval (0, 1).
+    pub(super) fn uniform(&mut self) -> f64 {
+        ((self.next() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+    }
+
+    /// Standard normal (Box–Muller, one of the pair).
+    pub(super) fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * self.uniform().ln()).sqrt();
+        radius * (std::f64::consts::TAU * self.uniform()).cos()
+    }
+
+    /// Student's t with ν degrees of freedom (Bailey's polar form).
+    pub(super) fn student_t(&mut self, dof: f64) -> f64 {
+        let u = self.uniform();
+        let radius = (dof * (u.powf(-2.0 / dof) - 1.0)).sqrt();
+        radius * (std::f64::consts::TAU * self.uniform()).cos()
+    }
+}
+
+type Draw = dyn Fn(&mut Stream, &mut [f64]) + Sync;
+
+/// A source of trials from a closure that fills one trial of all outputs.
+pub(super) struct Sampled {
+    seed: u64,
+    outputs: usize,
+    draw: Box<Draw>,
+}
+
+impl Sampled {
+    pub(super) fn new(
+        seed: u64,
+        outputs: usize,
+        draw: impl Fn(&mut Stream, &mut [f64]) + Sync + 'static,
+    ) -> Self {
+        Sampled {
+            seed,
+            outputs,
+            draw: Box::new(draw),
+        }
+    }
+
+    /// Independent standard normal outputs.
+    pub(super) fn normal(seed: u64, outputs: usize) -> Self {
+        Sampled::new(seed, outputs, |stream, values| {
+            for value in values {
+                *value = stream.normal();
+            }
+        })
+    }
+}
+
+impl Source for Sampled {
+    type Worker = Vec<f64>;
+
+    fn outputs(&self) -> usize {
+        self.outputs
+    }
+
+    fn worker(&self) -> Vec<f64> {
+        vec![0.0; self.outputs]
+    }
+
+    fn draw(&self, trial: &mut Vec<f64>, chunk: u64, trials: usize, columns: &mut [Vec<f64>]) {
+        let mut stream = Stream::new(self.seed.wrapping_mul(1_000_003).wrapping_add(chunk));
+        for column in columns.iter_mut() {
+            column.clear();
+        }
+        for _ in 0..trials {
+            (self.draw)(&mut stream, trial);
+            for (column, value) in columns.iter_mut().zip(trial.iter()) {
+                column.push(*value);
+            }
+        }
+    }
+}
+
+/// A component of a source of its own.
+pub(super) fn component(name: &str, distribution: Distribution, u: f64) -> Component {
+    Component {
+        name: name.into(),
+        label: name.into(),
+        owner: Owner::Source(name.into()),
+        unit: Unit::one(),
+        distribution,
+        u,
+        dof: f64::INFINITY,
+        evaluation: Evaluation::TypeB,
+        how: String::new(),
+        certificate: None,
+        source: None,
+    }
+}
+
+/// An input with its (component, coefficient) pairs.
+pub(super) fn input(estimate: f64, terms: &[(usize, f64)]) -> Input {
+    Input {
+        name: "X".into(),
+        description: None,
+        group: None,
+        unit: Unit::one(),
+        estimate,
+        terms: terms
+            .iter()
+            .map(|&(component, coefficient)| Term {
+                component,
+                coefficient,
+            })
+            .collect(),
+    }
+}

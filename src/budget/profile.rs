@@ -1,6 +1,6 @@
 //! Profiles: the conventions on which guides differ.
 
-use super::{Conventions, CoverageRule, TScale};
+use super::{Conventions, CoverageRule, DofRule, OutputShape, TScale};
 use crate::quantity::Rounding;
 
 /// A named set of conventions.
@@ -12,6 +12,10 @@ pub struct Profile {
     pub coverage_probability: f64,
     /// Where k comes from.
     pub coverage_factor: CoverageRule,
+    /// What is taken for the output's distribution where a component dominates.
+    pub output_shape: OutputShape,
+    /// How ν_eff enters t.
+    pub degrees_of_freedom: DofRule,
     /// How numbers are rounded.
     pub rounding: Rounding,
     /// Round up instead when rounding would lower U by more than 5 %.
@@ -36,6 +40,8 @@ impl Profile {
             overrides: Vec::new(),
             coverage_probability: self.coverage_probability,
             coverage_factor: self.coverage_factor,
+            output_shape: self.output_shape,
+            degrees_of_freedom: self.degrees_of_freedom,
             rounding: self.rounding,
             digits: 2,
             up_if_lowered_by_5_percent: self.up_if_lowered_by_5_percent,
@@ -50,6 +56,8 @@ const GUM: Profile = Profile {
     name: "GUM",
     coverage_probability: 0.95,
     coverage_factor: CoverageRule::Output,
+    output_shape: OutputShape::Convolution,
+    degrees_of_freedom: DofRule::Truncated,
     rounding: Rounding::HalfEven,
     up_if_lowered_by_5_percent: false,
     t_scale: TScale::Scale,
@@ -66,6 +74,7 @@ pub const PROFILES: &[Profile] = &[
     Profile {
         name: "EA",
         coverage_probability: 0.9545,
+        output_shape: OutputShape::DominantAlone,
         up_if_lowered_by_5_percent: true,
         en: "Coverage probability 95.45 %, so k = 2 for a normal output; k from t at few effective degrees of freedom, \
              from the output distribution when a rectangle dominates; the rounded-up value when rounding would lower \

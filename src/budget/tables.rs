@@ -62,6 +62,10 @@ table! {
         coverage_factor: f64,
         /// The rule from which the coverage factor follows.
         coverage_factor_from: FactorWord,
+        /// What is taken for the output's distribution where one or two components dominate it.
+        output_distribution: ShapeWord,
+        /// How effective degrees of freedom that are no whole number enter t.
+        degrees_of_freedom: FreedomWord,
         /// Significant digits of the expanded uncertainty: 1 or 2.
         digits: u64,
         /// How numbers are rounded.
@@ -82,6 +86,26 @@ words! {
         StudentT "t",
         /// The normal quantile.
         Normal "normal",
+    }
+}
+
+words! {
+    /// The distribution of an output that one or two components dominate.
+    ShapeWord {
+        /// The dominant components and a normal remainder together.
+        Convolution "convolution",
+        /// The dominant components alone, as in EA-4/02 S9 and S10.
+        Dominant "dominant",
+    }
+}
+
+words! {
+    /// Effective degrees of freedom that are no whole number.
+    FreedomWord {
+        /// Cut to the next lower whole number.
+        Truncated "truncated",
+        /// Used as they are.
+        Real "real",
     }
 }
 

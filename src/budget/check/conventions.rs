@@ -5,11 +5,13 @@ use crate::budget::faults::{CONVENTIONS, NOT_POSITIVE, PROBABILITY, TRIALS, UNKN
 use crate::budget::profile::{PROFILES, profile_named};
 use crate::budget::table::Stated;
 use crate::budget::tables::{
-    ConventionsTable, FactorWord, FileTable, MonteCarloTable, ProcedureWord, ResolutionWord,
-    RoundingWord, TScaleWord,
+    ConventionsTable, FactorWord, FileTable, FreedomWord, MonteCarloTable, ProcedureWord,
+    ResolutionWord, RoundingWord, ShapeWord, TScaleWord,
 };
 use crate::budget::variants::TrialsEntry;
-use crate::budget::{Adaptive, Conventions, CoverageRule, MonteCarloSettings, TScale, Trials};
+use crate::budget::{
+    Adaptive, Conventions, CoverageRule, DofRule, MonteCarloSettings, OutputShape, TScale, Trials,
+};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Rounding;
 
@@ -132,6 +134,18 @@ fn choices(table: &ConventionsTable, conventions: &mut Conventions) {
     if table.coverage_factor_from.is_some() || table.coverage_probability.is_some() {
         conventions.state_probability = true;
     }
+    if let Some(shape) = &table.output_distribution {
+        conventions.output_shape = match shape.value {
+            ShapeWord::Convolution => OutputShape::Convolution,
+            ShapeWord::Dominant => OutputShape::DominantAlone,
+        };
+    }
+    if let Some(freedom) = &table.degrees_of_freedom {
+        conventions.degrees_of_freedom = match freedom.value {
+            FreedomWord::Truncated => DofRule::Truncated,
+            FreedomWord::Real => DofRule::Real,
+        };
+    }
     if let Some(rounding) = &table.rounding {
         conventions.rounding = match rounding.value {
             RoundingWord::HalfEven => Rounding::HalfEven,
@@ -155,6 +169,12 @@ fn overrides(table: &ConventionsTable) -> Vec<String> {
             "coverage_factor" => table.coverage_factor.as_ref()?.value.to_string(),
             "coverage_factor_from" => {
                 format!("\"{}\"", table.coverage_factor_from.as_ref()?.value.word())
+            }
+            "output_distribution" => {
+                format!("\"{}\"", table.output_distribution.as_ref()?.value.word())
+            }
+            "degrees_of_freedom" => {
+                format!("\"{}\"", table.degrees_of_freedom.as_ref()?.value.word())
             }
             "digits" => table.digits.as_ref()?.value.to_string(),
             "rounding" => format!("\"{}\"", table.rounding.as_ref()?.value.word()),

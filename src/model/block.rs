@@ -274,7 +274,7 @@ impl<'m> BlockRunner<'m> {
     pub fn run(&mut self, inputs: &[Block], outputs: &mut [Block]) {
         for instruction in &self.program.instructions {
             let registers = &self.registers;
-            let at = |place: Place| block(inputs, registers, place);
+            let at = |place: Place| block(inputs, registers, place, self.program.inputs);
             let (level, out) = (self.level, &mut *self.spare);
             match &instruction.action {
                 Action::Unary(row, a) => (row.block)(level, at(*a), out),
@@ -307,14 +307,18 @@ impl<'m> BlockRunner<'m> {
             std::mem::swap(&mut self.spare, &mut self.registers[instruction.out]);
         }
         for (out, place) in outputs.iter_mut().zip(&self.program.outputs) {
-            *out = *block(inputs, &self.registers, *place);
+            *out = *block(inputs, &self.registers, *place, self.program.inputs);
         }
     }
 }
 
-fn block<'a>(inputs: &'a [Block], registers: &'a [Box<Block>], place: Place) -> &'a Block {
-    // The number of inputs is that of the model, which numbered the places.
-    match place.checked_sub(inputs.len()) {
+fn block<'a>(
+    inputs: &'a [Block],
+    registers: &'a [Box<Block>],
+    place: Place,
+    count: usize,
+) -> &'a Block {
+    match place.checked_sub(count) {
         None => &inputs[place],
         Some(register) => &registers[register],
     }

@@ -9,7 +9,7 @@ use super::operation::{binary_row, unary};
 use super::printer;
 use super::syntax::{Expr, Infix, Name, Node, Span, UnitText};
 use super::units::Operand;
-use super::{Place, Symbol, functions};
+use super::{Place, Symbol, catalogue, functions};
 use crate::fault::{Fault, nearest};
 use crate::quantity::{Unit, UnitTable};
 
@@ -287,7 +287,7 @@ impl<'r> Lowering<'r> {
                 self.function_as_value(name, &signature, span);
                 None
             }
-            None if functions::is_pi(name) => {
+            None if catalogue::is_pi(name) => {
                 let id = self.builder.constant(std::f64::consts::PI);
                 Some(Value {
                     literal: true,
@@ -315,7 +315,7 @@ impl<'r> Lowering<'r> {
 
     /// Reports a name that stands for nothing.
     pub fn unknown_name(&mut self, name: &str, span: &Span) {
-        if let Some(info) = functions::find(name) {
+        if let Some(info) = catalogue::find(name) {
             let signature = info.signature;
             self.function_as_value(name, signature, span);
             return;

@@ -7,8 +7,10 @@
 //! All numbers are in the user's units: the tape converts only where two units meet.
 
 mod block;
+mod catalogue;
 mod check;
 pub mod faults;
+mod forms;
 mod functions;
 mod graph;
 mod hints;
@@ -16,9 +18,11 @@ mod implicit;
 mod jet;
 mod lexer;
 mod lower;
+mod measurand;
 mod operation;
 mod parser;
 mod printer;
+mod reductions;
 mod syntax;
 mod units;
 
@@ -30,8 +34,8 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 pub use block::BlockRunner;
+pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
-pub use functions::{FunctionInfo, functions};
 
 use jet::Jet;
 

@@ -70,6 +70,7 @@ pub enum Smoothness {
 pub struct Unary {
     /// As it is called; names that are no identifiers belong to operators.
     pub name: &'static str,
+    pub signature: &'static str,
     pub doc: &'static str,
     pub dimension: DimensionRule,
     pub scalar: fn(f64) -> f64,
@@ -84,6 +85,8 @@ pub struct Unary {
 /// A function of two arguments.
 pub struct Binary {
     pub name: &'static str,
+    /// Empty for operators.
+    pub signature: &'static str,
     pub doc: &'static str,
     pub dimension: DimensionRule,
     pub scalar: fn(f64, f64) -> f64,
@@ -136,6 +139,7 @@ macro_rules! row {
     ($name:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr, $smoothness:expr, $edge:expr) => {
         Unary {
             name: $name,
+            signature: concat!($name, "(x)"),
             doc: $doc,
             dimension: $dimension,
             scalar: $scalar,
@@ -143,6 +147,21 @@ macro_rules! row {
             block: $block,
             smoothness: $smoothness,
             edge: $edge,
+        }
+    };
+}
+
+macro_rules! row2 {
+    ($name:literal, $signature:literal, $doc:literal, $dimension:expr, $scalar:expr, $rule:expr, $block:expr, $smoothness:expr) => {
+        Binary {
+            name: $name,
+            signature: $signature,
+            doc: $doc,
+            dimension: $dimension,
+            scalar: $scalar,
+            rule: $rule,
+            block: $block,
+            smoothness: $smoothness,
         }
     };
 }
@@ -185,45 +204,25 @@ pub static UNARY: &[Unary] = &[
 /// Functions of two arguments, operators included.
 #[rustfmt::skip] // A table reads by lines.
 pub static BINARY: &[Binary] = &[
-    binary("+", "sum", Same, |a, b| a + b, Rule::Add, kernels::add, Smooth),
-    binary("-", "difference", Same, |a, b| a - b, Rule::Sub, kernels::sub, Smooth),
-    binary("*", "product", Operator, |a, b| a * b, Rule::Mul, kernels::mul, Smooth),
-    binary("/", "quotient", Operator, |a, b| a / b, Rule::Div, kernels::div, Smooth),
-    binary("^", "power", Operator, libm::pow, Rule::Pow, kernels::pow, Smooth),
-    binary("atan2", "angle of the point (x, y) seen from the origin, from -π to π", Ratio, libm::atan2, Rule::Atan2, kernels::atan2, Branch),
-    binary("hypot", "square root of the sum of squares", Same, libm::hypot, Rule::Hypot, kernels::hypot, Smooth),
-    binary("min", "smallest argument or element", Same, smaller, Rule::Pick, kernels::min, Corner),
-    binary("max", "largest argument or element", Same, larger, Rule::Pick, kernels::max, Corner),
-    binary("quantize", "x rounded to the nearest multiple of a step; its derivative is the mean slope, 1", Same, quantize, Rule::Staircase, quantize_block, Smooth),
-    binary("<", "less than", Ratio, |a, b| truth(a < b), Rule::Constant, kernels::lt, Corner),
-    binary("<=", "at most", Ratio, |a, b| truth(a <= b), Rule::Constant, kernels::le, Corner),
-    binary(">", "greater than", Ratio, |a, b| truth(a > b), Rule::Constant, kernels::gt, Corner),
-    binary(">=", "at least", Ratio, |a, b| truth(a >= b), Rule::Constant, kernels::ge, Corner),
-    binary("==", "equal", Ratio, |a, b| truth(a == b), Rule::Constant, kernels::eq, Corner),
-    binary("!=", "different", Ratio, |a, b| truth(a != b), Rule::Constant, kernels::ne, Corner),
-    binary("and", "both", Truth, |a, b| a * b, Rule::Constant, kernels::and, Smooth),
-    binary("or", "at least one", Truth, larger, Rule::Constant, kernels::or, Smooth),
+    row2!("+", "", "sum", Same, |a, b| a + b, Rule::Add, kernels::add, Smooth),
+    row2!("-", "", "difference", Same, |a, b| a - b, Rule::Sub, kernels::sub, Smooth),
+    row2!("*", "", "product", Operator, |a, b| a * b, Rule::Mul, kernels::mul, Smooth),
+    row2!("/", "", "quotient", Operator, |a, b| a / b, Rule::Div, kernels::div, Smooth),
+    row2!("^", "", "power", Operator, libm::pow, Rule::Pow, kernels::pow, Smooth),
+    row2!("atan2", "atan2(y, x)", "angle of the point (x, y) seen from the origin, from -π to π", Ratio, libm::atan2, Rule::Atan2, kernels::atan2, Branch),
+    row2!("hypot", "hypot(a, b, …)", "square root of the sum of squares", Same, libm::hypot, Rule::Hypot, kernels::hypot, Smooth),
+    row2!("min", "min(a, b, …)", "smallest argument or element", Same, smaller, Rule::Pick, kernels::min, Corner),
+    row2!("max", "max(a, b, …)", "largest argument or element", Same, larger, Rule::Pick, kernels::max, Corner),
+    row2!("quantize", "quantize(x, step)", "x rounded to the nearest multiple of a step; its derivative is the mean slope, 1", Same, quantize, Rule::Staircase, quantize_block, Smooth),
+    row2!("<", "", "less than", Ratio, |a, b| truth(a < b), Rule::Constant, kernels::lt, Corner),
+    row2!("<=", "", "at most", Ratio, |a, b| truth(a <= b), Rule::Constant, kernels::le, Corner),
+    row2!(">", "", "greater than", Ratio, |a, b| truth(a > b), Rule::Constant, kernels::gt, Corner),
+    row2!(">=", "", "at least", Ratio, |a, b| truth(a >= b), Rule::Constant, kernels::ge, Corner),
+    row2!("==", "", "equal", Ratio, |a, b| truth(a == b), Rule::Constant, kernels::eq, Corner),
+    row2!("!=", "", "different", Ratio, |a, b| truth(a != b), Rule::Constant, kernels::ne, Corner),
+    row2!("and", "", "both", Truth, |a, b| a * b, Rule::Constant, kernels::and, Smooth),
+    row2!("or", "", "at least one", Truth, larger, Rule::Constant, kernels::or, Smooth),
 ];
-
-const fn binary(
-    name: &'static str,
-    doc: &'static str,
-    dimension: DimensionRule,
-    scalar: fn(f64, f64) -> f64,
-    rule: Rule,
-    block: fn(Level, &Block, &Block, &mut Block),
-    smoothness: Smoothness,
-) -> Binary {
-    Binary {
-        name,
-        doc,
-        dimension,
-        scalar,
-        rule,
-        block,
-        smoothness,
-    }
-}
 
 /// The row of a function or operator with one argument.
 pub fn unary(name: &str) -> Option<&'static Unary> {

@@ -213,3 +213,39 @@ fn every_code_is_explained_and_tested() {
         );
     }
 }
+
+#[test]
+fn a_measurand_has_a_name_of_its_own() {
+    let units = UnitTable::default();
+    let symbols = symbols("P:W U:V");
+    let measurands = [
+        MeasurandSource {
+            name: "P",
+            model: Some("2 * P"),
+            unit: Some(unit("W")),
+        },
+        MeasurandSource {
+            name: "Q",
+            model: Some("U + x"),
+            unit: Some(unit("V")),
+        },
+        MeasurandSource {
+            name: "R",
+            model: Some("2 * Q"),
+            unit: Some(unit("V")),
+        },
+    ];
+    let request = Request {
+        symbols: &symbols,
+        shared: None,
+        measurands: &measurands,
+        units: &units,
+    };
+    let faults = compile(&request).unwrap_err();
+    let found: Vec<(Place, &str)> = faults.iter().map(|f| (f.place, f.fault.code.id)).collect();
+    // R is not blamed for the fault of Q.
+    assert_eq!(
+        found,
+        [(Place::Entry(0), "M0204"), (Place::Measurand(1), "M0201")]
+    );
+}

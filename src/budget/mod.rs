@@ -9,6 +9,7 @@
 //! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
 
 mod check;
+mod claim;
 mod distributions;
 pub mod faults;
 mod profile;
@@ -22,6 +23,7 @@ mod variants;
 
 use nalgebra::DMatrix;
 
+pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, read, schema, template};
 pub use rejection::Rejection;
@@ -190,22 +192,6 @@ pub enum Law {
     /// Margins as stated, joined by a Gaussian copula whose correlation `latent` was solved so that
     /// the members have the stated product-moment correlation.
     GaussianCopula { latent: DMatrix<f64> },
-}
-
-/// What somebody's certificate says; compared, never used.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Claim {
-    /// Which measurand (index).
-    pub measurand: usize,
-    pub value: Option<f64>,
-    pub u: Option<f64>,
-    pub expanded: Option<f64>,
-    pub k: Option<f64>,
-    pub dof: Option<f64>,
-    pub coverage_probability: Option<f64>,
-    pub interval: Option<[f64; 2]>,
-    pub source: Option<String>,
-    pub note: Option<String>,
 }
 
 /// A remark for the reader of the report, in both languages.

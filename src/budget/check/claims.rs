@@ -1,84 +1,362 @@
-//! Claims: what somebody's certificate says.
+//! Claims: what somebody's certificate says, each figure with the tolerance of its digits.
 
+use super::register::Register;
 use super::{Checker, entries};
-use crate::budget::Claim;
-use crate::budget::faults::{CLAIM, LIMITS, UNKNOWN_NAME};
+use crate::budget::faults::{CLAIM, LIMITS, NOT_POSITIVE, UNKNOWN_NAME};
 use crate::budget::table::Stated;
-use crate::budget::tables::{ClaimTable, FileTable};
+use crate::budget::tables::{ClaimTable, FileTable, InputClaimTable, MethodWord, ToleranceTable};
 use crate::budget::values::Amount;
+use crate::budget::{Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
 use crate::fault::{Fault, nearest};
-use crate::quantity::Unit;
+use crate::quantity::{Decimal, Unit};
 
-/// The keys of a claim that state a number.
-const NUMBERS: [&str; 7] = ["value", "u", "U", "k", "dof", "p", "interval"];
+/// The keys of a claim that state a figure.
+const FIGURES: [&str; 13] = [
+    "value", "u", "U", "k", "dof", "p", "interval", "shortest", "shift", "correlation", "region",
+    "validated", "inputs",
+];
+
+/// k = 2 is meant as 2.00.
+const COARSEST_K: f64 = 0.005;
+
+/// The figures of one claim while they are read.
+struct Reading<'a> {
+    table: &'a ClaimTable,
+    /// Name and unit of the measurand.
+    name: &'a str,
+    unit: &'a Unit,
+    figures: Vec<ClaimedFigure>,
+}
+
+impl Reading<'_> {
+    /// A tolerance that the file states.
+    fn tolerance(&self, of: impl Fn(&ToleranceTable) -> &Option<Stated<f64>>) -> Option<f64> {
+        let table = &self.table.tolerance.as_ref()?.value;
+        of(table).as_ref().map(|stated| stated.value)
+    }
+
+    fn push(&mut self, what: Figure, value: f64, half_digit: f64, stated: Option<f64>) {
+        self.figures.push(ClaimedFigure {
+            what,
+            value,
+            tolerance: stated.unwrap_or(half_digit),
+        });
+    }
+}
 
 impl Checker<'_> {
     /// Reads `[claim]`.
-    pub(super) fn claims(&mut self, file: &FileTable) -> Vec<Claim> {
+    pub(super) fn claims(&mut self, file: &FileTable, register: &Register) -> Vec<Claim> {
         let stated = file
             .claim
             .as_ref()
             .map_or(&[][..], |claims| &claims.value.0);
         stated
             .iter()
-            .filter_map(|claim| self.claim(claim, file))
+            .filter_map(|claim| self.claim(claim, file, register))
             .collect()
     }
 
-    fn claim(&mut self, stated: &Stated<ClaimTable>, file: &FileTable) -> Option<Claim> {
+    fn claim(
+        &mut self,
+        stated: &Stated<ClaimTable>,
+        file: &FileTable,
+        register: &Register,
+    ) -> Option<Claim> {
         let table = &stated.value;
-        if !table.present.iter().any(|(key, _)| NUMBERS.contains(key)) {
+        if !table.present.iter().any(|(key, _)| FIGURES.contains(key)) {
             return self.refuse(
-                Fault::new(CLAIM, stated.span.clone(), "the claim states no number")
+                Fault::new(CLAIM, stated.span.clone(), "the claim states no figure")
                     .label("nothing to compare")
-                    .help(format!("add at least one of {}", NUMBERS.join(", "))),
+                    .help(format!("add at least one of {}", FIGURES.join(", "))),
             );
         }
-        let measurand = self.claimed(stated, file)?;
+        let measurand = self.claimed(&table.measurand, &stated.span, file)?;
         let (name, entry) = entries(&file.measurand).get(measurand)?;
         let unit = self.unit(&entry.value.unit)?;
-        let interval = match &table.interval {
-            Some(interval) => Some(self.claimed_interval(interval, &unit, name)?),
-            None => None,
+        let mut reading = Reading {
+            table,
+            name,
+            unit: &unit,
+            figures: Vec::new(),
         };
-        let deviation = |checker: &mut Self, stated: &Option<Stated<Amount>>| -> Option<f64> {
-            let stated = stated.as_ref()?;
-            checker.claimed_deviation(stated, &unit, name, table)
-        };
+        self.claimed_amounts(&mut reading);
+        self.claimed_numbers(&mut reading);
+        self.claimed_limits(&mut reading);
+        self.correlations_claimed(&mut reading, file);
+        self.verdict(&mut reading);
+        self.input_figures(&mut reading, register);
         Some(Claim {
             measurand,
-            value: table
-                .value
-                .as_ref()
-                .and_then(|value| self.quantity(value, &unit, name)),
-            u: deviation(self, &table.u),
-            expanded: deviation(self, &table.U),
-            k: table.k.as_ref().and_then(|k| self.positive(k, "k")),
-            dof: table
-                .dof
-                .as_ref()
-                .and_then(|dof| self.positive_dof(&dof.map(|dof| dof.0))),
-            coverage_probability: table.p.as_ref().and_then(|p| self.probability(p)),
-            interval,
-            source: table.source.as_ref().map(|text| text.value.clone()),
+            method: match table.method.as_ref().map(|word| word.value) {
+                None => ClaimedMethod::Unstated,
+                Some(MethodWord::Gum) => ClaimedMethod::Gum,
+                Some(MethodWord::SecondOrder) => ClaimedMethod::SecondOrder,
+                Some(MethodWord::MonteCarlo) => ClaimedMethod::MonteCarlo,
+            },
+            figures: reading.figures,
+            reference: table.reference.as_ref().map(|text| text.value.clone()),
             note: table.note.as_ref().map(|text| text.value.clone()),
         })
     }
 
+    /// Estimate, u, U and shift.
+    fn claimed_amounts(&mut self, reading: &mut Reading<'_>) {
+        let table = reading.table;
+        if let Some(value) = &table.value
+            && let Some(number) = self.quantity(value, reading.unit, reading.name)
+        {
+            let half = self.half_digit_of(value, reading.unit, reading.name);
+            let stated = reading.tolerance(|t| &t.value);
+            reading.push(Figure::Estimate, number, half, stated);
+        }
+        let deviations = [
+            (&table.u, Figure::StandardUncertainty, reading.tolerance(|t| &t.u)),
+            (&table.U, Figure::ExpandedUncertainty, reading.tolerance(|t| &t.U)),
+            (&table.shift, Figure::Shift, reading.tolerance(|t| &t.shift)),
+        ];
+        for (amount, what, tolerance) in deviations {
+            let Some(amount) = amount else { continue };
+            if amount.value.number < 0.0 && what != Figure::Shift {
+                self.faults.push(
+                    Fault::new(NOT_POSITIVE, amount.span.clone(), "the claimed uncertainty is negative")
+                        .label("must not be negative")
+                        .help("write it without sign"),
+                );
+                continue;
+            }
+            let unit = reading.unit.difference();
+            if let Some(number) = self.quantity(amount, &unit, reading.name) {
+                let half = self.half_digit_of(amount, &unit, reading.name);
+                reading.push(what, number, half, tolerance);
+            }
+        }
+    }
+
+    /// k, ν, p and the factors of the region.
+    fn claimed_numbers(&mut self, reading: &mut Reading<'_>) {
+        let table = reading.table;
+        if let Some(k) = &table.k
+            && let Some(value) = self.positive(k, "k")
+        {
+            let half = self.half_digit(k).min(COARSEST_K);
+            let stated = reading.tolerance(|t| &t.k);
+            reading.push(Figure::CoverageFactor, value, half, stated);
+        }
+        if let Some(dof) = &table.dof
+            && let Some(value) = self.positive_dof(dof)
+        {
+            let stated = reading.tolerance(|t| &t.dof);
+            reading.push(Figure::DegreesOfFreedom, value, self.half_digit(dof), stated);
+        }
+        if let Some(p) = &table.p
+            && let Some(value) = self.probability(p)
+        {
+            let stated = reading.tolerance(|t| &t.p);
+            reading.push(Figure::CoverageProbability, value, self.half_digit(p), stated);
+        }
+        let Some(region) = table.region.as_ref().map(|region| &region.value) else {
+            return;
+        };
+        let stated = reading.tolerance(|t| &t.region);
+        for (number, what) in [
+            (&region.ellipsoid, Figure::Ellipsoid),
+            (&region.rectangle, Figure::Rectangle),
+            (&region.dof, Figure::RegionFreedom),
+        ] {
+            if let Some(number) = number {
+                reading.push(what, number.value, self.half_digit(number), stated);
+            }
+        }
+    }
+
+    fn claimed_limits(&mut self, reading: &mut Reading<'_>) {
+        let table = reading.table;
+        let intervals = [
+            (&table.interval, [Figure::Lower, Figure::Upper], reading.tolerance(|t| &t.interval)),
+            (
+                &table.shortest,
+                [Figure::ShortestLower, Figure::ShortestUpper],
+                reading.tolerance(|t| &t.shortest),
+            ),
+        ];
+        for (stated, figures, tolerance) in intervals {
+            let Some(stated) = stated else { continue };
+            let limits: Vec<Option<f64>> = stated
+                .value
+                .iter()
+                .map(|limit| self.quantity(limit, reading.unit, reading.name))
+                .collect();
+            if !matches!(limits.as_slice(), [Some(lower), Some(upper)] if lower < upper) {
+                self.faults.push(
+                    Fault::new(
+                        LIMITS,
+                        stated.span.clone(),
+                        "the claimed interval is not a lower and an upper limit",
+                    )
+                    .label("expected [lower, upper]"),
+                );
+                continue;
+            }
+            for ((limit, amount), what) in limits.into_iter().zip(&stated.value).zip(figures) {
+                let half = self.half_digit_of(amount, reading.unit, reading.name);
+                reading.push(what, limit.unwrap_or(f64::NAN), half, tolerance);
+            }
+        }
+    }
+
+    fn correlations_claimed(&mut self, reading: &mut Reading<'_>, file: &FileTable) {
+        for (name, r) in entries(&reading.table.correlation) {
+            let wanted = r.map(|_| name.clone());
+            let wanted = Some(Stated { span: r.key.clone(), ..wanted });
+            if let Some(with) = self.claimed(&wanted, &r.key, file) {
+                let stated = reading.tolerance(|t| &t.correlation);
+                reading.push(Figure::Correlation(with), r.value, self.half_digit(r), stated);
+            }
+        }
+    }
+
+    fn verdict(&mut self, reading: &mut Reading<'_>) {
+        let Some(stated) = &reading.table.validated else {
+            return;
+        };
+        match (&stated.value.digits, &stated.value.verdict) {
+            (Some(digits), Some(verdict)) if matches!(digits.value, 1 | 2) => {
+                let what = Figure::Validated(if digits.value == 1 { 1 } else { 2 });
+                reading.push(what, f64::from(u8::from(verdict.value)), 0.5, None);
+            }
+            _ => self.faults.push(
+                Fault::new(CLAIM, stated.span.clone(), "the claimed verdict is incomplete")
+                    .label("expected { digits = 2, verdict = true } or the like, with 1 or 2 digits"),
+            ),
+        }
+    }
+
+    fn input_figures(&mut self, reading: &mut Reading<'_>, register: &Register) {
+        for (name, stated) in entries(&reading.table.inputs) {
+            let input = register.inputs.iter().position(|input| input.name == *name);
+            let component = register
+                .components
+                .iter()
+                .position(|component| component.name == *name);
+            let (unit, figure): (Unit, Box<dyn Fn(Part) -> Figure>) = match (input, component) {
+                (Some(index), _) => (
+                    register.inputs[index].unit.clone(),
+                    Box::new(move |part| Figure::Input(index, part)),
+                ),
+                (None, Some(index)) => (
+                    register.components[index].unit.clone(),
+                    Box::new(move |part| Figure::Component(index, part)),
+                ),
+                (None, None) => {
+                    self.unknown_input(name, stated, register);
+                    continue;
+                }
+            };
+            self.parts(reading, &stated.value, (name, &unit), &figure);
+        }
+    }
+
+    fn parts(
+        &mut self,
+        reading: &mut Reading<'_>,
+        table: &InputClaimTable,
+        (name, unit): (&str, &Unit),
+        figure: &dyn Fn(Part) -> Figure,
+    ) {
+        let amounts = [
+            (&table.value, unit.clone(), Part::Estimate),
+            (&table.u, unit.difference(), Part::StandardUncertainty),
+        ];
+        for (amount, unit, part) in amounts {
+            if let Some(amount) = amount
+                && let Some(number) = self.quantity(amount, &unit, name)
+            {
+                let half = self.half_digit_of(amount, &unit, name);
+                reading.push(figure(part), number, half, None);
+            }
+        }
+        let numbers = [
+            (&table.dof, Part::DegreesOfFreedom, None),
+            (&table.sensitivity, Part::Sensitivity, reading.tolerance(|t| &t.sensitivity)),
+            (&table.contribution, Part::Contribution, reading.tolerance(|t| &t.contribution)),
+        ];
+        for (number, part, tolerance) in numbers {
+            if let Some(number) = number {
+                reading.push(figure(part), number.value, self.half_digit(number), tolerance);
+            }
+        }
+    }
+
+    fn unknown_input(&mut self, name: &str, stated: &Stated<InputClaimTable>, register: &Register) {
+        let known = register
+            .inputs
+            .iter()
+            .map(|input| input.name.as_str())
+            .chain(register.components.iter().map(|component| component.name.as_str()));
+        let fault = Fault::new(
+            UNKNOWN_NAME,
+            stated.key.clone(),
+            format!("there is no input or component \"{name}\""),
+        )
+        .label("not declared");
+        self.faults.push(match nearest(name, known) {
+            Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+            None => fault.help("name an input (V) or a component (\"V.calibration\")"),
+        });
+    }
+
+    /// Half a unit of the last digit as the file writes the number: 0.5e-4 for `0.0710`.
+    fn half_digit<T>(&self, stated: &Stated<T>) -> f64 {
+        let text = self.text.get(stated.span.clone()).unwrap_or_default();
+        let number: String = text
+            .trim_start_matches(['"', '\'', ' '])
+            .chars()
+            .take_while(|c| c.is_ascii_digit() || matches!(c, '.' | '_' | '+' | '-' | 'e' | 'E'))
+            .filter(|c| *c != '_')
+            .collect();
+        // The unit of `"5 e"`-like texts never follows the digits directly.
+        let number = number.trim_end_matches(['e', 'E']);
+        Decimal::from_text(number)
+            .and_then(|decimal| decimal.place())
+            .map_or(0.0, |place| 0.5 * 10f64.powi(place))
+    }
+
+    /// The same for an amount that may carry a unit of its own, in the given unit.
+    fn half_digit_of(&mut self, amount: &Stated<Amount>, unit: &Unit, owner: &str) -> f64 {
+        let half = amount.map(|value| Amount {
+            number: self.half_digit(amount),
+            unit: value.unit.clone(),
+        });
+        let zero = amount.map(|value| Amount {
+            number: 0.0,
+            unit: value.unit.clone(),
+        });
+        match (self.quantity(&half, unit, owner), self.quantity(&zero, unit, owner)) {
+            (Some(half), Some(zero)) => (half - zero).abs(),
+            _ => 0.0,
+        }
+    }
+
     /// Which measurand a claim is about.
-    fn claimed(&mut self, stated: &Stated<ClaimTable>, file: &FileTable) -> Option<usize> {
+    fn claimed(
+        &mut self,
+        stated: &Option<Stated<String>>,
+        place: &std::ops::Range<usize>,
+        file: &FileTable,
+    ) -> Option<usize> {
         let names: Vec<&str> = entries(&file.measurand)
             .iter()
             .map(|(name, _)| name.as_str())
             .collect();
-        match &stated.value.measurand {
+        match stated {
             None if names.len() == 1 => Some(0),
             // Without measurands there is a fault about that already.
             None if names.is_empty() => None,
             None => self.refuse(
                 Fault::new(
                     CLAIM,
-                    stated.span.clone(),
+                    place.clone(),
                     "the claim does not say which measurand it is about",
                 )
                 .label("`measurand` is missing")
@@ -106,51 +384,6 @@ impl Checker<'_> {
                     )
                 }
             },
-        }
-    }
-
-    /// u or U of a claim; a claimed value makes `"0.1 %"` meaningful.
-    fn claimed_deviation(
-        &mut self,
-        stated: &Stated<Amount>,
-        unit: &Unit,
-        name: &str,
-        table: &ClaimTable,
-    ) -> Option<f64> {
-        let value = match &table.value {
-            Some(value) => self.quantity(value, unit, name),
-            None => None,
-        };
-        let context = super::draft::Context {
-            owner: name,
-            value,
-            unit,
-            place: stated.span.clone(),
-        };
-        self.positive_deviation(stated, "the claimed uncertainty", &context, false)
-    }
-
-    fn claimed_interval(
-        &mut self,
-        stated: &Stated<Vec<Stated<Amount>>>,
-        unit: &Unit,
-        name: &str,
-    ) -> Option<[f64; 2]> {
-        let limits: Vec<Option<f64>> = stated
-            .value
-            .iter()
-            .map(|limit| self.quantity(limit, unit, name))
-            .collect();
-        match limits.as_slice() {
-            [Some(lower), Some(upper)] if lower < upper => Some([*lower, *upper]),
-            _ => self.refuse(
-                Fault::new(
-                    LIMITS,
-                    stated.span.clone(),
-                    "the claimed interval is not a lower and an upper limit",
-                )
-                .label("expected [lower, upper]"),
-            ),
         }
     }
 }

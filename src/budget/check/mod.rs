@@ -172,7 +172,7 @@ impl Checker<'_> {
         self.unused_sources(shared(file), &register);
         let groups = self.groups(file, &mut register);
         let model = self.model(file, &constants, &register);
-        let claims = self.claims(file);
+        let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
             conventions: self.conventions.clone(),

@@ -258,7 +258,7 @@ fn set_claim(file: &mut FileTable, key: &str, number: f64, cell: &Stated<Cell>) 
             "p"
         }
         _ => {
-            claim.dof = Some(cell.map(|_| Dof(number)));
+            claim.dof = plain;
             "dof"
         }
     };

@@ -221,10 +221,7 @@ impl Checker<'_> {
             .iter()
             .position(|input| input.name == name.value);
         let total = match place {
-            Some(place) => register
-                .covariance(Some(place), Some(place))
-                .mul_add(1.0, own * own)
-                .sqrt(),
+            Some(place) => (register.covariance(Some(place), Some(place)) + own * own).sqrt(),
             None => own,
         };
         let members = members

@@ -38,7 +38,11 @@ impl Checker<'_> {
     ) {
         for (name, stated) in entries(&file.input) {
             let table = &stated.value;
-            let unit = self.unit(&table.unit);
+            // A misspelt `unit` must not be judged as dimension one.
+            let unit = match (&table.unit, table.unknown) {
+                (None, true) => None,
+                _ => self.unit(&table.unit),
+            };
             let start = register.inputs.len();
             let values = table
                 .values
@@ -394,19 +398,15 @@ impl Checker<'_> {
             let Some(first) = before.iter().find(|other| other.label == draft.label) else {
                 continue;
             };
-            if self
-                .text
-                .get(draft.place.clone())
-                .is_some_and(|text| text.contains(&format!("\"{}\"", draft.label)))
-            {
+            if let (Some(name), Some(earlier)) = (&draft.named, &first.named) {
                 self.faults.push(
                     Fault::new(
                         NAME_TWICE,
-                        draft.place.clone(),
+                        name.clone(),
                         format!("two components of {owner} are called \"{}\"", draft.label),
                     )
                     .label("second one")
-                    .related(first.place.clone(), "first one"),
+                    .related(earlier.clone(), "first one"),
                 );
             }
             let same = before

@@ -267,6 +267,7 @@ impl Checker<'_> {
             let unit = input.unit.clone();
             let draft = Draft {
                 label: "covariance matrix".into(),
+                named: None,
                 distribution: self.t_or_normal(*u, dof, &stated.span)?,
                 u: *u,
                 dof,

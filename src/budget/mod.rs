@@ -12,6 +12,7 @@ mod check;
 mod claim;
 mod distributions;
 pub mod faults;
+mod parametric;
 mod profile;
 mod reader;
 mod rejection;
@@ -36,14 +37,19 @@ use crate::quantity::{Rounding, Unit};
 /// What a file says about the measurement besides numbers.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Heading {
+    /// What is measured; empty when the file has no title.
     pub title: String,
+    /// The procedure.
     pub method: Option<String>,
+    /// The item that is measured.
     pub object: Option<String>,
+    /// Who evaluated the measurement.
     pub author: Option<String>,
     /// Date of the measurement, ISO 8601.
     pub date: Option<String>,
     /// Where the figures come from.
     pub source: Option<String>,
+    /// Anything the reader should know.
     pub note: Option<String>,
 }
 
@@ -59,9 +65,13 @@ pub struct Row {
 /// A checked budget.
 #[derive(Debug, Clone)]
 pub struct Budget {
+    /// What the file says besides numbers.
     pub heading: Heading,
+    /// Profile and overrides.
     pub conventions: Conventions,
+    /// Settings of the Monte Carlo method.
     pub monte_carlo: MonteCarloSettings,
+    /// The compiled formulas.
     pub model: Model,
     /// One per place of the model's input vector, in that order.
     pub inputs: Vec<Input>,
@@ -69,9 +79,11 @@ pub struct Budget {
     pub constants: Vec<Constant>,
     /// Description and group of each measurand, in the order of `model.outputs()`.
     pub measurands: Vec<Measurand>,
+    /// Every reason for doubt, once.
     pub components: Vec<Component>,
     /// Correlated components; a component is in at most one group.
     pub groups: Vec<Group>,
+    /// What certificates say.
     pub claims: Vec<Claim>,
     /// What a reader must know that is not an error (certificate past due, estimate moved to the
     /// expectation of an asymmetric distribution, resolution absorbed by repeatability …).
@@ -81,17 +93,24 @@ pub struct Budget {
 /// A measurand's words; its unit and equation are in the model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurand {
+    /// As the model calls it.
     pub name: String,
+    /// What it is.
     pub description: Option<String>,
 }
 
 /// An exactly known quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Constant {
+    /// As the model calls it.
     pub name: String,
+    /// One value, or those of a vector.
     pub values: Vec<f64>,
+    /// Unit of the values.
     pub unit: Unit,
+    /// What it is.
     pub description: Option<String>,
+    /// Where it comes from.
     pub source: Option<String>,
 }
 
@@ -100,12 +119,15 @@ pub struct Constant {
 pub struct Input {
     /// `V`, or `U[3]` for an element of a vector (counted from 1).
     pub name: String,
+    /// What it is.
     pub description: Option<String>,
     /// For subtotals in the budget table.
     pub group: Option<String>,
+    /// Unit of the estimate.
     pub unit: Unit,
     /// The best estimate x_i (expectation).
     pub estimate: f64,
+    /// The components that act on it.
     pub terms: Vec<Term>,
 }
 
@@ -143,6 +165,7 @@ pub struct Component {
     pub name: String,
     /// Without the owner: `calibration`.
     pub label: String,
+    /// Who has it.
     pub owner: Owner,
     /// Unit of the deviation (K for an input in °C).
     pub unit: Unit,
@@ -153,19 +176,26 @@ pub struct Component {
     pub u: f64,
     /// Degrees of freedom ν; infinite for most Type B.
     pub dof: f64,
+    /// Type A or Type B.
     pub evaluation: Evaluation,
     /// How u was obtained from what the file states, for the reader: `U/k = 4.0e-5/2`, `a/√3`.
     pub how: String,
+    /// The certificate behind it.
     pub certificate: Option<Certificate>,
+    /// Where the number comes from.
     pub source: Option<String>,
 }
 
 /// Where a value comes from.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Certificate {
+    /// Its number.
     pub number: Option<String>,
+    /// Who issued it.
     pub laboratory: Option<String>,
+    /// Date of the calibration.
     pub date: Option<String>,
+    /// Date when the next calibration is due.
     pub due: Option<String>,
 }
 
@@ -176,6 +206,7 @@ pub struct Group {
     pub members: Vec<usize>,
     /// Product-moment correlation of the members (GUM: r(x_i, x_j)); positive semidefinite.
     pub correlation: DMatrix<f64>,
+    /// How the members are distributed together.
     pub law: Law,
     /// ν shared by all members when they come from one set of simultaneous readings, or all state the
     /// same ν: a linear combination of them then has exactly this ν (Willink 2007).
@@ -188,16 +219,26 @@ pub enum Law {
     /// Multivariate normal (JCGM 101 6.4.8).
     Normal,
     /// Multivariate t: u_i T with T ~ t_ν(0, R) (JCGM 102 5.3.2). `scale[i]` multiplies member i.
-    StudentT { dof: f64, scale: Vec<f64> },
+    StudentT {
+        /// ν of all members.
+        dof: f64,
+        /// Multiplies each member's standard t variable.
+        scale: Vec<f64>,
+    },
     /// Margins as stated, joined by a Gaussian copula whose correlation `latent` was solved so that
     /// the members have the stated product-moment correlation.
-    GaussianCopula { latent: DMatrix<f64> },
+    GaussianCopula {
+        /// Correlation of the latent standard normal variables.
+        latent: DMatrix<f64>,
+    },
 }
 
 /// A remark for the reader of the report, in both languages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Remark {
+    /// In English.
     pub en: String,
+    /// In Chinese.
     pub zh: String,
 }
 
@@ -210,16 +251,19 @@ pub struct Conventions {
     pub overrides: Vec<String>,
     /// p of the coverage interval, 0.95 or 0.9545 …
     pub coverage_probability: f64,
+    /// Where k comes from.
     pub coverage_factor: CoverageRule,
     /// What [`CoverageRule::Output`] takes for the output's distribution.
     pub output_shape: OutputShape,
     /// How ν_eff enters t.
     pub degrees_of_freedom: DofRule,
+    /// How numbers are rounded.
     pub rounding: Rounding,
     /// Significant digits of U: 1 or 2.
     pub digits: u8,
     /// EA-4/02 6.3: use the rounded-up value when rounding lowers U by more than 5 %.
     pub up_if_lowered_by_5_percent: bool,
+    /// What u is for a t distribution in the Monte Carlo method.
     pub t_scale: TScale,
     /// Print k and not p (JJF 1059.1 with k = 2).
     pub state_probability: bool,
@@ -273,7 +317,9 @@ pub enum TScale {
 /// How the Monte Carlo method is run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MonteCarloSettings {
+    /// Seed of the random numbers.
     pub seed: u64,
+    /// How many trials.
     pub trials: Trials,
 }
 
@@ -285,8 +331,11 @@ pub enum Trials {
     /// Until the results are stable to a numerical tolerance, JCGM 101 7.9: δ from `digits`
     /// significant digits of u.
     Adaptive {
+        /// Which procedure.
         procedure: Adaptive,
+        /// Significant digits of u to be stable.
         digits: u8,
+        /// Give up after so many trials.
         max: u64,
     },
 }

@@ -120,6 +120,9 @@ pub trait Table: Default {
         reader: &mut Reader<'_>,
     ) -> bool;
 
+    /// Notes that the table has a key that is not known.
+    fn refuse(&mut self);
+
     /// Every key, in the order of the definition.
     fn keys() -> Vec<&'static str>;
 
@@ -172,6 +175,8 @@ pub fn read_table<T: Table>(table: &DeTable<'_>, name: &str, reader: &mut Reader
     for (key, value) in in_order(table) {
         if !result.accept(key, value, reader) {
             reader.faults.push(unknown_key(key, name, &T::keys()));
+            // What an unknown key was meant to state is not asked for a second time.
+            result.refuse();
         }
     }
     result
@@ -192,6 +197,11 @@ fn unknown_key(key: &Spanned<DeString<'_>>, table: &str, known: &[&'static str])
         format!("{table} has no key `{name}`"),
     )
     .label("unknown key");
+    // `U` must not be taken for a misspelt `u`: they differ by the coverage factor.
+    if matches!(name.as_ref(), "U" | "k" | "expanded") && known.contains(&"certificate") {
+        return fault
+            .help("an expanded uncertainty stands with its k: certificate = { U = …, k = 2 }");
+    }
     match meant(name, known) {
         Some(near) => fault.help(format!(
             "did you mean `{near}`? Known keys: {}",
@@ -231,8 +241,10 @@ macro_rules! table {
             pub $rest: $rest_kind, )?
             /// Every own key that the file states, also those whose value was refused.
             pub present: Vec<(&'static str, std::ops::Range<usize>)>,
-            /// Whether the value of a key was refused (what is missing is then not asked for).
+            /// Whether a key or its value was refused (what is missing is then not asked for).
             pub refused: bool,
+            /// Whether it has a key that is not known, which may have been meant for any other.
+            pub unknown: bool,
         }
 
         impl $crate::budget::table::Table for $name {
@@ -259,6 +271,12 @@ macro_rules! table {
                 } )?
                 let _ = (name, value, before, reader);
                 false
+            }
+
+            fn refuse(&mut self) {
+                self.refused = true;
+                self.unknown = true;
+                $( self.$rest.refuse(); )?
             }
 
             fn keys() -> Vec<&'static str> {

@@ -2,23 +2,21 @@
 
 use std::ops::Range;
 
-use nalgebra::DMatrix;
-
 use super::Checker;
 use super::draft::show;
-use super::register::{Register, t_dof};
+use super::groups::connected;
+use super::register::Register;
+use crate::budget::Group;
 use crate::budget::faults::{
-    CORRELATION_TWICE, MISSING_KEY, NOT_A_CORRELATION, NOT_SEMIDEFINITE, PAIR_TWICE, SELF_PAIR,
-    UNATTAINABLE, UNKNOWN_NAME, WRONG_TYPE,
+    CORRELATION_TWICE, MISSING_KEY, NOT_A_CORRELATION, PAIR_TWICE, SELF_PAIR, UNKNOWN_NAME,
+    WRONG_TYPE,
 };
 use crate::budget::table::Stated;
 use crate::budget::tables::{CorrelationTable, FileTable};
-use crate::budget::{Group, Law};
-use crate::distribution::{Distribution, latent_correlation};
 use crate::fault::{Fault, nearest};
 
 /// Eigenvalues down to this are zero within the rounding of the arithmetic.
-const ROUNDING: f64 = 1e-9;
+pub(super) const ROUNDING: f64 = 1e-9;
 
 /// A stated correlation, spread over the components of its two sides.
 #[derive(Debug, Clone)]
@@ -223,10 +221,7 @@ impl Checker<'_> {
             .iter()
             .position(|input| input.name == name.value);
         let total = match place {
-            Some(place) => register
-                .covariance(Some(place), Some(place))
-                .mul_add(1.0, own * own)
-                .sqrt(),
+            Some(place) => (register.covariance(Some(place), Some(place)) + own * own).sqrt(),
             None => own,
         };
         let members = members
@@ -289,125 +284,6 @@ impl Checker<'_> {
             }
         }
     }
-
-    fn group(
-        &mut self,
-        members: Vec<usize>,
-        statements: &[Statement],
-        register: &Register,
-    ) -> Option<Group> {
-        let own: Vec<&Statement> = statements
-            .iter()
-            .filter(|s| s.pairs.iter().any(|(a, ..)| members.contains(a)))
-            .collect();
-        let r: Vec<f64> = own.iter().map(|statement| statement.r).collect();
-        let correlation = matrix(&members, &own, &r);
-        let smallest = smallest_eigenvalue(&correlation);
-        if smallest < -ROUNDING {
-            return self.refuse(contradiction(&members, &own, &r, smallest));
-        }
-        let place = own
-            .first()
-            .map_or(0..0, |statement| statement.place.clone());
-        self.join(members, correlation, register, &place)
-    }
-
-    /// The joint distribution of correlated components.
-    pub(super) fn join(
-        &mut self,
-        members: Vec<usize>,
-        correlation: DMatrix<f64>,
-        register: &Register,
-        place: &Range<usize>,
-    ) -> Option<Group> {
-        let components: Vec<_> = members
-            .iter()
-            .filter_map(|index| register.components.get(*index))
-            .collect();
-        let dof = components
-            .first()
-            .map(|component| component.dof)
-            .filter(|dof| dof.is_finite());
-        let dof = dof.filter(|dof| components.iter().all(|component| component.dof == *dof));
-        let distributions: Vec<&Distribution> = components
-            .iter()
-            .map(|component| &component.distribution)
-            .collect();
-        let t = distributions
-            .first()
-            .and_then(|distribution| t_dof(distribution));
-        let law = if distributions
-            .iter()
-            .all(|d| matches!(d, Distribution::Normal { .. }))
-        {
-            Law::Normal
-        } else if let Some(dof) =
-            t.filter(|dof| distributions.iter().all(|d| t_dof(d) == Some(*dof)))
-        {
-            let scale = distributions.iter().map(|d| scale(d)).collect();
-            Law::StudentT { dof, scale }
-        } else {
-            Law::GaussianCopula {
-                latent: self.latent(&components, &correlation, place)?,
-            }
-        };
-        Some(Group {
-            members,
-            correlation,
-            law,
-            dof,
-        })
-    }
-
-    fn latent(
-        &mut self,
-        components: &[&crate::budget::Component],
-        correlation: &DMatrix<f64>,
-        place: &Range<usize>,
-    ) -> Option<DMatrix<f64>> {
-        let mut latent = DMatrix::identity(components.len(), components.len());
-        for (i, a) in components.iter().enumerate() {
-            for (j, b) in components.iter().enumerate().skip(i + 1) {
-                let r = correlation[(i, j)].clamp(-1.0, 1.0);
-                match latent_correlation(&a.distribution, &b.distribution, r) {
-                    Ok(rho) => {
-                        latent[(i, j)] = rho;
-                        latent[(j, i)] = rho;
-                    }
-                    Err(reason) => {
-                        return self.refuse(
-                            Fault::new(UNATTAINABLE, place.clone(), format!("{} and {} cannot have r = {}", a.name, b.name, show(r)))
-                                .label(reason.to_string())
-                                .help("lower the correlation, or state the common cause as a [source.NAME]"),
-                        );
-                    }
-                }
-            }
-        }
-        let smallest = smallest_eigenvalue(&latent);
-        if smallest >= -ROUNDING {
-            return Some(latent);
-        }
-        self.refuse(
-            Fault::new(
-                UNATTAINABLE,
-                place.clone(),
-                "no joint distribution with these shapes has these correlations",
-            )
-            .label(format!(
-                "smallest eigenvalue of the latent correlation matrix {}",
-                show(smallest)
-            ))
-            .help("lower the correlations a little, or state the common cause as a [source.NAME]"),
-        )
-    }
-}
-
-fn scale(distribution: &Distribution) -> f64 {
-    match distribution {
-        Distribution::StudentT { scale, .. } => *scale,
-        other => other.standard_deviation().unwrap_or(0.0),
-    }
 }
 
 fn unknown(name: &Stated<String>, register: &Register) -> Fault {
@@ -460,126 +336,4 @@ impl Register {
             })
             .sum()
     }
-}
-
-/// The sets of components that statements connect, each in ascending order.
-fn connected(statements: &[Statement], components: usize) -> Vec<Vec<usize>> {
-    let mut root: Vec<usize> = (0..components).collect();
-    let find = |root: &[usize], mut index: usize| {
-        while root[index] != index {
-            index = root[index];
-        }
-        index
-    };
-    for (a, b, _) in statements.iter().flat_map(|statement| &statement.pairs) {
-        let (a, b) = (find(&root, *a), find(&root, *b));
-        root[a.max(b)] = a.min(b);
-    }
-    let all = (0..components)
-        .map(|index| find(&root, index))
-        .collect::<Vec<_>>();
-    let sets = (0..components).filter(|index| all[*index] == *index);
-    let members = |set: usize| {
-        (0..components)
-            .filter(|index| all[*index] == set)
-            .collect::<Vec<_>>()
-    };
-    sets.map(members).filter(|set| set.len() > 1).collect()
-}
-
-/// The correlation matrix of the members, with the statements' coefficients replaced by `r`.
-fn matrix(members: &[usize], statements: &[&Statement], r: &[f64]) -> DMatrix<f64> {
-    let mut matrix = DMatrix::identity(members.len(), members.len());
-    for (statement, r) in statements.iter().zip(r) {
-        let own = statement.scale * r + statement.offset;
-        for (a, b, weight) in &statement.pairs {
-            let index = |wanted| members.iter().position(|member| member == wanted);
-            if let (Some(i), Some(j)) = (index(a), index(b)) {
-                matrix[(i, j)] = own * weight;
-                matrix[(j, i)] = own * weight;
-            }
-        }
-    }
-    matrix
-}
-
-/// Smallest eigenvalue of a symmetric matrix.
-pub(super) fn smallest_eigenvalue(matrix: &DMatrix<f64>) -> f64 {
-    matrix.clone().symmetric_eigenvalues().min()
-}
-
-/// The fault for correlations that cannot exist together, with the nearest mend if one coefficient
-/// can be blamed.
-fn contradiction(members: &[usize], statements: &[&Statement], r: &[f64], smallest: f64) -> Fault {
-    let mends = (0..r.len()).filter_map(|index| {
-        let mended = mend(members, statements, r, index)?;
-        Some((index, mended, (mended - r[index]).abs()))
-    });
-    let best = mends.min_by(|a, b| a.2.total_cmp(&b.2));
-    let blamed = best.map_or(r.len() - 1, |(index, ..)| index);
-    let [a, b] = &statements[blamed].names;
-    let mut fault = Fault::new(
-        NOT_SEMIDEFINITE,
-        statements[blamed].place.clone(),
-        "these correlation coefficients cannot occur together",
-    )
-    .label(format!(
-        "smallest eigenvalue of the correlation matrix {}",
-        show(smallest)
-    ));
-    for (index, other) in statements
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| *index != blamed)
-    {
-        fault = fault.related(
-            other.place.clone(),
-            format!("r({}, {}) = {}", other.names[0], other.names[1], r[index]),
-        );
-    }
-    match best {
-        Some((index, mended, _)) => fault.help(format!(
-            "check the signs; with the others as they are, the nearest possible r({a}, {b}) is {}, not {}",
-            show(mended), r[index]
-        )),
-        None => fault.help("check the signs; changing a single coefficient does not mend it"),
-    }
-}
-
-/// The possible value of one coefficient nearest to the stated one, rounded inwards to three decimals.
-fn mend(members: &[usize], statements: &[&Statement], r: &[f64], index: usize) -> Option<f64> {
-    let smallest = |value: f64| {
-        let mut changed = r.to_vec();
-        changed[index] = value;
-        smallest_eigenvalue(&matrix(members, statements, &changed))
-    };
-    // The smallest eigenvalue is a concave function of the coefficient: find its maximum.
-    let (mut low, mut high) = (-1.0_f64, 1.0_f64);
-    for _ in 0..80 {
-        let third = (high - low) / 3.0;
-        if smallest(low + third) < smallest(high - third) {
-            low += third
-        } else {
-            high -= third
-        }
-    }
-    let peak = (low + high) / 2.0;
-    if smallest(peak) < -ROUNDING {
-        return None;
-    }
-    let (mut bad, mut good) = (r[index], peak);
-    for _ in 0..60 {
-        let middle = (bad + good) / 2.0;
-        if smallest(middle) < 0.0 {
-            bad = middle
-        } else {
-            good = middle
-        }
-    }
-    let inwards = if good > r[index] {
-        (good * 1000.0).ceil()
-    } else {
-        (good * 1000.0).floor()
-    };
-    Some((inwards / 1000.0).clamp(-1.0, 1.0))
 }

@@ -37,6 +37,8 @@ pub(super) enum Kind {
 pub(super) struct Draft {
     /// Its name, from the file or from the way it is stated.
     pub label: String,
+    /// Place of the name, if the file states one.
+    pub named: Option<Range<usize>>,
     /// Zero-mean.
     pub distribution: Distribution,
     pub u: f64,

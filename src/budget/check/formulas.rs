@@ -7,10 +7,22 @@ use super::{Checker, entries};
 use crate::budget::faults::{NO_MEASURAND, UNUSED};
 use crate::budget::strings::StringMap;
 use crate::budget::table::Stated;
-use crate::budget::tables::FileTable;
+use crate::budget::tables::{FileTable, MeasurandTable};
 use crate::budget::{Constant, Measurand};
 use crate::fault::Fault;
 use crate::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile};
+
+impl MeasurandTable {
+    /// Whether its model or its unit was refused, or may be hidden behind an unknown key.
+    fn unclear(&self) -> bool {
+        let refused = |key: &str, missing: bool| {
+            missing && self.present.iter().any(|(present, _)| *present == key)
+        };
+        self.unknown
+            || refused("model", self.model.is_none())
+            || refused("unit", self.unit.is_none())
+    }
+}
 
 /// The words about the measurands.
 pub(super) fn measurands(file: &FileTable) -> Vec<Measurand> {
@@ -54,7 +66,7 @@ impl Checker<'_> {
             || constants
                 .iter()
                 .any(|constant| constant.values.iter().any(|value| value.is_nan()));
-        let texts_refused = stated.iter().any(|(_, entry)| entry.value.refused)
+        let texts_refused = stated.iter().any(|(_, entry)| entry.value.unclear())
             || (file.refused && self.inputs_refused(file));
         // Formulas cannot be judged while a unit is unknown: the faults would be consequences.
         if unread || texts_refused {

@@ -3,185 +3,32 @@
 use std::ops::Range;
 
 use super::draft::{Context, Draft, Location, show};
-use super::register::{InputEntry, Register, SourceEntry};
+use super::register::{InputEntry, Register};
 use super::type_a::all_equal;
 use super::ways::{Way, expectation, locates};
 use super::{Checker, entries};
-use crate::budget::faults::{
-    LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS, UNIT_CLASH, UNKNOWN_NAME, UNUSED,
-    VECTOR,
-};
+use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS};
 use crate::budget::table::Stated;
-use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord, SourceTable};
+use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
-use crate::budget::{Constant, Input, Owner};
-use crate::fault::{Fault, nearest};
+use crate::budget::{Input, Owner};
+use crate::fault::Fault;
 use crate::quantity::Unit;
 
 /// A reason for doubt of one input.
-enum Piece {
+pub(super) enum Piece {
     Own(Box<Draft>, Option<Vec<f64>>),
     Shared { component: usize, coefficient: f64 },
 }
 
 /// A component of the file, and the way it is stated.
-struct Entry<'f> {
-    table: &'f ComponentTable,
-    way: Way,
-    place: Range<usize>,
+pub(super) struct Entry<'f> {
+    pub table: &'f ComponentTable,
+    pub way: Way,
+    pub place: Range<usize>,
 }
 
 impl Checker<'_> {
-    /// Reads `[constant]`.
-    pub(super) fn constants(&mut self, file: &FileTable) -> Vec<Constant> {
-        let mut constants = Vec::new();
-        for (name, stated) in entries(&file.constant) {
-            let table = &stated.value.0;
-            let unit = self.unit(&table.unit);
-            let values = match (&table.value, &table.values) {
-                (Some(value), None) => unit
-                    .as_ref()
-                    .and_then(|unit| self.quantity(value, unit, name))
-                    .map(|value| vec![value]),
-                (None, Some(values)) if !values.value.is_empty() => {
-                    Some(values.value.iter().map(|value| value.value).collect())
-                }
-                _ if table.refused => None,
-                _ => self.refuse(
-                    Fault::new(
-                        NO_ESTIMATE,
-                        stated.span.clone(),
-                        format!("the constant {name} has no value"),
-                    )
-                    .label("state `value`, or `values` for a vector"),
-                ),
-            };
-            constants.push(Constant {
-                name: name.clone(),
-                values: values.unwrap_or_else(|| vec![f64::NAN]),
-                unit: unit.unwrap_or_else(Unit::one),
-                description: table.description.as_ref().map(|text| text.value.clone()),
-                source: table.source.as_ref().map(|text| text.value.clone()),
-            });
-        }
-        constants
-    }
-
-    /// Reads `[source.S]`.
-    pub(super) fn sources(
-        &mut self,
-        sources: &[(String, Stated<SourceTable>)],
-        register: &mut Register,
-    ) {
-        for (name, stated) in sources {
-            let table = &stated.value;
-            let unit = self.unit(&table.unit);
-            let mut entry = SourceEntry {
-                name: name.clone(),
-                unit: unit.clone(),
-                components: Vec::new(),
-                used: false,
-            };
-            if let Some(unit) = unit {
-                let drafts = self.source_drafts(name, stated, &unit);
-                register.incomplete |= drafts.is_none();
-                let drafts = drafts.unwrap_or_default();
-                let alone = drafts.len() == 1;
-                for draft in drafts {
-                    let owner = Owner::Source(name.clone());
-                    entry
-                        .components
-                        .push(register.add(owner, name, &unit, draft, alone));
-                }
-            }
-            register.sources.push(entry);
-        }
-    }
-
-    fn source_drafts(
-        &mut self,
-        name: &str,
-        stated: &Stated<SourceTable>,
-        unit: &Unit,
-    ) -> Option<Vec<Draft>> {
-        let table = &stated.value;
-        let list = self.ways(
-            name,
-            &table.components,
-            &table.component,
-            &stated.span,
-            unit,
-        )?;
-        let mut drafts = Vec::new();
-        for entry in list {
-            let context = Context {
-                owner: name,
-                value: None,
-                unit,
-                place: entry.place.clone(),
-            };
-            if entry.way == Way::Source {
-                return self.refuse(
-                    Fault::new(
-                        VECTOR,
-                        entry.place,
-                        format!("the source {name} refers to another source"),
-                    )
-                    .label("a source states its own uncertainty"),
-                );
-            }
-            let draft = self.draft(entry.table, entry.way, &context)?;
-            let moved = match draft.location {
-                Location::None | Location::Mean(_) => 0.0,
-                Location::Shift(shift) => shift,
-                Location::Expectation(mean)
-                | Location::Between {
-                    expectation: mean, ..
-                } => mean,
-            };
-            if moved.abs() > 1e-9 * draft.u {
-                return self.refuse(
-                    Fault::new(
-                        TWO_ESTIMATES,
-                        entry.place,
-                        format!(
-                            "the source {name} has the expectation {}, not 0",
-                            show(moved)
-                        ),
-                    )
-                    .label("a source is an error about zero")
-                    .help(
-                        "correct the inputs for the known part, and state limits about zero here",
-                    ),
-                );
-            }
-            drafts.push(draft);
-        }
-        self.label_uniquely(name, &mut drafts);
-        Some(drafts)
-    }
-
-    /// Reports sources that no input refers to.
-    pub(super) fn unused_sources(
-        &mut self,
-        sources: &[(String, Stated<SourceTable>)],
-        register: &Register,
-    ) {
-        for (name, stated) in sources {
-            if register
-                .sources
-                .iter()
-                .any(|source| source.name == *name && !source.used)
-            {
-                self.faults.push(
-                    Fault::new(UNUSED, stated.key.clone(), format!("no input refers to the source {name}"))
-                        .label("not used")
-                        .help(format!("add source = \"{name}\" to the components of the inputs that it acts on, or remove it")),
-                );
-            }
-        }
-    }
-
     /// Reads `[input.X]`.
     pub(super) fn inputs(
         &mut self,
@@ -191,7 +38,11 @@ impl Checker<'_> {
     ) {
         for (name, stated) in entries(&file.input) {
             let table = &stated.value;
-            let unit = self.unit(&table.unit);
+            // A misspelt `unit` must not be judged as dimension one.
+            let unit = match (&table.unit, table.unknown) {
+                (None, true) => None,
+                _ => self.unit(&table.unit),
+            };
             let start = register.inputs.len();
             let values = table
                 .values
@@ -226,7 +77,7 @@ impl Checker<'_> {
     }
 
     /// The components of an input or source with their ways; all faults are reported.
-    fn ways<'f>(
+    pub(super) fn ways<'f>(
         &mut self,
         name: &str,
         list: &'f Option<Stated<Vec<Stated<ComponentTable>>>>,
@@ -272,7 +123,7 @@ impl Checker<'_> {
         complete.then_some(entries)
     }
 
-    fn entries_of<'f>(
+    pub(super) fn entries_of<'f>(
         &mut self,
         name: &str,
         stated: &'f Stated<InputTable>,
@@ -538,7 +389,7 @@ impl Checker<'_> {
     }
 
     /// Gives components without a name different labels; reports names that are stated twice.
-    fn label_uniquely(&mut self, owner: &str, drafts: &mut [Draft]) {
+    pub(super) fn label_uniquely(&mut self, owner: &str, drafts: &mut [Draft]) {
         for index in 1..drafts.len() {
             let (before, rest) = drafts.split_at_mut(index);
             let Some(draft) = rest.first_mut() else {
@@ -547,19 +398,15 @@ impl Checker<'_> {
             let Some(first) = before.iter().find(|other| other.label == draft.label) else {
                 continue;
             };
-            if self
-                .text
-                .get(draft.place.clone())
-                .is_some_and(|text| text.contains(&format!("\"{}\"", draft.label)))
-            {
+            if let (Some(name), Some(earlier)) = (&draft.named, &first.named) {
                 self.faults.push(
                     Fault::new(
                         NAME_TWICE,
-                        draft.place.clone(),
+                        name.clone(),
                         format!("two components of {owner} are called \"{}\"", draft.label),
                     )
                     .label("second one")
-                    .related(first.place.clone(), "first one"),
+                    .related(earlier.clone(), "first one"),
                 );
             }
             let same = before
@@ -569,301 +416,10 @@ impl Checker<'_> {
             draft.label = format!("{} {}", draft.label, same + 1);
         }
     }
-
-    fn shared_pieces(
-        &mut self,
-        entry: &Entry<'_>,
-        context: &Context<'_>,
-        register: &mut Register,
-    ) -> Option<Vec<Piece>> {
-        let stated = entry.table.source.as_ref()?;
-        if entry.table.refused {
-            return None;
-        }
-        let names: Vec<String> = register
-            .sources
-            .iter()
-            .map(|source| source.name.clone())
-            .collect();
-        let Some(source) = register
-            .sources
-            .iter_mut()
-            .find(|source| source.name == stated.value)
-        else {
-            let help = match nearest(&stated.value, names.iter().map(String::as_str)) {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!(
-                    "declare it: [source.{}]; where a number comes from is `source_text`",
-                    stated.value
-                ),
-            };
-            return self.refuse(
-                Fault::new(
-                    UNKNOWN_NAME,
-                    stated.span.clone(),
-                    format!("there is no source \"{}\"", stated.value),
-                )
-                .label("not declared")
-                .help(help),
-            );
-        };
-        source.used = true;
-        let (unit, components) = (source.unit.clone()?, source.components.clone());
-        let coefficient = self.coefficient(entry, context, &unit)?;
-        Some(
-            components
-                .into_iter()
-                .map(|component| Piece::Shared {
-                    component,
-                    coefficient,
-                })
-                .collect(),
-        )
-    }
-
-    /// Change of the input per unit of the source.
-    fn coefficient(
-        &mut self,
-        entry: &Entry<'_>,
-        context: &Context<'_>,
-        source: &Unit,
-    ) -> Option<f64> {
-        let relative = entry
-            .table
-            .relative
-            .as_ref()
-            .is_some_and(|stated| stated.value);
-        let whole = if relative {
-            context.value.unwrap_or(0.0)
-        } else {
-            1.0
-        };
-        let target = if relative {
-            Unit::one()
-        } else {
-            context.unit.difference()
-        };
-        let (number, unit, place) = match &entry.table.sensitivity {
-            Some(sensitivity) => match &sensitivity.value.unit {
-                None => return Some(whole * sensitivity.value.number),
-                Some((text, span)) => {
-                    let text = Stated {
-                        value: text.clone(),
-                        span: span.clone(),
-                        key: span.clone(),
-                    };
-                    (
-                        sensitivity.value.number,
-                        self.unit(&Some(text))?.product(source),
-                        span.clone(),
-                    )
-                }
-            },
-            None => (1.0, source.difference(), entry.place.clone()),
-        };
-        match unit.conversion_to(&target) {
-            Some(conversion) => Some(whole * number * conversion.factor),
-            None => self.refuse(
-                Fault::new(
-                    UNIT_CLASH,
-                    place,
-                    format!(
-                        "the source acts in {}, {} is in {}",
-                        unit.symbol, context.owner, target.symbol
-                    ),
-                )
-                .label("units do not fit")
-                .help(format!(
-                    "add the sensitivity: sensitivity = \"… ({})/({})\"",
-                    target.symbol, source.symbol
-                )),
-            ),
-        }
-    }
-
-    fn vector(
-        &mut self,
-        name: &str,
-        stated: &Stated<InputTable>,
-        unit: &Unit,
-        values: &[f64],
-        register: &mut Register,
-        start: usize,
-    ) -> Option<()> {
-        let table = &stated.value;
-        if let (Some(value), Some(values)) = (&table.value, &table.values) {
-            return self.refuse(
-                Fault::new(
-                    VECTOR,
-                    values.key.clone(),
-                    format!("{name} has `value` and `values`"),
-                )
-                .label("values of a vector")
-                .related(value.key.clone(), "value of a scalar")
-                .help("leave out one"),
-            );
-        }
-        if values.is_empty() {
-            let place = table
-                .values
-                .as_ref()
-                .map_or(stated.span.clone(), |values| values.span.clone());
-            return self.refuse(
-                Fault::new(VECTOR, place, format!("{name} has no values")).label("an empty vector"),
-            );
-        }
-        let list = self.entries_of(name, stated, unit, register)?;
-        for (place, value) in (start..).zip(values) {
-            if let Some(input) = register.inputs.get_mut(place) {
-                input.estimate = *value;
-            }
-        }
-        let alone = list.len() == 1;
-        let mut complete = true;
-        let mut labels: Vec<String> = Vec::new();
-        for entry in &list {
-            let done = self.vector_component(
-                name,
-                entry,
-                unit,
-                values,
-                register,
-                start,
-                alone,
-                &mut labels,
-            );
-            complete &= done.is_some();
-        }
-        complete.then_some(())
-    }
-
-    #[allow(clippy::too_many_arguments)]
-    fn vector_component(
-        &mut self,
-        name: &str,
-        entry: &Entry<'_>,
-        unit: &Unit,
-        values: &[f64],
-        register: &mut Register,
-        start: usize,
-        alone: bool,
-        labels: &mut Vec<String>,
-    ) -> Option<()> {
-        if entry.way == Way::Source {
-            for (place, value) in (start..).zip(values) {
-                let context = Context {
-                    owner: name,
-                    value: Some(*value),
-                    unit,
-                    place: entry.place.clone(),
-                };
-                for piece in self.shared_pieces(entry, &context, register)? {
-                    if let Piece::Shared {
-                        component,
-                        coefficient,
-                    } = piece
-                    {
-                        register.act(place, component, coefficient);
-                    }
-                }
-            }
-            return Some(());
-        }
-        if locates(entry.way) && !single(entry.table) && entry.way != Way::Distribution {
-            return self.refuse(
-                Fault::new(
-                    VECTOR,
-                    entry.place.clone(),
-                    format!("this component would state one estimate for all elements of {name}"),
-                )
-                .label("not for a vector")
-                .help(
-                    "state a deviation: `u`, `half_width`, `step`, readings with of = \"single\" …",
-                ),
-            );
-        }
-        let relative = self.acts_in_proportion(entry, unit);
-        let common = entry
-            .table
-            .common
-            .as_ref()
-            .is_some_and(|stated| stated.value);
-        let mut first: Option<(usize, f64)> = None;
-        let mut label = None;
-        for (element, value) in values.iter().enumerate() {
-            // A fraction of zero is zero: this element has no such doubt.
-            if relative && *value == 0.0 {
-                continue;
-            }
-            let context = Context {
-                owner: name,
-                value: Some(*value),
-                unit,
-                place: entry.place.clone(),
-            };
-            let mut draft = self.draft(entry.table, entry.way, &context)?;
-            if !matches!(draft.location, Location::None | Location::Mean(_)) {
-                return self.refuse(
-                    Fault::new(
-                        VECTOR,
-                        entry.place.clone(),
-                        format!("this component would move the elements of {name}"),
-                    )
-                    .label("only symmetric deviations for a vector"),
-                );
-            }
-            let label = label.get_or_insert_with(|| another(labels, &draft.label));
-            draft.label.clone_from(label);
-            let (component, coefficient) = match first {
-                Some((component, u)) if common => (component, draft.u / u),
-                _ => {
-                    let owner_name = if common {
-                        name.to_string()
-                    } else {
-                        element_name(name, element)
-                    };
-                    let u = draft.u * if relative { value.signum() } else { 1.0 };
-                    let component = register.add(
-                        Owner::Input(start + element),
-                        &owner_name,
-                        unit,
-                        draft,
-                        alone,
-                    );
-                    first = Some((component, u));
-                    register.act(start + element, component, 1.0);
-                    continue;
-                }
-            };
-            let sign = if relative { value.signum() } else { 1.0 };
-            register.act(start + element, component, sign * coefficient);
-        }
-        Some(())
-    }
-
-    /// Whether the component is a fraction of the value alone.
-    fn acts_in_proportion(&mut self, entry: &Entry<'_>, unit: &Unit) -> bool {
-        let table = entry.table;
-        let stated = table.relative.as_ref().is_some_and(|stated| stated.value);
-        let certificate = table
-            .certificate
-            .as_ref()
-            .and_then(|certificate| certificate.value.U.as_ref());
-        let amount = table
-            .u
-            .as_ref()
-            .or(table.half_width.as_ref())
-            .or(certificate);
-        let of_dimension_one = amount
-            .and_then(|amount| amount.value.unit.as_ref())
-            .and_then(|(text, _)| self.units.parse(text).ok())
-            .is_some_and(|own| own.dimension == Unit::one().dimension);
-        stated || (of_dimension_one && unit.dimension != Unit::one().dimension)
-    }
 }
 
 /// Whether readings only say how the value scatters.
-fn single(table: &ComponentTable) -> bool {
+pub(super) fn single(table: &ComponentTable) -> bool {
     table
         .of
         .as_ref()
@@ -871,23 +427,8 @@ fn single(table: &ComponentTable) -> bool {
 }
 
 /// `U[3]`, counted from 1.
-fn element_name(name: &str, element: usize) -> String {
+pub(super) fn element_name(name: &str, element: usize) -> String {
     format!("{name}[{}]", element + 1)
-}
-
-/// A label that no other component of the vector has.
-fn another(labels: &mut Vec<String>, label: &str) -> String {
-    let same = labels
-        .iter()
-        .filter(|other| other.starts_with(label))
-        .count();
-    let label = if same == 0 {
-        label.to_string()
-    } else {
-        format!("{label} {}", same + 1)
-    };
-    labels.push(label.clone());
-    label
 }
 
 fn blank(name: &str, table: &InputTable, unit: Option<&Unit>, element: Option<usize>) -> Input {

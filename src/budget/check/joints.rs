@@ -3,8 +3,9 @@
 use nalgebra::DMatrix;
 
 use super::Checker;
-use super::correlations::{Statement, smallest_eigenvalue};
+use super::correlations::Statement;
 use super::draft::{Draft, Kind, Location, show};
+use super::groups::smallest_eigenvalue;
 use super::register::Register;
 use super::type_a::{mean_and_squares, student};
 use crate::budget::faults::{
@@ -12,7 +13,7 @@ use crate::budget::faults::{
 };
 use crate::budget::table::Stated;
 use crate::budget::tables::{FileTable, JointTable};
-use crate::budget::{Evaluation, Group, Owner};
+use crate::budget::{Evaluation, Group, Owner, TScale};
 use crate::fault::{Fault, nearest};
 
 type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
@@ -266,6 +267,7 @@ impl Checker<'_> {
             let unit = input.unit.clone();
             let draft = Draft {
                 label: "covariance matrix".into(),
+                named: None,
                 distribution: self.t_or_normal(*u, dof, &stated.span)?,
                 u: *u,
                 dof,
@@ -425,10 +427,8 @@ impl Checker<'_> {
         for ((index, (_, squares)), (_, name)) in members.iter().zip(&sums).zip(inputs) {
             let mean_u = (squares / (n * (n - 1.0))).sqrt();
             let scale = match self.t_scale() {
-                crate::budget::TScale::Scale => (squares / (n * dof)).sqrt(),
-                crate::budget::TScale::StandardDeviation => {
-                    self.t_scale_of(mean_u, dof, &stated.span)?
-                }
+                TScale::Scale => (squares / (n * dof)).sqrt(),
+                TScale::StandardDeviation => self.t_scale_of(mean_u, dof, &stated.span)?,
             };
             let component = register.components.get_mut(*index)?;
             if (component.u - mean_u).abs() > 1e-9 * mean_u {

@@ -4,23 +4,30 @@
 //! once. What depends on a refused part is left out silently: it would only repeat the first fault.
 
 mod amounts;
+mod certificates;
 mod claims;
+mod constants;
 mod conventions;
 mod correlations;
 mod csv;
 mod draft;
 mod formulas;
 mod given;
+mod groups;
 mod inputs;
 mod joints;
 mod names;
 mod register;
 mod resolution;
 mod series;
+mod shapes;
+mod sources;
+mod specification;
 #[cfg(test)]
 mod tests;
 mod type_a;
 mod type_b;
+mod vectors;
 mod ways;
 
 use std::path::Path;

@@ -590,3 +590,29 @@ fn the_schema_knows_every_key() {
         "{rows:#?}"
     );
 }
+
+#[test]
+fn an_expanded_uncertainty_is_not_taken_for_a_standard_one() {
+    let rejection = refused(&one("value = 1\nU = 0.4"));
+    assert!(
+        rejection.faults[0]
+            .help
+            .as_ref()
+            .unwrap()
+            .contains("certificate = {")
+    );
+}
+
+#[test]
+fn components_have_different_names() {
+    let text = one("value = 1\ncomponents = [{ name = \"a\", u = 1 }, { name = \"a\", u = 2 }]");
+    assert_eq!(faults(&text), [("B0115", "\"a\"".into())]);
+    let text = one("value = 1\ncomponents = [{ u = 1 }, { u = 2 }]");
+    assert_eq!(budget(&text).components[1].label, "standard uncertainty 2");
+}
+
+#[test]
+fn a_misspelt_unit_is_reported_once() {
+    let text = one("value = 1\nu = 1").replace("[input.X]\nunit", "[input.X]\nunti");
+    assert_eq!(faults(&text), [("B0104", "unti".into())]);
+}

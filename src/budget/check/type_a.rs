@@ -45,7 +45,7 @@ impl Checker<'_> {
             .as_ref()
             .is_some_and(|stated| stated.value)
         {
-            return self.autocorrelated(&numbers, of, readings, table, context);
+            return self.autocorrelated(&numbers, of, readings, table);
         }
         let n = numbers.len() as f64;
         let (mean, squares) = mean_and_squares(&numbers);
@@ -166,7 +166,6 @@ impl Checker<'_> {
         of: ReadingsOf,
         readings: &Stated<Numbers>,
         table: &ComponentTable,
-        context: &Context<'_>,
     ) -> Option<Core> {
         if of != ReadingsOf::Mean {
             let place = table

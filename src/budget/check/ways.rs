@@ -325,6 +325,7 @@ impl Checker<'_> {
         let name = table.name.as_ref().map(|name| name.value.clone());
         Some(Draft {
             label: name.unwrap_or_else(|| label(way).to_string()),
+            named: table.name.as_ref().map(|name| name.span.clone()),
             distribution: core.distribution,
             u: core.u,
             dof: core.dof,

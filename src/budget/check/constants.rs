@@ -1,0 +1,45 @@
+//! `[constant]`: exactly known quantities.
+
+use super::{Checker, entries};
+use crate::budget::Constant;
+use crate::budget::faults::NO_ESTIMATE;
+use crate::budget::tables::FileTable;
+use crate::fault::Fault;
+use crate::quantity::Unit;
+
+impl Checker<'_> {
+    /// Reads `[constant]`.
+    pub(super) fn constants(&mut self, file: &FileTable) -> Vec<Constant> {
+        let mut constants = Vec::new();
+        for (name, stated) in entries(&file.constant) {
+            let table = &stated.value.0;
+            let unit = self.unit(&table.unit);
+            let values = match (&table.value, &table.values) {
+                (Some(value), None) => unit
+                    .as_ref()
+                    .and_then(|unit| self.quantity(value, unit, name))
+                    .map(|value| vec![value]),
+                (None, Some(values)) if !values.value.is_empty() => {
+                    Some(values.value.iter().map(|value| value.value).collect())
+                }
+                _ if table.refused => None,
+                _ => self.refuse(
+                    Fault::new(
+                        NO_ESTIMATE,
+                        stated.span.clone(),
+                        format!("the constant {name} has no value"),
+                    )
+                    .label("state `value`, or `values` for a vector"),
+                ),
+            };
+            constants.push(Constant {
+                name: name.clone(),
+                values: values.unwrap_or_else(|| vec![f64::NAN]),
+                unit: unit.unwrap_or_else(Unit::one),
+                description: table.description.as_ref().map(|text| text.value.clone()),
+                source: table.source.as_ref().map(|text| text.value.clone()),
+            });
+        }
+        constants
+    }
+}

@@ -1,0 +1,241 @@
+//! Shared sources: one cause of error that acts on several inputs.
+
+use super::Checker;
+use super::draft::{Context, Draft, Location, show};
+use super::inputs::{Entry, Piece};
+use super::register::{Register, SourceEntry};
+use super::ways::Way;
+use crate::budget::Owner;
+use crate::budget::faults::{TWO_ESTIMATES, UNIT_CLASH, UNKNOWN_NAME, UNUSED, VECTOR};
+use crate::budget::table::Stated;
+use crate::budget::tables::SourceTable;
+use crate::fault::{Fault, nearest};
+use crate::quantity::Unit;
+
+impl Checker<'_> {
+    /// Reads `[source.S]`.
+    pub(super) fn sources(
+        &mut self,
+        sources: &[(String, Stated<SourceTable>)],
+        register: &mut Register,
+    ) {
+        for (name, stated) in sources {
+            let table = &stated.value;
+            let unit = self.unit(&table.unit);
+            let mut entry = SourceEntry {
+                name: name.clone(),
+                unit: unit.clone(),
+                components: Vec::new(),
+                used: false,
+            };
+            if let Some(unit) = unit {
+                let drafts = self.source_drafts(name, stated, &unit);
+                register.incomplete |= drafts.is_none();
+                let drafts = drafts.unwrap_or_default();
+                let alone = drafts.len() == 1;
+                for draft in drafts {
+                    let owner = Owner::Source(name.clone());
+                    entry
+                        .components
+                        .push(register.add(owner, name, &unit, draft, alone));
+                }
+            }
+            register.sources.push(entry);
+        }
+    }
+
+    fn source_drafts(
+        &mut self,
+        name: &str,
+        stated: &Stated<SourceTable>,
+        unit: &Unit,
+    ) -> Option<Vec<Draft>> {
+        let table = &stated.value;
+        let list = self.ways(
+            name,
+            &table.components,
+            &table.component,
+            &stated.span,
+            unit,
+        )?;
+        let mut drafts = Vec::new();
+        for entry in list {
+            let context = Context {
+                owner: name,
+                value: None,
+                unit,
+                place: entry.place.clone(),
+            };
+            if entry.way == Way::Source {
+                return self.refuse(
+                    Fault::new(
+                        VECTOR,
+                        entry.place,
+                        format!("the source {name} refers to another source"),
+                    )
+                    .label("a source states its own uncertainty"),
+                );
+            }
+            let draft = self.draft(entry.table, entry.way, &context)?;
+            let moved = match draft.location {
+                Location::None | Location::Mean(_) => 0.0,
+                Location::Shift(shift) => shift,
+                Location::Expectation(mean)
+                | Location::Between {
+                    expectation: mean, ..
+                } => mean,
+            };
+            if moved.abs() > 1e-9 * draft.u {
+                return self.refuse(
+                    Fault::new(
+                        TWO_ESTIMATES,
+                        entry.place,
+                        format!(
+                            "the source {name} has the expectation {}, not 0",
+                            show(moved)
+                        ),
+                    )
+                    .label("a source is an error about zero")
+                    .help(
+                        "correct the inputs for the known part, and state limits about zero here",
+                    ),
+                );
+            }
+            drafts.push(draft);
+        }
+        self.label_uniquely(name, &mut drafts);
+        Some(drafts)
+    }
+
+    /// Reports sources that no input refers to.
+    pub(super) fn unused_sources(
+        &mut self,
+        sources: &[(String, Stated<SourceTable>)],
+        register: &Register,
+    ) {
+        for (name, stated) in sources {
+            if register
+                .sources
+                .iter()
+                .any(|source| source.name == *name && !source.used)
+            {
+                self.faults.push(
+                    Fault::new(UNUSED, stated.key.clone(), format!("no input refers to the source {name}"))
+                        .label("not used")
+                        .help(format!("add source = \"{name}\" to the components of the inputs that it acts on, or remove it")),
+                );
+            }
+        }
+    }
+
+    pub(super) fn shared_pieces(
+        &mut self,
+        entry: &Entry<'_>,
+        context: &Context<'_>,
+        register: &mut Register,
+    ) -> Option<Vec<Piece>> {
+        let stated = entry.table.source.as_ref()?;
+        if entry.table.refused {
+            return None;
+        }
+        let names: Vec<String> = register
+            .sources
+            .iter()
+            .map(|source| source.name.clone())
+            .collect();
+        let Some(source) = register
+            .sources
+            .iter_mut()
+            .find(|source| source.name == stated.value)
+        else {
+            let help = match nearest(&stated.value, names.iter().map(String::as_str)) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!(
+                    "declare it: [source.{}]; where a number comes from is `source_text`",
+                    stated.value
+                ),
+            };
+            return self.refuse(
+                Fault::new(
+                    UNKNOWN_NAME,
+                    stated.span.clone(),
+                    format!("there is no source \"{}\"", stated.value),
+                )
+                .label("not declared")
+                .help(help),
+            );
+        };
+        source.used = true;
+        let (unit, components) = (source.unit.clone()?, source.components.clone());
+        let coefficient = self.coefficient(entry, context, &unit)?;
+        Some(
+            components
+                .into_iter()
+                .map(|component| Piece::Shared {
+                    component,
+                    coefficient,
+                })
+                .collect(),
+        )
+    }
+
+    /// Change of the input per unit of the source.
+    fn coefficient(
+        &mut self,
+        entry: &Entry<'_>,
+        context: &Context<'_>,
+        source: &Unit,
+    ) -> Option<f64> {
+        let relative = entry
+            .table
+            .relative
+            .as_ref()
+            .is_some_and(|stated| stated.value);
+        let whole = if relative {
+            context.value.unwrap_or(0.0)
+        } else {
+            1.0
+        };
+        let target = if relative {
+            Unit::one()
+        } else {
+            context.unit.difference()
+        };
+        let (number, unit, place) = match &entry.table.sensitivity {
+            Some(sensitivity) => match &sensitivity.value.unit {
+                None => return Some(whole * sensitivity.value.number),
+                Some((text, span)) => {
+                    let text = Stated {
+                        value: text.clone(),
+                        span: span.clone(),
+                        key: span.clone(),
+                    };
+                    (
+                        sensitivity.value.number,
+                        self.unit(&Some(text))?.product(source),
+                        span.clone(),
+                    )
+                }
+            },
+            None => (1.0, source.difference(), entry.place.clone()),
+        };
+        match unit.conversion_to(&target) {
+            Some(conversion) => Some(whole * number * conversion.factor),
+            None => self.refuse(
+                Fault::new(
+                    UNIT_CLASH,
+                    place,
+                    format!(
+                        "the source acts in {}, {} is in {}",
+                        unit.symbol, context.owner, target.symbol
+                    ),
+                )
+                .label("units do not fit")
+                .help(format!(
+                    "add the sensitivity: sensitivity = \"… ({})/({})\"",
+                    target.symbol, source.symbol
+                )),
+            ),
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Accuracy specifications of instruments.
+
+use super::Checker;
+use super::draft::Context;
+use crate::budget::faults::{MISSING_KEY, NOT_POSITIVE, UNIT};
+use crate::budget::table::Stated;
+use crate::budget::tables::SpecificationTable;
+use crate::budget::values::Amount;
+use crate::fault::Fault;
+
+impl Checker<'_> {
+    pub(super) fn specification(
+        &mut self,
+        stated: &Stated<SpecificationTable>,
+        context: &Context<'_>,
+    ) -> Option<f64> {
+        let table = &stated.value;
+        if table.refused {
+            return None;
+        }
+        for (key, present, partner, other) in [
+            ("range", table.range.is_some(), "span", table.span.is_some()),
+            (
+                "counts",
+                table.counts.is_some(),
+                "step",
+                table.step.is_some(),
+            ),
+        ] {
+            if present != other {
+                let (has, lacks) = if present {
+                    (key, partner)
+                } else {
+                    (partner, key)
+                };
+                return self.refuse(
+                    Fault::new(
+                        MISSING_KEY,
+                        stated.span.clone(),
+                        format!("the specification has `{has}` and not `{lacks}`"),
+                    )
+                    .label(format!("`{lacks}` is missing")),
+                );
+            }
+        }
+        let reading = match &table.reading {
+            Some(part) => self.part(part, "reading", context.value.map(f64::abs), context)?,
+            None => 0.0,
+        };
+        let range = match (&table.range, &table.span) {
+            (Some(part), Some(span)) => {
+                let span = self.positive_deviation(span, "span", context, false)?;
+                self.part(part, "range", Some(span), context)?
+            }
+            _ => 0.0,
+        };
+        let counts = match (&table.counts, &table.step) {
+            (Some(counts), Some(step)) => {
+                self.positive(counts, "counts")?
+                    * self.positive_deviation(step, "step", context, false)?
+            }
+            _ => 0.0,
+        };
+        let fixed = match &table.fixed {
+            Some(fixed) => self.positive_deviation(fixed, "fixed", context, false)?,
+            None => 0.0,
+        };
+        let a = reading + range + counts + fixed;
+        if a > 0.0 {
+            return Some(a);
+        }
+        self.refuse(
+            Fault::new(
+                NOT_POSITIVE,
+                stated.span.clone(),
+                format!("the specification of {} allows no deviation", context.owner),
+            )
+            .label("all parts are zero"),
+        )
+    }
+
+    /// A stated fraction of the reading or of the range.
+    fn part(
+        &mut self,
+        amount: &Stated<Amount>,
+        key: &str,
+        whole: Option<f64>,
+        context: &Context<'_>,
+    ) -> Option<f64> {
+        if amount.value.unit.is_none() {
+            return self.refuse(
+                Fault::new(
+                    UNIT,
+                    amount.span.clone(),
+                    format!("`{key}` does not say whether it is a fraction or a percentage"),
+                )
+                .label("a unit is missing")
+                .help(format!(
+                    "write {key} = \"{} %\" or \"{} ppm\"",
+                    amount.value.number, amount.value.number
+                )),
+            );
+        }
+        // The part is relative to `whole`, whatever the unit of the input.
+        let of_whole = Context {
+            value: whole,
+            ..context.clone()
+        };
+        if amount.value.number == 0.0 || whole == Some(0.0) {
+            return Some(0.0);
+        }
+        self.positive_deviation(amount, key, &of_whole, true)
+    }
+}

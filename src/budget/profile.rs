@@ -1,6 +1,6 @@
 //! Profiles: the conventions on which guides differ.
 
-use super::{Conventions, CoverageRule, TScale};
+use super::{Conventions, CoverageRule, DofRule, OutputShape, TScale};
 use crate::quantity::Rounding;
 
 /// A named set of conventions.
@@ -41,6 +41,8 @@ impl Profile {
             up_if_lowered_by_5_percent: self.up_if_lowered_by_5_percent,
             t_scale: self.t_scale,
             state_probability: self.state_probability,
+            output_shape: OutputShape::default(),
+            degrees_of_freedom: DofRule::default(),
         }
     }
 }

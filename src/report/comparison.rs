@@ -5,7 +5,7 @@ use crate::propagate::{Coverage, CoverageBasis, MeasurandResult, Run, Validation
 use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{
-    NONE, TABLE_DIGITS, aligned, exact, freedom, grouped, probability, significant,
+    NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, grouped, print, probability, significant,
 };
 use super::remarks::tolerance;
 use super::table::{Cell, ColumnKind, Table};
@@ -134,8 +134,8 @@ fn table(report: &Report<'_>, measurand: usize, result: &MeasurandResult) -> Tab
         if let (Some(skewness), Some(kurtosis)) = (mc.skewness, mc.excess_kurtosis) {
             let text = format!(
                 "{}, {}",
-                aligned(skewness, 0.1, 1),
-                aligned(kurtosis, 0.1, 1)
+                print(&at_place(skewness, -2)),
+                print(&at_place(kurtosis, -2))
             );
             let label = [l.word(Word::Skewness), l.word(Word::Kurtosis)].join(l.pick(", ", "、"));
             row(label, String::new(), Some(text));

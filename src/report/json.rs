@@ -9,7 +9,8 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use crate::budget::{
-    Adaptive, Claim, Component, CoverageRule, Evaluation as Kind, Input, Law, Owner, TScale,
+    Adaptive, Claim, Component, CoverageRule, DofRule, Evaluation as Kind, Input, Law, OutputShape,
+    Owner, TScale,
 };
 use crate::propagate::{
     Basis, Contribution, Coverage, CoverageBasis, Freedom, Gum, JointResult, MeasurandResult,
@@ -140,6 +141,10 @@ record! {
         coverage_factor_from: &'a str,
         /// The fixed k.
         coverage_factor: Option<Number>,
+        /// What k from the output takes for its distribution: convolution, dominant-alone.
+        output_shape: &'a str,
+        /// How effective degrees of freedom enter t: truncated, real.
+        degrees_of_freedom: &'a str,
         /// Rounding of printed figures: half-even, half-up, up.
         rounding: &'a str,
         /// Significant digits of U in statements.
@@ -644,6 +649,14 @@ fn conventions(c: &crate::budget::Conventions) -> Conventions<'_> {
         coverage_factor: match c.coverage_factor {
             CoverageRule::Fixed(k) => Some(Number(k)),
             _ => None,
+        },
+        output_shape: match c.output_shape {
+            OutputShape::Convolution => "convolution",
+            OutputShape::DominantAlone => "dominant-alone",
+        },
+        degrees_of_freedom: match c.degrees_of_freedom {
+            DofRule::Truncated => "truncated",
+            DofRule::Real => "real",
         },
         rounding: match c.rounding {
             Rounding::HalfEven => "half-even",

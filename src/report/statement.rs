@@ -280,11 +280,11 @@ impl<'a> Subject<'a> {
         let name = self.name;
         match (monte_carlo.u, self.language) {
             (Some(_), Language::English) => format!(
-                "{name}: estimate {value}, standard uncertainty u = {u}, {which} {p} coverage interval from {low} to {high}. These figures were found by the Monte Carlo method with {trials} trials, because the distribution of the result is not one for which an estimate with a symmetric expanded uncertainty would be right.",
+                "{name}: estimate {value}, standard uncertainty u = {u}, {which} {p} coverage interval from {low} to {high}. These figures were found by the Monte Carlo method (JCGM 101) with {trials} trials, against which the result of the GUM method could not be validated.",
                 u = self.amount(&pair.uncertainty),
             ),
             (Some(_), Language::Chinese) => format!(
-                "{name}：估计值 {value}，标准不确定度 u = {u}，包含概率 {p} 的{which}包含区间为 {low} 至 {high}。以上结果由蒙特卡洛法（{trials} 次试验）得到，因为该输出量的分布不适合用估计值加对称的扩展不确定度表示。",
+                "{name}：估计值 {value}，标准不确定度 u = {u}，包含概率 {p} 的{which}包含区间为 {low} 至 {high}。以上结果由蒙特卡洛法（JJF 1059.2，{trials} 次试验）得到，GUM 法的结果未通过其验证。",
                 u = self.amount(&pair.uncertainty),
             ),
             (None, Language::English) => format!(
@@ -343,7 +343,8 @@ fn two_decimals(k: f64) -> String {
 /// The Chinese name of a shape that [`CoverageBasis::Output`] names in English.
 pub(super) fn shape_in_chinese(shape: &str) -> String {
     let known = KINDS.iter().find(|k| k.name_en == shape || k.key == shape);
-    known.map_or_else(|| shape.to_string(), |k| k.name_zh.to_string())
+    let chinese = known.and_then(|k| k.name_zh.split('(').next());
+    chinese.unwrap_or(shape).to_string()
 }
 
 fn with_unit(number: &str, unit: &str) -> String {

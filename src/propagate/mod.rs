@@ -2,6 +2,7 @@
 //!
 //! [`evaluate`] gives one [`Evaluation`], from which every renderer of [`crate::report`] draws.
 
+mod claims;
 mod covariance;
 mod coverage;
 mod findings;
@@ -12,6 +13,8 @@ mod monte_carlo;
 mod second_order;
 mod shape;
 mod validation;
+
+pub use claims::{Comparison, Method, compare_claims};
 
 use nalgebra::DMatrix;
 

@@ -1,6 +1,7 @@
 //! What a certificate claims beside what the evaluation gives.
 
-use crate::budget::Claim;
+use crate::budget::{Claim, Figure, Part};
+use crate::propagate::{Comparison, Method, compare_claims};
 use crate::quantity::Decimal;
 
 use super::Report;
@@ -9,256 +10,161 @@ use super::language::{Language, Word};
 use super::number::{NONE, at_place, exact, print, significant};
 use super::table::{Cell, ColumnKind, Row, Table};
 
-/// One claimed figure against one obtained figure.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Comparison {
-    /// `value`, `u`, `U`, `k`, `dof`, `p`, `low`, `high`.
-    pub(super) figure: Figure,
-    pub(super) method: Method,
-    pub(super) claimed: f64,
-    pub(super) obtained: Option<f64>,
-}
-
-/// What is compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Figure {
-    Value,
-    StandardUncertainty,
-    Expanded,
-    CoverageFactor,
-    DegreesOfFreedom,
-    IntervalLow,
-    IntervalHigh,
-}
-
-/// Which method gave the obtained figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Method {
-    Gum,
-    MonteCarlo,
-}
-
-impl Figure {
-    /// Stable name for machines.
-    pub(super) fn code(self) -> &'static str {
-        match self {
-            Figure::Value => "value",
-            Figure::StandardUncertainty => "standard_uncertainty",
-            Figure::Expanded => "expanded_uncertainty",
-            Figure::CoverageFactor => "coverage_factor",
-            Figure::DegreesOfFreedom => "effective_degrees_of_freedom",
-            Figure::IntervalLow => "interval_low",
-            Figure::IntervalHigh => "interval_high",
-        }
-    }
-
-    fn label(self, language: Language) -> &'static str {
-        match self {
-            Figure::Value => language.word(Word::Estimate),
-            Figure::StandardUncertainty => language.word(Word::StandardUncertainty),
-            Figure::Expanded => language.word(Word::ExpandedUncertainty),
-            Figure::CoverageFactor => language.word(Word::CoverageFactor),
-            Figure::DegreesOfFreedom => language.word(Word::FreedomEffective),
-            Figure::IntervalLow => language.pick("interval, lower end", "包含区间下限"),
-            Figure::IntervalHigh => language.pick("interval, upper end", "包含区间上限"),
-        }
+/// Stable name of a figure for machines.
+pub(super) fn code(what: &Figure) -> &'static str {
+    match what {
+        Figure::Estimate => "value",
+        Figure::StandardUncertainty => "standard_uncertainty",
+        Figure::ExpandedUncertainty => "expanded_uncertainty",
+        Figure::CoverageFactor => "coverage_factor",
+        Figure::DegreesOfFreedom => "effective_degrees_of_freedom",
+        Figure::CoverageProbability => "coverage_probability",
+        Figure::Lower => "interval_low",
+        Figure::Upper => "interval_high",
+        Figure::ShortestLower => "shortest_low",
+        Figure::ShortestUpper => "shortest_high",
+        Figure::Shift => "shift",
+        Figure::Correlation(_) => "correlation",
+        Figure::Ellipsoid => "region_ellipsoid",
+        Figure::Rectangle => "region_rectangle",
+        Figure::RegionFreedom => "region_degrees_of_freedom",
+        Figure::Validated(1) => "validated_1",
+        Figure::Validated(_) => "validated_2",
+        Figure::Input(_, part) | Figure::Component(_, part) => match part {
+            Part::Estimate => "input_value",
+            Part::StandardUncertainty => "input_standard_uncertainty",
+            Part::DegreesOfFreedom => "input_degrees_of_freedom",
+            Part::Sensitivity => "input_sensitivity",
+            Part::Contribution => "input_contribution",
+        },
     }
 }
 
-impl Method {
-    /// Stable name for machines.
-    pub(super) fn code(self) -> &'static str {
-        match self {
-            Method::Gum => "gum",
-            Method::MonteCarlo => "monte_carlo",
-        }
-    }
-
-    fn label(self, language: Language) -> &'static str {
-        match self {
-            Method::Gum => language.word(Word::Gum),
-            Method::MonteCarlo => language.word(Word::MonteCarlo),
-        }
+/// The input, component or other measurand that a figure is about, if it is about one.
+pub(super) fn subject<'a>(report: &Report<'a>, what: &Figure) -> Option<&'a str> {
+    let budget = report.budget;
+    match what {
+        Figure::Input(index, _) => budget.inputs.get(*index).map(|input| input.name.as_str()),
+        Figure::Component(index, _) => budget.components.get(*index).map(|c| c.name.as_str()),
+        Figure::Correlation(with) => budget.measurands.get(*with).map(|m| m.name.as_str()),
+        _ => None,
     }
 }
 
-impl Comparison {
-    /// Whether the obtained figure, rounded to the last digit that the claim states, is the claim.
-    pub(super) fn agrees(&self) -> Option<bool> {
-        self.last_digits().map(|n| n == 0.0)
+/// A figure in words.
+fn label(report: &Report<'_>, what: &Figure) -> String {
+    let l = report.language;
+    let plain = match what {
+        Figure::Estimate => l.word(Word::Estimate),
+        Figure::StandardUncertainty => l.word(Word::StandardUncertainty),
+        Figure::ExpandedUncertainty => l.word(Word::ExpandedUncertainty),
+        Figure::CoverageFactor => l.word(Word::CoverageFactor),
+        Figure::DegreesOfFreedom => l.word(Word::FreedomEffective),
+        Figure::CoverageProbability => l.pick("coverage probability", "包含概率"),
+        Figure::Lower => l.pick("interval, lower end", "包含区间下限"),
+        Figure::Upper => l.pick("interval, upper end", "包含区间上限"),
+        Figure::ShortestLower => l.pick("shortest interval, lower end", "最短包含区间下限"),
+        Figure::ShortestUpper => l.pick("shortest interval, upper end", "最短包含区间上限"),
+        Figure::Shift => l.pick("shift of the estimate", "估计值的偏移"),
+        Figure::Correlation(_) => l.pick("correlation with", "相关系数，与"),
+        Figure::Ellipsoid => l.pick("factor of the ellipsoid", "椭球包含因子"),
+        Figure::Rectangle => l.pick("factor of the rectangle", "矩形域包含因子"),
+        Figure::RegionFreedom => l.pick("ν of the covariance", "协方差的自由度"),
+        Figure::Validated(1) => l.pick("validated at 1 digit", "一位有效数字时验证通过"),
+        Figure::Validated(_) => l.pick("validated at 2 digits", "两位有效数字时验证通过"),
+        Figure::Input(_, part) | Figure::Component(_, part) => match part {
+            Part::Estimate => l.word(Word::Estimate),
+            Part::StandardUncertainty => "u",
+            Part::DegreesOfFreedom => "ν",
+            Part::Sensitivity => "c",
+            Part::Contribution => "|c|·u",
+        },
+    };
+    match subject(report, what) {
+        Some(name) if matches!(what, Figure::Correlation(_)) => format!("{plain} {name}"),
+        Some(name) => format!("{name}: {plain}"),
+        None => plain.to_string(),
     }
+}
 
-    /// Obtained minus claimed in units of the last digit that the claim states.
-    pub(super) fn last_digits(&self) -> Option<f64> {
-        let place = self.last_place()?;
-        let rounded = at_place(self.obtained.filter(|o| o.is_finite())?, place);
-        Some(
-            (rounded.shifted(-place).to_f64()
-                - Decimal::from_f64(self.claimed).shifted(-place).to_f64())
-            .round(),
-        )
+fn method(method: Method, language: Language) -> &'static str {
+    match method {
+        Method::Gum => language.word(Word::Gum),
+        Method::SecondOrder => language.pick("GUM, second order", "GUM 二阶"),
+        Method::MonteCarlo => language.word(Word::MonteCarlo),
     }
+}
 
-    /// Power of ten of the last digit that the claim states. k = 2 is meant as 2.00.
-    fn last_place(&self) -> Option<i32> {
-        let place = Decimal::from_f64(self.claimed).place()?;
-        Some(if self.figure == Figure::CoverageFactor {
-            place.min(-2)
+/// Power of ten of the last digit that the claim states.
+fn last_place(comparison: &Comparison) -> i32 {
+    let tolerance = comparison.claimed.tolerance;
+    if tolerance > 0.0 && tolerance.is_finite() {
+        (2.0 * tolerance).log10().floor() as i32
+    } else {
+        Decimal::from_f64(comparison.claimed.value).place().unwrap_or(0)
+    }
+}
+
+/// A claimed or obtained number in words.
+fn number(what: &Figure, value: f64, place: i32, language: Language) -> String {
+    if matches!(what, Figure::Validated(_)) {
+        return if value > 0.5 {
+            language.pick("yes", "是").to_string()
         } else {
-            place
-        })
-    }
-
-    /// Obtained divided by claimed.
-    pub(super) fn ratio(&self) -> Option<f64> {
-        self.obtained
-            .filter(|_| self.claimed != 0.0)
-            .map(|o| o / self.claimed)
-            .filter(|r| r.is_finite())
-    }
-
-    fn verdict(&self, language: Language) -> String {
-        let Some(last) = self.last_digits() else {
-            return NONE.to_string();
+            language.pick("no", "否").to_string()
         };
-        if last == 0.0 {
-            return language.pick("agrees", "一致").to_string();
-        }
-        /// Beyond this many units of the last digit the percentage says more.
-        const FEW: f64 = 9.0;
-        if last.abs() <= FEW {
-            let signed = if last > 0.0 {
-                format!("+{last}")
-            } else {
-                format!("{last}")
-            };
-            return language.pick(format!("differs by {signed}"), format!("相差 {signed}"));
-        }
-        match self.ratio() {
-            Some(ratio) if (0.5..2.0).contains(&ratio) => {
-                let percent = significant(100.0 * (ratio - 1.0), 2);
-                language.pick(
-                    format!("differs by {percent} %"),
-                    format!("相差 {percent} %"),
-                )
-            }
-            Some(ratio) => {
-                let times = significant(ratio, 3);
-                language.pick(
-                    format!("is {times} times the claim"),
-                    format!("为声称值的 {times} 倍"),
-                )
-            }
-            None => language.pick("differs", "不一致").to_string(),
-        }
+    }
+    let rounded = at_place(value, place);
+    if rounded.is_zero() && value != 0.0 {
+        significant(value, 3)
+    } else {
+        print(&rounded)
     }
 }
 
-/// Every figure of a claim against both methods.
-pub(super) fn compare(report: &Report<'_>, claim: &Claim) -> Vec<Comparison> {
-    let Some(result) = report.evaluation.results.get(claim.measurand) else {
-        return Vec::new();
-    };
-    let (gum, monte_carlo) = (&result.gum, result.monte_carlo.as_ref());
-    let mut comparisons = Vec::new();
-    let mut add =
-        |figure, claimed: Option<f64>, first: Option<f64>, trials: Option<Option<f64>>| {
-            let Some(claimed) = claimed else { return };
-            comparisons.push(Comparison {
-                figure,
-                method: Method::Gum,
-                claimed,
-                obtained: first,
-            });
-            if let Some(obtained) = trials {
-                comparisons.push(Comparison {
-                    figure,
-                    method: Method::MonteCarlo,
-                    claimed,
-                    obtained,
-                });
-            }
-        };
-    let half = gum.coverage.half_width_for_p;
-    let width = monte_carlo.map(|mc| (mc.symmetric[1] - mc.symmetric[0]) / 2.0);
-    add(
-        Figure::Value,
-        claim.value,
-        Some(gum.estimate),
-        monte_carlo.map(|mc| mc.estimate),
-    );
-    add(
-        Figure::StandardUncertainty,
-        claim.u,
-        Some(gum.u),
-        monte_carlo.map(|mc| mc.u),
-    );
-    // A claimed U with its own k is compared for that k: what differs is then u, not the convention.
-    let expanded = claim.k.map_or(gum.coverage.expanded, |k| k * gum.u);
-    let from_trials = match claim.k {
-        Some(k) => monte_carlo.map(|mc| mc.u.map(|u| k * u)),
-        None => width.map(Some),
-    };
-    add(
-        Figure::Expanded,
-        claim.expanded,
-        Some(expanded),
-        from_trials,
-    );
-    add(Figure::CoverageFactor, claim.k, Some(gum.coverage.k), None);
-    add(
-        Figure::DegreesOfFreedom,
-        claim.dof,
-        Some(gum.freedom.value()),
-        None,
-    );
-    let [low, high] = claim
-        .interval
-        .map_or([None, None], |[a, b]| [Some(a), Some(b)]);
-    add(
-        Figure::IntervalLow,
-        low,
-        Some(gum.estimate - half),
-        monte_carlo.map(|mc| Some(mc.symmetric[0])),
-    );
-    add(
-        Figure::IntervalHigh,
-        high,
-        Some(gum.estimate + half),
-        monte_carlo.map(|mc| Some(mc.symmetric[1])),
-    );
-    comparisons
+fn verdict(comparison: &Comparison, language: Language) -> String {
+    if comparison.obtained.is_none() {
+        return NONE.to_string();
+    }
+    if comparison.agrees() {
+        return language.pick("agrees", "一致").to_string();
+    }
+    match comparison.ratio() {
+        Some(ratio) if (0.5..2.0).contains(&ratio) => {
+            let percent = significant(100.0 * (ratio - 1.0), 2);
+            language.pick(format!("differs by {percent} %"), format!("相差 {percent} %"))
+        }
+        Some(ratio) => {
+            let times = significant(ratio, 3);
+            language.pick(format!("is {times} times the claim"), format!("为声称值的 {times} 倍"))
+        }
+        None => language.pick("differs", "不一致").to_string(),
+    }
 }
 
-/// Whether the claimed figures of a measurand agree with GUM, for a series table.
+/// Whether the claimed figures of a measurand agree, for a series table.
 pub(super) fn summary(report: &Report<'_>, measurand: usize) -> Option<String> {
-    let claims = report
-        .budget
-        .claims
-        .iter()
-        .filter(|c| c.measurand == measurand);
-    let all: Vec<Comparison> = claims
-        .flat_map(|c| compare(report, c))
-        .filter(|c| c.method == Method::Gum)
+    let all: Vec<Comparison> = compare_claims(report.budget, report.evaluation)
+        .into_iter()
+        .filter(|c| c.judged && of(report, c).is_some_and(|claim| claim.measurand == measurand))
         .collect();
     if all.is_empty() {
         return None;
     }
     let differing: Vec<String> = all
         .iter()
-        .filter(|c| c.agrees() != Some(true))
-        .map(|c| {
-            let ratio = c
-                .ratio()
-                .map_or_else(|| NONE.to_string(), |r| significant(r, 3));
-            format!("{} ×{ratio}", c.figure.label(report.language))
-        })
+        .filter(|c| !c.agrees())
+        .map(|c| format!("{}: {}", label(report, &c.claimed.what), verdict(c, report.language)))
         .collect();
     Some(if differing.is_empty() {
         report.language.pick("agrees", "一致").to_string()
     } else {
         differing.join(", ")
     })
+}
+
+fn of<'a>(report: &Report<'a>, comparison: &Comparison) -> Option<&'a Claim> {
+    report.budget.claims.get(comparison.claim)
 }
 
 /// The table of all claims.
@@ -270,12 +176,9 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
         (l.word(Word::Claimed), ColumnKind::Numbers),
         ("", ColumnKind::Words),
         (l.word(Word::Obtained), ColumnKind::Numbers),
-        (l.word(Word::Ratio), ColumnKind::Numbers),
-        (
-            l.pick("in the last digit claimed", "在声称值的末位上"),
-            ColumnKind::Wrapped,
-        ),
+        ("", ColumnKind::Wrapped),
     ]);
+    let comparisons = compare_claims(report.budget, report.evaluation);
     for (n, claim) in report.budget.claims.iter().enumerate() {
         if several {
             if n > 0 {
@@ -283,8 +186,10 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
             }
             table.rows.push(Row::Across(title(report, claim)));
         }
-        for comparison in compare(report, claim) {
-            push(&mut table, &comparison, l);
+        let mut before: Option<&Figure> = None;
+        for comparison in comparisons.iter().filter(|c| c.claim == n) {
+            push(report, &mut table, comparison, before);
+            before = Some(&comparison.claimed.what);
         }
     }
     if table.rows.is_empty() {
@@ -292,12 +197,7 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     }
     let mut blocks = vec![Block::Section(l.word(Word::Claim).to_string())];
     if let ([claim], false) = (report.budget.claims.as_slice(), several) {
-        let words: Vec<&str> = claim
-            .source
-            .iter()
-            .chain(&claim.note)
-            .map(String::as_str)
-            .collect();
+        let words: Vec<&str> = words(claim).collect();
         if !words.is_empty() {
             blocks.push(Block::Paragraph(words.join(l.pick("; ", "；"))));
         }
@@ -306,54 +206,38 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     blocks
 }
 
-fn title(report: &Report<'_>, claim: &Claim) -> String {
-    let name = report
-        .measurand(
-            claim
-                .measurand
-                .min(report.evaluation.results.len().saturating_sub(1)),
-        )
-        .0;
-    let words: Vec<&str> = std::iter::once(name)
-        .chain(claim.source.iter().chain(&claim.note).map(String::as_str))
-        .collect();
-    words.join(report.language.pick("; ", "；"))
+/// Who says so, and what else is to be known.
+fn words(claim: &Claim) -> impl Iterator<Item = &str> {
+    claim.reference.iter().chain(&claim.note).map(String::as_str)
 }
 
-fn push(table: &mut Table, comparison: &Comparison, language: Language) {
-    let repeated = comparison.method == Method::MonteCarlo;
-    let claimed: Cell = if repeated {
-        Cell::Empty
-    } else {
-        exact(comparison.claimed).into()
+fn title(report: &Report<'_>, claim: &Claim) -> String {
+    let last = report.evaluation.results.len().saturating_sub(1);
+    let name = report.measurand(claim.measurand.min(last)).0;
+    let all: Vec<&str> = std::iter::once(name).chain(words(claim)).collect();
+    all.join(report.language.pick("; ", "；"))
+}
+
+fn push(report: &Report<'_>, table: &mut Table, comparison: &Comparison, before: Option<&Figure>) {
+    let l = report.language;
+    let what = &comparison.claimed.what;
+    let repeated = before == Some(what);
+    let place = last_place(comparison);
+    let claimed: Cell = match what {
+        _ if repeated => Cell::Empty,
+        Figure::Validated(_) => number(what, comparison.claimed.value, place, l).into(),
+        _ => exact(comparison.claimed.value).into(),
     };
-    let label: Cell = if repeated {
-        Cell::Empty
-    } else {
-        comparison.figure.label(language).into()
-    };
+    let name: Cell = if repeated { Cell::Empty } else { label(report, what).into() };
     // Two digits beyond the claim's last show what rounding hides.
-    let obtained = comparison.obtained.map_or_else(
-        || NONE.to_string(),
-        |o| {
-            let place = comparison.last_place().unwrap_or(0);
-            let rounded = at_place(o, place - 2);
-            if rounded.is_zero() {
-                significant(o, 3)
-            } else {
-                print(&rounded)
-            }
-        },
-    );
-    let ratio = comparison
-        .ratio()
-        .map_or_else(|| NONE.to_string(), |r| significant(r, 4));
+    let obtained = comparison
+        .obtained
+        .map_or_else(|| NONE.to_string(), |value| number(what, value, place - 2, l));
     table.push(vec![
-        label,
+        name,
         claimed,
-        comparison.method.label(language).into(),
+        method(comparison.method, l).into(),
         obtained.into(),
-        ratio.into(),
-        comparison.verdict(language).into(),
+        verdict(comparison, l).into(),
     ]);
 }

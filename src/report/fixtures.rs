@@ -350,13 +350,23 @@ pub(super) fn resistor() -> Case {
         law: Law::Normal,
         dof: None,
     });
+    let figure = |what, value, tolerance| ClaimedFigure {
+        what,
+        value,
+        tolerance,
+    };
     budget.claims.push(Claim {
-        value: Some(9.9995),
-        expanded: Some(0.0019),
-        k: Some(2.0),
-        interval: Some([9.998, 10.001]),
-        source: Some("Certificate 17".to_string()),
-        ..Claim::default()
+        measurand: 0,
+        method: ClaimedMethod::Unstated,
+        figures: vec![
+            figure(Figure::Estimate, 9.9995, 0.00005),
+            figure(Figure::ExpandedUncertainty, 0.0019, 0.00005),
+            figure(Figure::CoverageFactor, 2.0, 0.005),
+            figure(Figure::Lower, 9.998, 0.0005),
+            figure(Figure::Upper, 10.001, 0.0005),
+        ],
+        reference: Some("Certificate 17".to_string()),
+        note: None,
     });
     budget.remarks.push(Remark {
         en: "The certificate V-2026-118 ends in three months.".to_string(),

@@ -479,32 +479,36 @@ record! {
     ClaimJson<'a> {
         /// Measurand.
         measurand: &'a str,
-        /// Source.
-        source: Option<&'a str>,
+        /// Who says so.
+        reference: Option<&'a str>,
         /// Note.
         note: Option<&'a str>,
-        /// Coverage probability that the claim states.
-        coverage_probability: Option<Number>,
         /// Claimed figures beside those obtained.
-        comparison: Vec<ComparisonJson>,
+        comparison: Vec<ComparisonJson<'a>>,
     }
 }
 
 record! {
     /// A claimed figure beside the obtained one.
-    ComparisonJson {
+    ComparisonJson<'a> {
         /// What is compared.
-        figure: String,
-        /// Method that gave the obtained figure: gum, monte_carlo.
-        method: String,
+        figure: &'static str,
+        /// The input, component or other measurand that the figure is about.
+        of: Option<&'a str>,
+        /// Method that gave the obtained figure: gum, second_order, monte_carlo.
+        method: &'static str,
         /// Claimed.
         claimed: Number,
+        /// Largest difference that agrees.
+        tolerance: Number,
         /// Obtained.
         obtained: Option<Number>,
         /// Obtained divided by claimed.
         ratio: Option<Number>,
-        /// Whether obtained, rounded to the last digit claimed, equals the claim.
-        agrees: Option<bool>,
+        /// Whether the claim is about this method; otherwise the figure is for information.
+        judged: bool,
+        /// Whether obtained differs from claimed by no more than the tolerance.
+        agrees: bool,
     }
 }
 
@@ -926,7 +930,7 @@ fn run(run: &Run) -> RunJson {
     }
 }
 
-fn claim_json<'a>(report: &Report<'a>, claim: &'a Claim) -> ClaimJson<'a> {
+fn claim_json<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> ClaimJson<'a> {
     ClaimJson {
         measurand: report
             .budget
@@ -934,17 +938,24 @@ fn claim_json<'a>(report: &Report<'a>, claim: &'a Claim) -> ClaimJson<'a> {
             .outputs()
             .get(claim.measurand)
             .map_or("", |o| o.name.as_str()),
-        source: claim.source.as_deref(),
+        reference: claim.reference.as_deref(),
         note: claim.note.as_deref(),
-        coverage_probability: claim.coverage_probability.map(Number),
-        comparison: claim::compare(report, claim)
+        comparison: compare_claims(report.budget, report.evaluation)
             .iter()
+            .filter(|c| c.claim == index)
             .map(|c| ComparisonJson {
-                figure: c.figure.code().to_string(),
-                method: c.method.code().to_string(),
-                claimed: number(c.claimed),
+                figure: claim::code(&c.claimed.what),
+                of: claim::subject(report, &c.claimed.what),
+                method: match c.method {
+                    Method::Gum => "gum",
+                    Method::SecondOrder => "second_order",
+                    Method::MonteCarlo => "monte_carlo",
+                },
+                claimed: number(c.claimed.value),
+                tolerance: number(c.claimed.tolerance),
                 obtained: c.obtained.map(Number),
                 ratio: c.ratio().map(Number),
+                judged: c.judged,
                 agrees: c.agrees(),
             })
             .collect(),

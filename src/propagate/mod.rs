@@ -11,6 +11,8 @@ mod joint;
 mod monte_carlo;
 mod second_order;
 mod shape;
+#[cfg(test)]
+mod tests;
 mod validation;
 
 use nalgebra::DMatrix;

@@ -1,3 +1,7 @@
 //! The command line: one file per subcommand under `cli/`, nothing but wiring.
 
-fn main() {}
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::run()
+}

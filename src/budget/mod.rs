@@ -8,7 +8,24 @@
 //!
 //! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
 
+mod check;
+mod distributions;
+pub mod faults;
+mod profile;
+mod reader;
+mod rejection;
+mod strings;
+mod table;
+mod tables;
+mod values;
+mod variants;
+
 use nalgebra::DMatrix;
+
+pub use profile::{PROFILES, Profile, profile_named};
+pub use reader::{Loaded, keys, load, read, schema, template};
+pub use rejection::Rejection;
+pub use table::KeyRow;
 
 use crate::distribution::Distribution;
 use crate::model::Model;
@@ -26,6 +43,15 @@ pub struct Heading {
     /// Where the figures come from.
     pub source: Option<String>,
     pub note: Option<String>,
+}
+
+/// One evaluation of a file: the file itself, or a row of its series.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// The row's label.
+    pub label: Option<String>,
+    /// The budget with the row's values.
+    pub budget: Budget,
 }
 
 /// A checked budget.
@@ -272,7 +298,11 @@ pub enum Trials {
     Fixed(u64),
     /// Until the results are stable to a numerical tolerance, JCGM 101 7.9: δ from `digits`
     /// significant digits of u.
-    Adaptive { procedure: Adaptive, digits: u8, max: u64 },
+    Adaptive {
+        procedure: Adaptive,
+        digits: u8,
+        max: u64,
+    },
 }
 
 /// The two adaptive procedures.

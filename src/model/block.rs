@@ -25,7 +25,11 @@ enum Action {
     Powi(Place, i32),
     Power(Place, f64),
     Select(Place, Place, Place),
-    Solve { residual: Arc<Graph>, start: Place, parameters: Vec<Place> },
+    Solve {
+        residual: Arc<Graph>,
+        start: Place,
+        parameters: Vec<Place>,
+    },
 }
 
 #[derive(Debug, Clone)]
@@ -60,13 +64,26 @@ impl Program {
             uses,
             place: vec![None; graph.ops.len()],
             free: Vec::new(),
-            program: Program { inputs, instructions: Vec::new(), constants: Vec::new(), registers: 0, outputs: Vec::new() },
+            program: Program {
+                inputs,
+                instructions: Vec::new(),
+                constants: Vec::new(),
+                registers: 0,
+                outputs: Vec::new(),
+            },
         };
         for id in order {
             allocator.emit(id);
         }
-        let outputs = graph.outputs.iter().map(|id| allocator.place(*id)).collect();
-        Program { outputs, ..allocator.program }
+        let outputs = graph
+            .outputs
+            .iter()
+            .map(|id| allocator.place(*id))
+            .collect();
+        Program {
+            outputs,
+            ..allocator.program
+        }
     }
 }
 
@@ -91,7 +108,12 @@ fn order(graph: &Graph) -> Vec<Id> {
         let mut needed = Vec::new();
         operands(graph, id, |a| needed.push(a));
         needed.sort_unstable();
-        open.extend(needed.into_iter().filter(|a| !done[*a as usize]).map(|a| (a, false)));
+        open.extend(
+            needed
+                .into_iter()
+                .filter(|a| !done[*a as usize])
+                .map(|a| (a, false)),
+        );
     }
     order
 }
@@ -105,9 +127,14 @@ fn operands(graph: &Graph, id: Id, mut visit: impl FnMut(Id)) {
     }
 }
 
+/// Makes an instruction with a constant in it.
+type MakeHeld = fn(Place, f64) -> Action;
+
 /// The instruction with a constant in it that does an operation, with its operand.
-fn held(graph: &Graph, op: Op) -> Option<(fn(Place, f64) -> Action, Id)> {
-    let Op::Binary(row, a, b) = op else { return None };
+fn held(graph: &Graph, op: Op) -> Option<(MakeHeld, Id)> {
+    let Op::Binary(row, a, b) = op else {
+        return None;
+    };
     match (row.name, graph.constant(a), graph.constant(b)) {
         ("+", Some(_), _) => Some((Action::AddScalar, b)),
         ("+", _, Some(_)) => Some((Action::AddScalar, a)),
@@ -146,7 +173,10 @@ impl Allocator<'_> {
     fn action(&mut self, id: Id) -> Action {
         let op = self.graph.ops[id as usize];
         if let (Some((make, a)), Op::Binary(_, x, y)) = (held(self.graph, op), op) {
-            let constant = self.graph.constant(if a == x { y } else { x }).unwrap_or(f64::NAN);
+            let constant = self
+                .graph
+                .constant(if a == x { y } else { x })
+                .unwrap_or(f64::NAN);
             return make(self.place(a), constant);
         }
         match op {
@@ -155,7 +185,11 @@ impl Allocator<'_> {
             Op::Power(a, bits) => {
                 let c = f64::from_bits(bits);
                 let place = self.place(a);
-                if c.fract() == 0.0 && c.abs() < 1e6 { Action::Powi(place, c as i32) } else { Action::Power(place, c) }
+                if c.fract() == 0.0 && c.abs() < 1e6 {
+                    Action::Powi(place, c as i32)
+                } else {
+                    Action::Power(place, c)
+                }
             }
             Op::Select(c, a, b) => Action::Select(self.place(c), self.place(a), self.place(b)),
             Op::Solve(n) => {
@@ -166,7 +200,9 @@ impl Allocator<'_> {
                     parameters: equation.parameters.iter().map(|p| self.place(*p)).collect(),
                 }
             }
-            Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => Action::AddScalar(self.place(id), 0.0),
+            Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => {
+                Action::AddScalar(self.place(id), 0.0)
+            }
         }
     }
 
@@ -178,7 +214,9 @@ impl Allocator<'_> {
             Op::Input(place) => place as usize,
             Op::Constant(bits) => {
                 let register = self.register();
-                self.program.constants.push((register, f64::from_bits(bits)));
+                self.program
+                    .constants
+                    .push((register, f64::from_bits(bits)));
                 self.program.inputs + register
             }
             op => unreachable!("{op:?} is emitted before it is used"),
@@ -207,6 +245,10 @@ impl Allocator<'_> {
 pub struct BlockRunner<'m> {
     program: &'m Program,
     level: Level,
+    #[expect(
+        clippy::vec_box,
+        reason = "registers change places by pointer, not by 2 KiB"
+    )]
     registers: Vec<Box<Block>>,
     /// Takes a result, then changes places with its register.
     spare: Box<Block>,
@@ -220,14 +262,19 @@ impl<'m> BlockRunner<'m> {
         for (register, value) in &program.constants {
             registers[*register].0 = [*value; LANES];
         }
-        BlockRunner { program, level: level(), registers, spare: Box::new(Block::ZERO) }
+        BlockRunner {
+            program,
+            level: level(),
+            registers,
+            spare: Box::new(Block::ZERO),
+        }
     }
 
     /// Evaluates all outputs for 256 trials: `inputs[i]` and `outputs[o]` are blocks.
     pub fn run(&mut self, inputs: &[Block], outputs: &mut [Block]) {
         for instruction in &self.program.instructions {
             let registers = &self.registers;
-            let at = |place: Place| block(inputs, registers, place);
+            let at = |place: Place| block(inputs, registers, place, self.program.inputs);
             let (level, out) = (self.level, &mut *self.spare);
             match &instruction.action {
                 Action::Unary(row, a) => (row.block)(level, at(*a), out),
@@ -243,7 +290,11 @@ impl<'m> BlockRunner<'m> {
                     }
                 }
                 Action::Select(c, a, b) => ops::select(level, at(*c), at(*a), at(*b), out),
-                Action::Solve { residual, start, parameters } => {
+                Action::Solve {
+                    residual,
+                    start,
+                    parameters,
+                } => {
                     let (start, parameters) = (at(*start), parameters.iter().map(|p| at(*p)));
                     let parameters: Vec<&Block> = parameters.collect();
                     let mut newton = Newton::new(residual);
@@ -256,14 +307,18 @@ impl<'m> BlockRunner<'m> {
             std::mem::swap(&mut self.spare, &mut self.registers[instruction.out]);
         }
         for (out, place) in outputs.iter_mut().zip(&self.program.outputs) {
-            *out = *block(inputs, &self.registers, *place);
+            *out = *block(inputs, &self.registers, *place, self.program.inputs);
         }
     }
 }
 
-fn block<'a>(inputs: &'a [Block], registers: &'a [Box<Block>], place: Place) -> &'a Block {
-    // The number of inputs is that of the model, which numbered the places.
-    match place.checked_sub(inputs.len()) {
+fn block<'a>(
+    inputs: &'a [Block],
+    registers: &'a [Box<Block>],
+    place: Place,
+    count: usize,
+) -> &'a Block {
+    match place.checked_sub(count) {
         None => &inputs[place],
         Some(register) => &registers[register],
     }

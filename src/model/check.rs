@@ -4,17 +4,17 @@ use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
 use super::block::Program;
+use super::catalogue;
 use super::faults;
 use super::functions;
 use super::graph::Id;
 use super::lower::{Binding, Kind, Lowering, UserFunction, Value};
+use super::measurand::Outcome;
 use super::parser;
 use super::printer;
 use super::syntax::{Expr, Name, Node, Span, Statement};
-use super::units::{Operand, in_words};
-use super::{MeasurandSource, Model, ModelFault, Output, Place, Request, Role, Symbol};
+use super::{Model, ModelFault, Output, Place, Request, Role, Symbol};
 use crate::fault::Fault;
-use crate::quantity::{Dimension, Unit, hint_for_clash};
 
 /// Checks names, shapes and units of a model and compiles it.
 ///
@@ -40,32 +40,23 @@ pub fn compile(request: &Request<'_>) -> Result<Model, Vec<ModelFault>> {
 }
 
 /// A statement and what it refers to.
-struct Record {
-    statement: Statement,
-    place: Place,
-    symbols: Vec<usize>,
-    statements: Vec<usize>,
+pub struct Record {
+    pub statement: Statement,
+    pub place: Place,
+    pub symbols: Vec<usize>,
+    pub statements: Vec<usize>,
 }
 
-/// The value of a measurand and where it comes from.
-struct Outcome {
-    id: Id,
-    unit: Unit,
-    /// The statement that gives it.
-    statement: usize,
-    /// All statements of its own text.
-    own: Vec<usize>,
-}
-
-struct Check<'r> {
-    l: Lowering<'r>,
-    statements: Vec<Record>,
+/// The state of the check of a request.
+pub struct Check<'r> {
+    pub l: Lowering<'r>,
+    pub statements: Vec<Record>,
     /// Which statement defines a name.
-    defined: HashMap<String, usize>,
+    pub defined: HashMap<String, usize>,
     /// Where a name was defined.
-    spans: HashMap<String, (Place, Span)>,
+    pub spans: HashMap<String, (Place, Span)>,
     /// Value of the bare expression that ends a text.
-    last: Option<Value>,
+    pub last: Option<Value>,
 }
 
 impl<'r> Check<'r> {
@@ -75,17 +66,23 @@ impl<'r> Check<'r> {
         for (index, symbol) in symbols.iter().enumerate() {
             let name = &symbol.name;
             self.l.place = Place::Symbol(index);
-            if functions::is_reserved(name) {
+            if catalogue::is_reserved(name) {
                 self.l.report(reserved(name, 0..0));
             } else if self.l.scope.contains_key(name) {
                 self.l.report(
-                    Fault::new(faults::DEFINED_TWICE, 0..0, format!("`{name}` is stated twice"))
-                        .label("second statement")
-                        .help("choose another name for one of them"),
+                    Fault::new(
+                        faults::DEFINED_TWICE,
+                        0..0,
+                        format!("`{name}` is stated twice"),
+                    )
+                    .label("second statement")
+                    .help("choose another name for one of them"),
                 );
             } else {
                 let value = self.symbol_value(symbol);
-                self.l.scope.insert(name.clone(), value.map_or(Binding::Faulty, Binding::Value));
+                self.l
+                    .scope
+                    .insert(name.clone(), value.map_or(Binding::Faulty, Binding::Value));
             }
         }
     }
@@ -97,17 +94,25 @@ impl<'r> Check<'r> {
             Role::Input(place) => (vec![builder.input(*place)], false),
             Role::InputVector(places) => (places.clone().map(|p| builder.input(p)).collect(), true),
             Role::Constant(value) => (vec![builder.constant(*value)], false),
-            Role::ConstantVector(values) => (values.iter().map(|v| builder.constant(*v)).collect(), true),
+            Role::ConstantVector(values) => {
+                (values.iter().map(|v| builder.constant(*v)).collect(), true)
+            }
         };
         let kind = Kind::Quantity(symbol.unit.clone());
-        (!elements.is_empty()).then_some(Value { elements, vector, kind, zero: false, literal: false })
+        (!elements.is_empty()).then_some(Value {
+            elements,
+            vector,
+            kind,
+            zero: false,
+            literal: false,
+        })
     }
 
     // --- texts -------------------------------------------------------------------------------
 
     /// Reads a text; gives the indices of its statements. Whether its last statement is a value is for
     /// the caller to say.
-    fn text(&mut self, text: &str, place: Place, is_measurand: bool) -> Vec<usize> {
+    pub fn text(&mut self, text: &str, place: Place, is_measurand: bool) -> Vec<usize> {
         self.l.place = place;
         self.last = None;
         let units = self.l.units;
@@ -120,7 +125,11 @@ impl<'r> Check<'r> {
         for name in reading.faulty {
             self.l.scope.entry(name).or_insert(Binding::Faulty);
         }
-        self.l.later = reading.statements.iter().filter_map(|s| defined_name(s).map(|n| n.text.clone())).collect();
+        self.l.later = reading
+            .statements
+            .iter()
+            .filter_map(|s| defined_name(s).map(|n| n.text.clone()))
+            .collect();
         let count = reading.statements.len();
         if count == 0 && !broken && is_measurand {
             self.l.report(
@@ -149,13 +158,21 @@ impl<'r> Check<'r> {
                 let binding = lowered.map_or(Binding::Faulty, Binding::Value);
                 self.define(&name, binding, index);
             }
-            Statement::Function { name, parameters, body } => {
+            Statement::Function {
+                name,
+                parameters,
+                body,
+            } => {
                 self.function(&name, parameters, body, index);
                 if ends && !broken {
                     self.l.report(
-                        Fault::new(faults::NO_VALUE, name.span.clone(), "the model ends with a definition of a function")
-                            .label("expected the measurand's value after this")
-                            .help(format!("add a last line that uses `{}`", name.text)),
+                        Fault::new(
+                            faults::NO_VALUE,
+                            name.span.clone(),
+                            "the model ends with a definition of a function",
+                        )
+                        .label("expected the measurand's value after this")
+                        .help(format!("add a last line that uses `{}`", name.text)),
                     );
                 }
             }
@@ -165,9 +182,13 @@ impl<'r> Check<'r> {
                     self.last = lowered;
                 } else if !broken {
                     self.l.report(
-                        Fault::new(faults::NO_EFFECT, value.span.clone(), "the value of this line goes nowhere")
-                            .label("no name")
-                            .help("give it a name, `name = …`, or remove the line"),
+                        Fault::new(
+                            faults::NO_EFFECT,
+                            value.span.clone(),
+                            "the value of this line goes nowhere",
+                        )
+                        .label("no name")
+                        .help("give it a name, `name = …`, or remove the line"),
                     );
                 }
             }
@@ -177,25 +198,34 @@ impl<'r> Check<'r> {
     fn define(&mut self, name: &Name, binding: Binding, index: usize) {
         let text = &name.text;
         self.l.later.retain(|n| n != text);
-        if functions::is_reserved(text) {
+        if catalogue::is_reserved(text) {
             self.l.report(reserved(text, name.span.clone()));
             return;
         }
         if self.l.scope.contains_key(text) && !self.is_broken_name(text) {
-            let mut fault = Fault::new(faults::DEFINED_TWICE, name.span.clone(), format!("`{text}` is defined already"))
-                .label("second definition")
-                .help("choose another name");
+            let mut fault = Fault::new(
+                faults::DEFINED_TWICE,
+                name.span.clone(),
+                format!("`{text}` is defined already"),
+            )
+            .label("second definition")
+            .help("choose another name");
             match self.spans.get(text) {
-                Some((place, span)) if *place == self.l.place => fault = fault.related(span.clone(), "first definition"),
+                Some((place, span)) if *place == self.l.place => {
+                    fault = fault.related(span.clone(), "first definition")
+                }
                 Some(_) => {}
-                None => fault.message = format!("`{text}` is an input or constant of the file already"),
+                None => {
+                    fault.message = format!("`{text}` is an input or constant of the file already")
+                }
             }
             self.l.report(fault);
             return;
         }
         self.l.scope.insert(text.clone(), binding);
         self.defined.insert(text.clone(), index);
-        self.spans.insert(text.clone(), (self.l.place, name.span.clone()));
+        self.spans
+            .insert(text.clone(), (self.l.place, name.span.clone()));
     }
 
     /// Whether only a statement that could not be read defines the name.
@@ -207,14 +237,19 @@ impl<'r> Check<'r> {
 
     fn function(&mut self, name: &Name, parameters: Vec<Name>, body: Expr, index: usize) {
         for (i, parameter) in parameters.iter().enumerate() {
-            if functions::is_reserved(&parameter.text) {
-                self.l.report(reserved(&parameter.text, parameter.span.clone()));
+            if catalogue::is_reserved(&parameter.text) {
+                self.l
+                    .report(reserved(&parameter.text, parameter.span.clone()));
             } else if let Some(first) = parameters[..i].iter().find(|p| p.text == parameter.text) {
                 self.l.report(
-                    Fault::new(faults::DEFINED_TWICE, parameter.span.clone(), format!("`{}` is a parameter already", parameter.text))
-                        .label("second parameter of this name")
-                        .related(first.span.clone(), "first")
-                        .help("choose another name"),
+                    Fault::new(
+                        faults::DEFINED_TWICE,
+                        parameter.span.clone(),
+                        format!("`{}` is a parameter already", parameter.text),
+                    )
+                    .label("second parameter of this name")
+                    .related(first.span.clone(), "first")
+                    .help("choose another name"),
                 );
             }
         }
@@ -222,7 +257,12 @@ impl<'r> Check<'r> {
         self.body_names(&body, &parameters);
         let place = self.l.place;
         let binding = if self.l.faults.len() == before {
-            Binding::Function(Rc::new(UserFunction { name: name.clone(), parameters, body, place }))
+            Binding::Function(Rc::new(UserFunction {
+                name: name.clone(),
+                parameters,
+                body,
+                place,
+            }))
         } else {
             Binding::Faulty
         };
@@ -236,13 +276,17 @@ impl<'r> Check<'r> {
         let mut open = vec![body];
         while let Some(e) = open.pop() {
             match &e.node {
-                Node::Name(name) if !own.contains(name) && !self.l.scope.contains_key(name) && !functions::is_pi(name) => {
+                Node::Name(name)
+                    if !own.contains(name)
+                        && !self.l.scope.contains_key(name)
+                        && !catalogue::is_pi(name) =>
+                {
                     self.l.unknown_name(name, &e.span);
                 }
                 Node::Call { name, .. }
                     if !own.contains(&name.text)
                         && !self.l.scope.contains_key(&name.text)
-                        && functions::find(&name.text).is_none() =>
+                        && catalogue::find(&name.text).is_none() =>
                 {
                     functions::unknown_function(&mut self.l, name);
                 }
@@ -256,190 +300,59 @@ impl<'r> Check<'r> {
     fn record(&self, statement: Statement, place: Place) -> Record {
         let (expr, parameters): (&Expr, &[Name]) = match &statement {
             Statement::Assign { value, .. } | Statement::Value(value) => (value, &[]),
-            Statement::Function { parameters, body, .. } => (body, parameters),
+            Statement::Function {
+                parameters, body, ..
+            } => (body, parameters),
         };
-        let names: BTreeSet<&str> =
-            expr.names().into_iter().filter(|n| !parameters.iter().any(|p| p.text == *n)).collect();
-        let symbols = names.iter().filter_map(|n| self.l.symbols.iter().position(|s| s.name == *n)).collect();
-        let statements = names.iter().filter_map(|n| self.defined.get(*n).copied()).collect();
-        Record { statement, place, symbols, statements }
-    }
-
-    // --- measurands --------------------------------------------------------------------------
-
-    fn measurand(&mut self, index: usize, measurand: &MeasurandSource<'_>) -> Option<Outcome> {
-        let outcome = match measurand.model {
-            Some(text) => self.own_model(index, measurand, text),
-            None => self.from_shared(index, measurand),
-        }?;
-        // Later measurands may use this one.
-        if !self.l.scope.contains_key(measurand.name) && !functions::is_reserved(measurand.name) {
-            let value = Value::scalar(outcome.id, outcome.unit.clone());
-            self.l.scope.insert(measurand.name.to_string(), Binding::Value(value));
-            self.defined.insert(measurand.name.to_string(), outcome.statement);
-            self.spans.insert(measurand.name.to_string(), (Place::Measurand(index), 0..0));
+        let names: BTreeSet<&str> = expr
+            .names()
+            .into_iter()
+            .filter(|n| !parameters.iter().any(|p| p.text == *n))
+            .collect();
+        let symbols = names
+            .iter()
+            .filter_map(|n| self.l.symbols.iter().position(|s| s.name == *n))
+            .collect();
+        let statements = names
+            .iter()
+            .filter_map(|n| self.defined.get(*n).copied())
+            .collect();
+        Record {
+            statement,
+            place,
+            symbols,
+            statements,
         }
-        Some(outcome)
-    }
-
-    fn own_model(&mut self, index: usize, measurand: &MeasurandSource<'_>, text: &str) -> Option<Outcome> {
-        let place = Place::Measurand(index);
-        if functions::is_reserved(measurand.name) {
-            self.l.place = Place::Entry(index);
-            self.l.report(reserved(measurand.name, 0..0));
-        }
-        let before: BTreeSet<String> = self.l.scope.keys().cloned().collect();
-        let own = self.text(text, place, true);
-        let outcome = own.last().copied().and_then(|statement| {
-            let (value, expr) = self.statement_value(statement)?;
-            let (id, unit) = self.result(index, measurand, &value, &expr, place)?;
-            Some(Outcome { id, unit, statement, own })
-        });
-        // The names of this text are its own.
-        let added: Vec<String> = self.l.scope.keys().filter(|n| !before.contains(*n)).cloned().collect();
-        for name in added {
-            self.l.scope.remove(&name);
-            self.defined.remove(&name);
-            self.spans.remove(&name);
-        }
-        outcome
-    }
-
-    fn statement_value(&mut self, statement: usize) -> Option<(Value, Expr)> {
-        match &self.statements[statement].statement {
-            Statement::Value(expr) => Some((self.last.take()?, expr.clone())),
-            Statement::Assign { name, value } if self.defined.get(&name.text) == Some(&statement) => {
-                match self.l.scope.get(&name.text)? {
-                    Binding::Value(found) => Some((found.clone(), value.clone())),
-                    _ => None,
-                }
-            }
-            _ => None,
-        }
-    }
-
-    fn from_shared(&mut self, index: usize, measurand: &MeasurandSource<'_>) -> Option<Outcome> {
-        let name = measurand.name;
-        let statement = self.defined.get(name).copied();
-        match (self.l.scope.get(name), statement) {
-            (Some(Binding::Value(_)), Some(statement)) => {
-                let place = self.statements[statement].place;
-                let (value, expr) = self.statement_value(statement)?;
-                let (id, unit) = self.result(index, measurand, &value, &expr, place)?;
-                Some(Outcome { id, unit, statement, own: Vec::new() })
-            }
-            (Some(Binding::Faulty), _) if self.l.symbol(name).is_none() => None,
-            _ => {
-                self.l.place = Place::Entry(index);
-                self.l.report(
-                    Fault::new(faults::NO_MODEL, 0..0, format!("the measurand `{name}` has no model"))
-                        .label("no model")
-                        .help(format!("add `model = \"…\"` here, or define `{name} = …` in the model at the top of the file")),
-                );
-                None
-            }
-        }
-    }
-
-    /// Checks the value of a measurand and brings it to its unit.
-    fn result(
-        &mut self,
-        index: usize,
-        measurand: &MeasurandSource<'_>,
-        value: &Value,
-        expr: &Expr,
-        place: Place,
-    ) -> Option<(Id, Unit)> {
-        self.l.place = place;
-        let found = self.l.quantity(value, expr)?;
-        let text = printer::expression(expr);
-        if value.vector {
-            self.l.report(
-                Fault::new(faults::VECTOR_RESULT, expr.span.clone(), format!("`{}` is a vector of {} elements", measurand.name, value.elements.len()))
-                    .label("expected a single value")
-                    .help(format!("reduce it, `mean({text})`, or take one element")),
-            );
-            return None;
-        }
-        let Some(wanted) = &measurand.unit else {
-            if found.dimension == Dimension::NONE {
-                let out = self.l.converted(value, &Unit::one())?;
-                return Some((out.elements[0], Unit::one()));
-            }
-            self.l.place = Place::Entry(index);
-            self.l.report(
-                Fault::new(faults::RESULT_NEEDS_UNIT, 0..0, format!("the measurand `{}` has no unit, but its model gives {}", measurand.name, found.symbol))
-                    .label(format!("the value is in {}", found.symbol))
-                    .help(format!("add `unit = \"{}\"`, or another unit of this dimension", found.symbol)),
-            );
-            return None;
-        };
-        let value = value.with_unit_if_zero(wanted);
-        let found = value.unit().cloned().unwrap_or(found);
-        if found.dimension != wanted.dimension {
-            let message = format!("the value is {}, but `{}` is wanted {}", in_words(&found), measurand.name, in_words(wanted));
-            let help = self.result_help(expr, &found, wanted);
-            self.l.report(
-                Fault::new(faults::RESULT_UNIT, expr.span.clone(), message).label(in_words(&found)).help(help),
-            );
-            return None;
-        }
-        if found.is_point() != wanted.is_point() {
-            self.point_result(measurand.name, expr, &value, &found, wanted);
-            return None;
-        }
-        let out = self.l.converted(&value, wanted)?;
-        Some((out.elements[0], wanted.clone()))
-    }
-
-    fn result_help(&self, expr: &Expr, found: &Unit, wanted: &Unit) -> String {
-        if let Some(hint) = hint_for_clash(wanted, found) {
-            return hint;
-        }
-        let forgotten = expr.names().into_iter().find(|n| self.l.symbol(n).is_some_and(|s| s.unit.is_one()));
-        match forgotten {
-            Some(name) => {
-                let missing = wanted.quotient(found).symbol;
-                format!("if `{name}` has a unit, state it (`unit = \"{missing}\"` would fit if it is a factor), or correct the measurand's unit")
-            }
-            None => format!("correct the formula, or write `unit = \"{}\"` for the measurand", found.symbol),
-        }
-    }
-
-    fn point_result(&mut self, name: &str, expr: &Expr, value: &Value, found: &Unit, wanted: &Unit) {
-        if found.is_point() {
-            self.l.point_fault(expr, found);
-            return;
-        }
-        let operand = Operand { value, expr };
-        let text = printer::expression(operand.expr);
-        self.l.report(
-            Fault::new(
-                faults::POINT,
-                expr.span.clone(),
-                format!("the value is a difference in {}, but `{name}` is wanted on the {} scale", found.symbol, wanted.symbol),
-            )
-            .label(format!("a difference in {}", found.symbol))
-            .help(format!(
-                "write `unit = \"{}\"`, or add the difference to a point: `0 '{}' + ({text})`",
-                wanted.difference().symbol, wanted.symbol
-            )),
-        );
     }
 
     // --- the model ---------------------------------------------------------------------------
 
-    fn finish(self, request: &Request<'_>, results: &[Option<Outcome>]) -> Result<Model, Vec<ModelFault>> {
+    fn finish(
+        self,
+        request: &Request<'_>,
+        results: &[Option<Outcome>],
+    ) -> Result<Model, Vec<ModelFault>> {
         let outcomes: Option<Vec<&Outcome>> = results.iter().map(Option::as_ref).collect();
         let outcomes = match outcomes {
             Some(outcomes) if self.l.faults.is_empty() => outcomes,
-            _ => return Err(self.l.faults.into_iter().map(|(place, fault)| ModelFault { place, fault }).collect()),
+            _ => {
+                return Err(self
+                    .l
+                    .faults
+                    .into_iter()
+                    .map(|(place, fault)| ModelFault { place, fault })
+                    .collect());
+            }
         };
         let mut used = BTreeSet::new();
         let mut outputs = Vec::new();
         for (index, (outcome, measurand)) in outcomes.iter().zip(request.measurands).enumerate() {
             let reached = self.reached(outcome);
-            used.extend(reached.iter().flat_map(|s| self.statements[*s].symbols.iter().copied()));
+            used.extend(
+                reached
+                    .iter()
+                    .flat_map(|s| self.statements[*s].symbols.iter().copied()),
+            );
             outputs.push(Output {
                 name: measurand.name.to_string(),
                 unit: outcome.unit.clone(),
@@ -450,8 +363,16 @@ impl<'r> Check<'r> {
         let inputs = input_count(request.symbols);
         let graph = self.l.builder.finish(&ids);
         let program = Program::new(&graph, inputs);
-        let unused = (0..request.symbols.len()).filter(|i| !used.contains(i)).collect();
-        Ok(Model { inputs, outputs, graph, program, unused })
+        let unused = (0..request.symbols.len())
+            .filter(|i| !used.contains(i))
+            .collect();
+        Ok(Model {
+            inputs,
+            outputs,
+            graph,
+            program,
+            unused,
+        })
     }
 
     /// The statements that a measurand depends on.
@@ -466,7 +387,13 @@ impl<'r> Check<'r> {
         reached
     }
 
-    fn equation(&self, index: usize, name: &str, outcome: &Outcome, reached: &BTreeSet<usize>) -> String {
+    fn equation(
+        &self,
+        index: usize,
+        name: &str,
+        outcome: &Outcome,
+        reached: &BTreeSet<usize>,
+    ) -> String {
         let mut shown: BTreeSet<usize> = reached.clone();
         shown.extend(&outcome.own);
         let place_fits = |place: Place| place == Place::Shared || place == Place::Measurand(index);
@@ -517,9 +444,18 @@ fn unknowns(body: &Expr) -> Vec<String> {
     found
 }
 
-fn reserved(name: &str, span: Span) -> Fault {
-    let what = if functions::find(name).is_some() { "a function" } else { "a word" };
-    Fault::new(faults::RESERVED, span, format!("`{name}` is {what} of the model language"))
-        .label("not free")
-        .help(format!("choose another name, such as `{name}_1`"))
+/// The fault of a name that belongs to the language.
+pub fn reserved(name: &str, span: Span) -> Fault {
+    let what = if catalogue::find(name).is_some() {
+        "a function"
+    } else {
+        "a word"
+    };
+    Fault::new(
+        faults::RESERVED,
+        span,
+        format!("`{name}` is {what} of the model language"),
+    )
+    .label("not free")
+    .help(format!("choose another name, such as `{name}_1`"))
 }

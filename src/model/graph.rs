@@ -104,7 +104,12 @@ impl Graph {
     }
 
     /// Copies the operations marked `keep`; `replaced` says what stands for those that are not kept.
-    fn copied(&self, keep: &[bool], mut replaced: HashMap<Id, Id>, mut out: Graph) -> (Graph, HashMap<Id, Id>) {
+    fn copied(
+        &self,
+        keep: &[bool],
+        mut replaced: HashMap<Id, Id>,
+        mut out: Graph,
+    ) -> (Graph, HashMap<Id, Id>) {
         for (i, op) in self.ops.iter().enumerate().filter(|(i, _)| keep[*i]) {
             let at = |id: Id| replaced[&id];
             let moved = match *op {
@@ -143,11 +148,6 @@ pub struct Builder {
 }
 
 impl Builder {
-    /// Number of operations so far.
-    pub fn len(&self) -> usize {
-        self.graph.ops.len()
-    }
-
     /// The constant that an operation was folded to.
     pub fn constant_at(&self, id: Id) -> Option<f64> {
         self.graph.constant(id)
@@ -271,10 +271,18 @@ impl Builder {
             return None;
         }
         // What does not depend on the unknown is computed once, outside; it becomes a parameter.
-        let mut body = Graph { ops: vec![Op::Input(0)], ..Graph::default() };
+        let mut body = Graph {
+            ops: vec![Op::Input(0)],
+            ..Graph::default()
+        };
         let mut replaced = HashMap::from([(unknown, 0)]);
         let mut parameters = Vec::new();
-        for (_, op) in graph.ops.iter().enumerate().filter(|(i, _)| needed[*i] && moves[*i]) {
+        for (_, op) in graph
+            .ops
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| needed[*i] && moves[*i])
+        {
             graph.operands(*op, |a| {
                 if moves[a as usize] || replaced.contains_key(&a) {
                     return;
@@ -289,11 +297,16 @@ impl Builder {
                 }
             });
         }
-        let keep: Vec<bool> =
-            (0..graph.ops.len()).map(|i| needed[i] && moves[i] && i != unknown as usize).collect();
+        let keep: Vec<bool> = (0..graph.ops.len())
+            .map(|i| needed[i] && moves[i] && i != unknown as usize)
+            .collect();
         let (mut body, replaced) = graph.copied(&keep, replaced, body);
         body.outputs = vec![replaced[&residual]];
-        self.graph.implicit.push(Implicit { start, parameters, residual: Arc::new(body) });
+        self.graph.implicit.push(Implicit {
+            start,
+            parameters,
+            residual: Arc::new(body),
+        });
         let place = self.graph.implicit.len() as u32 - 1;
         Some(self.push(Op::Solve(place)))
     }
@@ -351,8 +364,13 @@ impl Graph {
                 Op::Select(c, a, b) => at(if at(c).value() != 0.0 { a } else { b }),
                 Op::Solve(n) => {
                     let equation = &self.implicit[n as usize];
-                    let parameters: Vec<Jet<N>> = equation.parameters.iter().map(|p| at(*p)).collect();
-                    super::implicit::root(&equation.residual, at(equation.start).value(), &parameters)
+                    let parameters: Vec<Jet<N>> =
+                        equation.parameters.iter().map(|p| at(*p)).collect();
+                    super::implicit::root(
+                        &equation.residual,
+                        at(equation.start).value(),
+                        &parameters,
+                    )
                 }
             };
             values.push(value);
@@ -394,8 +412,10 @@ impl Graph {
                 }
                 Op::Solve(n) => {
                     let equation = &self.implicit[n as usize];
-                    let parameters: Vec<Jet<N>> = equation.parameters.iter().map(|p| at(*p)).collect();
-                    let slopes = super::implicit::slopes(&equation.residual, values[i], &parameters);
+                    let parameters: Vec<Jet<N>> =
+                        equation.parameters.iter().map(|p| at(*p)).collect();
+                    let slopes =
+                        super::implicit::slopes(&equation.residual, values[i], &parameters);
                     for (parameter, slope) in equation.parameters.iter().zip(slopes) {
                         pass(*parameter, slope);
                     }
@@ -406,7 +426,12 @@ impl Graph {
     }
 
     /// Derivatives of one operation with respect to the inputs.
-    pub fn gradient<const N: usize>(&self, values: &[Jet<N>], of: Id, inputs: usize) -> Vec<Jet<N>> {
+    pub fn gradient<const N: usize>(
+        &self,
+        values: &[Jet<N>],
+        of: Id,
+        inputs: usize,
+    ) -> Vec<Jet<N>> {
         let adjoints = self.adjoints(values, of);
         let mut gradient = vec![Jet::constant(0.0); inputs];
         for (op, adjoint) in self.ops.iter().zip(adjoints) {

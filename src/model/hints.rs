@@ -48,13 +48,22 @@ fn collect_irregularities(graph: &Graph, x: &[f64], found: &mut Vec<String>) {
     let values = graph.evaluate(&inputs);
     let at = |id: Id| values[id as usize].value();
     let (active, moving) = (active(graph, &values), moving(graph));
-    for (i, op) in graph.ops.iter().enumerate().filter(|(i, _)| active[*i] && moving[*i]) {
+    for (i, op) in graph
+        .ops
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| active[*i] && moving[*i])
+    {
         if let Op::Solve(n) = *op {
             let equation = &graph.implicit[n as usize];
-            let inner: Vec<f64> = std::iter::once(at(i as Id)).chain(equation.parameters.iter().map(|p| at(*p))).collect();
+            let inner: Vec<f64> = std::iter::once(at(i as Id))
+                .chain(equation.parameters.iter().map(|p| at(*p)))
+                .collect();
             collect_irregularities(&equation.residual, &inner, found);
         }
-        let Some(label) = graph.labels.get(&(i as Id)) else { continue };
+        let Some(label) = graph.labels.get(&(i as Id)) else {
+            continue;
+        };
         let (call, argument) = (&label.call, &label.argument);
         let words = match *op {
             Op::Unary(row, _) if row.smoothness == Smoothness::Steps => {
@@ -63,11 +72,17 @@ fn collect_irregularities(graph: &Graph, x: &[f64], found: &mut Vec<String>) {
             Op::Unary(row, a) if row.smoothness == Smoothness::Corner && at(a) == 0.0 => {
                 format!("{call} has a kink where {argument} is 0, which is just here")
             }
-            Op::Binary(row, a, b) if row.smoothness == Smoothness::Corner && at(a) == at(b) => match row.name {
-                "min" | "max" => format!("{call} has a kink where two arguments are equal, which is just here"),
-                _ => format!("the condition {call} changes just here"),
-            },
-            Op::Binary(row, a, b) if row.smoothness == Smoothness::Branch && at(a) == 0.0 && at(b) <= 0.0 => {
+            Op::Binary(row, a, b) if row.smoothness == Smoothness::Corner && at(a) == at(b) => {
+                match row.name {
+                    "min" | "max" => format!(
+                        "{call} has a kink where two arguments are equal, which is just here"
+                    ),
+                    _ => format!("the condition {call} changes just here"),
+                }
+            }
+            Op::Binary(row, a, b)
+                if row.smoothness == Smoothness::Branch && at(a) == 0.0 && at(b) <= 0.0 =>
+            {
                 format!("{call} jumps from -π to π just here")
             }
             _ => continue,
@@ -85,29 +100,45 @@ pub fn near_singular(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<Str
     let (active, moving) = (active(graph, &values), moving(graph));
     let mut nearest: Vec<(String, f64, f64)> = Vec::new();
     for (i, op) in graph.ops.iter().enumerate().filter(|(i, _)| active[*i]) {
-        let (Some((id, edge, role)), Some(label)) = (edge(graph, *op, &values), graph.labels.get(&(i as Id))) else {
+        let (Some((id, edge, role)), Some(label)) =
+            (edge(graph, *op, &values), graph.labels.get(&(i as Id)))
+        else {
             continue;
         };
         if !moving[id as usize] {
             continue;
         }
         let gradient = graph.gradient(&values, id, x.len());
-        let variance: f64 = gradient.iter().zip(u).map(|(c, u)| (c.value() * u).powi(2)).sum();
+        let variance: f64 = gradient
+            .iter()
+            .zip(u)
+            .map(|(c, u)| (c.value() * u).powi(2))
+            .sum();
         let distance = (values[id as usize].value() - edge).abs() / variance.sqrt();
-        if !(distance <= reach) {
+        if distance > reach || distance.is_nan() {
             continue;
         }
         let what = format!("{} ({role})", label.argument);
-        match nearest.iter_mut().find(|(known, _, e)| *known == what && *e == edge) {
+        match nearest
+            .iter_mut()
+            .find(|(known, _, e)| *known == what && *e == edge)
+        {
             Some((_, least, _)) => *least = least.min(distance),
             None => nearest.push((what, distance, edge)),
         }
     }
-    nearest.into_iter().map(|(what, distance, edge)| format!("{what} is {distance:.1} u from {}", shown(edge))).collect()
+    nearest
+        .into_iter()
+        .map(|(what, distance, edge)| format!("{what} is {distance:.1} u from {}", shown(edge)))
+        .collect()
 }
 
 fn shown(edge: f64) -> String {
-    if edge.fract() == 0.0 { format!("{edge}") } else { format!("{edge:.4}") }
+    if edge.fract() == 0.0 {
+        format!("{edge}")
+    } else {
+        format!("{edge:.4}")
+    }
 }
 
 /// The operand of an operation that must keep away from a pole or edge, that edge, and its role.
@@ -132,14 +163,27 @@ fn edge(graph: &Graph, op: Op, values: &[Jet<1>]) -> Option<(Id, f64, String)> {
 /// Which operations the outputs depend on when conditions are as they are here.
 fn active(graph: &Graph, values: &[Jet<1>]) -> Vec<bool> {
     let mut active = vec![false; graph.ops.len()];
-    graph.outputs.iter().for_each(|id| active[*id as usize] = true);
-    for (i, op) in graph.ops.iter().enumerate().rev().filter(|(_, op)| !matches!(op, Op::Input(_))) {
+    graph
+        .outputs
+        .iter()
+        .for_each(|id| active[*id as usize] = true);
+    for (i, op) in graph
+        .ops
+        .iter()
+        .enumerate()
+        .rev()
+        .filter(|(_, op)| !matches!(op, Op::Input(_)))
+    {
         if !active[i] {
             continue;
         }
         if let Op::Select(c, a, b) = *op {
             active[c as usize] = true;
-            active[if values[c as usize].value() != 0.0 { a } else { b } as usize] = true;
+            active[if values[c as usize].value() != 0.0 {
+                a
+            } else {
+                b
+            } as usize] = true;
         } else {
             graph.operands(*op, |a| active[a as usize] = true);
         }

@@ -31,7 +31,9 @@ pub fn root<const N: usize>(residual: &Graph, start: f64, parameters: &[Jet<N>])
 
 /// ∂y/∂p_k = -F_pk / F_y at the root y(p).
 pub fn slopes<const N: usize>(residual: &Graph, y: Jet<N>, parameters: &[Jet<N>]) -> Vec<Jet<N>> {
-    let inputs: Vec<Jet<N>> = std::iter::once(y).chain(parameters.iter().copied()).collect();
+    let inputs: Vec<Jet<N>> = std::iter::once(y)
+        .chain(parameters.iter().copied())
+        .collect();
     let values = residual.evaluate(&inputs);
     let gradient = residual.gradient(&values, residual.outputs[0], inputs.len());
     let by_y = -gradient[0].recip();
@@ -50,7 +52,12 @@ pub struct Newton<'g> {
 impl<'g> Newton<'g> {
     /// Prepares for one equation.
     pub fn new(residual: &'g Graph) -> Self {
-        Newton { residual, inputs: Vec::new(), values: Vec::new(), bracket: [None, None] }
+        Newton {
+            residual,
+            inputs: Vec::new(),
+            values: Vec::new(),
+            bracket: [None, None],
+        }
     }
 
     /// F and F_y at y; remembers on which side of the root y is.
@@ -73,7 +80,8 @@ impl<'g> Newton<'g> {
     pub fn run(&mut self, start: f64, parameters: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
         self.bracket = [None, None];
         self.inputs.clear();
-        self.inputs.extend(std::iter::once(start).chain(parameters).map(Jet::constant));
+        self.inputs
+            .extend(std::iter::once(start).chain(parameters).map(Jet::constant));
         let mut y = start;
         let mut size = start.abs();
         let (mut f, mut slope) = self.at(y);
@@ -90,15 +98,20 @@ impl<'g> Newton<'g> {
             let mut next = self.at(y + step);
             // At the rounding level |F| no longer falls; the step is then as small as it can be.
             let tiny = 4.0 * f64::EPSILON * y.abs();
+            let lessens = |g: f64| g.abs() < f.abs();
             let mut halvings = 0;
-            while !(next.0.abs() < f.abs()) && step.abs() > tiny && halvings < MAX_HALVINGS {
+            while !lessens(next.0) && step.abs() > tiny && halvings < MAX_HALVINGS {
                 step /= 2.0;
                 next = self.at(y + step);
                 halvings += 1;
             }
             if step.abs() <= tiny || y + step == y || halvings == MAX_HALVINGS {
                 // A long step that had to shrink to nothing was stuck at a minimum of |F| or a pole.
-                let (y, slope) = if next.0.abs() < f.abs() { (y + step, next.1) } else { (y, slope) };
+                let (y, slope) = if lessens(next.0) {
+                    (y + step, next.1)
+                } else {
+                    (y, slope)
+                };
                 let at_root = whole_step.abs() <= NEAR * size && slope.is_finite() && slope != 0.0;
                 return at_root.then_some((y, slope));
             }

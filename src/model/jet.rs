@@ -46,7 +46,8 @@ impl<const N: usize> Jet<N> {
             out[1] = times(derivatives[1], self.0[1]);
         }
         if N > 2 {
-            out[2] = times(derivatives[2], self.0[1] * self.0[1]) + times(derivatives[1], self.0[2]);
+            out[2] =
+                times(derivatives[2], self.0[1] * self.0[1]) + times(derivatives[1], self.0[2]);
         }
         Jet(out)
     }
@@ -72,7 +73,11 @@ impl<const N: usize> Jet<N> {
 
 /// Product in which nothing times infinity is nothing.
 fn times(factor: f64, movement: f64) -> f64 {
-    if movement == 0.0 { 0.0 } else { factor * movement }
+    if movement == 0.0 {
+        0.0
+    } else {
+        factor * movement
+    }
 }
 
 impl<const N: usize> Add for Jet<N> {

@@ -14,7 +14,10 @@ pub struct Token {
 /// What a token is.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Kind {
-    Number { value: f64, text: String },
+    Number {
+        value: f64,
+        text: String,
+    },
     Name(String),
     /// Text between single quotes.
     Quoted(String),
@@ -68,7 +71,12 @@ const SUPERSCRIPTS: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 /// Splits a text; what is no token is reported and left out.
 pub fn tokens(text: &str, faults: &mut Vec<Fault>) -> Vec<Token> {
-    let mut lexer = Lexer { text, at: 0, tokens: Vec::new(), faults };
+    let mut lexer = Lexer {
+        text,
+        at: 0,
+        tokens: Vec::new(),
+        faults,
+    };
     while let Some(next) = lexer.rest().chars().next() {
         lexer.token(next);
     }
@@ -109,8 +117,9 @@ impl<'a> Lexer<'a> {
             self.superscript();
         } else if next.is_alphabetic() || next == '_' {
             self.name();
-        } else if let Some((spelt, plain)) =
-            SIGNS.iter().find(|(spelt, _)| self.rest().starts_with(spelt))
+        } else if let Some((spelt, plain)) = SIGNS
+            .iter()
+            .find(|(spelt, _)| self.rest().starts_with(spelt))
         {
             let kind = match WORDS.iter().find(|w| w == &plain) {
                 Some(word) => Kind::Word(word),
@@ -131,7 +140,10 @@ impl<'a> Lexer<'a> {
     fn number(&mut self) {
         let bytes = self.rest().as_bytes();
         let digits = |from: usize| {
-            from + bytes[from..].iter().take_while(|b| b.is_ascii_digit() || **b == b'_').count()
+            from + bytes[from..]
+                .iter()
+                .take_while(|b| b.is_ascii_digit() || **b == b'_')
+                .count()
         };
         let mut end = digits(0);
         if bytes.get(end) == Some(&b'.') {
@@ -148,21 +160,41 @@ impl<'a> Lexer<'a> {
             }
         }
         if bytes.get(end) == Some(&b'.') {
-            end = bytes[end..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count() + end;
+            end = bytes[end..]
+                .iter()
+                .take_while(|b| b.is_ascii_digit() || **b == b'.')
+                .count()
+                + end;
         }
         let span = self.at..self.at + end;
         let text = &self.text[span.clone()];
         match text.replace('_', "").parse::<f64>() {
             Ok(value) if value.is_finite() => {
-                self.push(Kind::Number { value, text: text.to_string() }, span);
+                self.push(
+                    Kind::Number {
+                        value,
+                        text: text.to_string(),
+                    },
+                    span,
+                );
             }
             _ => {
                 self.faults.push(
-                    Fault::new(faults::NUMBER, span.clone(), format!("`{text}` is not a number"))
-                        .label("not a number")
-                        .help("write numbers like `12`, `0.5` or `1.5e-3`"),
+                    Fault::new(
+                        faults::NUMBER,
+                        span.clone(),
+                        format!("`{text}` is not a number"),
+                    )
+                    .label("not a number")
+                    .help("write numbers like `12`, `0.5` or `1.5e-3`"),
                 );
-                self.push(Kind::Number { value: 1.0, text: text.to_string() }, span);
+                self.push(
+                    Kind::Number {
+                        value: 1.0,
+                        text: text.to_string(),
+                    },
+                    span,
+                );
             }
         }
     }
@@ -198,14 +230,24 @@ impl<'a> Lexer<'a> {
                     self.push(Kind::Sign("-"), span.clone());
                 }
                 let text = plain.trim_start_matches('-').to_string();
-                self.push(Kind::Number { value: value.abs(), text }, span);
+                self.push(
+                    Kind::Number {
+                        value: value.abs(),
+                        text,
+                    },
+                    span,
+                );
             }
             Err(_) => {
                 let text = &self.text[span.clone()];
                 self.faults.push(
-                    Fault::new(faults::NUMBER, span.clone(), format!("`{text}` is not an exponent"))
-                        .label("not a number")
-                        .help("write the exponent after `^`, as in `x^2`"),
+                    Fault::new(
+                        faults::NUMBER,
+                        span.clone(),
+                        format!("`{text}` is not an exponent"),
+                    )
+                    .label("not a number")
+                    .help("write the exponent after `^`, as in `x^2`"),
                 );
                 self.at = span.end;
             }
@@ -217,13 +259,20 @@ impl<'a> Lexer<'a> {
         let line = &inner[..inner.find('\n').unwrap_or(inner.len())];
         let start = self.at;
         match line.find('\'') {
-            Some(end) => self.push(Kind::Quoted(line[..end].to_string()), start..start + end + 2),
+            Some(end) => self.push(
+                Kind::Quoted(line[..end].to_string()),
+                start..start + end + 2,
+            ),
             None => {
                 let span = start..start + 1 + line.trim_end().len();
                 self.faults.push(
-                    Fault::new(faults::UNIT_TEXT, span.clone(), "this unit has no closing quote")
-                        .label("opened here")
-                        .help("write a unit between single quotes right after its number: `25 'mm'`"),
+                    Fault::new(
+                        faults::UNIT_TEXT,
+                        span.clone(),
+                        "this unit has no closing quote",
+                    )
+                    .label("opened here")
+                    .help("write a unit between single quotes right after its number: `25 'mm'`"),
                 );
                 self.push(Kind::Quoted(line.trim_end().to_string()), span);
             }
@@ -247,9 +296,13 @@ impl<'a> Lexer<'a> {
             _ => "remove it".to_string(),
         };
         self.faults.push(
-            Fault::new(faults::CHARACTER, span.clone(), format!("`{c}` has no meaning in a model"))
-                .label("not part of the model language")
-                .help(help),
+            Fault::new(
+                faults::CHARACTER,
+                span.clone(),
+                format!("`{c}` has no meaning in a model"),
+            )
+            .label("not part of the model language")
+            .help(help),
         );
         self.at = span.end;
     }
@@ -265,7 +318,10 @@ mod tests {
 
     fn kinds(text: &str) -> Vec<Kind> {
         let mut faults = Vec::new();
-        let found = tokens(text, &mut faults).into_iter().map(|t| t.kind).collect();
+        let found = tokens(text, &mut faults)
+            .into_iter()
+            .map(|t| t.kind)
+            .collect();
         assert_eq!(faults, []);
         found
     }
@@ -277,7 +333,10 @@ mod tests {
             [
                 Kind::Name("θ₁".into()),
                 Kind::Sign("="),
-                Kind::Number { value: 1.0005, text: "1_000.5e-3".into() },
+                Kind::Number {
+                    value: 1.0005,
+                    text: "1_000.5e-3".into()
+                },
                 Kind::Quoted("°C".into()),
                 Kind::Eof
             ]

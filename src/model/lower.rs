@@ -9,7 +9,7 @@ use super::operation::{binary_row, unary};
 use super::printer;
 use super::syntax::{Expr, Infix, Name, Node, Span, UnitText};
 use super::units::Operand;
-use super::{Place, Symbol, functions};
+use super::{Place, Symbol, catalogue, functions};
 use crate::fault::{Fault, nearest};
 use crate::quantity::{Unit, UnitTable};
 
@@ -104,14 +104,25 @@ impl<'r> Lowering<'r> {
         let (place, fault) = match &self.call {
             None => (self.place, fault),
             Some((place, span, name)) => {
-                let inner = Fault { span: span.clone(), related: Vec::new(), ..fault.clone() };
+                let inner = Fault {
+                    span: span.clone(),
+                    related: Vec::new(),
+                    ..fault.clone()
+                };
                 let inner = if *place == self.place {
                     inner.related(fault.span, fault.label)
                 } else {
                     inner
                 };
                 let message = format!("in `{name}`: {}", fault.message);
-                (*place, Fault { message, label: "with these arguments".to_string(), ..inner })
+                (
+                    *place,
+                    Fault {
+                        message,
+                        label: "with these arguments".to_string(),
+                        ..inner
+                    },
+                )
             }
         };
         if !self.faults.contains(&(place, fault.clone())) {
@@ -148,9 +159,13 @@ impl<'r> Lowering<'r> {
         self.depth += 1;
         let value = if self.depth > MAX_DEPTH {
             self.report(
-                Fault::new(faults::TOO_DEEP, e.span.clone(), "with the functions written out, the formula is nested too deep")
-                    .label("too deep")
-                    .help("give the inner parts names of their own"),
+                Fault::new(
+                    faults::TOO_DEEP,
+                    e.span.clone(),
+                    "with the functions written out, the formula is nested too deep",
+                )
+                .label("too deep")
+                .help("give the inner parts names of their own"),
             );
             None
         } else {
@@ -170,23 +185,40 @@ impl<'r> Lowering<'r> {
                 let (x, y) = (self.value(base), self.value(exponent));
                 let (x, y) = (x?, y?);
                 let out = self.powered(
-                    Operand { value: &x, expr: base },
-                    Operand { value: &y, expr: exponent },
+                    Operand {
+                        value: &x,
+                        expr: base,
+                    },
+                    Operand {
+                        value: &y,
+                        expr: exponent,
+                    },
                     e.span.clone(),
                 )?;
                 self.watch(&out, e, base);
-                Some(Value { literal: x.literal && y.literal, zero: false, ..out })
+                Some(Value {
+                    literal: x.literal && y.literal,
+                    zero: false,
+                    ..out
+                })
             }
             Node::Minus(inner) => {
                 let x = self.value(inner)?;
-                self.difference(Operand { value: &x, expr: inner })?;
+                self.difference(Operand {
+                    value: &x,
+                    expr: inner,
+                })?;
                 let elements = x.elements.iter().map(|id| self.builder.neg(*id)).collect();
                 Some(Value { elements, ..x })
             }
             Node::Not(inner) => {
                 let x = self.value(inner)?;
                 self.truth(&x, inner)?;
-                let elements = x.elements.iter().map(|id| self.builder.call_unary("not", *id)).collect();
+                let elements = x
+                    .elements
+                    .iter()
+                    .map(|id| self.builder.call_unary("not", *id))
+                    .collect();
                 Some(Value { elements, ..x })
             }
             Node::Call { name, arguments } => functions::call(self, e, name, arguments),
@@ -203,7 +235,11 @@ impl<'r> Lowering<'r> {
         };
         let id = self.builder.constant(value);
         let bare = unit.is_none();
-        Some(Value { zero: bare && value == 0.0, literal: bare, ..Value::scalar(id, parsed) })
+        Some(Value {
+            zero: bare && value == 0.0,
+            literal: bare,
+            ..Value::scalar(id, parsed)
+        })
     }
 
     /// Reads a unit text.
@@ -220,9 +256,13 @@ impl<'r> Lowering<'r> {
 
     fn stray_unit(&mut self, e: &Expr, unit: &UnitText) -> Option<Value> {
         self.report(
-            Fault::new(faults::UNIT_TEXT, e.span.clone(), "a unit must stand right after a number")
-                .label("no number before this unit")
-                .help(format!("write `1 '{}'`", unit.text)),
+            Fault::new(
+                faults::UNIT_TEXT,
+                e.span.clone(),
+                "a unit must stand right after a number",
+            )
+            .label("no number before this unit")
+            .help(format!("write `1 '{}'`", unit.text)),
         );
         None
     }
@@ -238,14 +278,21 @@ impl<'r> Lowering<'r> {
             }
             Some(Binding::Faulty) => None,
             Some(Binding::Function(function)) => {
-                let list: Vec<&str> = function.parameters.iter().map(|p| p.text.as_str()).collect();
+                let list: Vec<&str> = function
+                    .parameters
+                    .iter()
+                    .map(|p| p.text.as_str())
+                    .collect();
                 let signature = format!("{name}({})", list.join(", "));
                 self.function_as_value(name, &signature, span);
                 None
             }
-            None if functions::is_pi(name) => {
+            None if catalogue::is_pi(name) => {
                 let id = self.builder.constant(std::f64::consts::PI);
-                Some(Value { literal: true, ..Value::scalar(id, Unit::one()) })
+                Some(Value {
+                    literal: true,
+                    ..Value::scalar(id, Unit::one())
+                })
             }
             None => {
                 self.unknown_name(name, span);
@@ -256,15 +303,19 @@ impl<'r> Lowering<'r> {
 
     fn function_as_value(&mut self, name: &str, signature: &str, span: &Span) {
         self.report(
-            Fault::new(faults::FUNCTION_AS_VALUE, span.clone(), format!("`{name}` is a function and needs arguments"))
-                .label("no arguments")
-                .help(format!("write `{signature}`")),
+            Fault::new(
+                faults::FUNCTION_AS_VALUE,
+                span.clone(),
+                format!("`{name}` is a function and needs arguments"),
+            )
+            .label("no arguments")
+            .help(format!("write `{signature}`")),
         );
     }
 
     /// Reports a name that stands for nothing.
     pub fn unknown_name(&mut self, name: &str, span: &Span) {
-        if let Some(info) = functions::find(name) {
+        if let Some(info) = catalogue::find(name) {
             let signature = info.signature;
             self.function_as_value(name, signature, span);
             return;
@@ -279,18 +330,34 @@ impl<'r> Lowering<'r> {
             );
             return;
         }
-        let mut known: Vec<&str> = self.scope.keys().map(String::as_str).chain(["pi"]).collect();
-        known.extend(self.locals.last().into_iter().flat_map(|frame| frame.keys().map(String::as_str)));
+        let mut known: Vec<&str> = self
+            .scope
+            .keys()
+            .map(String::as_str)
+            .chain(["pi"])
+            .collect();
+        known.extend(
+            self.locals
+                .last()
+                .into_iter()
+                .flat_map(|frame| frame.keys().map(String::as_str)),
+        );
         known.sort_unstable();
         let help = match nearest(name, known) {
             Some(near) => format!("did you mean `{near}`?"),
             None if name == "e" => "write `exp(1)` for the base of natural logarithms".to_string(),
-            None => format!("state it as `[input.{name}]` or `[constant.{name}]`, or define `{name} = …` above"),
+            None => format!(
+                "state it as `[input.{name}]` or `[constant.{name}]`, or define `{name} = …` above"
+            ),
         };
         self.report(
-            Fault::new(faults::UNKNOWN_NAME, span.clone(), format!("`{name}` is not known"))
-                .label("no input, constant or quantity of this name")
-                .help(help),
+            Fault::new(
+                faults::UNKNOWN_NAME,
+                span.clone(),
+                format!("`{name}` is not known"),
+            )
+            .label("no input, constant or quantity of this name")
+            .help(help),
         );
     }
 
@@ -303,8 +370,14 @@ impl<'r> Lowering<'r> {
             left = match (left, right) {
                 (Some(a), Some(b)) => self.infix(
                     *infix,
-                    Operand { value: &a, expr: first },
-                    Operand { value: &b, expr: operand },
+                    Operand {
+                        value: &a,
+                        expr: first,
+                    },
+                    Operand {
+                        value: &b,
+                        expr: operand,
+                    },
                 ),
                 _ => None,
             };
@@ -334,26 +407,42 @@ impl<'r> Lowering<'r> {
             Infix::Add | Infix::Sub => {
                 let joined = self.sum(left, infix, right)?;
                 let unit = joined.unit;
-                self.apply(infix.symbol(), &joined.left, &joined.right, span)?.with_kind(Kind::Quantity(unit))
+                self.apply(infix.symbol(), &joined.left, &joined.right, span)?
+                    .with_kind(Kind::Quantity(unit))
             }
             Infix::Mul | Infix::Div => {
                 let (a, b) = (self.difference(left), self.difference(right));
                 let (a, b) = (a?, b?);
-                let unit = if infix == Infix::Mul { a.product(&b) } else { a.quotient(&b) };
-                self.apply(infix.symbol(), left.value, right.value, span)?.with_kind(Kind::Quantity(unit))
+                let unit = if infix == Infix::Mul {
+                    a.product(&b)
+                } else {
+                    a.quotient(&b)
+                };
+                self.apply(infix.symbol(), left.value, right.value, span)?
+                    .with_kind(Kind::Quantity(unit))
             }
             Infix::And | Infix::Or => {
-                let (a, b) = (self.truth(left.value, left.expr), self.truth(right.value, right.expr));
-                (a?, b?);
-                self.apply(infix.symbol(), left.value, right.value, span)?.with_kind(Kind::Truth)
+                let (a, b) = (
+                    self.truth(left.value, left.expr),
+                    self.truth(right.value, right.expr),
+                );
+                a?;
+                b?;
+                self.apply(infix.symbol(), left.value, right.value, span)?
+                    .with_kind(Kind::Truth)
             }
             Infix::Power => self.powered(left, right, span)?,
             _ => {
                 let joined = self.join(left, right, "compared")?;
-                self.apply(infix.symbol(), &joined.left, &joined.right, span)?.with_kind(Kind::Truth)
+                self.apply(infix.symbol(), &joined.left, &joined.right, span)?
+                    .with_kind(Kind::Truth)
             }
         };
-        Some(Value { literal, zero: false, ..value })
+        Some(Value {
+            literal,
+            zero: false,
+            ..value
+        })
     }
 
     fn apply(&mut self, name: &'static str, a: &Value, b: &Value, span: Span) -> Option<Value> {
@@ -369,8 +458,14 @@ impl<'r> Lowering<'r> {
         mut combine: impl FnMut(&mut Builder, Id, Id) -> Id,
     ) -> Option<Value> {
         let len = self.common_length(&[a, b], &span)?;
-        let elements = (0..len).map(|i| combine(&mut self.builder, a.at(i), b.at(i))).collect();
-        Some(Value { elements, vector: a.vector || b.vector, ..a.clone() })
+        let elements = (0..len)
+            .map(|i| combine(&mut self.builder, a.at(i), b.at(i)))
+            .collect();
+        Some(Value {
+            elements,
+            vector: a.vector || b.vector,
+            ..a.clone()
+        })
     }
 
     /// The length that scalars and vectors have together.
@@ -379,9 +474,13 @@ impl<'r> Lowering<'r> {
         let len = vectors.next().unwrap_or(1);
         if let Some(other) = vectors.find(|n| *n != len) {
             self.report(
-                Fault::new(faults::LENGTHS, span.clone(), format!("a vector of {len} elements meets one of {other}"))
-                    .label(format!("lengths {len} and {other}"))
-                    .help("vectors are combined element by element and need equal lengths"),
+                Fault::new(
+                    faults::LENGTHS,
+                    span.clone(),
+                    format!("a vector of {len} elements meets one of {other}"),
+                )
+                .label(format!("lengths {len} and {other}"))
+                .help("vectors are combined element by element and need equal lengths"),
             );
             return None;
         }
@@ -393,11 +492,19 @@ impl<'r> Lowering<'r> {
         let values: Vec<Option<Value>> = items.iter().map(|item| self.scalar(item)).collect();
         let values: Option<Vec<Value>> = values.into_iter().collect();
         let values = values?;
-        let Some(lead) = values.iter().position(|v| !v.zero).or(values.len().checked_sub(1)) else {
+        let Some(lead) = values
+            .iter()
+            .position(|v| !v.zero)
+            .or(values.len().checked_sub(1))
+        else {
             self.report(
-                Fault::new(faults::SHAPE, whole.span.clone(), "this vector has no elements")
-                    .label("empty")
-                    .help("write at least one element"),
+                Fault::new(
+                    faults::SHAPE,
+                    whole.span.clone(),
+                    "this vector has no elements",
+                )
+                .label("empty")
+                .help("write at least one element"),
             );
             return None;
         };
@@ -406,7 +513,10 @@ impl<'r> Lowering<'r> {
         // A plain number among percentages makes them all plain numbers.
         for (value, item) in values.iter().zip(items) {
             let joined = self.join(
-                Operand { value: &values[lead], expr: &items[lead] },
+                Operand {
+                    value: &values[lead],
+                    expr: &items[lead],
+                },
                 Operand { value, expr: item },
                 "put into one vector",
             )?;
@@ -420,7 +530,13 @@ impl<'r> Lowering<'r> {
             elements.extend(moved.elements);
         }
         let literal = values.iter().all(|v| v.literal);
-        Some(Value { elements, vector: true, kind: Kind::Quantity(unit), zero: false, literal })
+        Some(Value {
+            elements,
+            vector: true,
+            kind: Kind::Quantity(unit),
+            zero: false,
+            literal,
+        })
     }
 
     /// A value that must be a single one.
@@ -431,13 +547,26 @@ impl<'r> Lowering<'r> {
         }
         let text = printer::expression(e);
         let (code, help) = match e.node {
-            Node::Vector(_) => (faults::NESTED_VECTOR, "write all elements between one pair of brackets".to_string()),
-            _ => (faults::SHAPE, format!("take one element, `{text}[1]`, or reduce it, `mean({text})`")),
+            Node::Vector(_) => (
+                faults::NESTED_VECTOR,
+                "write all elements between one pair of brackets".to_string(),
+            ),
+            _ => (
+                faults::SHAPE,
+                format!("take one element, `{text}[1]`, or reduce it, `mean({text})`"),
+            ),
         };
         self.report(
-            Fault::new(code, e.span.clone(), format!("`{text}` is a vector of {} elements, but a single value belongs here", value.elements.len()))
-                .label("a vector")
-                .help(help),
+            Fault::new(
+                code,
+                e.span.clone(),
+                format!(
+                    "`{text}` is a vector of {} elements, but a single value belongs here",
+                    value.elements.len()
+                ),
+            )
+            .label("a vector")
+            .help(help),
         );
         None
     }
@@ -448,14 +577,21 @@ impl<'r> Lowering<'r> {
         let text = printer::expression(vector);
         if !x.vector {
             self.report(
-                Fault::new(faults::SHAPE, vector.span.clone(), format!("`{text}` is a single value and has no elements"))
-                    .label("not a vector")
-                    .help("remove the index"),
+                Fault::new(
+                    faults::SHAPE,
+                    vector.span.clone(),
+                    format!("`{text}` is a single value and has no elements"),
+                )
+                .label("not a vector")
+                .help("remove the index"),
             );
             return None;
         }
         let len = x.elements.len();
-        let at = self.builder.constant_at(place.elements[0]).filter(|_| place.literal);
+        let at = self
+            .builder
+            .constant_at(place.elements[0])
+            .filter(|_| place.literal);
         let chosen = at.filter(|k| k.fract() == 0.0 && *k >= 1.0 && *k <= len as f64);
         let Some(k) = chosen else {
             let what = match at {
@@ -469,7 +605,11 @@ impl<'r> Lowering<'r> {
             );
             return None;
         };
-        Some(Value { elements: vec![x.elements[k as usize - 1]], vector: false, ..x })
+        Some(Value {
+            elements: vec![x.elements[k as usize - 1]],
+            vector: false,
+            ..x
+        })
     }
 
     fn choice(&mut self, whole: &Expr, condition: &Expr, yes: &Expr, no: &Expr) -> Option<Value> {
@@ -477,13 +617,32 @@ impl<'r> Lowering<'r> {
         let fit = c.as_ref().map(|c| self.truth(c, condition));
         let (c, a, b) = (c?, a?, b?);
         fit??;
-        let joined = self.join(Operand { value: &a, expr: yes }, Operand { value: &b, expr: no }, "alternatives")?;
+        let joined = self.join(
+            Operand {
+                value: &a,
+                expr: yes,
+            },
+            Operand {
+                value: &b,
+                expr: no,
+            },
+            "alternatives",
+        )?;
         let len = self.common_length(&[&c, &a, &b], &whole.span)?;
         let elements = (0..len)
-            .map(|i| self.builder.select(c.at(i), joined.left.at(i), joined.right.at(i)))
+            .map(|i| {
+                self.builder
+                    .select(c.at(i), joined.left.at(i), joined.right.at(i))
+            })
             .collect();
         let vector = c.vector || a.vector || b.vector;
-        Some(Value { elements, vector, kind: Kind::Quantity(joined.unit), zero: a.zero && b.zero, literal: a.literal && b.literal })
+        Some(Value {
+            elements,
+            vector,
+            kind: Kind::Quantity(joined.unit),
+            zero: a.zero && b.zero,
+            literal: a.literal && b.literal,
+        })
     }
 
     /// Notes how the user wrote the operations of a value, for hints about poles and kinks.
@@ -505,7 +664,11 @@ impl<'r> Lowering<'r> {
 impl Value {
     /// The i-th element, or the scalar.
     pub fn at(&self, i: usize) -> Id {
-        if self.vector { self.elements[i] } else { self.elements[0] }
+        if self.vector {
+            self.elements[i]
+        } else {
+            self.elements[0]
+        }
     }
 }
 

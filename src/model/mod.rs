@@ -7,8 +7,10 @@
 //! All numbers are in the user's units: the tape converts only where two units meet.
 
 mod block;
+mod catalogue;
 mod check;
 pub mod faults;
+mod forms;
 mod functions;
 mod graph;
 mod hints;
@@ -16,9 +18,11 @@ mod implicit;
 mod jet;
 mod lexer;
 mod lower;
+mod measurand;
 mod operation;
 mod parser;
 mod printer;
+mod reductions;
 mod syntax;
 mod units;
 
@@ -30,8 +34,8 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 pub use block::BlockRunner;
+pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
-pub use functions::{FunctionInfo, functions};
 
 use jet::Jet;
 
@@ -41,8 +45,11 @@ use crate::quantity::{Unit, UnitTable};
 /// A name that a model may use.
 #[derive(Debug, Clone)]
 pub struct Symbol {
+    /// As the file calls it.
     pub name: String,
+    /// Unit of its numbers; the unit one when none is stated.
     pub unit: Unit,
+    /// What stands behind it.
     pub role: Role,
 }
 
@@ -62,6 +69,7 @@ pub enum Role {
 /// A measurand as the budget file states it.
 #[derive(Debug, Clone)]
 pub struct MeasurandSource<'a> {
+    /// As the file calls it.
     pub name: &'a str,
     /// Its own statements, the last of which gives the value; `None` where the shared model defines
     /// a quantity of this name.
@@ -73,10 +81,13 @@ pub struct MeasurandSource<'a> {
 /// Everything that [`compile`] needs.
 #[derive(Debug, Clone)]
 pub struct Request<'a> {
+    /// Inputs and constants.
     pub symbols: &'a [Symbol],
     /// Statements that every measurand sees.
     pub shared: Option<&'a str>,
+    /// In the order of the file.
     pub measurands: &'a [MeasurandSource<'a>],
+    /// The units that quoted unit texts may use.
     pub units: &'a UnitTable,
 }
 
@@ -96,14 +107,18 @@ pub enum Place {
 /// A fault and the text it is in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelFault {
+    /// The text.
     pub place: Place,
+    /// Its spans are bytes of that text.
     pub fault: Fault,
 }
 
 /// One measurand of a compiled model.
 #[derive(Debug, Clone)]
 pub struct Output {
+    /// As the file calls it.
     pub name: String,
+    /// Unit of its value.
     pub unit: Unit,
     /// The defining statements in printed form, one per line (`R = V / I * cos(phi)`).
     pub equation: String,
@@ -144,7 +159,11 @@ impl Model {
     /// f(x) for every output, in its unit.
     pub fn values(&self, x: &[f64]) -> Vec<f64> {
         let values = self.graph.evaluate(&jets::<1>(x, x));
-        self.graph.outputs.iter().map(|id| values[*id as usize].value()).collect()
+        self.graph
+            .outputs
+            .iter()
+            .map(|id| values[*id as usize].value())
+            .collect()
     }
 
     /// ∂f_o/∂x_i, outputs × inputs, by one reverse sweep per output.
@@ -152,7 +171,12 @@ impl Model {
         let values = self.graph.evaluate(&jets::<1>(x, x));
         let mut out = DMatrix::zeros(self.outputs.len(), self.inputs);
         for (row, id) in self.graph.outputs.iter().enumerate() {
-            for (column, slope) in self.graph.gradient(&values, *id, self.inputs).iter().enumerate() {
+            for (column, slope) in self
+                .graph
+                .gradient(&values, *id, self.inputs)
+                .iter()
+                .enumerate()
+            {
                 out[(row, column)] = slope.value();
             }
         }
@@ -168,7 +192,11 @@ impl Model {
         let sweep = |id: &graph::Id| {
             let gradient = self.graph.gradient(&values, *id, self.inputs);
             let part = |k: usize| gradient.iter().map(|g| g.0[k]).collect();
-            Along { gradient: part(0), second: part(1), third: part(2) }
+            Along {
+                gradient: part(0),
+                second: part(1),
+                third: part(2),
+            }
         };
         self.graph.outputs.iter().map(sweep).collect()
     }
@@ -198,5 +226,8 @@ impl Model {
 
 /// The point x, moving along a direction.
 fn jets<const N: usize>(x: &[f64], direction: &[f64]) -> Vec<Jet<N>> {
-    x.iter().zip(direction).map(|(x, d)| Jet::line(*x, *d)).collect()
+    x.iter()
+        .zip(direction)
+        .map(|(x, d)| Jet::line(*x, *d))
+        .collect()
 }

@@ -40,7 +40,9 @@ impl DimensionRule {
             DimensionRule::One => "takes and gives a number (dimension one)",
             DimensionRule::Angle => "takes an angle (°, rad …), gives a number",
             DimensionRule::ToAngle => "takes a number, gives an angle",
-            DimensionRule::Same => "gives the unit of its arguments, which must be of one dimension",
+            DimensionRule::Same => {
+                "gives the unit of its arguments, which must be of one dimension"
+            }
             DimensionRule::Ratio => "takes arguments of one dimension, gives a number or an angle",
             DimensionRule::Sign => "takes any unit, gives a number",
             DimensionRule::Root(2) => "gives the square root of the unit",
@@ -68,6 +70,7 @@ pub enum Smoothness {
 pub struct Unary {
     /// As it is called; names that are no identifiers belong to operators.
     pub name: &'static str,
+    pub signature: &'static str,
     pub doc: &'static str,
     pub dimension: DimensionRule,
     pub scalar: fn(f64) -> f64,
@@ -82,6 +85,8 @@ pub struct Unary {
 /// A function of two arguments.
 pub struct Binary {
     pub name: &'static str,
+    /// Empty for operators.
+    pub signature: &'static str,
     pub doc: &'static str,
     pub dimension: DimensionRule,
     pub scalar: fn(f64, f64) -> f64,
@@ -120,11 +125,21 @@ macro_rules! lanewise {
 
 macro_rules! row {
     ($name:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr) => {
-        row!($name, $doc, $dimension, $scalar, $derivatives, $block, Smoothness::Smooth, None)
+        row!(
+            $name,
+            $doc,
+            $dimension,
+            $scalar,
+            $derivatives,
+            $block,
+            Smoothness::Smooth,
+            None
+        )
     };
     ($name:literal, $doc:literal, $dimension:expr, $scalar:expr, $derivatives:expr, $block:expr, $smoothness:expr, $edge:expr) => {
         Unary {
             name: $name,
+            signature: concat!($name, "(x)"),
             doc: $doc,
             dimension: $dimension,
             scalar: $scalar,
@@ -136,10 +151,26 @@ macro_rules! row {
     };
 }
 
+macro_rules! row2 {
+    ($name:literal, $signature:literal, $doc:literal, $dimension:expr, $scalar:expr, $rule:expr, $block:expr, $smoothness:expr) => {
+        Binary {
+            name: $name,
+            signature: $signature,
+            doc: $doc,
+            dimension: $dimension,
+            scalar: $scalar,
+            rule: $rule,
+            block: $block,
+            smoothness: $smoothness,
+        }
+    };
+}
+
 use DimensionRule::{Angle, One, Operator, Ratio, Root, Same, Sign, ToAngle, Truth};
 use Smoothness::{Branch, Corner, Smooth, Steps};
 
 /// Functions of one argument.
+#[rustfmt::skip] // A table reads by lines.
 pub static UNARY: &[Unary] = &[
     row!("-", "opposite", Same, |x| -x, |x| [-x, -1.0, 0.0, 0.0], kernels::neg),
     row!("not", "negation of a condition", Truth, negate, |x| [negate(x), 0.0, 0.0, 0.0], kernels::not),
@@ -171,38 +202,27 @@ pub static UNARY: &[Unary] = &[
 ];
 
 /// Functions of two arguments, operators included.
+#[rustfmt::skip] // A table reads by lines.
 pub static BINARY: &[Binary] = &[
-    binary("+", "sum", Same, |a, b| a + b, Rule::Add, kernels::add, Smooth),
-    binary("-", "difference", Same, |a, b| a - b, Rule::Sub, kernels::sub, Smooth),
-    binary("*", "product", Operator, |a, b| a * b, Rule::Mul, kernels::mul, Smooth),
-    binary("/", "quotient", Operator, |a, b| a / b, Rule::Div, kernels::div, Smooth),
-    binary("^", "power", Operator, libm::pow, Rule::Pow, kernels::pow, Smooth),
-    binary("atan2", "angle of the point (x, y) seen from the origin, from -π to π", Ratio, libm::atan2, Rule::Atan2, kernels::atan2, Branch),
-    binary("hypot", "square root of the sum of squares", Same, libm::hypot, Rule::Hypot, kernels::hypot, Smooth),
-    binary("min", "smallest argument or element", Same, smaller, Rule::Pick, kernels::min, Corner),
-    binary("max", "largest argument or element", Same, larger, Rule::Pick, kernels::max, Corner),
-    binary("quantize", "x rounded to the nearest multiple of a step; its derivative is the mean slope, 1", Same, quantize, Rule::Staircase, quantize_block, Smooth),
-    binary("<", "less than", Ratio, |a, b| truth(a < b), Rule::Constant, kernels::lt, Corner),
-    binary("<=", "at most", Ratio, |a, b| truth(a <= b), Rule::Constant, kernels::le, Corner),
-    binary(">", "greater than", Ratio, |a, b| truth(a > b), Rule::Constant, kernels::gt, Corner),
-    binary(">=", "at least", Ratio, |a, b| truth(a >= b), Rule::Constant, kernels::ge, Corner),
-    binary("==", "equal", Ratio, |a, b| truth(a == b), Rule::Constant, kernels::eq, Corner),
-    binary("!=", "different", Ratio, |a, b| truth(a != b), Rule::Constant, kernels::ne, Corner),
-    binary("and", "both", Truth, |a, b| a * b, Rule::Constant, kernels::and, Smooth),
-    binary("or", "at least one", Truth, larger, Rule::Constant, kernels::or, Smooth),
+    row2!("+", "", "sum", Same, |a, b| a + b, Rule::Add, kernels::add, Smooth),
+    row2!("-", "", "difference", Same, |a, b| a - b, Rule::Sub, kernels::sub, Smooth),
+    row2!("*", "", "product", Operator, |a, b| a * b, Rule::Mul, kernels::mul, Smooth),
+    row2!("/", "", "quotient", Operator, |a, b| a / b, Rule::Div, kernels::div, Smooth),
+    row2!("^", "", "power", Operator, libm::pow, Rule::Pow, kernels::pow, Smooth),
+    row2!("atan2", "atan2(y, x)", "angle of the point (x, y) seen from the origin, from -π to π", Ratio, libm::atan2, Rule::Atan2, kernels::atan2, Branch),
+    row2!("hypot", "hypot(a, b, …)", "square root of the sum of squares", Same, libm::hypot, Rule::Hypot, kernels::hypot, Smooth),
+    row2!("min", "min(a, b, …)", "smallest argument or element", Same, smaller, Rule::Pick, kernels::min, Corner),
+    row2!("max", "max(a, b, …)", "largest argument or element", Same, larger, Rule::Pick, kernels::max, Corner),
+    row2!("quantize", "quantize(x, step)", "x rounded to the nearest multiple of a step; its derivative is the mean slope, 1", Same, quantize, Rule::Staircase, quantize_block, Smooth),
+    row2!("<", "", "less than", Ratio, |a, b| truth(a < b), Rule::Constant, kernels::lt, Corner),
+    row2!("<=", "", "at most", Ratio, |a, b| truth(a <= b), Rule::Constant, kernels::le, Corner),
+    row2!(">", "", "greater than", Ratio, |a, b| truth(a > b), Rule::Constant, kernels::gt, Corner),
+    row2!(">=", "", "at least", Ratio, |a, b| truth(a >= b), Rule::Constant, kernels::ge, Corner),
+    row2!("==", "", "equal", Ratio, |a, b| truth(a == b), Rule::Constant, kernels::eq, Corner),
+    row2!("!=", "", "different", Ratio, |a, b| truth(a != b), Rule::Constant, kernels::ne, Corner),
+    row2!("and", "", "both", Truth, |a, b| a * b, Rule::Constant, kernels::and, Smooth),
+    row2!("or", "", "at least one", Truth, larger, Rule::Constant, kernels::or, Smooth),
 ];
-
-const fn binary(
-    name: &'static str,
-    doc: &'static str,
-    dimension: DimensionRule,
-    scalar: fn(f64, f64) -> f64,
-    rule: Rule,
-    block: fn(Level, &Block, &Block, &mut Block),
-    smoothness: Smoothness,
-) -> Binary {
-    Binary { name, doc, dimension, scalar, rule, block, smoothness }
-}
 
 /// The row of a function or operator with one argument.
 pub fn unary(name: &str) -> Option<&'static Unary> {
@@ -220,7 +240,8 @@ impl Unary {
         if N == 1 {
             return Jet::constant((self.scalar)(x.value()));
         }
-        x.compose(&(self.derivatives)(x.value())).with_value((self.scalar)(x.value()))
+        x.compose(&(self.derivatives)(x.value()))
+            .with_value((self.scalar)(x.value()))
     }
 
     /// f' at a jet.
@@ -304,7 +325,11 @@ pub fn power(x: f64, c: f64) -> [f64; 4] {
     let mut factor = 1.0;
     for (k, value) in out.iter_mut().enumerate() {
         let exponent = c - k as f64;
-        *value = if factor == 0.0 { 0.0 } else { factor * libm::pow(x, exponent) };
+        *value = if factor == 0.0 {
+            0.0
+        } else {
+            factor * libm::pow(x, exponent)
+        };
         factor *= exponent;
     }
     out
@@ -349,11 +374,19 @@ fn sign(x: f64) -> f64 {
 
 /// The smaller number; not a number if either is none.
 fn smaller(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.min(b)
+    }
 }
 
 fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else {
+        a.max(b)
+    }
 }
 
 fn quantize(x: f64, step: f64) -> f64 {
@@ -409,7 +442,12 @@ fn arc(value: f64, x: f64, side: f64) -> [f64; 4] {
 
 fn atan(x: f64) -> [f64; 4] {
     let q = 1.0 / (1.0 + x * x);
-    [libm::atan(x), q, -2.0 * x * q * q, (6.0 * x * x - 2.0) * q * q * q]
+    [
+        libm::atan(x),
+        q,
+        -2.0 * x * q * q,
+        (6.0 * x * x - 2.0) * q * q * q,
+    ]
 }
 
 fn sinh(x: f64) -> [f64; 4] {
@@ -442,7 +480,12 @@ fn acosh(x: f64) -> [f64; 4] {
 
 fn atanh(x: f64) -> [f64; 4] {
     let q = 1.0 / ((1.0 - x) * (1.0 + x));
-    [libm::atanh(x), q, 2.0 * x * q * q, (2.0 + 6.0 * x * x) * q * q * q]
+    [
+        libm::atanh(x),
+        q,
+        2.0 * x * q * q,
+        (2.0 + 6.0 * x * x) * q * q * q,
+    ]
 }
 
 fn erf(x: f64) -> [f64; 4] {

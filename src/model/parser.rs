@@ -19,14 +19,22 @@ pub struct Reading {
 
 /// The statements of a text; faults go to `faults`. `is_unit` tells whether a
 /// name would do as a unit, for better help.
-pub fn parse(
-    text: &str,
-    is_unit: &dyn Fn(&str) -> bool,
-    faults: &mut Vec<Fault>,
-) -> Reading {
+pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>) -> Reading {
     let tokens = tokens(text, faults);
-    let mut parser = Parser { text, tokens, at: 0, open: Vec::new(), depth: 0, assigned: false, is_unit };
-    let mut reading = Reading { statements: Vec::new(), faulty: Vec::new() };
+    let mut parser = Parser {
+        text,
+        tokens,
+        at: 0,
+        open: Vec::new(),
+        depth: 0,
+        begin: 0,
+        assigned: false,
+        is_unit,
+    };
+    let mut reading = Reading {
+        statements: Vec::new(),
+        faulty: Vec::new(),
+    };
     while parser.tokens[parser.at].kind != Kind::Eof {
         if parser.tokens[parser.at].kind == Kind::End {
             parser.at += 1;
@@ -54,6 +62,8 @@ struct Parser<'a> {
     /// Brackets not closed yet.
     open: Vec<(&'static str, Span)>,
     depth: usize,
+    /// Where the statement begins.
+    begin: usize,
     /// Whether the statement already has its `=`.
     assigned: bool,
     is_unit: &'a dyn Fn(&str) -> bool,
@@ -142,19 +152,29 @@ impl Parser<'_> {
 
     fn statement(&mut self) -> Parsed<Statement> {
         self.assigned = false;
+        self.begin = self.tokens[self.at].span.start;
         let statement = if let Some((name, parameters)) = self.function_head() {
             self.assigned = true;
-            Statement::Function { name, parameters, body: self.right_side()? }
+            Statement::Function {
+                name,
+                parameters,
+                body: self.right_side()?,
+            }
         } else if self.defines(self.at) {
             let name = self.name()?;
             self.at += 1;
             self.assigned = true;
-            Statement::Assign { name, value: self.right_side()? }
+            Statement::Assign {
+                name,
+                value: self.right_side()?,
+            }
         } else {
             let first = self.peek();
             if let Kind::Sign(sign @ ("+" | "*" | "/" | "^")) = first.kind {
                 return Err(self.unexpected("a statement").map(|f| {
-                    f.help(format!("to go on with the line before, end that line with `{sign}`"))
+                    f.help(format!(
+                        "to go on with the line before, end that line with `{sign}`"
+                    ))
                 }));
             }
             Statement::Value(self.expression(0)?)
@@ -167,7 +187,10 @@ impl Parser<'_> {
                 token.span,
                 format!("`{sign}` closes a bracket that was never opened"),
             )
-            .map(|f| f.label("no bracket to close").help(format!("remove `{sign}`")))),
+            .map(|f| {
+                f.label("no bracket to close")
+                    .help(format!("remove `{sign}`"))
+            })),
             _ => Err(self.unexpected("an operator or the end of the statement")),
         }
     }
@@ -210,7 +233,10 @@ impl Parser<'_> {
 
     fn name(&mut self) -> Parsed<Name> {
         match self.peek() {
-            Token { kind: Kind::Name(text), span } => {
+            Token {
+                kind: Kind::Name(text),
+                span,
+            } => {
                 self.at += 1;
                 Ok(Name { text, span })
             }
@@ -230,7 +256,10 @@ impl Parser<'_> {
                 span,
                 format!("more than {MAX_DEPTH} brackets, signs or calls stand inside one another"),
             )
-            .map(|f| f.label("too deep").help("give the inner parts names of their own")));
+            .map(|f| {
+                f.label("too deep")
+                    .help("give the inner parts names of their own")
+            }));
         }
         let left = self.prefix()?;
         let whole = self.operators(left, level)?;
@@ -269,7 +298,13 @@ impl Parser<'_> {
             left = if infix == Infix::Power {
                 let exponent = self.expression(Infix::Power.level())?;
                 let span = left.span.start..exponent.span.end;
-                Expr { span, node: Node::Power { base: Box::new(left), exponent: Box::new(exponent) } }
+                Expr {
+                    span,
+                    node: Node::Power {
+                        base: Box::new(left),
+                        exponent: Box::new(exponent),
+                    },
+                }
             } else {
                 let right = self.expression(infix.level() + 1)?;
                 chain(left, infix, right)
@@ -299,12 +334,25 @@ impl Parser<'_> {
     }
 
     fn misplaced_equals(&self, left: &Expr, token: &Token) -> Box<Fault> {
-        let before = &self.text[left.span.clone()];
+        let whole = self.begin..left.span.end;
+        let before = &self.text[whole.clone()];
         if self.assigned || !self.open.is_empty() {
-            fault(faults::EQUALS, token.span.clone(), "`=` stands inside an expression")
-                .map(|f| f.label("expected an operator").help("to compare, write `==`"))
+            fault(
+                faults::EQUALS,
+                token.span.clone(),
+                "`=` stands inside an expression",
+            )
+            .map(|f| {
+                f.label("expected an operator")
+                    .help("to compare, write `==`")
+            })
         } else {
-            fault(faults::LEFT_SIDE, left.span.clone(), format!("`{before}` cannot be defined")).map(|f| {
+            fault(
+                faults::LEFT_SIDE,
+                whole,
+                format!("`{before}` cannot be defined"),
+            )
+            .map(|f| {
                 f.label("only a name, or `f(x, y)` with names, may stand left of `=`")
                     .help("write `name = expression`; to compare, write `==`")
             })
@@ -318,7 +366,10 @@ impl Parser<'_> {
         let help = if is_number && (self.is_unit)(after) {
             format!("write `{before} * {after}`, or `{before} '{after}'` if {after} is the unit")
         } else {
-            let shown = before.rsplit([' ', '+', '-', '*', '/', ',', '(']).next().unwrap_or(before);
+            let shown = before
+                .rsplit([' ', '+', '-', '*', '/', ',', '('])
+                .next()
+                .unwrap_or(before);
             format!("write `{shown} * {after}` for a product")
         };
         fault(
@@ -337,33 +388,57 @@ impl Parser<'_> {
             Kind::Number { value, text } => self.number(value, text, token.span)?,
             Kind::Quoted(_) => {
                 let unit = self.unit_text(&token.span);
-                Expr { span: token.span, node: Node::Unit(unit) }
+                Expr {
+                    span: token.span,
+                    node: Node::Unit(unit),
+                }
             }
             Kind::Name(text) if self.is_sign(self.at, "(") => {
-                let name = Name { text, span: token.span };
+                let name = Name {
+                    text,
+                    span: token.span,
+                };
                 let arguments = self.bracketed("(", ")")?;
-                Expr { span: start..self.last_end(), node: Node::Call { name, arguments } }
+                Expr {
+                    span: start..self.last_end(),
+                    node: Node::Call { name, arguments },
+                }
             }
-            Kind::Name(text) => Expr { span: token.span, node: Node::Name(text) },
+            Kind::Name(text) => Expr {
+                span: token.span,
+                node: Node::Name(text),
+            },
             Kind::Sign("(") => {
                 self.open.push(("(", token.span.clone()));
                 let inner = self.expression(0)?;
                 self.close(")")?;
-                Expr { span: start..self.last_end(), node: inner.node }
+                Expr {
+                    span: start..self.last_end(),
+                    node: inner.node,
+                }
             }
             Kind::Sign("[") => {
                 self.at -= 1;
                 let items = self.bracketed("[", "]")?;
-                Expr { span: start..self.last_end(), node: Node::Vector(items) }
+                Expr {
+                    span: start..self.last_end(),
+                    node: Node::Vector(items),
+                }
             }
             Kind::Sign("-") => {
                 let inner = self.expression(MINUS)?;
-                return Ok(Expr { span: start..inner.span.end, node: Node::Minus(Box::new(inner)) });
+                return Ok(Expr {
+                    span: start..inner.span.end,
+                    node: Node::Minus(Box::new(inner)),
+                });
             }
             Kind::Sign("+") => return self.expression(MINUS),
             Kind::Word("not") => {
                 let inner = self.expression(NOT)?;
-                return Ok(Expr { span: start..inner.span.end, node: Node::Not(Box::new(inner)) });
+                return Ok(Expr {
+                    span: start..inner.span.end,
+                    node: Node::Not(Box::new(inner)),
+                });
             }
             Kind::Word("if") => return self.conditional(token.span),
             _ => {
@@ -384,25 +459,40 @@ impl Parser<'_> {
         let index = self.expression(0)?;
         self.close("]")?;
         let span = atom.span.start..self.last_end();
-        Ok(Expr { span, node: Node::Index { vector: Box::new(atom), index: Box::new(index) } })
+        Ok(Expr {
+            span,
+            node: Node::Index {
+                vector: Box::new(atom),
+                index: Box::new(index),
+            },
+        })
     }
 
     fn number(&mut self, value: f64, text: String, span: Span) -> Parsed<Expr> {
         let unit = match self.tokens[self.at].clone() {
-            Token { kind: Kind::Quoted(_), span } => {
+            Token {
+                kind: Kind::Quoted(_),
+                span,
+            } => {
                 self.at += 1;
                 Some(self.unit_text(&span))
             }
             _ => None,
         };
-        Ok(Expr { span: span.start..self.last_end(), node: Node::Number { value, text, unit } })
+        Ok(Expr {
+            span: span.start..self.last_end(),
+            node: Node::Number { value, text, unit },
+        })
     }
 
     /// What is between the quotes at `span`.
     fn unit_text(&self, span: &Span) -> UnitText {
         let quoted = &self.text[span.clone()];
         let inner = quoted.trim_start_matches('\'').trim_end_matches('\'');
-        UnitText { text: inner.to_string(), span: span.start + 1..span.start + 1 + inner.len() }
+        UnitText {
+            text: inner.to_string(),
+            span: span.start + 1..span.start + 1 + inner.len(),
+        }
     }
 
     /// `if c then a else b` or `if(c, a, b)`; the word has been read.
@@ -416,18 +506,25 @@ impl Parser<'_> {
                 return self.rest_of_if(word, inner);
             }
             self.close(")")?;
-            let bracket = Expr { span: start..self.last_end(), node: inner.node };
+            let bracket = Expr {
+                span: start..self.last_end(),
+                node: inner.node,
+            };
             self.operators(bracket, 0)?
         } else {
             self.expression(0)?
         };
         if !self.accept_word("then") {
-            return Err(self.unexpected("`then`").map(|f| f.help("write `if condition then a else b`")));
+            return Err(self
+                .unexpected("`then`")
+                .map(|f| f.help("write `if condition then a else b`")));
         }
         self.skip_line_ends();
         let yes = self.expression(0)?;
         if !self.accept_word("else") {
-            return Err(self.unexpected("`else`").map(|f| f.help("write `if condition then a else b`")));
+            return Err(self
+                .unexpected("`else`")
+                .map(|f| f.help("write `if condition then a else b`")));
         }
         self.skip_line_ends();
         let no = self.expression(0)?;
@@ -437,14 +534,16 @@ impl Parser<'_> {
     fn rest_of_if(&mut self, word: Span, condition: Expr) -> Parsed<Expr> {
         let yes = self.expression(0)?;
         if !self.accept_sign(",") {
-            return Err(self.unexpected("`,`").map(|f| f.help("write `if(condition, a, b)`")));
+            return Err(self
+                .unexpected("`,`")
+                .map(|f| f.help("write `if(condition, a, b)`")));
         }
         let no = self.expression(0)?;
         self.close(")")?;
         let end = self.last_end();
         let mut whole = choice(word, condition, yes, no);
         whole.span.end = end;
-        Ok(whole)
+        self.index(whole)
     }
 
     /// A list between brackets; the opening one comes next.
@@ -479,7 +578,12 @@ impl Parser<'_> {
             }
             Kind::End | Kind::Eof => {
                 let here = token.span.start..token.span.start;
-                Err(fault(faults::UNCLOSED, place, format!("this `{opening}` is never closed")).map(|f| {
+                Err(fault(
+                    faults::UNCLOSED,
+                    place,
+                    format!("this `{opening}` is never closed"),
+                )
+                .map(|f| {
                     f.label("opened here")
                         .related(here, format!("expected `{closing}` before this"))
                         .help(format!("add `{closing}`"))
@@ -505,15 +609,16 @@ impl Parser<'_> {
 
     fn unexpected(&mut self, expected: &str) -> Box<Fault> {
         let token = self.peek();
-        // A missing operand at the end of an unclosed bracket is better blamed on the bracket only
-        // when the bracket is empty so far; the missing operand is the nearer cause.
         let found = match &token.kind {
             Kind::Eof => "the end of the model".to_string(),
             Kind::End if self.is_line_end(self.at) => "the end of the line".to_string(),
             _ => format!("`{}`", &self.text[token.span.clone()]),
         };
-        let mut made =
-            fault(faults::UNEXPECTED, token.span, format!("expected {expected}, found {found}"));
+        let mut made = fault(
+            faults::UNEXPECTED,
+            token.span,
+            format!("expected {expected}, found {found}"),
+        );
         made.label = format!("expected {expected}");
         made
     }
@@ -528,19 +633,34 @@ fn chain(left: Expr, infix: Infix, right: Expr) -> Expr {
     match left.node {
         Node::Chain { first, mut rest } if same(&rest) => {
             rest.push((infix, right));
-            Expr { span, node: Node::Chain { first, rest } }
+            Expr {
+                span,
+                node: Node::Chain { first, rest },
+            }
         }
         node => {
-            let first = Box::new(Expr { span: left.span, node });
-            Expr { span, node: Node::Chain { first, rest: vec![(infix, right)] } }
+            let first = Box::new(Expr {
+                span: left.span,
+                node,
+            });
+            Expr {
+                span,
+                node: Node::Chain {
+                    first,
+                    rest: vec![(infix, right)],
+                },
+            }
         }
     }
 }
 
 fn choice(word: Span, condition: Expr, yes: Expr, no: Expr) -> Expr {
     let span = word.start..no.span.end;
-    let node =
-        Node::If { condition: Box::new(condition), yes: Box::new(yes), no: Box::new(no) };
+    let node = Node::If {
+        condition: Box::new(condition),
+        yes: Box::new(yes),
+        no: Box::new(no),
+    };
     Expr { span, node }
 }
 

@@ -6,7 +6,11 @@ use super::syntax::{ATOM, Expr, Infix, MINUS, NOT, Node, Statement};
 pub fn statement(statement: &Statement, measurand: &str) -> String {
     match statement {
         Statement::Assign { name, value } => format!("{} = {}", name.text, expression(value)),
-        Statement::Function { name, parameters, body } => {
+        Statement::Function {
+            name,
+            parameters,
+            body,
+        } => {
             let list: Vec<&str> = parameters.iter().map(|p| p.text.as_str()).collect();
             format!("{}({}) = {}", name.text, list.join(", "), expression(body))
         }
@@ -17,15 +21,25 @@ pub fn statement(statement: &Statement, measurand: &str) -> String {
 /// An expression on one line.
 pub fn expression(e: &Expr) -> String {
     match &e.node {
-        Node::Number { text, unit: None, .. } => text.clone(),
-        Node::Number { text, unit: Some(unit), .. } => format!("{text} '{}'", unit.text),
+        Node::Number {
+            text, unit: None, ..
+        } => text.clone(),
+        Node::Number {
+            text,
+            unit: Some(unit),
+            ..
+        } => format!("{text} '{}'", unit.text),
         Node::Unit(unit) => format!("'{}'", unit.text),
         Node::Name(name) => name.clone(),
         Node::Chain { first, rest } => chain(first, rest),
         Node::Power { base, exponent } => {
             // Right-associative: a^b^c is a^(b^c), (a^b)^c needs its brackets.
             let level = Infix::Power.level();
-            format!("{}^{}", bracketed(base, level + 1), bracketed(exponent, MINUS))
+            format!(
+                "{}^{}",
+                bracketed(base, level + 1),
+                bracketed(exponent, MINUS)
+            )
         }
         Node::Minus(inner) => format!("-{}", bracketed(inner, MINUS)),
         Node::Not(inner) => format!("not {}", bracketed(inner, NOT)),
@@ -44,7 +58,9 @@ pub fn expression(e: &Expr) -> String {
 }
 
 fn chain(first: &Expr, rest: &[(Infix, Expr)]) -> String {
-    let Some((infix, _)) = rest.first() else { return expression(first) };
+    let Some((infix, _)) = rest.first() else {
+        return expression(first);
+    };
     let level = infix.level();
     // Comparisons do not chain.
     let mut out = bracketed(first, level + u8::from(infix.compares()));
@@ -65,7 +81,11 @@ fn list(items: &[Expr]) -> String {
 
 fn bracketed(e: &Expr, least: u8) -> String {
     let text = expression(e);
-    if level(e) < least { format!("({text})") } else { text }
+    if level(e) < least {
+        format!("({text})")
+    } else {
+        text
+    }
 }
 
 fn level(e: &Expr) -> u8 {

@@ -18,7 +18,11 @@ pub enum Statement {
     /// `name = expression`
     Assign { name: Name, value: Expr },
     /// `name(parameters) = expression`
-    Function { name: Name, parameters: Vec<Name>, body: Expr },
+    Function {
+        name: Name,
+        parameters: Vec<Name>,
+        body: Expr,
+    },
     /// A bare expression: the value of a measurand.
     Value(Expr),
 }
@@ -102,15 +106,25 @@ pub const ATOM: u8 = 10;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Node {
     /// A number as written, with its unit text if it has one.
-    Number { value: f64, text: String, unit: Option<UnitText> },
+    Number {
+        value: f64,
+        text: String,
+        unit: Option<UnitText>,
+    },
     /// A quoted unit by itself, allowed only where a function asks for one.
     Unit(UnitText),
     /// A name.
     Name(String),
     /// Operators of one level, applied from left to right: `a + b - c`.
-    Chain { first: Box<Expr>, rest: Vec<(Infix, Expr)> },
+    Chain {
+        first: Box<Expr>,
+        rest: Vec<(Infix, Expr)>,
+    },
     /// `base ^ exponent`
-    Power { base: Box<Expr>, exponent: Box<Expr> },
+    Power {
+        base: Box<Expr>,
+        exponent: Box<Expr>,
+    },
     /// `-x`
     Minus(Box<Expr>),
     /// `not x`
@@ -122,7 +136,11 @@ pub enum Node {
     /// `x[i]`
     Index { vector: Box<Expr>, index: Box<Expr> },
     /// `if c then a else b`, `if(c, a, b)`
-    If { condition: Box<Expr>, yes: Box<Expr>, no: Box<Expr> },
+    If {
+        condition: Box<Expr>,
+        yes: Box<Expr>,
+        no: Box<Expr>,
+    },
 }
 
 /// The text between the quotes of `25 'mm'`.
@@ -138,10 +156,17 @@ impl Expr {
     pub fn children(&self) -> Vec<&Expr> {
         match &self.node {
             Node::Number { .. } | Node::Unit(_) | Node::Name(_) => Vec::new(),
-            Node::Chain { first, rest } => {
-                std::iter::once(&**first).chain(rest.iter().map(|(_, e)| e)).collect()
+            Node::Chain { first, rest } => std::iter::once(&**first)
+                .chain(rest.iter().map(|(_, e)| e))
+                .collect(),
+            Node::Power {
+                base: a,
+                exponent: b,
             }
-            Node::Power { base: a, exponent: b } | Node::Index { vector: a, index: b } => vec![a, b],
+            | Node::Index {
+                vector: a,
+                index: b,
+            } => vec![a, b],
             Node::Minus(a) | Node::Not(a) => vec![a],
             Node::Call { arguments, .. } => arguments.iter().collect(),
             Node::Vector(items) => items.iter().collect(),
@@ -149,7 +174,7 @@ impl Expr {
         }
     }
 
-    /// Every name that occurs, whether as a value or as a called function.
+    /// Every name that occurs, whether as a value or as a called function, in the order of the text.
     pub fn names(&self) -> Vec<&str> {
         let mut found = Vec::new();
         let mut open = vec![self];
@@ -159,7 +184,7 @@ impl Expr {
                 Node::Call { name, .. } => found.push(name.text.as_str()),
                 _ => {}
             }
-            open.extend(e.children());
+            open.extend(e.children().into_iter().rev());
         }
         found
     }

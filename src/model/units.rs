@@ -134,11 +134,19 @@ impl Lowering<'_> {
         if zeros {
             let left = left.value.with_unit_if_zero(&to);
             let right = right.value.with_unit_if_zero(&to);
-            return Some(Joined { left, right, unit: to });
+            return Some(Joined {
+                left,
+                right,
+                unit: to,
+            });
         }
         let left = self.converted(left.value, &to)?;
         let right = self.converted(right.value, &to)?;
-        Some(Joined { left, right, unit: to })
+        Some(Joined {
+            left,
+            right,
+            unit: to,
+        })
     }
 
     /// In which unit two quantities meet: that of the left one, but plain numbers where a number
@@ -175,21 +183,54 @@ impl Lowering<'_> {
         let b = self.quantity(right.value, right.expr);
         let (a, b) = (a?, b?);
         match (a.is_point(), infix, b.is_point()) {
-            (false, _, false) => self.join(left, right, if infix == Infix::Add { "added" } else { "subtracted" }),
+            (false, _, false) => self.join(
+                left,
+                right,
+                if infix == Infix::Add {
+                    "added"
+                } else {
+                    "subtracted"
+                },
+            ),
             (true, Infix::Sub, true) => {
                 let joined = self.join(left, right, "subtracted")?;
-                Some(Joined { unit: a.difference(), ..joined })
+                Some(Joined {
+                    unit: a.difference(),
+                    ..joined
+                })
             }
             (true, _, false) => {
                 let step = left.value.with_kind(Kind::Quantity(a.difference()));
-                let joined = self.join(Operand { value: &step, ..left }, right, "added")?;
-                Some(Joined { left: left.value.clone(), right: joined.right, unit: a })
+                let joined = self.join(
+                    Operand {
+                        value: &step,
+                        ..left
+                    },
+                    right,
+                    "added",
+                )?;
+                Some(Joined {
+                    left: left.value.clone(),
+                    right: joined.right,
+                    unit: a,
+                })
             }
             (false, Infix::Add, true) => {
                 let step = right.value.with_kind(Kind::Quantity(b.difference()));
                 // The other way round, so that the conversion is to the scale of the point.
-                let joined = self.join(Operand { value: &step, ..right }, left, "added")?;
-                Some(Joined { left: joined.right, right: right.value.clone(), unit: b })
+                let joined = self.join(
+                    Operand {
+                        value: &step,
+                        ..right
+                    },
+                    left,
+                    "added",
+                )?;
+                Some(Joined {
+                    left: joined.right,
+                    right: right.value.clone(),
+                    unit: b,
+                })
             }
             _ => {
                 self.point_fault(right.expr, &b);
@@ -218,14 +259,23 @@ impl Lowering<'_> {
 
     /// The fault of two dimensions that meet.
     pub fn clash(&mut self, left: Operand<'_>, right: Operand<'_>, what: &str) {
-        let (Some(a), Some(b)) = (left.value.unit().cloned(), right.value.unit().cloned()) else { return };
-        let (left_text, right_text) = (printer::expression(left.expr), printer::expression(right.expr));
+        let (Some(a), Some(b)) = (left.value.unit().cloned(), right.value.unit().cloned()) else {
+            return;
+        };
+        let (left_text, right_text) = (
+            printer::expression(left.expr),
+            printer::expression(right.expr),
+        );
         let help = self.clash_help(left, right, &a, &b);
         self.report(
             Fault::new(
                 faults::CLASH,
                 right.expr.span.clone(),
-                format!("`{left_text}` ({}) and `{right_text}` ({}) cannot be {what}", in_words(&a), in_words(&b)),
+                format!(
+                    "`{left_text}` ({}) and `{right_text}` ({}) cannot be {what}",
+                    in_words(&a),
+                    in_words(&b)
+                ),
             )
             .label(in_words(&b))
             .related(left.expr.span.clone(), in_words(&a))
@@ -242,13 +292,24 @@ impl Lowering<'_> {
         if let Some(hint) = hint_for_clash(a, b) {
             return hint;
         }
-        let suspects = left.expr.names().into_iter().map(|n| (n, b)).chain(right.expr.names().into_iter().map(|n| (n, a)));
+        let suspects = left
+            .expr
+            .names()
+            .into_iter()
+            .map(|n| (n, b))
+            .chain(right.expr.names().into_iter().map(|n| (n, a)));
         for (name, other) in suspects {
             if self.has_no_unit(name) {
-                return format!("if `{name}` has a unit, state it: `unit = \"{}\"`", other.symbol);
+                return format!(
+                    "if `{name}` has a unit, state it: `unit = \"{}\"`",
+                    other.symbol
+                );
             }
         }
-        format!("both must be of one dimension; check the formula and the units {} and {}", a.symbol, b.symbol)
+        format!(
+            "both must be of one dimension; check the formula and the units {} and {}",
+            a.symbol, b.symbol
+        )
     }
 
     fn bare_angle(&mut self, number: &Expr, angle: &Expr, unit: &Unit) {
@@ -257,27 +318,38 @@ impl Lowering<'_> {
             Fault::new(
                 faults::BARE_ANGLE,
                 number.span.clone(),
-                format!("`{text}` has no unit, but meets `{}`, an angle in {}", printer::expression(angle), unit.symbol),
+                format!(
+                    "`{text}` has no unit, but meets `{}`, an angle in {}",
+                    printer::expression(angle),
+                    unit.symbol
+                ),
             )
             .label("would be radians")
             .related(angle.span.clone(), format!("in {}", unit.symbol))
-            .help(format!("write `{text} '{}'`, or `{text} 'rad'` if radians are meant", unit.symbol)),
+            .help(format!(
+                "write `{text} '{}'`, or `{text} 'rad'` if radians are meant",
+                unit.symbol
+            )),
         );
     }
 
     /// base^exponent.
-    pub fn powered(&mut self, base: Operand<'_>, exponent: Operand<'_>, span: Span) -> Option<Value> {
+    pub fn powered(
+        &mut self,
+        base: Operand<'_>,
+        exponent: Operand<'_>,
+        span: Span,
+    ) -> Option<Value> {
         let unit = self.difference(base);
         let exponents = self.exponent(exponent);
         let (unit, exponents) = (unit?, exponents?);
         if unit.dimension == Dimension::NONE {
             let bases = self.converted(base.value, &Unit::one())?;
-            let mut out = self.elementwise(&bases, &exponents, span, |b, x, y| {
-                match b.constant_at(y) {
+            let mut out =
+                self.elementwise(&bases, &exponents, span, |b, x, y| match b.constant_at(y) {
                     Some(c) => b.power(x, c),
                     None => b.call_binary("^", x, y),
-                }
-            })?;
+                })?;
             out.kind = Kind::Quantity(Unit::one());
             return Some(out);
         }
@@ -324,7 +396,9 @@ impl Lowering<'_> {
         let symbol = &unit.symbol;
         let why = match constant {
             Some(c) => format!("{symbol} has no power {c}"),
-            None => format!("the unit of the power of `{base_text}` (in {symbol}) would depend on `{text}`"),
+            None => format!(
+                "the unit of the power of `{base_text}` (in {symbol}) would depend on `{text}`"
+            ),
         };
         self.report(
             Fault::new(faults::EXPONENT, exponent.span.clone(), why)
@@ -343,12 +417,19 @@ impl Lowering<'_> {
 impl Value {
     /// A literal 0 fits any unit.
     pub fn with_unit_if_zero(&self, unit: &Unit) -> Value {
-        if self.zero { self.with_kind(Kind::Quantity(unit.clone())) } else { self.clone() }
+        if self.zero {
+            self.with_kind(Kind::Quantity(unit.clone()))
+        } else {
+            self.clone()
+        }
     }
 
     /// The same numbers as another kind of thing.
     pub fn with_kind(&self, kind: Kind) -> Value {
-        Value { kind, ..self.clone() }
+        Value {
+            kind,
+            ..self.clone()
+        }
     }
 
     /// Its unit, unless it is a condition.
@@ -361,20 +442,32 @@ impl Value {
 
     /// A single quantity.
     pub fn scalar(id: Id, unit: Unit) -> Value {
-        Value { elements: vec![id], vector: false, kind: Kind::Quantity(unit), zero: false, literal: false }
+        Value {
+            elements: vec![id],
+            vector: false,
+            kind: Kind::Quantity(unit),
+            zero: false,
+            literal: false,
+        }
     }
 }
 
 /// `in mm`, or `a number without unit`.
 pub fn in_words(unit: &Unit) -> String {
-    if unit.is_one() { "a number without unit".to_string() } else { format!("in {}", unit.symbol) }
+    if unit.is_one() {
+        "a number without unit".to_string()
+    } else {
+        format!("in {}", unit.symbol)
+    }
 }
 
 /// c as a fraction whose denominator divides 60.
 fn rational(c: f64) -> Option<(i32, i32)> {
-    [1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30, 60].into_iter().find_map(|den| {
-        let num = c * f64::from(den);
-        let near = (num - num.round()).abs() <= 1e-12 * num.abs().max(1.0);
-        (near && num.abs() < 1e6).then_some((num.round() as i32, den))
-    })
+    [1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30, 60]
+        .into_iter()
+        .find_map(|den| {
+            let num = c * f64::from(den);
+            let near = (num - num.round()).abs() <= 1e-12 * num.abs().max(1.0);
+            (near && num.abs() < 1e6).then_some((num.round() as i32, den))
+        })
 }

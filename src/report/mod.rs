@@ -1,1 +1,93 @@
 //! Renderers of an evaluation: text, Markdown, JSON, and the sentence for the certificate.
+//!
+//! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
+//! composed once; [`json`] is the machine form.
+
+mod budget_table;
+mod claim;
+mod comparison;
+mod compose;
+mod document;
+mod joint;
+mod json;
+mod language;
+mod markdown;
+mod number;
+mod remarks;
+mod schema;
+mod series;
+mod statement;
+mod table;
+mod text;
+
+#[cfg(test)]
+mod fixtures;
+#[cfg(test)]
+mod tests;
+
+pub use json::{FORMAT, json};
+pub use language::Language;
+pub use markdown::markdown;
+pub use remarks::failure;
+pub use schema::schema;
+pub use series::{series_markdown, series_text};
+pub use statement::statement;
+pub use text::{Page, text};
+
+use crate::budget::Budget;
+use crate::propagate::{Evaluation, FindingKind};
+use crate::quantity::Unit;
+
+/// One evaluated budget, ready to be shown.
+#[derive(Debug, Clone, Copy)]
+pub struct Report<'a> {
+    /// What was evaluated.
+    pub budget: &'a Budget,
+    /// What was found.
+    pub evaluation: &'a Evaluation,
+    /// The row of a series; `None` for a budget that stands alone.
+    pub label: Option<&'a str>,
+    /// Language of the sentences and headings.
+    pub language: Language,
+}
+
+impl<'a> Report<'a> {
+    /// Name and unit of a measurand.
+    fn measurand(&self, measurand: usize) -> (&'a str, &'a Unit) {
+        let output = &self.budget.model.outputs()[measurand];
+        (&output.name, &output.unit)
+    }
+
+    /// Whether a finding of this kind concerns the measurand.
+    fn finds(&self, measurand: usize, is_it: impl Fn(&FindingKind) -> bool) -> bool {
+        let concerned = |m: Option<usize>| m.is_none() || m == Some(measurand);
+        self.evaluation
+            .findings
+            .iter()
+            .any(|f| concerned(f.measurand) && is_it(&f.kind))
+    }
+
+    /// p of the coverage intervals.
+    fn coverage_probability(&self) -> f64 {
+        let of_run = self
+            .evaluation
+            .run
+            .as_ref()
+            .map(|run| run.coverage_probability);
+        of_run.unwrap_or(self.budget.conventions.coverage_probability)
+    }
+}
+
+/// The unit as printed after a number; nothing for dimension one.
+fn symbol(unit: &Unit) -> String {
+    if unit.symbol == "1" {
+        String::new()
+    } else {
+        unit.symbol.clone()
+    }
+}
+
+/// The unit of a difference, in which uncertainties are: kelvin for a Celsius temperature.
+fn difference_symbol(unit: &Unit) -> String {
+    symbol(&unit.difference())
+}

@@ -108,7 +108,11 @@ pub fn expm1(x: f64) -> f64 {
     let half_scale = power_of_two(k - 1.0);
     let result = 2.0 * add_three(half_scale - 0.5, half_scale * r, half_scale * tail);
     // The sum above would lose the sign of −0 and the last bits of a subnormal.
-    if x.abs() < f64::MIN_POSITIVE { x } else { result }
+    if x.abs() < f64::MIN_POSITIVE {
+        x
+    } else {
+        result
+    }
 }
 
 /// The natural logarithm of a positive normal number.
@@ -152,7 +156,11 @@ fn ln_scaled(x: f64, shift: f64) -> f64 {
 pub fn ln(x: f64) -> f64 {
     // Subnormal numbers are multiplied by 2⁵⁴ to make them normal.
     let subnormal = x < f64::MIN_POSITIVE;
-    let scaled = if subnormal { x * 18_014_398_509_481_984.0 } else { x };
+    let scaled = if subnormal {
+        x * 18_014_398_509_481_984.0
+    } else {
+        x
+    };
     let shift = if subnormal { 54.0 } else { 0.0 };
     let result = ln_scaled(scaled, shift);
     // Only positive finite numbers keep it; +∞ and NaN pass through.

@@ -43,7 +43,7 @@ impl Generator {
 
     /// The next 256 words: word `i` comes from lane `i mod 16`.
     pub fn bits(&mut self, level: Level, out: &mut [u64; LANES]) {
-        dispatch!(level, _ => self.fill_bits(out))
+        dispatch!(level, _ => self.fill_with(out, |word| word))
     }
 
     /// 256 uniform numbers in the open interval (0, 1): odd multiples of 2⁻⁵³, so neither 0 nor 1
@@ -56,30 +56,31 @@ impl Generator {
     /// multiple of 16.
     #[inline(always)]
     pub(crate) fn fill_uniforms<const N: usize>(&mut self, out: &mut [f64; N]) {
-        let mut bits = [0; N];
-        self.fill_bits(&mut bits);
-        for (out, bits) in out.iter_mut().zip(bits) {
-            *out = open_unit(bits);
-        }
+        self.fill_with(out, open_unit);
     }
 
+    /// Puts a function of each word into `out`.
     #[inline(always)]
-    fn fill_bits<const N: usize>(&mut self, out: &mut [u64; N]) {
+    fn fill_with<const N: usize, T>(&mut self, out: &mut [T; N], f: impl Fn(u64) -> T) {
         const { assert!(N.is_multiple_of(WIDTH)) };
+        // A copy, which the compiler keeps in registers through the loop.
         let mut state = self.state;
-        for row in out.chunks_exact_mut(WIDTH) {
-            step(&mut state, row);
+        for row in out.as_chunks_mut::<WIDTH>().0 {
+            let words = step(&mut state);
+            for (out, word) in row.iter_mut().zip(words) {
+                *out = f(word);
+            }
         }
         self.state = state;
     }
 }
 
-/// One step of all lanes; `row` has 16 places.
+/// One step of all lanes.
 #[inline(always)]
-fn step(state: &mut [[u64; WIDTH]; 4], row: &mut [u64]) {
-    let [s0, s1, s2, s3] = state;
-    for (lane, out) in row.iter_mut().enumerate().take(WIDTH) {
-        *out = s0[lane]
+fn step([s0, s1, s2, s3]: &mut [[u64; WIDTH]; 4]) -> [u64; WIDTH] {
+    let mut words = [0; WIDTH];
+    for lane in 0..WIDTH {
+        words[lane] = s0[lane]
             .wrapping_add(s3[lane])
             .rotate_left(23)
             .wrapping_add(s0[lane]);
@@ -91,6 +92,7 @@ fn step(state: &mut [[u64; WIDTH]; 4], row: &mut [u64]) {
         s2[lane] ^= shifted;
         s3[lane] = s3[lane].rotate_left(45);
     }
+    words
 }
 
 /// The upper 52 bits as a number in (0, 1): (2j + 1)·2⁻⁵³, exactly.

@@ -113,7 +113,9 @@ mod tests {
             assert_eq!(count_nonfinite(level, &x), bad);
             assert_eq!(min_max(level, &x), (f64::NEG_INFINITY, f64::INFINITY));
         }
-        x.0.iter_mut().filter(|x| x.is_infinite()).for_each(|x| *x = f64::NAN);
+        x.0.iter_mut()
+            .filter(|x| x.is_infinite())
+            .for_each(|x| *x = f64::NAN);
         for level in levels() {
             assert_eq!(min_max(level, &x), (-1.797e308, 1.797e308));
         }

@@ -218,7 +218,11 @@ pub fn select(level: Level, condition: &Block, a: &Block, b: &Block, out: &mut B
     #[inline(always)]
     fn pick(condition: f64, a: f64, b: f64) -> f64 {
         let picked = if condition == 0.0 { b } else { a };
-        if condition.is_nan() { condition } else { picked }
+        if condition.is_nan() {
+            condition
+        } else {
+            picked
+        }
     }
     dispatch!(level, _ => map3(condition, a, b, out, pick))
 }

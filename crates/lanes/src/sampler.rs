@@ -130,109 +130,133 @@ impl Sampler {
 
     /// The next 256 draws.
     pub fn fill(&self, level: Level, generator: &mut Generator, out: &mut Block) {
-        match self {
-            Sampler::Discrete(table) => {
-                generator.uniforms(level, out);
-                out.0 = out.0.map(|u| table.at(u));
-            }
-            Sampler::Empirical { sample } => {
-                generator.uniforms(level, out);
-                out.0 = out.0.map(|u| element(sample, u).unwrap_or(f64::NAN));
-            }
-            continuous => dispatch!(level, _ => continuous.transform(generator, &mut out.0)),
-        }
-    }
-
-    /// The samplers that are formulas. Each arm is a loop that vectorises.
-    #[inline(always)]
-    fn transform(&self, generator: &mut Generator, out: &mut [f64; LANES]) {
         match *self {
-            Sampler::Constant(value) => *out = [value; LANES],
-            Sampler::Normal { mean, sd } => normals(generator, out, #[inline(always)] |z| {
-                sd.mul_add(z, mean)
-            }),
-            Sampler::LogNormal { origin, mu, sigma } => {
-                normals(generator, out, #[inline(always)] |z| {
-                    origin + exp(sigma.mul_add(z, mu))
-                })
-            }
-            Sampler::StudentT { location, scale, dof } if dof.is_infinite() => {
-                normals(generator, out, #[inline(always)] |z| scale.mul_add(z, location))
-            }
-            Sampler::StudentT { location, scale, dof } => {
-                // Bailey's polar form, Mathematics of Computation 62 (1994): as Box-Muller, with
-                // radius² = ν(u^(−2/ν) − 1), which tends to −2 ln u. expm1 keeps it accurate
-                // however large ν is. The sine would be uncorrelated, but not independent.
-                let exponent = -2.0 / dof;
-                let spread = scale * dof.sqrt();
-                pairs(generator, out, #[inline(always)] |u, v| {
-                    let radius = expm1(exponent * ln_normal(u)).sqrt();
-                    (spread * radius).mul_add(sin_cos_turns(v).1, location)
-                })
-            }
+            Sampler::Constant(value) => out.0 = [value; LANES],
+            Sampler::Normal { mean, sd } => from_normal(
+                level,
+                generator,
+                out,
+                #[inline(always)]
+                move |z| sd.mul_add(z, mean),
+            ),
+            Sampler::LogNormal { origin, mu, sigma } => from_normal(
+                level,
+                generator,
+                out,
+                #[inline(always)]
+                move |z| origin + exp(sigma.mul_add(z, mu)),
+            ),
+            Sampler::StudentT {
+                location,
+                scale,
+                dof,
+            } => student_t(level, generator, [location, scale, dof], out),
             Sampler::Uniform { lower, upper } => {
                 let width = upper - lower;
-                singles(generator, out, #[inline(always)] |u| width.mul_add(u, lower))
+                from_one(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u| width.mul_add(u, lower),
+                )
             }
             Sampler::Triangular { lower, mode, upper } => {
                 let left = (upper - lower) * (mode - lower);
                 let right = (upper - lower) * (upper - mode);
                 let at_mode = (mode - lower) / (upper - lower);
-                singles(generator, out, #[inline(always)] |u| {
-                    let below = lower + (left * u).sqrt();
-                    let above = upper - (right * (1.0 - u)).sqrt();
-                    if u < at_mode { below } else { above }
-                })
+                from_one(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u| {
+                        let below = lower + (left * u).sqrt();
+                        let above = upper - (right * (1.0 - u)).sqrt();
+                        if u < at_mode { below } else { above }
+                    },
+                )
             }
             Sampler::Trapezoidal { lower, upper, beta } => {
                 let half = 0.5 * (upper - lower);
                 let (wide, narrow) = (half * (1.0 + beta), half * (1.0 - beta));
-                pairs(generator, out, #[inline(always)] |u, v| {
-                    narrow.mul_add(v, wide.mul_add(u, lower))
-                })
+                from_two(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u, v| narrow.mul_add(v, wide.mul_add(u, lower)),
+                )
             }
             Sampler::CurvilinearTrapezoid { lower, upper, d } => {
                 let (start, sum) = (lower - d, lower + upper);
-                pairs(generator, out, #[inline(always)] |u, v| {
-                    let a = (2.0 * d).mul_add(u, start);
-                    let b = sum - a;
-                    (b - a).mul_add(v, a)
-                })
+                from_two(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u, v| {
+                        let a = (2.0 * d).mul_add(u, start);
+                        let b = sum - a;
+                        (b - a).mul_add(v, a)
+                    },
+                )
             }
             Sampler::Arcsine { lower, upper } => {
                 let (middle, half) = (0.5 * (lower + upper), 0.5 * (upper - lower));
-                singles(generator, out, #[inline(always)] |u| {
-                    half.mul_add(sin_cos_turns(u).0, middle)
-                })
+                from_one(
+                    level,
+                    generator,
+                    out,
+                    #[inline(always)]
+                    move |u| half.mul_add(sin_cos_turns(u).0, middle),
+                )
             }
-            Sampler::Exponential { origin, mean } => {
-                singles(generator, out, #[inline(always)] |u| (-mean).mul_add(ln_normal(u), origin))
+            Sampler::Exponential { origin, mean } => from_one(
+                level,
+                generator,
+                out,
+                #[inline(always)]
+                move |u| (-mean).mul_add(ln_normal(u), origin),
+            ),
+            Sampler::Gamma {
+                origin,
+                shape,
+                scale,
+            } => {
+                gamma_block(level, generator, shape, out);
+                out.0 = out.0.map(|g| scale.mul_add(g, origin));
             }
-            Sampler::Gamma { origin, shape, scale } => {
-                gammas(generator, shape, out);
-                for out in out {
-                    *out = scale.mul_add(*out, origin);
-                }
+            Sampler::Beta {
+                alpha,
+                beta,
+                lower,
+                upper,
+            } => {
+                dispatch!(level, _ => betas(generator, [alpha, beta], &mut out.0));
+                out.0 = out.0.map(|b| (upper - lower).mul_add(b, lower));
             }
-            Sampler::Beta { alpha, beta, lower, upper } => {
-                // x/(x + y) of two gamma variables, from their logarithms: with small shapes both
-                // may be too small for a number.
-                let (mut other, width) = ([0.0; LANES], upper - lower);
-                log_gammas(generator, alpha, out);
-                log_gammas(generator, beta, &mut other);
-                for (out, y) in out.iter_mut().zip(other) {
-                    *out = width.mul_add(1.0 / (1.0 + exp(y - *out)), lower);
-                }
+            Sampler::Discrete(ref table) => {
+                generator.uniforms(level, out);
+                out.0 = out.0.map(|u| table.at(u));
             }
-            // Tables have no formula; `fill` has dealt with them.
-            Sampler::Discrete(_) | Sampler::Empirical { .. } => {}
+            Sampler::Empirical { ref sample } => {
+                generator.uniforms(level, out);
+                out.0 = out.0.map(|u| element(sample, u).unwrap_or(f64::NAN));
+            }
         }
     }
 }
 
 /// 256 standard normal variables.
 pub fn normal_block(level: Level, generator: &mut Generator, out: &mut Block) {
-    dispatch!(level, _ => normals(generator, &mut out.0, #[inline(always)] |z| z))
+    from_normal(
+        level,
+        generator,
+        out,
+        #[inline(always)]
+        |z| z,
+    )
 }
 
 /// 256 gamma variables of the given shape and scale 1. Twice a gamma variable of shape ν/2 is χ²
@@ -241,37 +265,82 @@ pub fn gamma_block(level: Level, generator: &mut Generator, shape: f64, out: &mu
     dispatch!(level, _ => gammas(generator, shape, &mut out.0))
 }
 
-/// One uniform number a draw.
+/// Draws that are functions of one uniform number.
 #[inline(always)]
-fn singles(generator: &mut Generator, out: &mut [f64; LANES], f: impl Fn(f64) -> f64) {
-    generator.fill_uniforms(out);
-    for out in out {
-        *out = f(*out);
-    }
+fn from_one(level: Level, generator: &mut Generator, out: &mut Block, f: impl Fn(f64) -> f64) {
+    dispatch!(level, _ => {
+        generator.fill_uniforms(&mut out.0);
+        for out in &mut out.0 {
+            *out = f(*out);
+        }
+    })
 }
 
-/// Two uniform numbers a draw.
+/// Draws that are functions of two uniform numbers.
 #[inline(always)]
-fn pairs(generator: &mut Generator, out: &mut [f64; LANES], f: impl Fn(f64, f64) -> f64) {
-    let mut second = [0.0; LANES];
-    generator.fill_uniforms(out);
-    generator.fill_uniforms(&mut second);
-    for (out, v) in out.iter_mut().zip(second) {
-        *out = f(*out, v);
+fn from_two(level: Level, generator: &mut Generator, out: &mut Block, f: impl Fn(f64, f64) -> f64) {
+    dispatch!(level, _ => {
+        let mut second = [0.0; LANES];
+        generator.fill_uniforms(&mut out.0);
+        generator.fill_uniforms(&mut second);
+        for (out, v) in out.0.iter_mut().zip(second) {
+            *out = f(*out, v);
+        }
+    })
+}
+
+/// Draws that are functions of one standard normal variable.
+#[inline(always)]
+fn from_normal(level: Level, generator: &mut Generator, out: &mut Block, f: impl Fn(f64) -> f64) {
+    dispatch!(level, _ => {
+        normals(generator, &mut out.0);
+        for out in &mut out.0 {
+            *out = f(*out);
+        }
+    })
+}
+
+/// Bailey's polar form, Mathematics of Computation 62 (1994): as Box-Muller, with
+/// radius² = ν(u^(−2/ν) − 1), which tends to −2 ln u. `expm1` keeps it accurate however large ν
+/// is. The sine would be uncorrelated with the cosine, but not independent.
+fn student_t(
+    level: Level,
+    generator: &mut Generator,
+    [location, scale, dof]: [f64; 3],
+    out: &mut Block,
+) {
+    if dof.is_infinite() {
+        let normal = Sampler::Normal {
+            mean: location,
+            sd: scale,
+        };
+        return normal.fill(level, generator, out);
     }
+    let exponent = -2.0 / dof;
+    let spread = scale * dof.sqrt();
+    from_two(
+        level,
+        generator,
+        out,
+        #[inline(always)]
+        move |u, v| {
+            let radius = expm1(exponent * ln_normal(u)).sqrt();
+            (spread * radius).mul_add(sin_cos_turns(v).1, location)
+        },
+    )
 }
 
 /// Box-Muller (JCGM 101, C.4): draws i and i + N/2 come from one pair of uniform numbers. N is a
 /// multiple of 32.
 #[inline(always)]
-fn normals<const N: usize>(generator: &mut Generator, out: &mut [f64; N], f: impl Fn(f64) -> f64) {
+fn normals<const N: usize>(generator: &mut Generator, out: &mut [f64; N]) {
     generator.fill_uniforms(out);
     let (radii, angles) = out.split_at_mut(N / 2);
     for (u, v) in radii.iter_mut().zip(angles) {
         let radius = (-2.0 * ln_normal(*u)).sqrt();
         let (sin, cos) = sin_cos_turns(*v);
-        *u = f(radius * cos);
-        *v = f(radius * sin);
+        *u = radius * cos;
+        *v = radius * sin;
     }
 }
 
@@ -285,6 +354,18 @@ fn gammas(generator: &mut Generator, shape: f64, out: &mut [f64; LANES]) {
         }
     } else {
         accepted_gammas(generator, shape, out);
+    }
+}
+
+/// Beta variables on 0 … 1: x/(x + y) of two gamma variables, from their logarithms, because with
+/// small shapes both may be too small for a number.
+#[inline(always)]
+fn betas(generator: &mut Generator, [alpha, beta]: [f64; 2], out: &mut [f64; LANES]) {
+    let mut other = [0.0; LANES];
+    log_gammas(generator, alpha, out);
+    log_gammas(generator, beta, &mut other);
+    for (out, y) in out.iter_mut().zip(other) {
+        *out = 1.0 / (1.0 + exp(y - *out));
     }
 }
 
@@ -328,7 +409,7 @@ fn candidates<const N: usize>(generator: &mut Generator, shape: f64, out: &mut [
     let d = shape - 1.0 / 3.0;
     let c = 1.0 / (9.0 * d).sqrt();
     let (mut z, mut u) = ([0.0; N], [0.0; N]);
-    normals(generator, &mut z, #[inline(always)] |z| z);
+    normals(generator, &mut z);
     generator.fill_uniforms(&mut u);
     let (mut gamma, mut accepted) = ([0.0; N], [false; N]);
     for i in 0..N {
@@ -340,7 +421,9 @@ fn candidates<const N: usize>(generator: &mut Generator, shape: f64, out: &mut [
     }
     let mut filled = 0;
     for (gamma, accepted) in gamma.into_iter().zip(accepted) {
-        let Some(place) = out.get_mut(filled) else { break };
+        let Some(place) = out.get_mut(filled) else {
+            break;
+        };
         *place = gamma;
         filled += usize::from(accepted);
     }
@@ -351,7 +434,8 @@ fn candidates<const N: usize>(generator: &mut Generator, shape: f64, out: &mut [
 fn element<T: Copy>(list: &[T], u: f64) -> Option<T> {
     // u·n may round up to n.
     let last = list.len().checked_sub(1)?;
-    list.get(((u * list.len() as f64) as usize).min(last)).copied()
+    list.get(((u * list.len() as f64) as usize).min(last))
+        .copied()
 }
 
 /// Walker's alias method: one uniform number chooses a column and, within it, one of two values.
@@ -379,7 +463,11 @@ impl AliasTable {
         let mut shares: Vec<f64> = probabilities.iter().map(|p| p * count / total).collect();
         let mut columns: Vec<Column> = values
             .iter()
-            .map(|&value| Column { value, alias: value, split: 1.0 })
+            .map(|&value| Column {
+                value,
+                alias: value,
+                split: 1.0,
+            })
             .collect();
         let (mut poor, mut rich): (Vec<usize>, Vec<usize>) =
             (0..columns.len().min(shares.len())).partition(|&i| shares[i] < 1.0);
@@ -392,7 +480,9 @@ impl AliasTable {
                 poor.push(giver);
             }
         }
-        AliasTable { columns: columns.into() }
+        AliasTable {
+            columns: columns.into(),
+        }
     }
 
     fn at(&self, u: f64) -> f64 {

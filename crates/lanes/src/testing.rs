@@ -146,7 +146,10 @@ pub fn same_on_all_levels(what: &str, kernel: impl Fn(Level, &mut Block)) {
         let expected = expected.get_or_insert(out);
         for lane in 0..LANES {
             let (a, b) = (expected.0[lane], out.0[lane]);
-            assert!(same(a, b), "{what}: lane {lane} of {level:?} is {b:e}, not {a:e}");
+            assert!(
+                same(a, b),
+                "{what}: lane {lane} of {level:?} is {b:e}, not {a:e}"
+            );
         }
     }
 }
@@ -154,8 +157,28 @@ pub fn same_on_all_levels(what: &str, kernel: impl Fn(Level, &mut Block)) {
 /// The arguments at which functions go wrong, and ordinary ones of both signs and many sizes.
 pub fn awkward() -> Block {
     const SPECIAL: [f64; 22] = [
-        0.0, 1.0, 0.5, 2.0, 1.5, 2.5, 3.0, 10.0, 0.1, 709.78, 709.79, 745.1, 745.2, 1e-8, 1e-300,
-        5e-324, 2.3e-308, 1e15, 1e22, 1.797e308, f64::INFINITY, f64::NAN,
+        0.0,
+        1.0,
+        0.5,
+        2.0,
+        1.5,
+        2.5,
+        3.0,
+        10.0,
+        0.1,
+        709.78,
+        709.79,
+        745.1,
+        745.2,
+        1e-8,
+        1e-300,
+        5e-324,
+        2.3e-308,
+        1e15,
+        1e22,
+        1.797e308,
+        f64::INFINITY,
+        f64::NAN,
     ];
     let mut block = Block::ZERO;
     let mut size = 1e-12;

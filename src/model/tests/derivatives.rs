@@ -9,13 +9,31 @@ type Third = Dual3<f64>;
 fn against(text: &str, x: [f64; 2], oracle: impl Fn([Third; 2]) -> Third) {
     let d = [1.0, 0.7];
     let model = model("x y", text, "");
-    let truth = oracle([Dual3::new(x[0], d[0], 0.0, 0.0), Dual3::new(x[1], d[1], 0.0, 0.0)]);
+    let truth = oracle([
+        Dual3::new(x[0], d[0], 0.0, 0.0),
+        Dual3::new(x[1], d[1], 0.0, 0.0),
+    ]);
     let along = &model.along(&x, &d)[0];
     let dot = |v: &[f64]| v[0] * d[0] + v[1] * d[1];
     close(model.values(&x)[0], truth.re, 1e-13, text);
-    close(dot(&along.gradient), truth.v1, 1e-12, &format!("{text}, first"));
-    close(dot(&along.second), truth.v2, 1e-11, &format!("{text}, second"));
-    close(dot(&along.third), truth.v3, 1e-10, &format!("{text}, third"));
+    close(
+        dot(&along.gradient),
+        truth.v1,
+        1e-12,
+        &format!("{text}, first"),
+    );
+    close(
+        dot(&along.second),
+        truth.v2,
+        1e-11,
+        &format!("{text}, second"),
+    );
+    close(
+        dot(&along.third),
+        truth.v3,
+        1e-10,
+        &format!("{text}, third"),
+    );
     let gradient = model.gradients(&x);
     assert_eq!([gradient[(0, 0)], gradient[(0, 1)]], along.gradient[..]);
 }
@@ -42,7 +60,9 @@ fn every_smooth_function_against_num_dual() {
     against("acosh(y)", p, |[_, y]| y.acosh());
     against("atanh(x)", p, |[x, _]| x.atanh());
     against("abs(-x)", p, |[x, _]| x);
-    against("x^2 + x^3 - x^-2 + x^0.3", p, |[x, _]| x.powi(2) + x.powi(3) - x.powi(-2) + x.powf(0.3));
+    against("x^2 + x^3 - x^-2 + x^0.3", p, |[x, _]| {
+        x.powi(2) + x.powi(3) - x.powi(-2) + x.powf(0.3)
+    });
     against("x^y", p, |[x, y]| (x.ln() * y).exp());
     against("2^y", p, |[_, y]| (y * 2f64.ln()).exp());
     against("x * y / (x - y)", p, |[x, y]| x * y / (x - y));
@@ -50,7 +70,9 @@ fn every_smooth_function_against_num_dual() {
     against("hypot(x, y)", p, |[x, y]| (x * x + y * y).sqrt());
     against("max(x, y^2) * min(x, y)", p, |[x, y]| y * y * x);
     against("if(x < y, x * y^3, x)", p, |[x, y]| x * y * y * y);
-    against("f(a) = sin(a) / a; f(x * y) + exp(-x^2)", p, |[x, y]| (x * y).sin() / (x * y) + (-x * x).exp());
+    against("f(a) = sin(a) / a; f(x * y) + exp(-x^2)", p, |[x, y]| {
+        (x * y).sin() / (x * y) + (-x * x).exp()
+    });
 }
 
 #[test]
@@ -71,13 +93,19 @@ fn mixed_derivatives_of_every_input() {
     let along = &model("x y", "x^2 * y^3", "").along(&[x, y], &[p, q])[0];
     let expected = [
         [2.0 * x * y * y * y, 3.0 * x * x * y * y],
-        [2.0 * y * y * y * p + 6.0 * x * y * y * q, 6.0 * x * y * y * p + 6.0 * x * x * y * q],
+        [
+            2.0 * y * y * y * p + 6.0 * x * y * y * q,
+            6.0 * x * y * y * p + 6.0 * x * x * y * q,
+        ],
         [
             12.0 * y * y * p * q + 12.0 * x * y * q * q,
             6.0 * y * y * p * p + 24.0 * x * y * p * q + 6.0 * x * x * q * q,
         ],
     ];
-    for (found, expected) in [&along.gradient, &along.second, &along.third].into_iter().zip(expected) {
+    for (found, expected) in [&along.gradient, &along.second, &along.third]
+        .into_iter()
+        .zip(expected)
+    {
         for (f, e) in found.iter().zip(expected) {
             close(*f, e, 1e-14, "mixed");
         }
@@ -102,8 +130,16 @@ fn roots_have_the_derivatives_of_their_closed_forms() {
         (y * 0.5 + root).cbrt() - (root - y * 0.5).cbrt()
     });
     // The unknown beside the inputs further on, and a parameter that is computed outside.
-    against("z = solve(z * z == x + y, z, 1); z * x", [0.9, 1.3], |[x, y]| (x + y).sqrt() * x);
-    against("solve(solve(v^3 == u, v, 1) == x * y, u, 2)", [0.9, 1.3], |[x, y]| (x * y).powi(3));
+    against(
+        "z = solve(z * z == x + y, z, 1); z * x",
+        [0.9, 1.3],
+        |[x, y]| (x + y).sqrt() * x,
+    );
+    against(
+        "solve(solve(v^3 == u, v, 1) == x * y, u, 2)",
+        [0.9, 1.3],
+        |[x, y]| (x * y).powi(3),
+    );
 }
 
 #[test]

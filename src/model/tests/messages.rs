@@ -8,6 +8,7 @@ use crate::model::faults::CODES;
 const INPUTS: &str = "a b n L:mm t:s phi:° T:°C v[3] w[2] p:bar g:g";
 
 /// Text, unit of the measurand, code, marked text, part of the help.
+#[rustfmt::skip] // A table reads by lines.
 const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("a + * b", "", "M0101", "*", ""),
     ("a + ", "", "M0101", "", ""),
@@ -49,7 +50,7 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("f(x) = f(x - 1); f(a)", "", "M0208", "f", "cannot call themselves"),
     ("sum(v + w)", "", "M0301", "v + w", "equal lengths"),
     ("mean(a)", "", "M0302", "a", "[a, …]"),
-    ("if(v > 0, a, b)[1] + [v[1]][1] + a[1]", "", "M0302", "a", "remove the index"),
+    ("if(v > 0, a, v)[1] + [v[1]][1] + a[1]", "", "M0302", "a", "remove the index"),
     ("v[0]", "", "M0303", "0", "counted from 1"),
     ("v[4]", "", "M0303", "4", "counted from 1"),
     ("v[a]", "", "M0303", "a", "counted from 1"),
@@ -81,16 +82,27 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
 
 #[test]
 fn faults_mark_their_place_and_say_the_mend() {
+    let mut wrong = Vec::new();
     for (text, wanted, code, marked, help) in CASES {
-        let faults = try_model(INPUTS, text, wanted).err().unwrap_or_else(|| panic!("{text} is accepted"));
-        let fault = &faults[0].fault;
-        assert_eq!(faults[0].place, Place::Measurand(0), "{text}");
-        assert_eq!(fault.code.id, *code, "{text}: {fault:#?}");
-        let found = &text[fault.span.clone()];
-        assert_eq!(found.trim(), *marked, "{text}: {fault:#?}");
-        assert!(fault.help.as_deref().unwrap_or_default().contains(help), "{text}: {fault:#?}");
-        assert!(!fault.message.is_empty() && !fault.message.ends_with('.'), "{text}");
+        let faults = try_model(INPUTS, text, wanted)
+            .err()
+            .unwrap_or_else(|| panic!("{text} is accepted"));
+        let ModelFault { place, fault } = &faults[0];
+        let found = text.get(fault.span.clone()).unwrap_or("no text").trim();
+        let fits = *place == Place::Measurand(0)
+            && fault.code.id == *code
+            && found == *marked
+            && fault.help.as_deref().unwrap_or_default().contains(help)
+            && !fault.message.is_empty()
+            && !fault.message.ends_with('.');
+        if !fits {
+            wrong.push(format!(
+                "{text}: `{found}` {} {} help: {:?}",
+                fault.code.id, fault.message, fault.help
+            ));
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
@@ -123,10 +135,23 @@ fn entries_are_blamed_for_what_they_lack() {
     let units = UnitTable::default();
     let symbols = symbols("U:V I:A max");
     let measurands = [
-        MeasurandSource { name: "P", model: Some("U * I"), unit: None },
-        MeasurandSource { name: "Q", model: None, unit: None },
+        MeasurandSource {
+            name: "P",
+            model: Some("U * I"),
+            unit: None,
+        },
+        MeasurandSource {
+            name: "Q",
+            model: None,
+            unit: None,
+        },
     ];
-    let request = Request { symbols: &symbols, shared: Some("U / I"), measurands: &measurands, units: &units };
+    let request = Request {
+        symbols: &symbols,
+        shared: Some("U / I"),
+        measurands: &measurands,
+        units: &units,
+    };
     let faults = compile(&request).unwrap_err();
     let found: Vec<(Place, &str)> = faults.iter().map(|f| (f.place, f.fault.code.id)).collect();
     assert_eq!(
@@ -142,19 +167,36 @@ fn entries_are_blamed_for_what_they_lack() {
 
 #[test]
 fn limits_are_faults_not_crashes() {
-    let first = |text: &str| try_model("a v[3000]", text, "").unwrap_err()[0].fault.code.id;
-    assert_eq!(first(&format!("{}a{}", "(".repeat(5000), ")".repeat(5000))), "M0108");
+    let first = |text: &str| {
+        try_model("a v[3000]", text, "").unwrap_err()[0]
+            .fault
+            .code
+            .id
+    };
+    assert_eq!(
+        first(&format!("{}a{}", "(".repeat(5000), ")".repeat(5000))),
+        "M0108"
+    );
     assert_eq!(first(&format!("{}a", "-".repeat(5000))), "M0108");
     assert_eq!(first(&format!("{}a", "2^".repeat(5000))), "M0108");
-    let doubling: String = (1..40).map(|k| format!("f{k}(x) = f{}(x) * f{}(x + 1)\n", k - 1, k - 1)).collect();
+    let doubling: String = (1..40)
+        .map(|k| format!("f{k}(x) = f{}(x) * f{}(x + 1)\n", k - 1, k - 1))
+        .collect();
     assert_eq!(first(&format!("f0(x) = x\n{doubling}f39(a)")), "M0501");
     let wide = "w = v".to_string() + &" + sum(v * a) * v".repeat(2000);
     assert_eq!(first(&format!("{wide}\nsum(w)")), "M0501");
     // A long sum is no deep one.
     let long = "a".to_string() + &" + a * 2".repeat(5000);
-    close(model("a", &long, "").values(&[1.0])[0], 10_001.0, 1e-15, "long sum");
+    close(
+        model("a", &long, "").values(&[1.0])[0],
+        10_001.0,
+        1e-15,
+        "long sum",
+    );
     // Functions within functions.
-    let tower: String = (1..200).map(|k| format!("f{k}(x) = f{}(x) + 1\n", k - 1)).collect();
+    let tower: String = (1..200)
+        .map(|k| format!("f{k}(x) = f{}(x) + 1\n", k - 1))
+        .collect();
     assert_eq!(first(&format!("f0(x) = x\n{tower}f199(a)")), "M0108");
 }
 
@@ -164,6 +206,46 @@ fn every_code_is_explained_and_tested() {
     tested.extend(["M0108", "M0209", "M0406", "M0501"]);
     for code in CODES {
         assert!(tested.contains(&code.id), "{} is not tested", code.id);
-        assert!(code.explanation.contains("\n\n    "), "{} has no example", code.id);
+        assert!(
+            code.explanation.contains("\n\n    "),
+            "{} has no example",
+            code.id
+        );
     }
+}
+
+#[test]
+fn a_measurand_has_a_name_of_its_own() {
+    let units = UnitTable::default();
+    let symbols = symbols("P:W U:V");
+    let measurands = [
+        MeasurandSource {
+            name: "P",
+            model: Some("2 * P"),
+            unit: Some(unit("W")),
+        },
+        MeasurandSource {
+            name: "Q",
+            model: Some("U + x"),
+            unit: Some(unit("V")),
+        },
+        MeasurandSource {
+            name: "R",
+            model: Some("2 * Q"),
+            unit: Some(unit("V")),
+        },
+    ];
+    let request = Request {
+        symbols: &symbols,
+        shared: None,
+        measurands: &measurands,
+        units: &units,
+    };
+    let faults = compile(&request).unwrap_err();
+    let found: Vec<(Place, &str)> = faults.iter().map(|f| (f.place, f.fault.code.id)).collect();
+    // R is not blamed for the fault of Q.
+    assert_eq!(
+        found,
+        [(Place::Entry(0), "M0204"), (Place::Measurand(1), "M0201")]
+    );
 }

@@ -10,7 +10,9 @@ use crate::quantity::{Unit, UnitTable};
 use gumption_lanes::{Block, LANES};
 
 pub fn unit(text: &str) -> Unit {
-    UnitTable::default().parse(text).unwrap_or_else(|e| panic!("{text}: {e:?}"))
+    UnitTable::default()
+        .parse(text)
+        .unwrap_or_else(|e| panic!("{text}: {e:?}"))
 }
 
 /// Scalar inputs `name` or `name:unit`, vectors `name[3]:unit`, separated by spaces.
@@ -30,7 +32,11 @@ pub fn symbols(text: &str) -> Vec<Symbol> {
                 (name, Role::Input(next - 1))
             }
         };
-        out.push(Symbol { name: name.to_string(), unit: unit(unit_text), role });
+        out.push(Symbol {
+            name: name.to_string(),
+            unit: unit(unit_text),
+            role,
+        });
     }
     out
 }
@@ -40,8 +46,17 @@ pub fn try_model(inputs: &str, model: &str, wanted: &str) -> Result<Model, Vec<M
     let units = UnitTable::default();
     let symbols = symbols(inputs);
     let unit = (!wanted.is_empty()).then(|| unit(wanted));
-    let measurands = [MeasurandSource { name: "Y", model: Some(model), unit }];
-    compile(&Request { symbols: &symbols, shared: None, measurands: &measurands, units: &units })
+    let measurands = [MeasurandSource {
+        name: "Y",
+        model: Some(model),
+        unit,
+    }];
+    compile(&Request {
+        symbols: &symbols,
+        shared: None,
+        measurands: &measurands,
+        units: &units,
+    })
 }
 
 pub fn model(inputs: &str, text: &str, wanted: &str) -> Model {
@@ -62,6 +77,7 @@ pub fn value(inputs: &str, text: &str, wanted: &str, x: &[f64]) -> f64 {
 }
 
 pub fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
-    let fits = (found - expected).abs() <= tolerance * expected.abs().max(1e-3) || (found.is_nan() && expected.is_nan());
+    let fits = (found - expected).abs() <= tolerance * expected.abs().max(1e-3)
+        || (found.is_nan() && expected.is_nan());
     assert!(fits, "{what}: {found} instead of {expected}");
 }

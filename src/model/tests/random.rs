@@ -17,11 +17,19 @@ enum Tree {
 }
 
 fn tree() -> impl Strategy<Value = Tree> {
-    let leaf = prop_oneof![Just(Tree::X), Just(Tree::Y), (0.25..3.0f64).prop_map(Tree::Number)];
+    let leaf = prop_oneof![
+        Just(Tree::X),
+        Just(Tree::Y),
+        (0.25..3.0f64).prop_map(Tree::Number)
+    ];
     leaf.prop_recursive(5, 24, 2, |inner| {
         prop_oneof![
             (0..8usize, inner.clone()).prop_map(|(k, a)| Tree::Unary(k, Box::new(a))),
-            (0..6usize, inner.clone(), inner).prop_map(|(k, a, b)| Tree::Binary(k, Box::new(a), Box::new(b))),
+            (0..6usize, inner.clone(), inner).prop_map(|(k, a, b)| Tree::Binary(
+                k,
+                Box::new(a),
+                Box::new(b)
+            )),
         ]
     })
 }
@@ -33,7 +41,16 @@ impl Tree {
             Tree::Y => "y".into(),
             Tree::Number(c) => format!("{c}"),
             Tree::Unary(k, a) => {
-                let name = ["sin", "cos", "tanh", "atan", "exp", "-", "sqrt(1 + sq", "ln(2 + sq"][*k];
+                let name = [
+                    "sin",
+                    "cos",
+                    "tanh",
+                    "atan",
+                    "exp",
+                    "-",
+                    "sqrt(1 + sq",
+                    "ln(2 + sq",
+                ][*k];
                 match k {
                     5 => format!("(-{})", a.text()),
                     6 => format!("sqrt(1 + ({})^2)", a.text()),

@@ -1,7 +1,7 @@
 //! Values, units, printed form, hints.
 
 use super::*;
-use crate::model::functions::{self, functions as all_functions};
+use crate::model::catalogue::{find, functions};
 use crate::model::operation::{BINARY, UNARY};
 use std::f64::consts::PI;
 
@@ -66,7 +66,13 @@ fn units_are_converted_where_they_meet() {
         ("T[2]:°C", "mean(T)", "°C", vec![20.0, 21.0], 20.5),
         ("T[2]:°C", "sd(T) * sqrt(2)", "K", vec![20.0, 22.0], 2.0),
         ("a:mm", "value_in(a, 'µm') + 1", "", vec![2.0], 2001.0),
-        ("t[3]:°C L[3]:µm", "slope(t, L)", "µm/K", vec![20.0, 21.0, 22.0, 1.0, 3.0, 5.0], 2.0),
+        (
+            "t[3]:°C L[3]:µm",
+            "slope(t, L)",
+            "µm/K",
+            vec![20.0, 21.0, 22.0, 1.0, 3.0, 5.0],
+            2.0,
+        ),
         ("a:%", "exp(a)", "", vec![100.0], std::f64::consts::E),
         ("I:mA R:kohm", "I * R", "V", vec![2.0, 3.0], 6.0),
         ("a:mm", "floor(value_in(a, 'cm'))", "", vec![25.0], 2.0),
@@ -80,25 +86,41 @@ fn units_are_converted_where_they_meet() {
 #[test]
 fn implicit_equations_have_their_known_roots() {
     // d exp(d/h) = a: d = h W(a/h), and W(1) is the omega constant.
-    let d = value("a:mm h:mm", "d = solve(d * exp(d / h) == a, d, 1 'mm') ; d", "mm", &[2.0, 2.0]);
-    close(d, 2.0 * 0.567_143_290_409_783_9, 1e-15, "Lambert W");
+    let d = value(
+        "a:mm h:mm",
+        "d = solve(d * exp(d / h) == a, d, 1 'mm') ; d",
+        "mm",
+        &[2.0, 2.0],
+    );
+    close(d, 2.0 * 0.567_143_290_409_783_8, 1e-15, "Lambert W");
     // Kepler's equation, far start.
     let e = value("M", "solve(E - 0.9 * sin(E) == M, E, 3)", "", &[0.1]);
     close(e - 0.9 * e.sin(), 0.1, 1e-14, "Kepler");
     // Cardano: x³ + 3x - 4 = 0 has x = 1.
-    close(value("a", "solve(x^3 + 3*x - a, x, 10)", "", &[4.0]), 1.0, 1e-15, "Cardano");
+    close(
+        value("a", "solve(x^3 + 3*x - a, x, 10)", "", &[4.0]),
+        1.0,
+        1e-15,
+        "Cardano",
+    );
     // A root at exactly zero, and none at all.
     assert_eq!(value("a", "solve(x^3 + x == a, x, 1)", "", &[0.0]), 0.0);
     assert!(value("a", "solve(x^2 + a == 0, x, 1)", "", &[1.0]).is_nan());
     // One equation inside another.
-    let nested = value("a", "solve(solve(z^3 == y, z, 1) + y == a, y, 4)", "", &[10.0]);
+    let nested = value(
+        "a",
+        "solve(solve(z^3 == y, z, 1) + y == a, y, 4)",
+        "",
+        &[10.0],
+    );
     close(nested, 8.0, 1e-14, "nested");
 }
 
 #[test]
 fn blocks_agree_with_scalars_for_every_operation() {
-    let points: Vec<(f64, f64)> =
-        (0..LANES).map(|i| (0.013 + i as f64 / 260.0, 1.9 - i as f64 / 160.0)).collect();
+    let points: Vec<(f64, f64)> = (0..LANES)
+        .map(|i| (0.013 + i as f64 / 260.0, 1.9 - i as f64 / 160.0))
+        .collect();
     let check = |text: &str| {
         let model = model("x y", text, "");
         let inputs = [
@@ -109,21 +131,30 @@ fn blocks_agree_with_scalars_for_every_operation() {
         BlockRunner::new(&model).run(&inputs, &mut out);
         for (lane, (x, y)) in points.iter().enumerate() {
             let scalar = model.values(&[*x, *y])[0];
-            close(out[0].0[lane], scalar, 1e-14, &format!("{text} at {x}, {y}"));
+            close(
+                out[0].0[lane],
+                scalar,
+                1e-14,
+                &format!("{text} at {x}, {y}"),
+            );
         }
     };
-    for row in UNARY.iter().filter(|row| functions::find(row.name).is_some()) {
+    for row in UNARY.iter().filter(|row| find(row.name).is_some()) {
         let shift = if row.name == "acosh" { "1 + x" } else { "x" };
         check(&format!("{}({shift})", row.name));
     }
     for row in BINARY {
         let name = row.name;
-        if functions::find(name).is_some() {
+        if find(name).is_some() {
             check(&format!("{name}(x, y)"));
             check(&format!("{name}(x, 0.3)"));
             check(&format!("{name}(0.3, x)"));
         } else if row.rule == crate::model::operation::Rule::Constant {
-            let (a, b) = if matches!(name, "and" | "or") { ("x > 0.5", "y > 0.5") } else { ("x", "y") };
+            let (a, b) = if matches!(name, "and" | "or") {
+                ("x > 0.5", "y > 0.5")
+            } else {
+                ("x", "y")
+            };
             check(&format!("if({a} {name} {b}, 1, x)"));
         } else {
             check(&format!("x {name} y"));
@@ -131,7 +162,15 @@ fn blocks_agree_with_scalars_for_every_operation() {
             check(&format!("0.3 {name} x"));
         }
     }
-    for text in ["-x", "if(not x > 0.5, x, y)", "x^2", "x^5", "x^-3", "x^0.3", "(x + y) * (x + y) - x / 3"] {
+    for text in [
+        "-x",
+        "if(not x > 0.5, x, y)",
+        "x^2",
+        "x^5",
+        "x^-3",
+        "x^0.3",
+        "(x + y) * (x + y) - x / 3",
+    ] {
         check(text);
     }
     check("solve(z + exp(z) == x, z, y)");
@@ -166,8 +205,14 @@ fn equations_are_printed_as_written_but_tidy() {
         ("a^(b^c)", "Y = a^b^c"),
         ("(a^b)^c", "Y = (a^b)^c"),
         ("R=a/b\nY=R*cos( c )", "R = a / b\nY = R * cos(c)"),
-        ("f(x)=x^2; z = f(a) + b*c", "f(x) = x^2\nz = f(a) + b * c\nY = z"),
-        ("if a<b and not (b<c or a<c) then a else b+2.50e-3*c", "Y = if a < b and not (b < c or a < c) then a else b + 2.50e-3 * c"),
+        (
+            "f(x)=x^2; z = f(a) + b*c",
+            "f(x) = x^2\nz = f(a) + b * c\nY = z",
+        ),
+        (
+            "if a<b and not (b<c or a<c) then a else b+2.50e-3*c",
+            "Y = if a < b and not (b < c or a < c) then a else b + 2.50e-3 * c",
+        ),
         ("a + (-b) + c * [a, b][1]", "Y = a + (-b) + c * [a, b][1]"),
     ] {
         let made = model("a b c", text, "");
@@ -183,13 +228,34 @@ fn equations_are_printed_as_written_but_tidy() {
 fn several_measurands_share_statements() {
     let units = UnitTable::default();
     let mut symbols = symbols("U:V I:A phi:° spare");
-    symbols.push(Symbol { name: "c".into(), unit: unit("1"), role: Role::Constant(2.0) });
+    symbols.push(Symbol {
+        name: "c".into(),
+        unit: unit("1"),
+        role: Role::Constant(2.0),
+    });
     let measurands = [
-        MeasurandSource { name: "R", model: None, unit: Some(unit("ohm")) },
-        MeasurandSource { name: "P", model: Some("U * I * cos(phi)"), unit: Some(unit("mW")) },
-        MeasurandSource { name: "X", model: Some("Z = R / c\nZ * I"), unit: Some(unit("V")) },
+        MeasurandSource {
+            name: "R",
+            model: None,
+            unit: Some(unit("ohm")),
+        },
+        MeasurandSource {
+            name: "P",
+            model: Some("U * I * cos(phi)"),
+            unit: Some(unit("mW")),
+        },
+        MeasurandSource {
+            name: "X",
+            model: Some("Z = R / c\nZ * I"),
+            unit: Some(unit("V")),
+        },
     ];
-    let request = Request { symbols: &symbols, shared: Some("Z0 = U / I; R = Z0 * cos(phi)"), measurands: &measurands, units: &units };
+    let request = Request {
+        symbols: &symbols,
+        shared: Some("Z0 = U / I; R = Z0 * cos(phi)"),
+        measurands: &measurands,
+        units: &units,
+    };
     let model = compile(&request).unwrap();
     let y = model.values(&[10.0, 2.0, 60.0, 0.0]);
     close(y[0], 2.5, 1e-14, "R");
@@ -199,14 +265,26 @@ fn several_measurands_share_statements() {
     assert_eq!(model.inputs(), 4);
     assert_eq!(model.outputs()[0].equation, "Z0 = U / I\nR = Z0 * cos(phi)");
     assert_eq!(model.outputs()[1].equation, "P = U * I * cos(phi)");
-    assert_eq!(model.outputs()[2].equation, "Z0 = U / I\nR = Z0 * cos(phi)\nZ = R / c\nX = Z * I");
+    assert_eq!(
+        model.outputs()[2].equation,
+        "Z0 = U / I\nR = Z0 * cos(phi)\nZ = R / c\nX = Z * I"
+    );
     // Sensitivity in output unit per input unit: dR/dphi in ohm per degree.
-    close(model.gradients(&[10.0, 2.0, 60.0, 0.0])[(0, 2)], -5.0 * (PI / 3.0).sin() * PI / 180.0, 1e-14, "dR/dphi");
+    close(
+        model.gradients(&[10.0, 2.0, 60.0, 0.0])[(0, 2)],
+        -5.0 * (PI / 3.0).sin() * PI / 180.0,
+        1e-14,
+        "dR/dphi",
+    );
 }
 
 #[test]
 fn hints_name_kinks_steps_and_poles() {
-    let m = model("x a", "abs(x - a) + min(x, a) + round(x) + if(x > a, x, a)", "");
+    let m = model(
+        "x a",
+        "abs(x - a) + min(x, a) + round(x) + if(x > a, x, a)",
+        "",
+    );
     assert_eq!(
         m.irregularities(&[2.0, 2.0]),
         [
@@ -217,25 +295,49 @@ fn hints_name_kinks_steps_and_poles() {
         ]
     );
     assert_eq!(m.irregularities(&[2.0, 3.0]).len(), 1);
-    let m = model("x1 x2", "x1 / x2 + ln(x1 - 1) + sqrt(x1) + quantize(x1, 0.1)", "");
+    let m = model(
+        "x1 x2",
+        "x1 / x2 + ln(x1 - 1) + sqrt(x1) + quantize(x1, 0.1)",
+        "",
+    );
     assert_eq!(
         m.near_singular(&[3.0, 0.7], &[1.0, 0.5], 2.0),
-        ["x2 (divisor) is 1.4 u from 0", "x1 - 1 (argument of ln) is 2.0 u from 0"]
+        [
+            "x2 (divisor) is 1.4 u from 0",
+            "x1 - 1 (argument of ln) is 2.0 u from 0"
+        ]
     );
-    assert_eq!(m.near_singular(&[3.0, 0.7], &[0.1, 0.01], 2.0), Vec::<String>::new());
-    assert_eq!(model("a b c d", "a + 2 * b - c / 3 + d^2", "").nonlinear_inputs(), [false, false, false, true]);
-    assert_eq!(model("a b c", "exp(2 * a) + b * c", "").nonlinear_inputs(), [true, true, true]);
-    assert_eq!(model("a b", "if(a > 0, 1 / b, b)", "").irregularities(&[1.0, 0.0]), Vec::<String>::new());
+    assert_eq!(
+        m.near_singular(&[3.0, 0.7], &[0.1, 0.01], 2.0),
+        Vec::<String>::new()
+    );
+    assert_eq!(
+        model("a b c d", "a + 2 * b - c / 3 + d^2", "").nonlinear_inputs(),
+        [false, false, false, true]
+    );
+    assert_eq!(
+        model("a b c", "exp(2 * a) + b * c", "").nonlinear_inputs(),
+        [true, true, true]
+    );
+    assert_eq!(
+        model("a b", "if(a > 0, 1 / b, b)", "").irregularities(&[1.0, 0.0]),
+        Vec::<String>::new()
+    );
 }
 
 #[test]
 fn every_function_is_documented() {
-    for f in all_functions() {
+    for f in functions() {
         assert!(f.signature.starts_with(f.name), "{}", f.name);
         assert!(!f.doc.is_empty() && !f.dimension.is_empty());
     }
-    for row in UNARY.iter().map(|r| r.name).chain(BINARY.iter().map(|r| r.name)) {
-        let callable = row.chars().all(char::is_alphanumeric) && !matches!(row, "not" | "and" | "or");
-        assert_eq!(functions::find(row).is_some(), callable, "{row}");
+    for row in UNARY
+        .iter()
+        .map(|r| r.name)
+        .chain(BINARY.iter().map(|r| r.name))
+    {
+        let callable =
+            row.chars().all(char::is_alphanumeric) && !matches!(row, "not" | "and" | "or");
+        assert_eq!(find(row).is_some(), callable, "{row}");
     }
 }

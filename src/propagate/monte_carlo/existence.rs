@@ -205,7 +205,8 @@ mod tests {
 
     #[test]
     fn light_tails_are_not_suspected() {
-        let cases: [(&str, fn(&mut Stream) -> f64); 9] = [
+        type Draw = fn(&mut Stream) -> f64;
+        let cases: [(&str, Draw); 9] = [
             ("normal", |s| 1e6 + s.normal()),
             ("sum of t(5)", |s| s.student_t(5.0) + s.student_t(5.0)),
             ("log-normal, sigma 1", |s| s.normal().exp()),

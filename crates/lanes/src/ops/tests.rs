@@ -2,16 +2,25 @@ use super::*;
 use crate::testing::{awkward, same, same_on_all_levels};
 use crate::{Generator, level};
 
-type Unary = fn(Level, &Block, &mut Block);
-type Binary = fn(Level, &Block, &Block, &mut Block);
+/// Name, operation on blocks, function on numbers.
+type Unary = (&'static str, fn(Level, &Block, &mut Block), fn(f64) -> f64);
+type Binary = (
+    &'static str,
+    fn(Level, &Block, &Block, &mut Block),
+    fn(f64, f64) -> f64,
+);
 
-const UNARY: [(&str, Unary, fn(f64) -> f64); 30] = [
+const UNARY: [Unary; 30] = [
     ("neg", neg, |a| -a),
     ("abs", abs, f64::abs),
     ("sqrt", sqrt, f64::sqrt),
     ("sq", sq, |a| a * a),
     ("sign", sign, |a| {
-        if a == 0.0 || a.is_nan() { a } else { a.signum() }
+        if a == 0.0 || a.is_nan() {
+            a
+        } else {
+            a.signum()
+        }
     }),
     ("not", not, |a| f64::from(a == 0.0)),
     ("floor", floor, libm::floor),
@@ -37,19 +46,35 @@ const UNARY: [(&str, Unary, fn(f64) -> f64); 30] = [
     ("atanh", atanh, libm::atanh),
     ("copy", copy, |a| a),
     ("cube", |l, a, out| powi(l, a, 3, out), |a| a * (a * a)),
-    ("inverse square", |l, a, out| powi(l, a, -2, out), |a| 1.0 / (a * a)),
+    (
+        "inverse square",
+        |l, a, out| powi(l, a, -2, out),
+        |a| 1.0 / (a * a),
+    ),
 ];
 
-const BINARY: [(&str, Binary, fn(f64, f64) -> f64); 18] = [
+const BINARY: [Binary; 18] = [
     ("add", add, |a, b| a + b),
     ("sub", sub, |a, b| a - b),
     ("mul", mul, |a, b| a * b),
     ("div", div, |a, b| a / b),
     ("min", min, |a, b| {
-        if a.is_nan() || b.is_nan() { f64::NAN } else if a < b { a } else { b }
+        if a.is_nan() || b.is_nan() {
+            f64::NAN
+        } else if a < b {
+            a
+        } else {
+            b
+        }
     }),
     ("max", max, |a, b| {
-        if a.is_nan() || b.is_nan() { f64::NAN } else if a > b { a } else { b }
+        if a.is_nan() || b.is_nan() {
+            f64::NAN
+        } else if a > b {
+            a
+        } else {
+            b
+        }
     }),
     ("lt", lt, |a, b| f64::from(a < b)),
     ("le", le, |a, b| f64::from(a <= b)),
@@ -62,7 +87,14 @@ const BINARY: [(&str, Binary, fn(f64, f64) -> f64); 18] = [
     ("atan2", atan2, libm::atan2),
     ("hypot", hypot, libm::hypot),
     ("pow", pow, libm::pow),
-    ("axpy", |l, a, b, out| { *out = *b; axpy(l, 0.3, a, out) }, |a, b| a.mul_add(0.3, b)),
+    (
+        "axpy",
+        |l, a, b, out| {
+            *out = *b;
+            axpy(l, 0.3, a, out)
+        },
+        |a, b| a.mul_add(0.3, b),
+    ),
 ];
 
 /// Blocks of ordinary numbers, of both signs.
@@ -139,7 +171,12 @@ fn mul_add_rounds_once() {
     let mut rest = Block::ZERO;
     mul_add(level(), &a, &b, &minus, &mut rest);
     // What a·b loses in rounding is below half a place of it, and seldom zero.
-    assert!(rest.0.iter().zip(product.0).all(|(r, p)| r.abs() <= p.abs() * f64::EPSILON / 2.0));
+    assert!(
+        rest.0
+            .iter()
+            .zip(product.0)
+            .all(|(r, p)| r.abs() <= p.abs() * f64::EPSILON / 2.0)
+    );
     assert!(rest.0.iter().filter(|r| **r != 0.0).count() > 200);
 }
 
@@ -150,7 +187,9 @@ fn select_follows_the_condition() {
         *c = [0.0, 1.0, f64::NAN, -0.0][lane % 4];
     }
     let (a, b) = (Block([1.0; LANES]), Block([2.0; LANES]));
-    same_on_all_levels("select", |level, out| select(level, &condition, &a, &b, out));
+    same_on_all_levels("select", |level, out| {
+        select(level, &condition, &a, &b, out)
+    });
     let mut out = Block::ZERO;
     select(level(), &condition, &a, &b, &mut out);
     assert_eq!(out.0[..2], [2.0, 1.0]);
@@ -166,7 +205,10 @@ fn whole_powers() {
         powi(level(), &a, n, &mut out);
         for (a, out) in a.0.iter().zip(out.0) {
             let expected = libm::pow(*a, f64::from(n));
-            assert!((out - expected).abs() <= 9.0 * f64::EPSILON * expected.abs(), "{a}^{n}");
+            assert!(
+                (out - expected).abs() <= 9.0 * f64::EPSILON * expected.abs(),
+                "{a}^{n}"
+            );
         }
     }
     for n in [i32::MIN, i32::MAX] {

@@ -1,0 +1,247 @@
+//! Units and amounts: from "25 µV" to a number in the unit of its input.
+
+use super::draft::Context;
+use super::{Checker, entries};
+use crate::budget::faults::{NOT_POSITIVE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, UNIT_CLASH};
+use crate::budget::strings::StringMap;
+use crate::budget::table::Stated;
+use crate::budget::tables::FileTable;
+use crate::budget::values::Amount;
+use crate::fault::Fault;
+use crate::quantity::{DefinitionError, Unit};
+
+/// Whether a unit of dimension one names a ratio, of which one asks "of what?" (in contrast to angles).
+fn is_ratio(symbol: &str) -> bool {
+    matches!(symbol, "%" | "‰" | "ppm" | "ppb" | "ppt" | "1") || symbol.contains('/')
+}
+
+impl Checker<'_> {
+    /// Reads the `[unit]` table.
+    pub(super) fn define_units(&mut self, file: &FileTable) {
+        let stated = entries(&file.unit);
+        let pairs = stated
+            .iter()
+            .map(|(name, definition)| (name.as_str(), definition.value.as_str()));
+        for (index, error) in self.units.define_all(pairs) {
+            let Some((_, definition)) = stated.get(index) else {
+                continue;
+            };
+            let fault = match error {
+                DefinitionError::Name(error) => {
+                    Fault::from(error).moved(|_| definition.key.clone())
+                }
+                DefinitionError::Definition(error) => {
+                    self.in_string(Fault::from(error), definition)
+                }
+            };
+            self.faults.push(fault);
+        }
+    }
+
+    /// A stated unit; dimension one when none is stated, nothing when it was refused.
+    pub(super) fn unit(&mut self, stated: &Option<Stated<String>>) -> Option<Unit> {
+        let Some(stated) = stated else {
+            return Some(Unit::one());
+        };
+        match self.units.parse(&stated.value) {
+            Ok(unit) => Some(unit),
+            Err(error) => {
+                let fault = self.in_string(Fault::from(error), stated);
+                self.refuse(fault)
+            }
+        }
+    }
+
+    /// Moves a fault inside a text of the file to its place in the file.
+    fn in_string(&self, fault: Fault, stated: &Stated<String>) -> Fault {
+        match StringMap::new(self.text, stated.span.clone()) {
+            Some(map) if map.text() == stated.value => fault.moved(|range| map.place(range)),
+            // The unit of an amount: `span` is the place of the unit itself, without quotes.
+            _ if self.text.get(stated.span.clone()) == Some(stated.value.as_str()) => {
+                fault.moved(|range| stated.span.start + range.start..stated.span.start + range.end)
+            }
+            _ => fault.moved(|_| stated.span.clone()),
+        }
+    }
+
+    /// The unit of an amount, if it has one of its own.
+    fn amount_unit(&mut self, amount: &Amount) -> Option<Option<Unit>> {
+        match &amount.unit {
+            None => Some(None),
+            Some((text, span)) => {
+                let stated = Stated {
+                    value: text.clone(),
+                    span: span.clone(),
+                    key: span.clone(),
+                };
+                self.unit(&Some(stated)).map(Some)
+            }
+        }
+    }
+
+    /// A value of a quantity in its unit (a point on the scale, for °C).
+    pub(super) fn quantity(
+        &mut self,
+        amount: &Stated<Amount>,
+        unit: &Unit,
+        owner: &str,
+    ) -> Option<f64> {
+        let Some(own) = self.amount_unit(&amount.value)? else {
+            return Some(amount.value.number);
+        };
+        match own.conversion_to(unit) {
+            Some(conversion) => Some(conversion.apply(amount.value.number)),
+            None => {
+                let fault = clash(amount, &own, unit, owner);
+                self.refuse(fault)
+            }
+        }
+    }
+
+    /// A deviation of a quantity, in the unit of its differences. Amounts such as `50 ppm`, and all
+    /// numbers when `relative` is set, are fractions of the value.
+    pub(super) fn deviation(
+        &mut self,
+        amount: &Stated<Amount>,
+        context: &Context<'_>,
+        relative: bool,
+    ) -> Option<f64> {
+        let number = amount.value.number;
+        let unit = context.unit.difference();
+        let Some(own) = self.amount_unit(&amount.value)? else {
+            return if relative {
+                self.fraction(amount, number, context)
+            } else {
+                Some(number)
+            };
+        };
+        let own = own.difference();
+        let one = Unit::one();
+        if own.dimension == one.dimension {
+            let fraction = own
+                .conversion_to(&one)
+                .map_or(number, |conversion| conversion.apply(number));
+            let input_is_one = unit.dimension == one.dimension;
+            if relative || (is_ratio(&own.symbol) && !(input_is_one && is_ratio(&unit.symbol))) {
+                return self.fraction(amount, fraction, context);
+            }
+            if input_is_one && is_ratio(&own.symbol) {
+                return self.refuse(
+                    Fault::new(
+                        RELATIVE_UNCLEAR,
+                        amount.span.clone(),
+                        format!("it is not clear whether {number} {} is of {} or of its unit {}", own.symbol, context.owner, unit.symbol),
+                    )
+                    .label("relative or absolute?")
+                    .help(format!(
+                        "for a fraction of the value add relative = true; for an absolute amount write a plain number in the unit {}",
+                        unit.symbol
+                    )),
+                );
+            }
+        }
+        match own.conversion_to(&unit) {
+            Some(_) if relative => self.refuse(
+                Fault::new(
+                    UNIT_CLASH,
+                    amount.span.clone(),
+                    format!("a relative uncertainty in {}", own.symbol),
+                )
+                .label("has a unit")
+                .help("write a fraction (0.001, \"0.1 %\", \"50 ppm\"), or remove `relative`"),
+            ),
+            Some(conversion) => Some(conversion.apply(number)),
+            None => {
+                let fault = clash(amount, &own, &unit, context.owner);
+                self.refuse(fault)
+            }
+        }
+    }
+
+    /// A deviation that must be greater than zero.
+    pub(super) fn positive_deviation(
+        &mut self,
+        amount: &Stated<Amount>,
+        key: &str,
+        context: &Context<'_>,
+        relative: bool,
+    ) -> Option<f64> {
+        if amount.value.number > 0.0 {
+            return self.deviation(amount, context, relative);
+        }
+        let fault = Fault::new(
+            NOT_POSITIVE,
+            amount.span.clone(),
+            format!("`{key}` of {} is {}", context.owner, amount.value.number),
+        )
+        .label("must be greater than zero");
+        self.refuse(if amount.value.number < 0.0 {
+            fault.help("write it without sign")
+        } else {
+            fault.help("leave the component out if there is no such doubt; an exact number belongs into [constant]")
+        })
+    }
+
+    fn fraction(
+        &mut self,
+        amount: &Stated<Amount>,
+        fraction: f64,
+        context: &Context<'_>,
+    ) -> Option<f64> {
+        match context.value {
+            Some(value) if value != 0.0 => Some(fraction * value.abs()),
+            Some(_) => self.refuse(
+                Fault::new(
+                    RELATIVE_TO_ZERO,
+                    amount.span.clone(),
+                    format!("relative to the value of {}, which is 0", context.owner),
+                )
+                .label("a fraction of 0 is 0")
+                .help(format!(
+                    "state it absolutely, in {}",
+                    context.unit.difference().symbol
+                )),
+            ),
+            None => self.refuse(
+                Fault::new(
+                    RELATIVE_TO_ZERO,
+                    amount.span.clone(),
+                    format!(
+                        "relative to {}, which has no value of its own",
+                        context.owner
+                    ),
+                )
+                .label("a fraction of what?")
+                .help(format!(
+                    "state it absolutely, in {}",
+                    context.unit.difference().symbol
+                )),
+            ),
+        }
+    }
+}
+
+fn clash(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {
+    let place = amount
+        .value
+        .unit
+        .as_ref()
+        .map_or(amount.span.clone(), |(_, span)| span.clone());
+    let fault = Fault::new(
+        UNIT_CLASH,
+        place,
+        format!(
+            "{} cannot be converted to {}, the unit of {owner}",
+            own.symbol, unit.symbol
+        ),
+    )
+    .label(format!("expected a unit like {}", unit.symbol));
+    if unit.is_one() {
+        fault.help(format!(
+            "add the missing unit to {owner}: unit = \"{}\"",
+            own.symbol
+        ))
+    } else {
+        fault
+    }
+}

@@ -1,0 +1,230 @@
+//! A component on its way from the file into the budget.
+
+use std::ops::Range;
+
+use super::Checker;
+use crate::budget::faults::{DOF, NOT_POSITIVE};
+use crate::budget::table::Stated;
+use crate::budget::tables::ComponentTable;
+use crate::budget::{Certificate, Evaluation, TScale};
+use crate::distribution::Distribution;
+use crate::fault::Fault;
+use crate::quantity::Unit;
+
+/// What a component is drafted for.
+#[derive(Debug, Clone)]
+pub(super) struct Context<'a> {
+    /// Name of the input or source, for messages.
+    pub owner: &'a str,
+    /// The estimate, when it is known.
+    pub value: Option<f64>,
+    /// Unit of the estimate.
+    pub unit: &'a Unit,
+    /// Place of the component as a whole.
+    pub place: Range<usize>,
+}
+
+/// What kind of doubt it is; decides about defaults and about absorption.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Repeatability,
+    Resolution,
+    Other,
+}
+
+/// A component before it has a place in the budget; numbers in the input's unit.
+#[derive(Debug, Clone)]
+pub(super) struct Draft {
+    /// Its name, from the file or from the way it is stated.
+    pub label: String,
+    /// Zero-mean.
+    pub distribution: Distribution,
+    pub u: f64,
+    pub dof: f64,
+    pub evaluation: Evaluation,
+    pub how: String,
+    /// Where the statement puts the quantity.
+    pub location: Location,
+    pub kind: Kind,
+    pub certificate: Option<Certificate>,
+    pub source: Option<String>,
+    pub place: Range<usize>,
+}
+
+/// What a component says about the estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Location {
+    /// Nothing.
+    None,
+    /// The estimate moves by this much (asymmetric limits, GUM 4.3.8).
+    Shift(f64),
+    /// The estimate is the mean of readings, unless a value is stated.
+    Mean(f64),
+    /// The estimate is this expectation; a stated value must lie between the limits.
+    Between {
+        expectation: f64,
+        lower: f64,
+        upper: f64,
+    },
+    /// The estimate is this expectation.
+    Expectation(f64),
+}
+
+/// u, ν and distribution of a draft, before the words are added.
+#[derive(Debug, Clone)]
+pub(super) struct Core {
+    pub distribution: Distribution,
+    pub u: f64,
+    pub dof: f64,
+    pub how: String,
+    pub location: Location,
+}
+
+impl Core {
+    pub(super) fn new(distribution: Distribution, u: f64, how: impl Into<String>) -> Self {
+        Core {
+            distribution,
+            u,
+            dof: f64::INFINITY,
+            how: how.into(),
+            location: Location::None,
+        }
+    }
+}
+
+impl Checker<'_> {
+    /// Degrees of freedom from `dof` or `reliability`; infinite when neither is stated.
+    pub(super) fn dof(&mut self, table: &ComponentTable) -> Option<f64> {
+        if let (Some(dof), Some(reliability)) = (&table.dof, &table.reliability) {
+            return self.refuse(
+                Fault::new(
+                    DOF,
+                    reliability.key.clone(),
+                    "degrees of freedom are stated in two ways",
+                )
+                .label("as reliability here")
+                .related(dof.key.clone(), "as dof here")
+                .help("leave out one of `dof` and `reliability`"),
+            );
+        }
+        if let Some(dof) = &table.dof {
+            return self.positive_dof(&dof.map(|dof| dof.0));
+        }
+        let Some(reliability) = &table.reliability else {
+            return Some(f64::INFINITY);
+        };
+        // GUM G.4.2, equation (G.3).
+        self.positive(reliability, "reliability")
+            .map(|ratio| 0.5 / (ratio * ratio))
+    }
+
+    /// A stated number of degrees of freedom.
+    pub(super) fn positive_dof(&mut self, dof: &Stated<f64>) -> Option<f64> {
+        if dof.value > 0.0 {
+            return Some(dof.value);
+        }
+        self.refuse(
+            Fault::new(
+                DOF,
+                dof.span.clone(),
+                format!("degrees of freedom of {}", dof.value),
+            )
+            .label("must be greater than zero")
+            .help("for a perfectly known uncertainty leave out `dof`, or write `dof = inf`"),
+        )
+    }
+
+    /// A number that must be greater than zero.
+    pub(super) fn positive(&mut self, number: &Stated<f64>, key: &str) -> Option<f64> {
+        if number.value > 0.0 {
+            return Some(number.value);
+        }
+        let fault = Fault::new(
+            NOT_POSITIVE,
+            number.span.clone(),
+            format!("`{key}` is {}", number.value),
+        )
+        .label("must be greater than zero");
+        self.refuse(if number.value < 0.0 {
+            fault.help("write it without sign")
+        } else {
+            fault
+        })
+    }
+
+    /// The distribution of a standard uncertainty with finite degrees of freedom: a t distribution
+    /// (JCGM 101 6.4.9), whose scale the conventions choose; else normal.
+    pub(super) fn t_or_normal(
+        &mut self,
+        u: f64,
+        dof: f64,
+        place: &Range<usize>,
+    ) -> Option<Distribution> {
+        if dof.is_infinite() {
+            return Some(Distribution::Normal { mean: 0.0, sd: u });
+        }
+        let scale = self.t_scale_of(u, dof, place)?;
+        Some(Distribution::StudentT {
+            location: 0.0,
+            scale,
+            dof,
+        })
+    }
+
+    /// Scale of the t distribution that stands for u.
+    pub(super) fn t_scale_of(&mut self, u: f64, dof: f64, place: &Range<usize>) -> Option<f64> {
+        match self.t_scale() {
+            TScale::Scale => Some(u),
+            TScale::StandardDeviation if dof > 2.0 => Some(u * ((dof - 2.0) / dof).sqrt()),
+            TScale::StandardDeviation => self.refuse(
+                Fault::new(
+                    DOF,
+                    place.clone(),
+                    format!("a t distribution with ν = {dof} has no standard deviation"),
+                )
+                .label(format!("ν = {dof}"))
+                .help("take more readings, or write `t_scale = \"scale\"` in [conventions]"),
+            ),
+        }
+    }
+}
+
+/// A number for the eye: `0.5`, `4e-5`, `1.23457e-8`.
+pub(super) fn show(number: f64) -> String {
+    let digits = format!("{number:.6e}");
+    let (mantissa, exponent) = digits.split_once('e').unwrap_or((&digits, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-4..7).contains(&exponent) {
+        let places = usize::try_from(6 - exponent).unwrap_or(0);
+        let plain = format!("{number:.places$}");
+        return if plain.contains('.') {
+            trim(&plain)
+        } else {
+            plain
+        };
+    }
+    format!("{}e{exponent}", trim(mantissa))
+}
+
+fn trim(digits: &str) -> String {
+    digits
+        .trim_end_matches('0')
+        .trim_end_matches('.')
+        .to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::show;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(show(0.5), "0.5");
+        assert_eq!(show(4e-5), "4e-5");
+        assert_eq!(show(1234567.0), "1234567");
+        assert_eq!(show(-0.001), "-0.001");
+        assert_eq!(show(0.0), "0");
+        assert_eq!(show(2.0 / 3.0), "0.6666667");
+        assert_eq!(show(1.5e12), "1.5e12");
+    }
+}

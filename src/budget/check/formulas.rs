@@ -1,0 +1,217 @@
+//! Measurands, and the way into the model language.
+
+use std::ops::Range;
+
+use super::register::Register;
+use super::{Checker, entries};
+use crate::budget::faults::{NO_MEASURAND, UNUSED};
+use crate::budget::strings::StringMap;
+use crate::budget::table::Stated;
+use crate::budget::tables::FileTable;
+use crate::budget::{Constant, Measurand};
+use crate::fault::Fault;
+use crate::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile};
+
+/// The words about the measurands.
+pub(super) fn measurands(file: &FileTable) -> Vec<Measurand> {
+    let word = |stated: &Option<Stated<String>>| stated.as_ref().map(|text| text.value.clone());
+    entries(&file.measurand)
+        .iter()
+        .map(|(name, entry)| Measurand {
+            name: name.clone(),
+            description: word(&entry.value.description),
+        })
+        .collect()
+}
+
+impl Checker<'_> {
+    /// Compiles the formulas, and reports what no measurand depends on.
+    pub(super) fn model(
+        &mut self,
+        file: &FileTable,
+        constants: &[Constant],
+        register: &Register,
+    ) -> Option<Model> {
+        let stated = entries(&file.measurand);
+        if stated.is_empty() {
+            let refused = file.refused && file.present.iter().any(|(key, _)| *key == "measurand");
+            if refused {
+                return None;
+            }
+            let end = self.text.trim_end().len();
+            return self.refuse(
+                Fault::new(NO_MEASURAND, end..end, "the file has no measurand")
+                    .label("expected a [measurand.NAME]")
+                    .help("add for example:\n[measurand.R]\nmodel = \"V / I\"\nunit = \"ohm\""),
+            );
+        }
+        let units: Vec<_> = stated
+            .iter()
+            .map(|(_, entry)| self.unit(&entry.value.unit))
+            .collect();
+        let unread = register.entries.iter().any(|entry| entry.unit.is_none())
+            || units.iter().any(Option::is_none)
+            || constants
+                .iter()
+                .any(|constant| constant.values.iter().any(|value| value.is_nan()));
+        let texts_refused = stated.iter().any(|(_, entry)| entry.value.refused)
+            || (file.refused && self.inputs_refused(file));
+        // Formulas cannot be judged while a unit is unknown: the faults would be consequences.
+        if unread || texts_refused {
+            return None;
+        }
+        let measurands: Vec<MeasurandSource<'_>> = stated
+            .iter()
+            .zip(&units)
+            .map(|((name, entry), unit)| MeasurandSource {
+                name,
+                model: entry.value.model.as_ref().map(|text| text.value.as_str()),
+                unit: entry.value.unit.as_ref().and(unit.clone()),
+            })
+            .collect();
+        let symbols = symbols(constants, register);
+        let units = self.units.clone();
+        let request = Request {
+            symbols: &symbols,
+            shared: file.model.as_ref().map(|text| text.value.as_str()),
+            measurands: &measurands,
+            units: &units,
+        };
+        match compile(&request) {
+            Ok(model) => {
+                self.unused(file, &model, constants.len(), register);
+                Some(model)
+            }
+            Err(faults) => {
+                for fault in faults {
+                    let placed = self.placed(fault, file, constants.len(), register);
+                    self.faults.push(placed);
+                }
+                None
+            }
+        }
+    }
+
+    /// Whether an input or a constant is missing because it was refused.
+    fn inputs_refused(&self, file: &FileTable) -> bool {
+        file.present.iter().any(|(key, _)| {
+            (*key == "input" && file.input.is_none())
+                || (*key == "constant" && file.constant.is_none())
+                || (*key == "model" && file.model.is_none())
+        })
+    }
+
+    /// Moves a fault of a formula to its place in the file.
+    fn placed(
+        &self,
+        found: ModelFault,
+        file: &FileTable,
+        constants: usize,
+        register: &Register,
+    ) -> Fault {
+        let ModelFault { place, fault } = found;
+        let measurands = entries(&file.measurand);
+        match place {
+            Place::Shared => self.in_formula(fault, file.model.as_ref()),
+            Place::Measurand(index) => {
+                let text = measurands
+                    .get(index)
+                    .and_then(|(_, entry)| entry.value.model.as_ref());
+                self.in_formula(fault, text)
+            }
+            Place::Entry(index) => {
+                let place = measurands
+                    .get(index)
+                    .map_or(0..0, |(_, entry)| entry.span.clone());
+                fault.moved(|_| place.clone())
+            }
+            Place::Symbol(index) => {
+                let place = self.symbol_place(index, file, constants, register);
+                fault.moved(|_| place.clone())
+            }
+        }
+    }
+
+    fn in_formula(&self, fault: Fault, text: Option<&Stated<String>>) -> Fault {
+        let Some(text) = text else {
+            return fault.moved(|_| 0..0);
+        };
+        match StringMap::new(self.text, text.span.clone()).filter(|map| map.text() == text.value) {
+            Some(map) => fault.moved(|range| map.place(range)),
+            None => fault.moved(|_| text.span.clone()),
+        }
+    }
+
+    fn symbol_place(
+        &self,
+        index: usize,
+        file: &FileTable,
+        constants: usize,
+        register: &Register,
+    ) -> Range<usize> {
+        if index < constants {
+            return entries(&file.constant)
+                .get(index)
+                .map_or(0..0, |(_, entry)| entry.key.clone());
+        }
+        register
+            .entries
+            .get(index - constants)
+            .map_or(0..0, |entry| entry.place.clone())
+    }
+
+    fn unused(&mut self, file: &FileTable, model: &Model, constants: usize, register: &Register) {
+        for index in model.unused_symbols() {
+            let place = self.symbol_place(index, file, constants, register);
+            let (kind, name) = if index < constants {
+                (
+                    "constant",
+                    entries(&file.constant)
+                        .get(index)
+                        .map(|(name, _)| name.as_str()),
+                )
+            } else {
+                (
+                    "input",
+                    register
+                        .entries
+                        .get(index - constants)
+                        .map(|entry| entry.name.as_str()),
+                )
+            };
+            let name = name.unwrap_or_default();
+            self.faults.push(
+                Fault::new(
+                    UNUSED,
+                    place,
+                    format!("no measurand depends on the {kind} {name}"),
+                )
+                .label("not used in any model")
+                .help(format!("use {name} in a model, or remove it")),
+            );
+        }
+    }
+}
+
+/// Constants first, then inputs, each in the order of the file.
+fn symbols(constants: &[Constant], register: &Register) -> Vec<Symbol> {
+    let constants = constants.iter().map(|constant| Symbol {
+        name: constant.name.clone(),
+        unit: constant.unit.clone(),
+        role: match constant.values.as_slice() {
+            [value] => Role::Constant(*value),
+            values => Role::ConstantVector(values.to_vec()),
+        },
+    });
+    let inputs = register.entries.iter().filter_map(|entry| {
+        Some(Symbol {
+            name: entry.name.clone(),
+            unit: entry.unit.clone()?,
+            role: match entry.vector {
+                true => Role::InputVector(entry.places.clone()),
+                false => Role::Input(entry.places.start),
+            },
+        })
+    });
+    constants.chain(inputs).collect()
+}

@@ -1,0 +1,219 @@
+//! Components that state a whole distribution: with parameters, as a sample, from counts.
+
+use std::sync::Arc;
+
+use super::Checker;
+use super::draft::{Context, Core, Location};
+use super::ways::Way;
+use crate::budget::distributions::{DistributionEntry, Parametric};
+use crate::budget::faults::{COUNT, DISTRIBUTION, MISSING_KEY, TOO_FEW_READINGS};
+use crate::budget::table::Stated;
+use crate::budget::tables::{ComponentTable, PriorWord};
+use crate::distribution::Distribution;
+use crate::fault::Fault;
+
+impl Checker<'_> {
+    /// The component that a stated distribution, a sample or a count describes.
+    pub(super) fn given(
+        &mut self,
+        table: &ComponentTable,
+        way: Way,
+        context: &Context<'_>,
+    ) -> Option<Core> {
+        match way {
+            Way::Sample => self.sample(table, context),
+            Way::Distribution => self.parametric(table),
+            Way::Count => self.count(table, context),
+            Way::Successes => self.proportion(table, context),
+            _ => None,
+        }
+    }
+
+    fn sample(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
+        let stated = table.sample.as_ref()?;
+        let mut sample = self.numbers(stated)?;
+        if sample.len() < 2 || super::type_a::all_equal(&sample) {
+            return self.refuse(
+                Fault::new(
+                    TOO_FEW_READINGS,
+                    stated.span.clone(),
+                    format!("the sample of {} has no spread", context.owner),
+                )
+                .label("needs at least two different values"),
+            );
+        }
+        sample.sort_by(f64::total_cmp);
+        let how = format!("sample of {}", sample.len());
+        self.centred(
+            Distribution::Empirical {
+                sample: Arc::from(sample),
+            },
+            how,
+            &stated.key,
+        )
+    }
+
+    fn parametric(&mut self, table: &ComponentTable) -> Option<Core> {
+        let entry = table.distribution.as_ref()?;
+        let DistributionEntry::Full(full) = &entry.value else {
+            return None;
+        };
+        let parametric = match full.parametric(&entry.map(|_| ())) {
+            Ok(parametric) => parametric,
+            Err(fault) => return self.refuse(*fault),
+        };
+        let Parametric {
+            distribution,
+            located,
+            how,
+        } = parametric;
+        let dof = self.dof(table)?;
+        let mut core = self.centred(distribution.clone(), how, &entry.key)?;
+        if let Distribution::StudentT { scale, dof: nu, .. } = distribution {
+            // GUM propagates the scale, as it does for readings (JCGM 101 6.4.9).
+            core.u = scale;
+            core.dof = nu;
+        } else {
+            core.dof = dof;
+        }
+        if !located {
+            core.location = Location::None;
+        } else if let (Location::Expectation(expectation), Some((lower, upper))) =
+            (core.location, limits(&distribution))
+        {
+            core.location = Location::Between {
+                expectation,
+                lower,
+                upper,
+            };
+        }
+        Some(core)
+    }
+
+    /// Events of a Poisson process: the rate is gamma distributed (JCGM 101 6.4.11).
+    fn count(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
+        let stated = table.count.as_ref()?;
+        let n = stated.value as f64;
+        let shape = n + prior_counts(table);
+        if shape <= 0.0 {
+            return self.refuse(no_events(stated, context));
+        }
+        let how = format!("n = {n}, G({shape}, 1)");
+        self.centred(
+            Distribution::Gamma {
+                origin: 0.0,
+                shape,
+                scale: 1.0,
+            },
+            how,
+            &stated.key,
+        )
+    }
+
+    /// Successes of Bernoulli trials: the proportion is beta distributed.
+    fn proportion(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
+        let stated = table.successes.as_ref()?;
+        let Some(trials) = &table.trials else {
+            return self.refuse(
+                Fault::new(
+                    MISSING_KEY,
+                    stated.key.clone(),
+                    format!(
+                        "the successes of {} have no number of trials",
+                        context.owner
+                    ),
+                )
+                .label("`trials` is missing"),
+            );
+        };
+        if stated.value > trials.value || trials.value == 0 {
+            return self.refuse(
+                Fault::new(
+                    COUNT,
+                    stated.span.clone(),
+                    format!("{} successes in {} trials", stated.value, trials.value),
+                )
+                .label("more than there were trials")
+                .related(trials.span.clone(), "trials"),
+            );
+        }
+        let prior = prior_counts(table);
+        let (s, f) = (
+            stated.value as f64 + prior,
+            (trials.value - stated.value) as f64 + prior,
+        );
+        if s <= 0.0 || f <= 0.0 {
+            return self.refuse(no_events(stated, context));
+        }
+        let how = format!("{} of {}, B({s}, {f})", stated.value, trials.value);
+        self.centred(
+            Distribution::Beta {
+                alpha: s,
+                beta: f,
+                lower: 0.0,
+                upper: 1.0,
+            },
+            how,
+            &stated.key,
+        )
+    }
+
+    /// Moves a distribution to mean zero; its mean is the estimate.
+    fn centred(
+        &mut self,
+        distribution: Distribution,
+        how: String,
+        place: &std::ops::Range<usize>,
+    ) -> Option<Core> {
+        if let Err(reason) = distribution.validate() {
+            return self.refuse(
+                Fault::new(DISTRIBUTION, place.clone(), reason).label("parameters do not fit"),
+            );
+        }
+        // A t distribution with ν ≤ 1 has no mean; its location takes the place.
+        let mean = match &distribution {
+            Distribution::StudentT { location, .. } => *location,
+            other => other.mean().unwrap_or(0.0),
+        };
+        let u = distribution.standard_deviation().unwrap_or(0.0);
+        let location = Location::Expectation(mean);
+        Some(Core {
+            location,
+            ..Core::new(distribution.shifted(-mean), u, how)
+        })
+    }
+}
+
+/// What the prior adds to a count (JCGM 101 6.4.11 for the uniform one).
+fn prior_counts(table: &ComponentTable) -> f64 {
+    match table.prior.as_ref().map(|prior| prior.value) {
+        None | Some(PriorWord::Uniform) => 1.0,
+        Some(PriorWord::Jeffreys) => 0.5,
+        Some(PriorWord::Reciprocal) => 0.0,
+    }
+}
+
+fn no_events(stated: &Stated<u64>, context: &Context<'_>) -> Fault {
+    Fault::new(
+        COUNT,
+        stated.span.clone(),
+        format!(
+            "the prior \"reciprocal\" of {} needs a count other than {}",
+            context.owner, stated.value
+        ),
+    )
+    .label("gives no proper distribution")
+    .help("write prior = \"jeffreys\" or \"uniform\"")
+}
+
+/// The limits of a distribution that has two.
+fn limits(distribution: &Distribution) -> Option<(f64, f64)> {
+    match distribution {
+        Distribution::Uniform { lower, upper }
+        | Distribution::Triangular { lower, upper, .. }
+        | Distribution::Trapezoidal { lower, upper, .. }
+        | Distribution::Arcsine { lower, upper }
+        | Distribution::CurvilinearTrapezoid { lower, upper, .. } => Some((*lower, *upper)),
+        _ => None,
+    }
+}

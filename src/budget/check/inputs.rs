@@ -1,0 +1,902 @@
+//! Inputs and shared sources: estimates, and the components that doubt them.
+
+use std::ops::Range;
+
+use super::draft::{Context, Draft, Location, show};
+use super::register::{InputEntry, Register, SourceEntry};
+use super::type_a::all_equal;
+use super::ways::{Way, expectation, locates};
+use super::{Checker, entries};
+use crate::budget::faults::{
+    LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS, UNIT_CLASH, UNKNOWN_NAME, UNUSED,
+    VECTOR,
+};
+use crate::budget::table::Stated;
+use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord, SourceTable};
+use crate::budget::variants::ReadingsOf;
+use crate::budget::{Constant, Input, Owner};
+use crate::fault::{Fault, nearest};
+use crate::quantity::Unit;
+
+/// A reason for doubt of one input.
+enum Piece {
+    Own(Box<Draft>, Option<Vec<f64>>),
+    Shared { component: usize, coefficient: f64 },
+}
+
+/// A component of the file, and the way it is stated.
+struct Entry<'f> {
+    table: &'f ComponentTable,
+    way: Way,
+    place: Range<usize>,
+}
+
+impl Checker<'_> {
+    /// Reads `[constant]`.
+    pub(super) fn constants(&mut self, file: &FileTable) -> Vec<Constant> {
+        let mut constants = Vec::new();
+        for (name, stated) in entries(&file.constant) {
+            let table = &stated.value.0;
+            let unit = self.unit(&table.unit);
+            let values = match (&table.value, &table.values) {
+                (Some(value), None) => unit
+                    .as_ref()
+                    .and_then(|unit| self.quantity(value, unit, name))
+                    .map(|value| vec![value]),
+                (None, Some(values)) if !values.value.is_empty() => {
+                    Some(values.value.iter().map(|value| value.value).collect())
+                }
+                _ if table.refused => None,
+                _ => self.refuse(
+                    Fault::new(
+                        NO_ESTIMATE,
+                        stated.span.clone(),
+                        format!("the constant {name} has no value"),
+                    )
+                    .label("state `value`, or `values` for a vector"),
+                ),
+            };
+            constants.push(Constant {
+                name: name.clone(),
+                values: values.unwrap_or_else(|| vec![f64::NAN]),
+                unit: unit.unwrap_or_else(Unit::one),
+                description: table.description.as_ref().map(|text| text.value.clone()),
+                source: table.source.as_ref().map(|text| text.value.clone()),
+            });
+        }
+        constants
+    }
+
+    /// Reads `[source.S]`.
+    pub(super) fn sources(
+        &mut self,
+        sources: &[(String, Stated<SourceTable>)],
+        register: &mut Register,
+    ) {
+        for (name, stated) in sources {
+            let table = &stated.value;
+            let unit = self.unit(&table.unit);
+            let mut entry = SourceEntry {
+                name: name.clone(),
+                unit: unit.clone(),
+                components: Vec::new(),
+                used: false,
+            };
+            if let Some(unit) = unit {
+                let drafts = self.source_drafts(name, stated, &unit);
+                register.incomplete |= drafts.is_none();
+                let drafts = drafts.unwrap_or_default();
+                let alone = drafts.len() == 1;
+                for draft in drafts {
+                    let owner = Owner::Source(name.clone());
+                    entry
+                        .components
+                        .push(register.add(owner, name, &unit, draft, alone));
+                }
+            }
+            register.sources.push(entry);
+        }
+    }
+
+    fn source_drafts(
+        &mut self,
+        name: &str,
+        stated: &Stated<SourceTable>,
+        unit: &Unit,
+    ) -> Option<Vec<Draft>> {
+        let table = &stated.value;
+        let list = self.ways(
+            name,
+            &table.components,
+            &table.component,
+            &stated.span,
+            unit,
+        )?;
+        let mut drafts = Vec::new();
+        for entry in list {
+            let context = Context {
+                owner: name,
+                value: None,
+                unit,
+                place: entry.place.clone(),
+            };
+            if entry.way == Way::Source {
+                return self.refuse(
+                    Fault::new(
+                        VECTOR,
+                        entry.place,
+                        format!("the source {name} refers to another source"),
+                    )
+                    .label("a source states its own uncertainty"),
+                );
+            }
+            let draft = self.draft(entry.table, entry.way, &context)?;
+            let moved = match draft.location {
+                Location::None | Location::Mean(_) => 0.0,
+                Location::Shift(shift) => shift,
+                Location::Expectation(mean)
+                | Location::Between {
+                    expectation: mean, ..
+                } => mean,
+            };
+            if moved.abs() > 1e-9 * draft.u {
+                return self.refuse(
+                    Fault::new(
+                        TWO_ESTIMATES,
+                        entry.place,
+                        format!(
+                            "the source {name} has the expectation {}, not 0",
+                            show(moved)
+                        ),
+                    )
+                    .label("a source is an error about zero")
+                    .help(
+                        "correct the inputs for the known part, and state limits about zero here",
+                    ),
+                );
+            }
+            drafts.push(draft);
+        }
+        self.label_uniquely(name, &mut drafts);
+        Some(drafts)
+    }
+
+    /// Reports sources that no input refers to.
+    pub(super) fn unused_sources(
+        &mut self,
+        sources: &[(String, Stated<SourceTable>)],
+        register: &Register,
+    ) {
+        for (name, stated) in sources {
+            if register
+                .sources
+                .iter()
+                .any(|source| source.name == *name && !source.used)
+            {
+                self.faults.push(
+                    Fault::new(UNUSED, stated.key.clone(), format!("no input refers to the source {name}"))
+                        .label("not used")
+                        .help(format!("add source = \"{name}\" to the components of the inputs that it acts on, or remove it")),
+                );
+            }
+        }
+    }
+
+    /// Reads `[input.X]`.
+    pub(super) fn inputs(
+        &mut self,
+        file: &FileTable,
+        resolution: ResolutionWord,
+        register: &mut Register,
+    ) {
+        for (name, stated) in entries(&file.input) {
+            let table = &stated.value;
+            let unit = self.unit(&table.unit);
+            let start = register.inputs.len();
+            let values = table
+                .values
+                .as_ref()
+                .map(|list| list.value.iter().map(|value| value.value).collect());
+            let values: Option<Vec<f64>> = values;
+            let count = values.as_ref().map_or(1, Vec::len);
+            for element in 0..count {
+                register.inputs.push(blank(
+                    name,
+                    table,
+                    unit.as_ref(),
+                    values.as_ref().map(|_| element),
+                ));
+            }
+            let filled = match (&unit, values) {
+                (Some(unit), Some(values)) => {
+                    self.vector(name, stated, unit, &values, register, start)
+                }
+                (Some(unit), None) => self.scalar(name, stated, unit, resolution, register, start),
+                (None, _) => None,
+            };
+            register.incomplete |= filled.is_none();
+            register.entries.push(InputEntry {
+                name: name.clone(),
+                place: stated.key.clone(),
+                places: start..start + count,
+                vector: table.values.is_some(),
+                unit,
+            });
+        }
+    }
+
+    /// The components of an input or source with their ways; all faults are reported.
+    fn ways<'f>(
+        &mut self,
+        name: &str,
+        list: &'f Option<Stated<Vec<Stated<ComponentTable>>>>,
+        direct: &'f ComponentTable,
+        place: &Range<usize>,
+        unit: &Unit,
+    ) -> Option<Vec<Entry<'f>>> {
+        if let (Some(list), Some((key, span))) = (list, direct.present.first()) {
+            return self.refuse(
+                Fault::new(
+                    TWO_WAYS,
+                    span.clone(),
+                    format!("{name} has `components` and the key `{key}` beside them"),
+                )
+                .label("not inside a component")
+                .related(list.key.clone(), "the components of the input")
+                .help(format!("move `{key}` into one of the `components`")),
+            );
+        }
+        let tables: Vec<(&ComponentTable, Range<usize>)> = match list {
+            Some(list) if list.value.is_empty() => vec![(direct, list.span.clone())],
+            Some(list) => list
+                .value
+                .iter()
+                .map(|item| (&item.value, item.span.clone()))
+                .collect(),
+            None => vec![(direct, place.clone())],
+        };
+        let mut entries = Vec::new();
+        let mut complete = true;
+        for (table, place) in tables {
+            let context = Context {
+                owner: name,
+                value: None,
+                unit,
+                place: place.clone(),
+            };
+            match self.way(table, &context) {
+                Some(way) => entries.push(Entry { table, way, place }),
+                None => complete = false,
+            }
+        }
+        complete.then_some(entries)
+    }
+
+    fn entries_of<'f>(
+        &mut self,
+        name: &str,
+        stated: &'f Stated<InputTable>,
+        unit: &Unit,
+        register: &Register,
+    ) -> Option<Vec<Entry<'f>>> {
+        let table = &stated.value;
+        let bare = table.components.is_none() && table.component.present.is_empty();
+        if bare && register.by_matrix.iter().any(|by_matrix| by_matrix == name) {
+            return Some(Vec::new());
+        }
+        // The list itself was refused; what is in it is unknown.
+        if bare && table.refused && table.present.iter().any(|(key, _)| *key == "components") {
+            return None;
+        }
+        self.ways(
+            name,
+            &table.components,
+            &table.component,
+            &stated.span,
+            unit,
+        )
+    }
+
+    fn scalar(
+        &mut self,
+        name: &str,
+        stated: &Stated<InputTable>,
+        unit: &Unit,
+        resolution: ResolutionWord,
+        register: &mut Register,
+        place: usize,
+    ) -> Option<()> {
+        let table = &stated.value;
+        let list = self.entries_of(name, stated, unit, register)?;
+        let value = match &table.value {
+            Some(value) => Some(self.quantity(value, unit, name)?),
+            None => None,
+        };
+        let base = match value {
+            Some(value) => value,
+            None => self.estimate(name, stated, &list, unit)?,
+        };
+        let mut pieces = Vec::new();
+        let mut complete = true;
+        for entry in &list {
+            let context = Context {
+                owner: name,
+                value: Some(base),
+                unit,
+                place: entry.place.clone(),
+            };
+            match self.piece(entry, &context, &list, register) {
+                Some(found) => pieces.extend(found),
+                None => complete = false,
+            }
+        }
+        if !complete {
+            return None;
+        }
+        let mut estimate = base;
+        for piece in &pieces {
+            if let Piece::Own(draft, _) = piece {
+                estimate += self.shift(name, draft, value, &table.value)?;
+            }
+        }
+        if let Some(input) = register.inputs.get_mut(place) {
+            input.estimate = estimate;
+        }
+        self.enter(name, pieces, unit, resolution, register, place);
+        Some(())
+    }
+
+    /// The estimate of an input that states no value.
+    fn estimate(
+        &mut self,
+        name: &str,
+        stated: &Stated<InputTable>,
+        list: &[Entry<'_>],
+        unit: &Unit,
+    ) -> Option<f64> {
+        if stated.value.present.iter().any(|(key, _)| *key == "value") {
+            return None;
+        }
+        let mut found: Vec<(f64, Range<usize>)> = Vec::new();
+        for entry in list
+            .iter()
+            .filter(|entry| locates(entry.way) && !single(entry.table))
+        {
+            let context = Context {
+                owner: name,
+                value: None,
+                unit,
+                place: entry.place.clone(),
+            };
+            if let Some(mean) = self.constant_readings(entry, list) {
+                found.push((mean, entry.place.clone()));
+                continue;
+            }
+            let location = self.draft(entry.table, entry.way, &context)?.location;
+            found.extend(expectation(location).map(|mean| (mean, entry.place.clone())));
+        }
+        match found.as_slice() {
+            [(mean, _)] => Some(*mean),
+            [] => self.refuse(
+                Fault::new(NO_ESTIMATE, stated.span.clone(), format!("{name} has no value"))
+                    .label("`value` is missing")
+                    .help(format!("add `value`, in {}; readings or a distribution with a stated location would do too", unit.symbol)),
+            ),
+            [(_, first), (_, second), ..] => self.refuse(
+                Fault::new(TWO_ESTIMATES, second.clone(), format!("two components of {name} state where it is"))
+                    .label("second estimate")
+                    .related(first.clone(), "first estimate")
+                    .help("add `value`: the estimate that is reported"),
+            ),
+        }
+    }
+
+    /// The common value of readings that do not scatter beside a stated resolution: their scatter is
+    /// below it and left to it.
+    fn constant_readings(&mut self, entry: &Entry<'_>, list: &[Entry<'_>]) -> Option<f64> {
+        let readings = entry
+            .table
+            .readings
+            .as_ref()
+            .filter(|_| entry.table.pooled.is_none())?;
+        if !list
+            .iter()
+            .any(|other| matches!(other.way, Way::Step | Way::Bits))
+        {
+            return None;
+        }
+        let numbers = self.numbers(readings)?;
+        (numbers.len() > 1 && all_equal(&numbers)).then(|| numbers[0])
+    }
+
+    fn piece(
+        &mut self,
+        entry: &Entry<'_>,
+        context: &Context<'_>,
+        list: &[Entry<'_>],
+        register: &mut Register,
+    ) -> Option<Vec<Piece>> {
+        if entry.way == Way::Source {
+            return self.shared_pieces(entry, context, register);
+        }
+        if let Some(value) = self.constant_readings(entry, list) {
+            let owner = context.owner;
+            self.remark(
+                format!("{owner}: all readings are {value}; their scatter is below the resolution and left to it."),
+                format!("{owner}：各次读数均为 {value}，分散性小于分辨力，由分辨力分量包含。"),
+            );
+            return Some(Vec::new());
+        }
+        let draft = self.draft(entry.table, entry.way, context)?;
+        let readings = match &entry.table.readings {
+            Some(readings) if entry.table.pooled.is_none() => self.numbers(readings),
+            _ => None,
+        };
+        Some(vec![Piece::Own(Box::new(draft), readings)])
+    }
+
+    /// How far a component moves the estimate, with a remark when it does.
+    fn shift(
+        &mut self,
+        name: &str,
+        draft: &Draft,
+        value: Option<f64>,
+        stated: &Option<Stated<crate::budget::values::Amount>>,
+    ) -> Option<f64> {
+        let place = stated
+            .as_ref()
+            .map_or(draft.place.clone(), |stated| stated.span.clone());
+        let (old, new) = match (draft.location, value) {
+            (Location::Shift(shift), _) if shift != 0.0 => {
+                let old = value.unwrap_or(0.0);
+                (old, old + shift)
+            }
+            (Location::Mean(mean), Some(value)) if (mean - value).abs() > 1e-9 * draft.u => {
+                self.remark(
+                    format!(
+                        "{name}: the stated value {} is used; the mean of its readings is {}.",
+                        show(value),
+                        show(mean)
+                    ),
+                    format!(
+                        "{name}：采用给出的值 {}；读数的平均值为 {}。",
+                        show(value),
+                        show(mean)
+                    ),
+                );
+                return Some(0.0);
+            }
+            (Location::Between { lower, upper, .. }, Some(value))
+                if !(lower..=upper).contains(&value) =>
+            {
+                return self.refuse(
+                    Fault::new(LIMITS, draft.place.clone(), format!("the limits {lower} and {upper} do not contain the value of {name}, {value}"))
+                        .label("limits of the quantity itself")
+                        .related(place, "the value")
+                        .help("for limits of a deviation write `half_width`, or `plus` and `minus`"),
+                );
+            }
+            (Location::Between { expectation, .. }, Some(value))
+                if (expectation - value).abs() > 1e-9 * draft.u =>
+            {
+                (value, expectation)
+            }
+            (Location::Expectation(mean), Some(value)) if (mean - value).abs() > 1e-9 * draft.u => {
+                return self.refuse(
+                    Fault::new(TWO_ESTIMATES, place, format!("the value of {name} is {value}, the expectation of its distribution {}", show(mean)))
+                        .label("another estimate than that of the distribution")
+                        .related(draft.place.clone(), format!("expectation {}", show(mean)))
+                        .help("leave out `value`, or make the deviation an input of its own in the model"),
+                );
+            }
+            _ => return Some(0.0),
+        };
+        self.remark(
+            format!("{name}: the estimate moves from {} to {}, the expectation between asymmetric limits (GUM 4.3.8).", show(old), show(new)),
+            format!("{name}：区间不对称，估计值由 {} 移至期望 {}（GUM 4.3.8）。", show(old), show(new)),
+        );
+        Some(new - old)
+    }
+
+    /// Enters the components of a scalar input.
+    fn enter(
+        &mut self,
+        name: &str,
+        pieces: Vec<Piece>,
+        unit: &Unit,
+        resolution: ResolutionWord,
+        register: &mut Register,
+        place: usize,
+    ) {
+        let alone = pieces.len() == 1;
+        let mut drafts = Vec::new();
+        let mut readings = Vec::new();
+        for piece in pieces {
+            match piece {
+                Piece::Own(draft, numbers) => {
+                    readings.push((draft.place.clone(), numbers));
+                    drafts.push(*draft);
+                }
+                Piece::Shared {
+                    component,
+                    coefficient,
+                } => register.act(place, component, coefficient),
+            }
+        }
+        self.label_uniquely(name, &mut drafts);
+        for draft in self.absorb(name, drafts, resolution) {
+            let numbers = readings
+                .iter()
+                .find(|(place, _)| *place == draft.place)
+                .and_then(|(_, n)| n.clone());
+            let component = register.add(Owner::Input(place), name, unit, draft, alone);
+            register.act(place, component, 1.0);
+            if let Some(numbers) = numbers {
+                register.readings.insert(component, numbers);
+            }
+        }
+    }
+
+    /// Gives components without a name different labels; reports names that are stated twice.
+    fn label_uniquely(&mut self, owner: &str, drafts: &mut [Draft]) {
+        for index in 1..drafts.len() {
+            let (before, rest) = drafts.split_at_mut(index);
+            let Some(draft) = rest.first_mut() else {
+                continue;
+            };
+            let Some(first) = before.iter().find(|other| other.label == draft.label) else {
+                continue;
+            };
+            if self
+                .text
+                .get(draft.place.clone())
+                .is_some_and(|text| text.contains(&format!("\"{}\"", draft.label)))
+            {
+                self.faults.push(
+                    Fault::new(
+                        NAME_TWICE,
+                        draft.place.clone(),
+                        format!("two components of {owner} are called \"{}\"", draft.label),
+                    )
+                    .label("second one")
+                    .related(first.place.clone(), "first one"),
+                );
+            }
+            let same = before
+                .iter()
+                .filter(|other| other.label.starts_with(&draft.label))
+                .count();
+            draft.label = format!("{} {}", draft.label, same + 1);
+        }
+    }
+
+    fn shared_pieces(
+        &mut self,
+        entry: &Entry<'_>,
+        context: &Context<'_>,
+        register: &mut Register,
+    ) -> Option<Vec<Piece>> {
+        let stated = entry.table.source.as_ref()?;
+        if entry.table.refused {
+            return None;
+        }
+        let names: Vec<String> = register
+            .sources
+            .iter()
+            .map(|source| source.name.clone())
+            .collect();
+        let Some(source) = register
+            .sources
+            .iter_mut()
+            .find(|source| source.name == stated.value)
+        else {
+            let help = match nearest(&stated.value, names.iter().map(String::as_str)) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!(
+                    "declare it: [source.{}]; where a number comes from is `source_text`",
+                    stated.value
+                ),
+            };
+            return self.refuse(
+                Fault::new(
+                    UNKNOWN_NAME,
+                    stated.span.clone(),
+                    format!("there is no source \"{}\"", stated.value),
+                )
+                .label("not declared")
+                .help(help),
+            );
+        };
+        source.used = true;
+        let (unit, components) = (source.unit.clone()?, source.components.clone());
+        let coefficient = self.coefficient(entry, context, &unit)?;
+        Some(
+            components
+                .into_iter()
+                .map(|component| Piece::Shared {
+                    component,
+                    coefficient,
+                })
+                .collect(),
+        )
+    }
+
+    /// Change of the input per unit of the source.
+    fn coefficient(
+        &mut self,
+        entry: &Entry<'_>,
+        context: &Context<'_>,
+        source: &Unit,
+    ) -> Option<f64> {
+        let relative = entry
+            .table
+            .relative
+            .as_ref()
+            .is_some_and(|stated| stated.value);
+        let whole = if relative {
+            context.value.unwrap_or(0.0)
+        } else {
+            1.0
+        };
+        let target = if relative {
+            Unit::one()
+        } else {
+            context.unit.difference()
+        };
+        let (number, unit, place) = match &entry.table.sensitivity {
+            Some(sensitivity) => match &sensitivity.value.unit {
+                None => return Some(whole * sensitivity.value.number),
+                Some((text, span)) => {
+                    let text = Stated {
+                        value: text.clone(),
+                        span: span.clone(),
+                        key: span.clone(),
+                    };
+                    (
+                        sensitivity.value.number,
+                        self.unit(&Some(text))?.product(source),
+                        span.clone(),
+                    )
+                }
+            },
+            None => (1.0, source.difference(), entry.place.clone()),
+        };
+        match unit.conversion_to(&target) {
+            Some(conversion) => Some(whole * number * conversion.factor),
+            None => self.refuse(
+                Fault::new(
+                    UNIT_CLASH,
+                    place,
+                    format!(
+                        "the source acts in {}, {} is in {}",
+                        unit.symbol, context.owner, target.symbol
+                    ),
+                )
+                .label("units do not fit")
+                .help(format!(
+                    "add the sensitivity: sensitivity = \"… ({})/({})\"",
+                    target.symbol, source.symbol
+                )),
+            ),
+        }
+    }
+
+    fn vector(
+        &mut self,
+        name: &str,
+        stated: &Stated<InputTable>,
+        unit: &Unit,
+        values: &[f64],
+        register: &mut Register,
+        start: usize,
+    ) -> Option<()> {
+        let table = &stated.value;
+        if let (Some(value), Some(values)) = (&table.value, &table.values) {
+            return self.refuse(
+                Fault::new(
+                    VECTOR,
+                    values.key.clone(),
+                    format!("{name} has `value` and `values`"),
+                )
+                .label("values of a vector")
+                .related(value.key.clone(), "value of a scalar")
+                .help("leave out one"),
+            );
+        }
+        if values.is_empty() {
+            let place = table
+                .values
+                .as_ref()
+                .map_or(stated.span.clone(), |values| values.span.clone());
+            return self.refuse(
+                Fault::new(VECTOR, place, format!("{name} has no values")).label("an empty vector"),
+            );
+        }
+        let list = self.entries_of(name, stated, unit, register)?;
+        for (place, value) in (start..).zip(values) {
+            if let Some(input) = register.inputs.get_mut(place) {
+                input.estimate = *value;
+            }
+        }
+        let alone = list.len() == 1;
+        let mut complete = true;
+        let mut labels: Vec<String> = Vec::new();
+        for entry in &list {
+            let done = self.vector_component(
+                name,
+                entry,
+                unit,
+                values,
+                register,
+                start,
+                alone,
+                &mut labels,
+            );
+            complete &= done.is_some();
+        }
+        complete.then_some(())
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn vector_component(
+        &mut self,
+        name: &str,
+        entry: &Entry<'_>,
+        unit: &Unit,
+        values: &[f64],
+        register: &mut Register,
+        start: usize,
+        alone: bool,
+        labels: &mut Vec<String>,
+    ) -> Option<()> {
+        if entry.way == Way::Source {
+            for (place, value) in (start..).zip(values) {
+                let context = Context {
+                    owner: name,
+                    value: Some(*value),
+                    unit,
+                    place: entry.place.clone(),
+                };
+                for piece in self.shared_pieces(entry, &context, register)? {
+                    if let Piece::Shared {
+                        component,
+                        coefficient,
+                    } = piece
+                    {
+                        register.act(place, component, coefficient);
+                    }
+                }
+            }
+            return Some(());
+        }
+        if locates(entry.way) && !single(entry.table) && entry.way != Way::Distribution {
+            return self.refuse(
+                Fault::new(
+                    VECTOR,
+                    entry.place.clone(),
+                    format!("this component would state one estimate for all elements of {name}"),
+                )
+                .label("not for a vector")
+                .help(
+                    "state a deviation: `u`, `half_width`, `step`, readings with of = \"single\" …",
+                ),
+            );
+        }
+        let relative = self.acts_in_proportion(entry, unit);
+        let common = entry
+            .table
+            .common
+            .as_ref()
+            .is_some_and(|stated| stated.value);
+        let mut first: Option<(usize, f64)> = None;
+        let mut label = None;
+        for (element, value) in values.iter().enumerate() {
+            // A fraction of zero is zero: this element has no such doubt.
+            if relative && *value == 0.0 {
+                continue;
+            }
+            let context = Context {
+                owner: name,
+                value: Some(*value),
+                unit,
+                place: entry.place.clone(),
+            };
+            let mut draft = self.draft(entry.table, entry.way, &context)?;
+            if !matches!(draft.location, Location::None | Location::Mean(_)) {
+                return self.refuse(
+                    Fault::new(
+                        VECTOR,
+                        entry.place.clone(),
+                        format!("this component would move the elements of {name}"),
+                    )
+                    .label("only symmetric deviations for a vector"),
+                );
+            }
+            let label = label.get_or_insert_with(|| another(labels, &draft.label));
+            draft.label.clone_from(label);
+            let (component, coefficient) = match first {
+                Some((component, u)) if common => (component, draft.u / u),
+                _ => {
+                    let owner_name = if common {
+                        name.to_string()
+                    } else {
+                        element_name(name, element)
+                    };
+                    let u = draft.u * if relative { value.signum() } else { 1.0 };
+                    let component = register.add(
+                        Owner::Input(start + element),
+                        &owner_name,
+                        unit,
+                        draft,
+                        alone,
+                    );
+                    first = Some((component, u));
+                    register.act(start + element, component, 1.0);
+                    continue;
+                }
+            };
+            let sign = if relative { value.signum() } else { 1.0 };
+            register.act(start + element, component, sign * coefficient);
+        }
+        Some(())
+    }
+
+    /// Whether the component is a fraction of the value alone.
+    fn acts_in_proportion(&mut self, entry: &Entry<'_>, unit: &Unit) -> bool {
+        let table = entry.table;
+        let stated = table.relative.as_ref().is_some_and(|stated| stated.value);
+        let certificate = table
+            .certificate
+            .as_ref()
+            .and_then(|certificate| certificate.value.U.as_ref());
+        let amount = table
+            .u
+            .as_ref()
+            .or(table.half_width.as_ref())
+            .or(certificate);
+        let of_dimension_one = amount
+            .and_then(|amount| amount.value.unit.as_ref())
+            .and_then(|(text, _)| self.units.parse(text).ok())
+            .is_some_and(|own| own.dimension == Unit::one().dimension);
+        stated || (of_dimension_one && unit.dimension != Unit::one().dimension)
+    }
+}
+
+/// Whether readings only say how the value scatters.
+fn single(table: &ComponentTable) -> bool {
+    table
+        .of
+        .as_ref()
+        .is_some_and(|of| of.value != ReadingsOf::Mean)
+}
+
+/// `U[3]`, counted from 1.
+fn element_name(name: &str, element: usize) -> String {
+    format!("{name}[{}]", element + 1)
+}
+
+/// A label that no other component of the vector has.
+fn another(labels: &mut Vec<String>, label: &str) -> String {
+    let same = labels
+        .iter()
+        .filter(|other| other.starts_with(label))
+        .count();
+    let label = if same == 0 {
+        label.to_string()
+    } else {
+        format!("{label} {}", same + 1)
+    };
+    labels.push(label.clone());
+    label
+}
+
+fn blank(name: &str, table: &InputTable, unit: Option<&Unit>, element: Option<usize>) -> Input {
+    Input {
+        name: element.map_or_else(|| name.to_string(), |element| element_name(name, element)),
+        description: table.description.as_ref().map(|text| text.value.clone()),
+        group: table.group.as_ref().map(|text| text.value.clone()),
+        unit: unit.cloned().unwrap_or_else(Unit::one),
+        estimate: f64::NAN,
+        terms: Vec::new(),
+    }
+}

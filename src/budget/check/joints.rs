@@ -1,0 +1,458 @@
+//! `[[joint]]`: simultaneous readings, covariance matrices, correlation matrices.
+
+use nalgebra::DMatrix;
+
+use super::Checker;
+use super::correlations::{Statement, smallest_eigenvalue};
+use super::draft::{Draft, Kind, Location, show};
+use super::register::Register;
+use super::type_a::{mean_and_squares, student};
+use crate::budget::faults::{
+    CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS, UNKNOWN_NAME,
+};
+use crate::budget::table::Stated;
+use crate::budget::tables::{FileTable, JointTable};
+use crate::budget::{Evaluation, Group, Owner};
+use crate::fault::{Fault, nearest};
+
+type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
+
+impl Checker<'_> {
+    /// Notes the inputs whose uncertainty a covariance matrix states, before they are read.
+    pub(super) fn joint_estimates(&mut self, file: &FileTable, register: &mut Register) {
+        for stated in joints(file)
+            .iter()
+            .filter(|stated| stated.value.covariance.is_some())
+        {
+            let names = stated
+                .value
+                .inputs
+                .as_ref()
+                .map_or(&[][..], |inputs| &inputs.value);
+            register
+                .by_matrix
+                .extend(names.iter().map(|name| name.value.clone()));
+        }
+    }
+
+    /// Reads `[[joint]]`; correlation matrices become statements about pairs.
+    pub(super) fn joint_groups(
+        &mut self,
+        file: &FileTable,
+        register: &mut Register,
+        statements: &mut Vec<Statement>,
+    ) -> Vec<Group> {
+        let mut groups: Vec<Group> = Vec::new();
+        for stated in joints(file) {
+            let Some(inputs) = self.joint_inputs(stated, register) else {
+                continue;
+            };
+            let table = &stated.value;
+            let group = match (&table.covariance, &table.correlation) {
+                (Some(first), Some(second)) => self.refuse(
+                    Fault::new(
+                        TWO_WAYS,
+                        second.key.clone(),
+                        "a covariance and a correlation matrix of the same inputs",
+                    )
+                    .label("second matrix")
+                    .related(first.key.clone(), "first matrix")
+                    .help("keep one; the covariance matrix also states the uncertainties"),
+                ),
+                (Some(covariance), None) => {
+                    self.by_covariance(stated, covariance, &inputs, register)
+                }
+                (None, Some(correlation)) => {
+                    self.by_correlation(stated, correlation, &inputs, register, statements);
+                    None
+                }
+                (None, None) => self.by_readings(stated, &inputs, register),
+            };
+            let Some(group) = group else { continue };
+            if groups.iter().any(|other| {
+                other
+                    .members
+                    .iter()
+                    .any(|member| group.members.contains(member))
+            }) {
+                self.faults.push(
+                    Fault::new(
+                        CORRELATION_TWICE,
+                        stated.span.clone(),
+                        "an input is in two [[joint]] statements",
+                    )
+                    .label("second statement"),
+                );
+                continue;
+            }
+            groups.push(group);
+        }
+        groups
+    }
+
+    /// The places of the named inputs, vectors element by element.
+    fn joint_inputs(
+        &mut self,
+        stated: &Stated<JointTable>,
+        register: &Register,
+    ) -> Option<Vec<(usize, Stated<String>)>> {
+        let Some(names) = &stated.value.inputs else {
+            if stated.value.refused {
+                return None;
+            }
+            return self.refuse(
+                Fault::new(
+                    JOINT,
+                    stated.span.clone(),
+                    "the joint statement names no inputs",
+                )
+                .label("`inputs` is missing"),
+            );
+        };
+        let mut places: Vec<(usize, Stated<String>)> = Vec::new();
+        let mut complete = true;
+        for name in &names.value {
+            let entry = register
+                .entries
+                .iter()
+                .find(|entry| entry.name == name.value);
+            let element = register
+                .inputs
+                .iter()
+                .position(|input| input.name == name.value);
+            match (entry, element) {
+                (Some(entry), _) => {
+                    for place in entry.places.clone() {
+                        let element = register
+                            .inputs
+                            .get(place)
+                            .map_or_else(String::new, |input| input.name.clone());
+                        places.push((place, name.map(|_| element)));
+                    }
+                }
+                (None, Some(place)) => places.push((place, name.clone())),
+                (None, None) => {
+                    complete = false;
+                    let known: Vec<&str> = register
+                        .entries
+                        .iter()
+                        .map(|entry| entry.name.as_str())
+                        .collect();
+                    let fault = Fault::new(
+                        UNKNOWN_NAME,
+                        name.span.clone(),
+                        format!("there is no input \"{}\"", name.value),
+                    )
+                    .label("not declared");
+                    self.faults
+                        .push(match nearest(&name.value, known.iter().copied()) {
+                            Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+                            None => fault.help(format!("inputs: {}", known.join(", "))),
+                        });
+                }
+            }
+        }
+        if !complete {
+            return None;
+        }
+        let twice = places
+            .iter()
+            .enumerate()
+            .find(|(index, (place, _))| places[..*index].iter().any(|(p, _)| p == place));
+        if places.len() >= 2 && twice.is_none() {
+            return Some(places);
+        }
+        let span = twice.map_or(names.span.clone(), |(_, (_, name))| name.span.clone());
+        self.refuse(
+            Fault::new(
+                JOINT,
+                span,
+                "a joint statement needs at least two different inputs",
+            )
+            .label("expected two or more"),
+        )
+    }
+
+    /// A square symmetric matrix with one row for each input.
+    fn matrix(&mut self, stated: &Matrix, size: usize) -> Option<DMatrix<f64>> {
+        if let Some(row) = stated.value.iter().find(|row| row.value.len() != size) {
+            return self.refuse(
+                Fault::new(
+                    JOINT,
+                    row.span.clone(),
+                    format!("a row of {} numbers for {size} inputs", row.value.len()),
+                )
+                .label(format!("expected {size} numbers")),
+            );
+        }
+        if stated.value.len() != size {
+            return self.refuse(
+                Fault::new(
+                    JOINT,
+                    stated.span.clone(),
+                    format!("{} rows for {size} inputs", stated.value.len()),
+                )
+                .label(format!("expected {size} rows")),
+            );
+        }
+        let matrix = DMatrix::from_fn(size, size, |i, j| stated.value[i].value[j].value);
+        for i in 0..size {
+            for j in 0..i {
+                let (lower, upper) = (matrix[(i, j)], matrix[(j, i)]);
+                if (lower - upper).abs() > 1e-9 * lower.abs().max(upper.abs()) {
+                    let (lower_at, upper_at) =
+                        (&stated.value[i].value[j], &stated.value[j].value[i]);
+                    return self.refuse(
+                        Fault::new(
+                            JOINT,
+                            lower_at.span.clone(),
+                            format!("the matrix is not symmetric: {lower} and {upper}"),
+                        )
+                        .label("this element")
+                        .related(upper_at.span.clone(), "and this one must be equal"),
+                    );
+                }
+            }
+        }
+        Some(matrix)
+    }
+
+    fn by_covariance(
+        &mut self,
+        stated: &Stated<JointTable>,
+        covariance: &Matrix,
+        inputs: &[(usize, Stated<String>)],
+        register: &mut Register,
+    ) -> Option<Group> {
+        let matrix = self.matrix(covariance, inputs.len())?;
+        if let Some(i) = (0..inputs.len()).find(|i| matrix[(*i, *i)] <= 0.0) {
+            return self.refuse(
+                Fault::new(
+                    JOINT,
+                    covariance.value[i].value[i].span.clone(),
+                    format!(
+                        "the variance of {} is {}",
+                        inputs[i].1.value,
+                        matrix[(i, i)]
+                    ),
+                )
+                .label("must be greater than zero"),
+            );
+        }
+        let u: Vec<f64> = (0..inputs.len()).map(|i| matrix[(i, i)].sqrt()).collect();
+        let correlation = DMatrix::from_fn(u.len(), u.len(), |i, j| {
+            if i == j {
+                1.0
+            } else {
+                matrix[(i, j)] / (u[i] * u[j])
+            }
+        });
+        let smallest = smallest_eigenvalue(&correlation);
+        if smallest < -1e-9 {
+            return self.refuse(
+                Fault::new(NOT_SEMIDEFINITE, covariance.span.clone(), "no quantities can have this covariance matrix")
+                    .label(format!("smallest eigenvalue of the correlation matrix {}", show(smallest)))
+                    .help("check the signs, and that |covariance| does not exceed the product of the standard uncertainties"),
+            );
+        }
+        let dof = match &stated.value.dof {
+            Some(dof) => self.positive_dof(&dof.map(|dof| dof.0))?,
+            None => f64::INFINITY,
+        };
+        let mut members = Vec::new();
+        for ((place, name), u) in inputs.iter().zip(&u) {
+            let input = register.inputs.get(*place)?;
+            let alone = input.terms.is_empty();
+            let unit = input.unit.clone();
+            let draft = Draft {
+                label: "covariance matrix".into(),
+                distribution: self.t_or_normal(*u, dof, &stated.span)?,
+                u: *u,
+                dof,
+                evaluation: Evaluation::TypeB,
+                how: "√ of the variance in the covariance matrix".into(),
+                location: Location::None,
+                kind: Kind::Other,
+                certificate: None,
+                source: stated
+                    .value
+                    .source_text
+                    .as_ref()
+                    .map(|text| text.value.clone()),
+                place: stated.span.clone(),
+            };
+            let component = register.add(Owner::Input(*place), &name.value, &unit, draft, alone);
+            register.act(*place, component, 1.0);
+            members.push(component);
+        }
+        self.join(members, correlation, register, &stated.span)
+    }
+
+    fn by_correlation(
+        &mut self,
+        stated: &Stated<JointTable>,
+        correlation: &Matrix,
+        inputs: &[(usize, Stated<String>)],
+        register: &Register,
+        statements: &mut Vec<Statement>,
+    ) {
+        if let Some(dof) = &stated.value.dof {
+            self.faults.push(
+                Fault::new(MODIFIER, dof.key.clone(), "`dof` does not go with a correlation matrix")
+                    .label("no meaning here")
+                    .help("state the degrees of freedom with the uncertainties of the inputs, or give `covariance`"),
+            );
+        }
+        let Some(matrix) = self.matrix(correlation, inputs.len()) else {
+            return;
+        };
+        for i in 0..inputs.len() {
+            if (matrix[(i, i)] - 1.0).abs() > 1e-9 {
+                self.faults.push(
+                    Fault::new(
+                        JOINT,
+                        correlation.value[i].value[i].span.clone(),
+                        format!(
+                            "the correlation of {} with itself is {}",
+                            inputs[i].1.value,
+                            matrix[(i, i)]
+                        ),
+                    )
+                    .label("must be 1")
+                    .help("for variances and covariances write `covariance`"),
+                );
+                return;
+            }
+            for j in 0..i {
+                let r = &correlation.value[i].value[j];
+                if r.value != 0.0 {
+                    statements.extend(self.pair(&inputs[j].1, &inputs[i].1, r, register));
+                }
+            }
+        }
+    }
+
+    /// Readings taken together: the covariance matrix of their means is S/n with ν = n − 1 (GUM 5.2.3);
+    /// Monte Carlo draws the multivariate t distribution with ν = n − N (JCGM 102 5.3.2).
+    fn by_readings(
+        &mut self,
+        stated: &Stated<JointTable>,
+        inputs: &[(usize, Stated<String>)],
+        register: &mut Register,
+    ) -> Option<Group> {
+        let mut members = Vec::new();
+        let mut series: Vec<Vec<f64>> = Vec::new();
+        for (place, name) in inputs {
+            let found = register
+                .own(*place)
+                .into_iter()
+                .find_map(|index| Some((index, register.readings.get(&index)?)));
+            let Some((component, readings)) = found else {
+                if register.incomplete {
+                    return None;
+                }
+                return self.refuse(
+                    Fault::new(
+                        JOINT,
+                        name.span.clone(),
+                        format!("{} has no readings", name.value),
+                    )
+                    .label("expected an input with `readings`")
+                    .help("without readings state a matrix: `covariance` or `correlation`"),
+                );
+            };
+            members.push(component);
+            series.push(readings.clone());
+        }
+        let n = series.first().map_or(0, Vec::len);
+        if let Some(other) = series.iter().position(|readings| readings.len() != n) {
+            return self.refuse(
+                Fault::new(
+                    JOINT,
+                    inputs[other].1.span.clone(),
+                    format!(
+                        "{} has {} readings, {} has {n}",
+                        inputs[other].1.value,
+                        series[other].len(),
+                        inputs[0].1.value
+                    ),
+                )
+                .label("taken together means equally many"),
+            );
+        }
+        if n <= series.len() {
+            return self.refuse(
+                Fault::new(
+                    JOINT,
+                    stated.span.clone(),
+                    format!("{n} joint readings of {} quantities", series.len()),
+                )
+                .label(format!("at least {} are needed", series.len() + 1))
+                .help("their covariance matrix is not determined otherwise (JCGM 102 5.3.2)"),
+            );
+        }
+        self.simultaneous(stated, members, &series, inputs, register)
+    }
+
+    fn simultaneous(
+        &mut self,
+        stated: &Stated<JointTable>,
+        members: Vec<usize>,
+        series: &[Vec<f64>],
+        inputs: &[(usize, Stated<String>)],
+        register: &mut Register,
+    ) -> Option<Group> {
+        let n = series.first().map_or(0, Vec::len) as f64;
+        let dof = n - series.len() as f64;
+        let sums: Vec<(f64, f64)> = series
+            .iter()
+            .map(|readings| mean_and_squares(readings))
+            .collect();
+        let product = |i: usize, j: usize| -> f64 {
+            series[i]
+                .iter()
+                .zip(&series[j])
+                .map(|(a, b)| (a - sums[i].0) * (b - sums[j].0))
+                .sum()
+        };
+        let correlation = DMatrix::from_fn(series.len(), series.len(), |i, j| {
+            if i == j {
+                1.0
+            } else {
+                (product(i, j) / (sums[i].1 * sums[j].1).sqrt()).clamp(-1.0, 1.0)
+            }
+        });
+        for ((index, (_, squares)), (_, name)) in members.iter().zip(&sums).zip(inputs) {
+            let mean_u = (squares / (n * (n - 1.0))).sqrt();
+            let scale = match self.t_scale() {
+                crate::budget::TScale::Scale => (squares / (n * dof)).sqrt(),
+                crate::budget::TScale::StandardDeviation => {
+                    self.t_scale_of(mean_u, dof, &stated.span)?
+                }
+            };
+            let component = register.components.get_mut(*index)?;
+            if (component.u - mean_u).abs() > 1e-9 * mean_u {
+                return self.refuse(
+                    Fault::new(
+                        JOINT,
+                        name.span.clone(),
+                        format!(
+                            "the readings of {} are not evaluated as a plain mean",
+                            name.value
+                        ),
+                    )
+                    .label("has `of`, `autocorrelated` or `gum_u`")
+                    .help("joint readings state the uncertainty of their means"),
+                );
+            }
+            component.distribution = student(scale, dof);
+        }
+        let mut group = self.join(members, correlation, register, &stated.span)?;
+        group.dof = Some(n - 1.0);
+        Some(group)
+    }
+}
+
+fn joints(file: &FileTable) -> &[Stated<JointTable>] {
+    file.joint.as_ref().map_or(&[], |list| &list.value.0)
+}

@@ -1,0 +1,206 @@
+//! From the tables of a file to a budget without contradictions.
+//!
+//! Every check reports to the [`Checker`] and goes on, so that a user sees all faults of the file at
+//! once. What depends on a refused part is left out silently: it would only repeat the first fault.
+
+mod amounts;
+mod claims;
+mod conventions;
+mod correlations;
+mod csv;
+mod draft;
+mod formulas;
+mod given;
+mod inputs;
+mod joints;
+mod names;
+mod register;
+mod resolution;
+mod series;
+#[cfg(test)]
+mod tests;
+mod type_a;
+mod type_b;
+mod ways;
+
+use std::path::Path;
+
+use super::table::Stated;
+use super::tables::FileTable;
+use super::values::Named;
+use super::variants::SourceEntry;
+use super::{Budget, Conventions, Heading, Remark, Row, TScale};
+use crate::budget::faults::NAME_TWICE;
+use crate::fault::Fault;
+use crate::quantity::UnitTable;
+
+/// What all checks share.
+struct Checker<'a> {
+    /// The whole file.
+    text: &'a str,
+    /// Where CSV files are looked up.
+    directory: &'a Path,
+    units: UnitTable,
+    conventions: Conventions,
+    /// Date of the measurement.
+    date: Option<String>,
+    faults: Vec<Fault>,
+    remarks: Vec<Remark>,
+}
+
+impl Checker<'_> {
+    /// Reports a fault; nothing can be returned.
+    fn refuse<T>(&mut self, fault: Fault) -> Option<T> {
+        self.faults.push(fault);
+        None
+    }
+
+    fn remark(&mut self, en: String, zh: String) {
+        let remark = Remark { en, zh };
+        if !self.remarks.contains(&remark) {
+            self.remarks.push(remark);
+        }
+    }
+
+    fn t_scale(&self) -> TScale {
+        self.conventions.t_scale
+    }
+}
+
+/// The budgets of a file: one, or one for each row of its series.
+///
+/// # Errors
+/// All faults, in no particular order.
+pub(super) fn rows(
+    file: &FileTable,
+    text: &str,
+    directory: &Path,
+) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
+    let mut faults = Vec::new();
+    let heading = heading(file, &mut faults);
+    let variants = series::variants(file, &mut faults);
+    let mut rows = Vec::new();
+    for variant in variants {
+        match budget(&variant.file, text, directory, &heading) {
+            Ok(budget) => rows.push(Row {
+                label: variant.label,
+                budget,
+            }),
+            // Every row repeats the faults that do not depend on it.
+            Err(found) => faults.extend(found),
+        }
+    }
+    if faults.is_empty() {
+        Ok((heading, rows))
+    } else {
+        Err(faults)
+    }
+}
+
+fn heading(file: &FileTable, faults: &mut Vec<Fault>) -> Heading {
+    let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|stated| stated.value.clone());
+    let mut source = text(&file.reference);
+    if let Some(Stated {
+        value: SourceEntry::Text(words),
+        key,
+        ..
+    }) = &file.source
+    {
+        if let Some(reference) = &file.reference {
+            faults.push(
+                Fault::new(
+                    NAME_TWICE,
+                    reference.key.clone(),
+                    "the origin of the figures is stated twice",
+                )
+                .label("second statement")
+                .related(key.clone(), "first statement")
+                .help("leave out one of `source` and `reference`"),
+            );
+        }
+        source = Some(words.clone());
+    }
+    Heading {
+        title: text(&file.title).unwrap_or_default(),
+        method: text(&file.method),
+        object: text(&file.object),
+        author: text(&file.author),
+        date: file.date.as_ref().map(|date| date.value.0.clone()),
+        source,
+        note: text(&file.note),
+    }
+}
+
+fn budget(
+    file: &FileTable,
+    text: &str,
+    directory: &Path,
+    heading: &Heading,
+) -> Result<Budget, Vec<Fault>> {
+    let (conventions, resolution, faults) = conventions::conventions(file);
+    let mut checker = Checker {
+        text,
+        directory,
+        units: UnitTable::default(),
+        conventions,
+        date: heading.date.clone(),
+        faults,
+        remarks: Vec::new(),
+    };
+    let budget = checker.budget(file, resolution, heading);
+    match budget {
+        Some(budget) if checker.faults.is_empty() => Ok(budget),
+        _ => Err(checker.faults),
+    }
+}
+
+impl Checker<'_> {
+    fn budget(
+        &mut self,
+        file: &FileTable,
+        resolution: super::tables::ResolutionWord,
+        heading: &Heading,
+    ) -> Option<Budget> {
+        self.define_units(file);
+        self.check_names(file);
+        let monte_carlo = self.monte_carlo(file);
+        let constants = self.constants(file);
+        let mut register = register::Register::default();
+        self.joint_estimates(file, &mut register);
+        self.sources(shared(file), &mut register);
+        self.inputs(file, resolution, &mut register);
+        self.unused_sources(shared(file), &register);
+        let groups = self.groups(file, &mut register);
+        let model = self.model(file, &constants, &register);
+        let claims = self.claims(file);
+        Some(Budget {
+            heading: heading.clone(),
+            conventions: self.conventions.clone(),
+            monte_carlo,
+            model: model?,
+            inputs: register.inputs,
+            constants,
+            measurands: formulas::measurands(file),
+            components: register.components,
+            groups,
+            claims,
+            remarks: std::mem::take(&mut self.remarks),
+        })
+    }
+}
+
+/// The shared causes of a file.
+fn shared(file: &FileTable) -> &[(String, Stated<super::tables::SourceTable>)] {
+    match &file.source {
+        Some(Stated {
+            value: SourceEntry::Tables(Named(entries)),
+            ..
+        }) => entries,
+        _ => &[],
+    }
+}
+
+/// The named entries of an optional table.
+fn entries<T>(named: &Option<Stated<Named<T>>>) -> &[(String, Stated<T>)] {
+    named.as_ref().map_or(&[], |stated| &stated.value.0)
+}

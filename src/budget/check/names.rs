@@ -1,0 +1,114 @@
+//! Names of inputs, constants, measurands and sources.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::{Checker, entries, shared};
+use crate::budget::faults::{BAD_NAME, NAME_TWICE};
+use crate::budget::tables::FileTable;
+use crate::fault::Fault;
+
+/// Whether the model language reads the text as one name.
+fn is_identifier(name: &str) -> bool {
+    let mut letters = name.chars();
+    letters
+        .next()
+        .is_some_and(|first| first.is_alphabetic() || first == '_')
+        && letters.all(|c| c.is_alphanumeric() || c == '_' || ('₀'..='ₜ').contains(&c))
+}
+
+/// The nearest name that a formula could use.
+fn mended(name: &str) -> String {
+    let body: String = name
+        .chars()
+        .map(|c| {
+            if c.is_alphanumeric() || c == '_' {
+                c
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    let body = body.trim_matches('_');
+    if body.chars().next().is_some_and(char::is_alphabetic) {
+        body.to_string()
+    } else {
+        format!("x{body}")
+    }
+}
+
+impl Checker<'_> {
+    /// Checks every name that formulas may use, and that none is used twice.
+    pub(super) fn check_names(&mut self, file: &FileTable) {
+        let mut used: HashMap<String, Range<usize>> = HashMap::new();
+        let constants = entries(&file.constant)
+            .iter()
+            .map(|(name, stated)| (name, stated.key.clone(), "constant"));
+        let inputs = entries(&file.input)
+            .iter()
+            .map(|(name, stated)| (name, stated.key.clone(), "input"));
+        for (name, place, kind) in constants.chain(inputs) {
+            self.check_name(name, &place, kind);
+            self.check_use(&mut used, name, place);
+        }
+        for (name, stated) in entries(&file.measurand) {
+            self.check_name(name, &stated.key, "measurand");
+            self.check_use(&mut used, name, stated.key.clone());
+        }
+        for (name, stated) in shared(file) {
+            self.check_use(&mut used, name, stated.key.clone());
+        }
+    }
+
+    fn check_use(
+        &mut self,
+        used: &mut HashMap<String, Range<usize>>,
+        name: &str,
+        place: Range<usize>,
+    ) {
+        if let Some(first) = used.get(name) {
+            self.faults.push(
+                Fault::new(NAME_TWICE, place, format!("the name {name} is used twice"))
+                    .label("used again here")
+                    .related(first.clone(), "first used here")
+                    .help("inputs, constants, measurands and sources need different names"),
+            );
+        } else {
+            used.insert(name.to_string(), place);
+        }
+    }
+
+    fn check_name(&mut self, name: &str, place: &Range<usize>, kind: &str) {
+        if !is_identifier(name) {
+            self.faults.push(
+                Fault::new(
+                    BAD_NAME,
+                    place.clone(),
+                    format!("\"{name}\" cannot be the name of a {kind}"),
+                )
+                .label("a formula cannot name it")
+                .help(format!(
+                    "write {}; the full words belong into `description`",
+                    mended(name)
+                )),
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{is_identifier, mended};
+
+    #[test]
+    fn identifiers_of_every_script() {
+        for name in ["V", "V_0", "alpha2", "α", "温度", "x₁", "_t"] {
+            assert!(is_identifier(name), "{name}");
+        }
+        for name in ["", "2x", "a-b", "a b", "V.x", "U[1]"] {
+            assert!(!is_identifier(name), "{name}");
+        }
+        assert_eq!(mended("a-b c"), "a_b_c");
+        assert_eq!(mended("2x"), "x2x");
+    }
+}

@@ -1,0 +1,162 @@
+//! The inputs and components of a budget while it is put together.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::draft::Draft;
+use crate::budget::{Component, Input, Owner, Term};
+use crate::distribution::Distribution;
+use crate::quantity::Unit;
+
+/// One `[input.X]`.
+#[derive(Debug, Clone)]
+pub(super) struct InputEntry {
+    pub name: String,
+    /// Place of its header.
+    pub place: Range<usize>,
+    /// Its places in the input vector.
+    pub places: Range<usize>,
+    pub vector: bool,
+    /// Nothing when the unit was refused.
+    pub unit: Option<Unit>,
+}
+
+/// One `[source.S]`.
+#[derive(Debug, Clone)]
+pub(super) struct SourceEntry {
+    pub name: String,
+    pub unit: Option<Unit>,
+    pub components: Vec<usize>,
+    pub used: bool,
+}
+
+/// What has been checked so far.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Register {
+    pub inputs: Vec<Input>,
+    pub components: Vec<Component>,
+    pub entries: Vec<InputEntry>,
+    pub sources: Vec<SourceEntry>,
+    /// Readings behind a Type A component.
+    pub readings: HashMap<usize, Vec<f64>>,
+    /// Inputs whose uncertainty a covariance matrix states.
+    pub by_matrix: Vec<String>,
+    /// Whether something was refused, so that correlations of it cannot be checked.
+    pub incomplete: bool,
+}
+
+impl Register {
+    /// Adds a component; `alone` when the owner has no other.
+    pub fn add(
+        &mut self,
+        owner: Owner,
+        owner_name: &str,
+        unit: &Unit,
+        draft: Draft,
+        alone: bool,
+    ) -> usize {
+        let name = if alone {
+            owner_name.to_string()
+        } else {
+            format!("{owner_name}.{}", draft.label)
+        };
+        self.components.push(Component {
+            name,
+            label: draft.label,
+            owner,
+            unit: unit.difference(),
+            distribution: draft.distribution,
+            u: draft.u,
+            dof: draft.dof,
+            evaluation: draft.evaluation,
+            how: draft.how,
+            certificate: draft.certificate,
+            source: draft.source,
+        });
+        self.components.len() - 1
+    }
+
+    /// Lets a component act on an input; several actions of one cause add up.
+    pub fn act(&mut self, place: usize, component: usize, coefficient: f64) {
+        let Some(input) = self.inputs.get_mut(place) else {
+            return;
+        };
+        match input
+            .terms
+            .iter_mut()
+            .find(|term| term.component == component)
+        {
+            Some(term) => term.coefficient += coefficient,
+            None => input.terms.push(Term {
+                component,
+                coefficient,
+            }),
+        }
+    }
+
+    /// The components behind a name: an input, an element, a source, or a component.
+    pub fn lookup(&self, name: &str) -> Option<Vec<usize>> {
+        if let Some(place) = self.inputs.iter().position(|input| input.name == name) {
+            return Some(self.own(place));
+        }
+        if let Some(source) = self.sources.iter().find(|source| source.name == name) {
+            return Some(source.components.clone());
+        }
+        let named =
+            |component: &Component| component.name == name || self.long_name(component) == name;
+        self.components
+            .iter()
+            .position(named)
+            .map(|index| vec![index])
+    }
+
+    /// A component's name with its label, also where it is the only one of its owner.
+    fn long_name(&self, component: &Component) -> String {
+        let owner = match &component.owner {
+            Owner::Source(name) => name.as_str(),
+            Owner::Input(place) => self
+                .inputs
+                .get(*place)
+                .map_or("", |input| input.name.as_str()),
+        };
+        format!("{owner}.{}", component.label)
+    }
+
+    /// Components of an input that are its own (not shared causes).
+    pub fn own(&self, place: usize) -> Vec<usize> {
+        let terms = self.inputs.get(place).map_or(&[][..], |input| &input.terms);
+        terms
+            .iter()
+            .map(|term| term.component)
+            .filter(|index| self.is_own(*index, place))
+            .collect()
+    }
+
+    fn is_own(&self, component: usize, place: usize) -> bool {
+        self.components
+            .get(component)
+            .is_some_and(|component| component.owner == Owner::Input(place))
+    }
+
+    /// Every name that a correlation may use.
+    pub fn names(&self) -> Vec<String> {
+        let inputs = self.inputs.iter().map(|input| input.name.clone());
+        let sources = self.sources.iter().map(|source| source.name.clone());
+        inputs
+            .chain(sources)
+            .chain(
+                self.components
+                    .iter()
+                    .map(|component| self.long_name(component)),
+            )
+            .collect()
+    }
+}
+
+/// Whether two components have the same kind of distribution for a common joint one.
+pub(super) fn t_dof(distribution: &Distribution) -> Option<f64> {
+    match distribution {
+        Distribution::StudentT { dof, .. } => Some(*dof),
+        _ => None,
+    }
+}

@@ -1,0 +1,107 @@
+//! Claims: the figures that somebody's certificate or publication states, each with the tolerance that its
+//! digits imply.
+
+/// What somebody states about one measurand; compared, never used.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Claim {
+    /// Index of the measurand.
+    pub measurand: usize,
+    /// Which method the figures are about.
+    pub method: ClaimedMethod,
+    /// The figures, in a fixed order.
+    pub figures: Vec<ClaimedFigure>,
+    /// Who says so.
+    pub reference: Option<String>,
+    /// Anything to know about it.
+    pub note: Option<String>,
+}
+
+impl Claim {
+    /// The claimed value of a figure, if it is among them.
+    pub fn figure(&self, what: &Figure) -> Option<f64> {
+        self.figures
+            .iter()
+            .find(|figure| figure.what == *what)
+            .map(|figure| figure.value)
+    }
+}
+
+/// The method that a claim is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ClaimedMethod {
+    /// The file does not say: GUM is held against it, Monte Carlo is shown beside.
+    Unstated,
+    /// Law of propagation of uncertainty, first order.
+    Gum,
+    /// The same with second-order terms.
+    SecondOrder,
+    /// Propagation of distributions.
+    MonteCarlo,
+}
+
+/// One claimed figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClaimedFigure {
+    /// Which figure.
+    pub what: Figure,
+    /// The number, in the unit of the measurand (or of the input, for the figures of an input).
+    pub value: f64,
+    /// Largest difference that still agrees: half a unit of the last digit stated, or what the file says.
+    pub tolerance: f64,
+}
+
+/// A figure that can be claimed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Figure {
+    /// The estimate y.
+    Estimate,
+    /// u(y).
+    StandardUncertainty,
+    /// U.
+    ExpandedUncertainty,
+    /// k.
+    CoverageFactor,
+    /// ν_eff.
+    DegreesOfFreedom,
+    /// Coverage probability p.
+    CoverageProbability,
+    /// Lower limit of the coverage interval (probabilistically symmetric for Monte Carlo).
+    Lower,
+    /// Upper limit of it.
+    Upper,
+    /// Lower limit of the shortest coverage interval.
+    ShortestLower,
+    /// Upper limit of it.
+    ShortestUpper,
+    /// Second-order shift of the estimate.
+    Shift,
+    /// Correlation coefficient with another measurand (index).
+    Correlation(usize),
+    /// Coverage factor of the elliptical region.
+    Ellipsoid,
+    /// Coverage factor of the rectangular region.
+    Rectangle,
+    /// Effective degrees of freedom of the covariance matrix of the measurands.
+    RegionFreedom,
+    /// Verdict of JCGM 101 clause 8 at these significant digits: 1 = validated, 0 = not.
+    Validated(u8),
+    /// A figure of an input.
+    Input(usize, Part),
+    /// A figure of a component.
+    Component(usize, Part),
+}
+
+/// Which figure of an input or component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Its estimate.
+    Estimate,
+    /// Its standard uncertainty.
+    StandardUncertainty,
+    /// Its degrees of freedom.
+    DegreesOfFreedom,
+    /// Its sensitivity coefficient.
+    Sensitivity,
+    /// |c|·u, in the unit of the measurand.
+    Contribution,
+}

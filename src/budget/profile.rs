@@ -1,0 +1,151 @@
+//! Profiles: the conventions on which guides differ.
+
+use super::{Conventions, CoverageRule, DofRule, OutputShape, TScale};
+use crate::quantity::Rounding;
+
+/// A named set of conventions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Profile {
+    /// As the file names it.
+    pub name: &'static str,
+    /// p of the coverage interval.
+    pub coverage_probability: f64,
+    /// Where k comes from.
+    pub coverage_factor: CoverageRule,
+    /// What is taken for the output's distribution where a component dominates.
+    pub output_shape: OutputShape,
+    /// How ν_eff enters t.
+    pub degrees_of_freedom: DofRule,
+    /// How numbers are rounded.
+    pub rounding: Rounding,
+    /// Round up instead when rounding would lower U by more than 5 %.
+    pub up_if_lowered_by_5_percent: bool,
+    /// What a t-distributed input's u is in the Monte Carlo method.
+    pub t_scale: TScale,
+    /// Whether the statement names the coverage probability.
+    pub state_probability: bool,
+    /// What it is, in English.
+    pub en: &'static str,
+    /// What it is, in Chinese.
+    pub zh: &'static str,
+    /// The guide it follows.
+    pub source: &'static str,
+}
+
+impl Profile {
+    /// The conventions without overrides; two significant digits.
+    pub fn conventions(&self) -> Conventions {
+        Conventions {
+            profile: self.name.into(),
+            overrides: Vec::new(),
+            coverage_probability: self.coverage_probability,
+            coverage_factor: self.coverage_factor,
+            output_shape: self.output_shape,
+            degrees_of_freedom: self.degrees_of_freedom,
+            rounding: self.rounding,
+            digits: 2,
+            up_if_lowered_by_5_percent: self.up_if_lowered_by_5_percent,
+            t_scale: self.t_scale,
+            state_probability: self.state_probability,
+        }
+    }
+}
+
+/// The default, from which the others are told by what they change.
+const GUM: Profile = Profile {
+    name: "GUM",
+    coverage_probability: 0.95,
+    coverage_factor: CoverageRule::Output,
+    output_shape: OutputShape::Convolution,
+    degrees_of_freedom: DofRule::Truncated,
+    rounding: Rounding::HalfEven,
+    up_if_lowered_by_5_percent: false,
+    t_scale: TScale::Scale,
+    state_probability: true,
+    en: "Coverage probability 95 %; k from the t distribution at the effective degrees of freedom, or from the \
+         output distribution when a non-normal component dominates; two digits, rounded half to even.",
+    zh: "包含概率 95 %；k 由有效自由度按 t 分布确定，非正态分量占优时由输出量分布确定；不确定度取两位有效数字，四舍六入五成双。",
+    source: "JCGM 100:2008, 7.2 and annex G; JCGM 101:2008",
+};
+
+/// The known profiles; the first is the default.
+pub const PROFILES: &[Profile] = &[
+    GUM,
+    Profile {
+        name: "EA",
+        coverage_probability: 0.9545,
+        output_shape: OutputShape::DominantAlone,
+        up_if_lowered_by_5_percent: true,
+        en: "Coverage probability 95.45 %, so k = 2 for a normal output; k from t at few effective degrees of freedom, \
+             from the output distribution when a rectangle dominates; the rounded-up value when rounding would lower \
+             U by more than 5 %.",
+        zh: "包含概率 95.45 %，正态分布时 k = 2；有效自由度小时按 t 分布取 k，矩形分布占优时由输出量分布取 k；修约使 U 减小超过 5 % 时进位。",
+        source: "EA-4/02 M:2022, 6.3 and appendix E",
+        ..GUM
+    },
+    Profile {
+        name: "JJF",
+        coverage_factor: CoverageRule::Fixed(2.0),
+        state_probability: false,
+        en: "k = 2, stated without a probability; two digits, rounded half to even (GB/T 8170).",
+        zh: "取 k = 2，不注明包含概率；不确定度取两位有效数字，按 GB/T 8170 修约。",
+        source: "JJF 1059.1-2012, 5.3.8; GB/T 8170-2008",
+        ..GUM
+    },
+    Profile {
+        name: "JJF-up",
+        coverage_factor: CoverageRule::Fixed(2.0),
+        rounding: Rounding::Up,
+        state_probability: false,
+        en: "As JJF, but digits beyond the last kept one are always carried up.",
+        zh: "同 JJF，但末位以后的数字一律进位（只进不舍）。",
+        source: "JJF 1059.1-2012, 5.3.8.2; as printed in JJF 2003-2022, annex A",
+        ..GUM
+    },
+    Profile {
+        name: "NIST",
+        coverage_factor: CoverageRule::Fixed(2.0),
+        t_scale: TScale::StandardDeviation,
+        en: "k = 2 for a coverage probability of about 95 %; the stated u of a t-distributed input is its standard deviation.",
+        zh: "取 k = 2，包含概率约 95 %；t 分布输入量给出的 u 为其标准差。",
+        source: "NIST TN 1297 (1994), section 6; NIST TN 1900 (2015)",
+        ..GUM
+    },
+    Profile {
+        name: "UKAS",
+        coverage_probability: 0.9545,
+        coverage_factor: CoverageRule::StudentT,
+        en: "Coverage probability 95.45 %; k from the t distribution at the effective degrees of freedom, 2 when they are many.",
+        zh: "包含概率 95.45 %；k 由有效自由度按 t 分布确定，自由度大时为 2。",
+        source: "UKAS M3003, edition 4 (2019), appendix B",
+        ..GUM
+    },
+    Profile {
+        name: "S1",
+        coverage_factor: CoverageRule::StudentT,
+        en: "As in the examples of JCGM 101: coverage probability 95 %; the GUM interval from the normal or t distribution whatever dominates.",
+        zh: "同 JCGM 101 的算例：包含概率 95 %；GUM 区间始终按正态或 t 分布确定。",
+        source: "JCGM 101:2008, clause 9",
+        ..GUM
+    },
+];
+
+/// The profile of this name.
+pub fn profile_named(name: &str) -> Option<&'static Profile> {
+    PROFILES.iter().find(|profile| profile.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_default_comes_first_and_names_differ() {
+        assert_eq!(PROFILES[0].name, "GUM");
+        assert!(
+            PROFILES
+                .iter()
+                .all(|profile| profile_named(profile.name) == Some(profile))
+        );
+    }
+}

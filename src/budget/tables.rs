@@ -1,0 +1,434 @@
+//! Every table of the budget file, as the user writes it.
+
+use super::distributions::DistributionEntry;
+use super::table::{Stated, table, words};
+use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
+use super::variants::{ConstantEntry, Numbers, ReadingsOf, SourceEntry, TrialsEntry};
+
+type List<T> = Vec<Stated<T>>;
+
+table! {
+    /// A budget of measurement uncertainty.
+    FileTable "the file" {
+        /// What is measured, as a heading.
+        title: String,
+        /// The procedure by which it is measured.
+        method: String,
+        /// The item that is measured or calibrated.
+        object: String,
+        /// Who evaluated the measurement.
+        author: String,
+        /// Date of the measurement; certificates past due on it are remarked on.
+        date: Date,
+        /// Causes of uncertainty that several inputs share; or a text: where the figures come from.
+        source: SourceEntry,
+        /// Where the figures come from, in files that have `[source.NAME]` tables.
+        reference: String,
+        /// Anything the reader should know.
+        note: String,
+        /// Conventions on which guides differ: GUM (default), EA, JJF, JJF-up, NIST, UKAS or S1.
+        profile: String,
+        /// Statements that every measurand sees: intermediate quantities, functions, measurands themselves.
+        model: String,
+        /// Changes to single conventions of the profile.
+        conventions: ConventionsTable,
+        /// How the Monte Carlo method is run.
+        monte_carlo: MonteCarloTable,
+        /// Units of the file's own: `div = "0.5 mV"`.
+        unit: Named<String>,
+        /// Exactly known quantities.
+        constant: Named<ConstantEntry>,
+        /// The quantities to be evaluated.
+        measurand: Named<MeasurandTable>,
+        /// The quantities on which they depend.
+        input: Named<InputTable>,
+        /// Correlation coefficients for which no cause is known.
+        correlation: OneOrMany<CorrelationTable>,
+        /// Inputs measured together, or given with a covariance matrix.
+        joint: OneOrMany<JointTable>,
+        /// What somebody's certificate says; compared, never used.
+        claim: OneOrMany<ClaimTable>,
+        /// The same budget for a table of values.
+        series: SeriesTable,
+    }
+}
+
+table! {
+    /// Changes to single conventions of the profile.
+    ConventionsTable "[conventions]" {
+        /// Coverage probability p of the coverage interval: 0.95, 0.9545, 0.99.
+        coverage_probability: f64,
+        /// A fixed coverage factor k.
+        coverage_factor: f64,
+        /// The rule from which the coverage factor follows.
+        coverage_factor_from: FactorWord,
+        /// What is taken for the output's distribution where one or two components dominate it.
+        output_distribution: ShapeWord,
+        /// How effective degrees of freedom that are no whole number enter t.
+        degrees_of_freedom: FreedomWord,
+        /// Significant digits of the expanded uncertainty: 1 or 2.
+        digits: u64,
+        /// How numbers are rounded.
+        rounding: RoundingWord,
+        /// What the stated u of a t-distributed input is in the Monte Carlo method.
+        t_scale: TScaleWord,
+        /// Resolution and repeatability of the same input: both, or only the larger.
+        resolution: ResolutionWord,
+    }
+}
+
+words! {
+    /// Where the coverage factor comes from.
+    FactorWord {
+        /// t, or the output distribution when a non-normal component dominates.
+        Output "output",
+        /// t at the effective degrees of freedom.
+        StudentT "t",
+        /// The normal quantile.
+        Normal "normal",
+    }
+}
+
+words! {
+    /// The distribution of an output that one or two components dominate.
+    ShapeWord {
+        /// The dominant components and a normal remainder together.
+        Convolution "convolution",
+        /// The dominant components alone, as in EA-4/02 S9 and S10.
+        Dominant "dominant",
+    }
+}
+
+words! {
+    /// Effective degrees of freedom that are no whole number.
+    FreedomWord {
+        /// Cut to the next lower whole number.
+        Truncated "truncated",
+        /// Used as they are.
+        Real "real",
+    }
+}
+
+words! {
+    /// How digits are dropped.
+    RoundingWord {
+        /// To nearest, ties to even.
+        HalfEven "half-even",
+        /// To nearest, ties away from zero.
+        HalfUp "half-up",
+        /// Always away from zero.
+        Up "up",
+    }
+}
+
+words! {
+    /// What u is for a t distribution.
+    TScaleWord {
+        /// The scale parameter.
+        Scale "scale",
+        /// The standard deviation.
+        StandardDeviation "standard-deviation",
+    }
+}
+
+words! {
+    /// Treatment of resolution beside repeatability.
+    ResolutionWord {
+        /// Both count.
+        Add "add",
+        /// Only the larger counts.
+        Largest "largest",
+    }
+}
+
+table! {
+    /// How the Monte Carlo method is run.
+    MonteCarloTable "[monte_carlo]" {
+        /// Number of trials (default 1000000), or "adaptive".
+        trials: TrialsEntry,
+        /// Adaptive procedure.
+        procedure: ProcedureWord,
+        /// Adaptive: significant digits of u to be stable (1 or 2).
+        digits: u64,
+        /// Adaptive: give up after so many trials.
+        max_trials: u64,
+        /// Seed of the random numbers; the same seed gives the same result everywhere.
+        seed: u64,
+    }
+}
+
+words! {
+    /// The adaptive procedures.
+    ProcedureWord {
+        /// Two-stage procedure of Stein.
+        Stein "stein",
+        /// JCGM 101 7.9.4.
+        Jcgm101 "jcgm101",
+    }
+}
+
+table! {
+    /// An exactly known quantity.
+    ConstantTable "[constant]" {
+        /// Its value, in its unit.
+        value: Amount,
+        /// Several values: a vector.
+        values: List<f64>,
+        /// Its unit; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+        /// Where it comes from.
+        source: String,
+    }
+}
+
+table! {
+    /// A quantity to be evaluated.
+    MeasurandTable "[measurand]" {
+        /// Its formula; several statements on several lines. May be left out if the shared model defines it.
+        model: String,
+        /// The unit in which the result is wanted; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+    }
+}
+
+table! {
+    /// A quantity on which measurands depend: its estimate and its reasons for doubt.
+    InputTable "[input]" {
+        /// Its estimate, in its unit.
+        value: Amount,
+        /// Estimates of a vector.
+        values: List<f64>,
+        /// Its unit; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+        /// Heading under which the budget table sums it up.
+        group: String,
+        /// Several reasons to doubt the input; with a single one its keys may stand in the input itself.
+        components: List<ComponentTable>,
+        with component: ComponentTable
+    }
+}
+
+table! {
+    /// A cause of uncertainty that several inputs share; its value is zero.
+    SourceTable "[source]" {
+        /// Its unit; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+        /// Several reasons for doubt; with a single one its keys may stand in the table itself.
+        components: List<ComponentTable>,
+        with component: ComponentTable
+    }
+}
+
+table! {
+    /// One reason to doubt a quantity.
+    ComponentTable "a component" {
+        /// Its name in the budget table: `calibration`.
+        name: String,
+        /// Way: standard uncertainty.
+        u: Amount,
+        /// Way: half-width a of symmetric limits ±a (rectangular unless `distribution` says otherwise).
+        half_width: Amount,
+        /// Way: lower and upper limit of the quantity itself.
+        limits: List<Amount>,
+        /// Way, with `minus`: upper limit above the value.
+        plus: Amount,
+        /// Way, with `plus`: lower limit below the value, as a positive number.
+        minus: Amount,
+        /// Way: expanded uncertainty from a certificate; without `U`, the certificate behind another way.
+        certificate: CertificateTable,
+        /// Way: repeated readings, in the unit of the input, as a list or from a CSV file.
+        readings: Numbers,
+        /// Way: accuracy specification of an instrument.
+        specification: SpecificationTable,
+        /// Way: resolution q of an indication; half-width q/2.
+        step: Amount,
+        /// Way, with `range`: number of bits of a quantiser.
+        bits: u64,
+        /// Lower and upper end of the quantiser's range: `[0, 10]`, `[-5, 5]`.
+        range: List<Amount>,
+        /// Way: a `[source.NAME]` cause; its name.
+        source: String,
+        /// Way: a sample of the distribution itself, as a list or from a CSV file.
+        sample: Numbers,
+        /// Shape that goes with another way (`"uniform"`), or a way of its own: `{ NAME = { parameters } }`.
+        distribution: DistributionEntry,
+        /// Way: number of counted events (Poisson).
+        count: u64,
+        /// Way, with `trials`: number of successes (binomial).
+        successes: u64,
+        /// Number of attempts.
+        trials: u64,
+        /// Prior of `count` or `successes`.
+        prior: PriorWord,
+        /// Trapezoid: ratio of the top to the base, between 0 and 1.
+        beta: f64,
+        /// Curvilinear trapezoid: half-width of the doubt about the limits.
+        d: Amount,
+        /// Coverage probability of a normal half-width.
+        p: f64,
+        /// Degrees of freedom of the standard uncertainty.
+        dof: Dof,
+        /// Relative uncertainty Δu/u of the standard uncertainty; gives ν = ½(Δu/u)^-2.
+        reliability: f64,
+        /// Numbers are fractions of the value: `u = 0.001`, `u = "0.1 %"`. With `source`: the cause acts in proportion.
+        relative: bool,
+        /// With `readings`: whether the estimate is their mean (default), a single reading, or the mean of so many.
+        of: ReadingsOf,
+        /// Standard deviation from earlier work in place of that of the readings.
+        pooled: PooledTable,
+        /// With `readings`: correct u for serial correlation.
+        autocorrelated: bool,
+        /// Vector inputs: one error shared by all elements (default: one for each).
+        common: bool,
+        /// With `source`: change of the input per unit of the cause.
+        sensitivity: Amount,
+        /// Standard uncertainty for the GUM method only, where a published table uses another one than that of the distribution.
+        gum_u: Amount,
+        /// Where the number comes from.
+        source_text: String,
+    }
+}
+
+words! {
+    /// What is known of a rate or proportion before counting.
+    PriorWord {
+        /// Constant density.
+        Uniform "uniform",
+        /// Jeffreys' prior.
+        Jeffreys "jeffreys",
+        /// Reciprocal of the rate.
+        Reciprocal "reciprocal",
+    }
+}
+
+table! {
+    /// Expanded uncertainty from a certificate.
+    CertificateTable "certificate" {
+        /// Expanded uncertainty U.
+        U: Amount,
+        /// Coverage factor k.
+        k: f64,
+        /// Coverage probability p, in place of k.
+        p: f64,
+        /// Effective degrees of freedom ν_eff.
+        dof: Dof,
+        /// Number of the certificate.
+        number: String,
+        /// Who issued it.
+        laboratory: String,
+        /// Date of the calibration.
+        date: Date,
+        /// Date when the next calibration is due.
+        due: Date,
+    }
+}
+
+table! {
+    /// Accuracy specification: half-width = reading part + range part + counts + fixed part.
+    SpecificationTable "specification" {
+        /// Part of the value: `"0.002 %"`.
+        reading: Amount,
+        /// Part of the range: `"0.0006 %"`; needs `span`.
+        range: Amount,
+        /// The range of which `range` is a part.
+        span: Amount,
+        /// Number of counts (digits); needs `step`.
+        counts: f64,
+        /// Value of one count.
+        step: Amount,
+        /// A constant part.
+        fixed: Amount,
+    }
+}
+
+table! {
+    /// Standard deviation from earlier work.
+    PooledTable "pooled" {
+        /// Pooled standard deviation of a single reading.
+        s: Amount,
+        /// Its degrees of freedom.
+        dof: Dof,
+    }
+}
+
+table! {
+    /// A column of a CSV file; the file is looked up from the folder of the budget.
+    ColumnTable "a CSV column" {
+        /// Path of the file.
+        file: String,
+        /// Name of the column in its first line.
+        column: String,
+    }
+}
+
+table! {
+    /// Correlation of two quantities.
+    CorrelationTable "[[correlation]]" {
+        /// Two inputs, shared causes, or components such as `"V.calibration"`.
+        between: List<String>,
+        /// Correlation coefficient.
+        r: f64,
+        /// How it is known.
+        source_text: String,
+    }
+}
+
+table! {
+    /// Inputs that were measured together.
+    JointTable "[[joint]]" {
+        /// The inputs. Without a matrix, their readings were taken simultaneously.
+        inputs: List<String>,
+        /// Covariance matrix in the units of the inputs, row by row.
+        covariance: List<List<f64>>,
+        /// Correlation matrix, row by row; the inputs state their own uncertainties.
+        correlation: List<List<f64>>,
+        /// Degrees of freedom of the covariance matrix.
+        dof: Dof,
+        /// Where the matrix comes from.
+        source_text: String,
+    }
+}
+
+table! {
+    /// What somebody's certificate says; compared, never used.
+    ClaimTable "[claim]" {
+        /// Measurand, where there are several.
+        measurand: String,
+        /// Stated value.
+        value: Amount,
+        /// Stated standard uncertainty.
+        u: Amount,
+        /// Stated expanded uncertainty.
+        U: Amount,
+        /// Stated coverage factor.
+        k: f64,
+        /// Stated degrees of freedom.
+        dof: Dof,
+        /// Stated coverage probability.
+        p: f64,
+        /// Stated coverage interval.
+        interval: List<Amount>,
+        /// Who says so.
+        source: String,
+        /// Anything to know about it.
+        note: String,
+    }
+}
+
+table! {
+    /// The same budget for a table of values.
+    SeriesTable "[series]" {
+        /// Names of inputs or constants, `label`, or numbers of the claim such as `claim.value`.
+        columns: List<String>,
+        /// One list per evaluation, with an entry for every column.
+        rows: List<List<Cell>>,
+    }
+}

@@ -1,0 +1,398 @@
+//! What keys may be set to: numbers, texts, amounts, lists, tables by name.
+
+use std::ops::Range;
+
+use serde_json::{Value, json};
+use toml::de::{DeFloat, DeInteger, DeValue};
+
+use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
+use super::strings::StringMap;
+use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
+use crate::fault::Fault;
+
+fn integer(number: &DeInteger<'_>) -> Option<i64> {
+    i64::from_str_radix(number.as_str(), number.radix()).ok()
+}
+
+fn float(number: &DeFloat<'_>) -> Option<f64> {
+    number.as_str().parse().ok()
+}
+
+/// The number that a TOML value is, of either TOML type.
+fn number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::Integer(number) => integer(number).map(|n| n as f64),
+        DeValue::Float(number) => float(number),
+        _ => None,
+    }
+}
+
+fn quoted_number(value: &Raw<'_>, text: &str) -> Option<Fault> {
+    let number = text.trim();
+    number.parse::<f64>().ok()?;
+    let fault = Fault::new(
+        QUOTED_NUMBER,
+        value.span(),
+        format!("the number {number} stands in quotes"),
+    );
+    Some(
+        fault
+            .label("a text, not a number")
+            .help(format!("remove the quotes: {number}")),
+    )
+}
+
+impl FromToml for f64 {
+    fn expected() -> String {
+        "a number".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match (number(value.get_ref()), value.get_ref()) {
+            (Some(number), _) if number.is_finite() => Some(number),
+            (Some(number), _) => reader.refuse(
+                Fault::new(
+                    NOT_FINITE,
+                    value.span(),
+                    format!("{number} is not a finite number"),
+                )
+                .label("expected a finite number"),
+            ),
+            (None, DeValue::String(text)) if quoted_number(value, text).is_some() => {
+                reader.faults.extend(quoted_number(value, text));
+                None
+            }
+            _ => reader.wrong_type(WRONG_TYPE, value, "a number"),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "number" })
+    }
+}
+
+/// Degrees of freedom: a number, or `inf`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dof(pub f64);
+
+impl FromToml for Dof {
+    fn expected() -> String {
+        "a number or inf".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match number(value.get_ref()) {
+            Some(f64::INFINITY) => Some(Dof(f64::INFINITY)),
+            _ => f64::read(value, reader).map(Dof),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "number", "exclusiveMinimum": 0 })
+    }
+}
+
+impl FromToml for u64 {
+    fn expected() -> String {
+        "a whole number".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        let number = f64::read(value, reader)?;
+        let exact = match value.get_ref() {
+            DeValue::Integer(number) => integer(number).and_then(|n| u64::try_from(n).ok()),
+            _ if number >= 0.0 && number.fract() == 0.0 && number < 9e15 => Some(number as u64),
+            _ => None,
+        };
+        exact.or_else(|| {
+            reader.refuse(
+                Fault::new(
+                    NOT_WHOLE,
+                    value.span(),
+                    format!("{number} is not a whole number from 0 upwards"),
+                )
+                .label("expected a whole number"),
+            )
+        })
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "integer", "minimum": 0 })
+    }
+}
+
+impl FromToml for bool {
+    fn expected() -> String {
+        "true or false".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Boolean(truth) => Some(*truth),
+            _ => reader.wrong_type(WRONG_TYPE, value, "true or false"),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "boolean" })
+    }
+}
+
+impl FromToml for String {
+    fn expected() -> String {
+        "a text in quotes".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(text) => Some(text.to_string()),
+            _ => reader.wrong_type(WRONG_TYPE, value, "a text in quotes"),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "string" })
+    }
+}
+
+/// A date: `2027-03-01`, in quotes or not.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Date(pub String);
+
+impl FromToml for Date {
+    fn expected() -> String {
+        "a date such as 2027-03-01".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        let text = match value.get_ref() {
+            DeValue::Datetime(date) if date.date.is_some() => date.to_string(),
+            DeValue::String(text) => text.trim().to_string(),
+            _ => return reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+        };
+        let shape: String = text
+            .chars()
+            .take(10)
+            .map(|c| if c.is_ascii_digit() { '0' } else { c })
+            .collect();
+        let day = shape == "0000-00-00"
+            && ("01".."13").contains(&&text[5..7])
+            && ("01".."32").contains(&&text[8..10]);
+        if day {
+            Some(Date(text))
+        } else {
+            reader.wrong_type(WRONG_TYPE, value, &Self::expected())
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "string", "pattern": "^\\d{4}-\\d{2}-\\d{2}" })
+    }
+}
+
+/// A number in the unit of its surroundings, or with a unit of its own (`"25 µV"`).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Amount {
+    /// The number.
+    pub number: f64,
+    /// Its unit and the place of the unit in the file.
+    pub unit: Option<(String, Range<usize>)>,
+}
+
+impl FromToml for Amount {
+    fn expected() -> String {
+        "a number, or a text with number and unit such as \"25 µV\"".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        let DeValue::String(text) = value.get_ref() else {
+            if number(value.get_ref()).is_some() {
+                return f64::read(value, reader).map(|number| Amount { number, unit: None });
+            }
+            return reader.wrong_type(WRONG_TYPE, value, &Self::expected());
+        };
+        if let Some(fault) = quoted_number(value, text) {
+            return reader.refuse(fault);
+        }
+        match split_amount(text) {
+            Some((number, unit)) => {
+                let place = StringMap::new(reader.file, value.span());
+                let place = place.map_or(value.span(), |map| map.place(unit.clone()));
+                Some(Amount {
+                    number,
+                    unit: Some((text[unit].to_string(), place)),
+                })
+            }
+            None => reader.refuse(unreadable_amount(value, text)),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "type": ["number", "string"] })
+    }
+}
+
+/// The number at the beginning of a text, and where its unit is.
+fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
+    let lead = text.len() - text.trim_start().len();
+    let body = text.trim();
+    // The longest prefix that is a number: `5e-3 V`, but also `5 eV`.
+    let (end, number) = (1..=body.len())
+        .rev()
+        .filter(|end| body.is_char_boundary(*end))
+        .filter(|end| body[..*end].ends_with(|c: char| c.is_ascii_digit() || c == '.'))
+        .find_map(|end| body[..end].parse::<f64>().ok().map(|number| (end, number)))?;
+    let gap = body[end..].len() - body[end..].trim_start().len();
+    let unit = lead + end + gap..lead + body.len();
+    (number.is_finite() && !unit.is_empty()).then_some((number, unit))
+}
+
+fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
+    let fault = Fault::new(
+        AMOUNT,
+        value.span(),
+        format!("{text:?} is not a number with a unit"),
+    )
+    .label("expected a number, then a unit");
+    let point = text.replacen(',', ".", 1);
+    if text.contains(',') && split_amount(&point).is_some() {
+        fault.help(format!("write a decimal point: \"{point}\""))
+    } else if text.trim_start().starts_with('±') {
+        fault.help("leave out the ±; the key says that it is an uncertainty")
+    } else {
+        fault.help("write for example \"25 µV\", or a plain number in the unit of the input")
+    }
+}
+
+impl<T: FromToml> FromToml for Vec<Stated<T>> {
+    fn expected() -> String {
+        let one = T::expected();
+        match one.strip_prefix("a ") {
+            Some(rest) if !rest.contains(',') => {
+                let (noun, tail) = rest.split_once(' ').unwrap_or((rest, ""));
+                format!("a list of {noun}s {tail}").trim_end().to_string()
+            }
+            _ => format!("a list, each {one}"),
+        }
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        let DeValue::Array(list) = value.get_ref() else {
+            return reader.wrong_type(WRONG_TYPE, value, &Self::expected());
+        };
+        let read: Vec<Option<Stated<T>>> =
+            list.iter().map(|item| read_item(item, reader)).collect();
+        read.into_iter().collect()
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "array", "items": T::schema() })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        T::tables(&format!("{path}[]"), rows);
+    }
+}
+
+fn read_item<T: FromToml>(item: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Stated<T>> {
+    T::read(item, reader).map(|value| Stated {
+        value,
+        span: item.span(),
+        key: item.span(),
+    })
+}
+
+/// A table, or several as `[[name]]`.
+#[derive(Debug, Clone)]
+pub struct OneOrMany<T>(pub Vec<Stated<T>>);
+
+impl<T: FromToml> FromToml for OneOrMany<T> {
+    fn expected() -> String {
+        format!("{}, or several", T::expected())
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Array(_) => Vec::read(value, reader).map(OneOrMany),
+            _ => read_item(value, reader).map(|one| OneOrMany(vec![one])),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [T::schema(), { "type": "array", "items": T::schema() }] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        T::tables(path, rows);
+    }
+}
+
+/// Entries under names that the user chooses, in the order of the file.
+#[derive(Debug, Clone)]
+pub struct Named<T>(pub Vec<(String, Stated<T>)>);
+
+impl<T> Default for Named<T> {
+    fn default() -> Self {
+        Named(Vec::new())
+    }
+}
+
+impl<T: FromToml> FromToml for Named<T> {
+    fn expected() -> String {
+        "a table of named entries".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return reader.wrong_type(WRONG_TYPE, value, &Self::expected());
+        };
+        let mut entries = Vec::new();
+        for (key, item) in in_order(table) {
+            if let Some(read) = T::read(item, reader) {
+                entries.push((
+                    key.get_ref().to_string(),
+                    Stated {
+                        value: read,
+                        span: item.span(),
+                        key: key.span(),
+                    },
+                ));
+            }
+        }
+        Some(Named(entries))
+    }
+
+    fn schema() -> Value {
+        json!({ "type": "object", "additionalProperties": T::schema() })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        T::tables(&inner(path, "NAME"), rows);
+    }
+}
+
+/// A text that is a label, or a number, in a cell of `[series]`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Cell {
+    /// A label.
+    Text(String),
+    /// A value.
+    Number(f64),
+}
+
+impl FromToml for Cell {
+    fn expected() -> String {
+        "a number or a label".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(text) => Some(Cell::Text(text.to_string())),
+            _ => f64::read(value, reader).map(Cell::Number),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "type": ["number", "string"] })
+    }
+}

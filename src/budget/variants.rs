@@ -1,0 +1,180 @@
+//! Keys that may be set to values of more than one type.
+
+use serde_json::{Value, json};
+use toml::de::DeValue;
+
+use super::faults::WRONG_TYPE;
+use super::table::{FromToml, KeyRow, Raw, Reader, Stated, unknown_word};
+use super::tables::{ColumnTable, ConstantTable, SourceTable};
+use super::values::{Amount, Named};
+
+/// `source` at the top: a text, or the table of shared causes.
+#[derive(Debug, Clone)]
+pub enum SourceEntry {
+    /// Where the figures come from.
+    Text(String),
+    /// `[source.NAME]`.
+    Tables(Named<SourceTable>),
+}
+
+impl FromToml for SourceEntry {
+    fn expected() -> String {
+        "tables [source.NAME], or a text".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(text) => Some(SourceEntry::Text(text.to_string())),
+            DeValue::Table(_) => Named::read(value, reader).map(SourceEntry::Tables),
+            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [String::schema(), Named::<SourceTable>::schema()] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        Named::<SourceTable>::tables(path, rows);
+    }
+}
+
+/// A constant: `c = 9.8`, `c = "299792458 m/s"`, or a table.
+#[derive(Debug, Clone)]
+pub struct ConstantEntry(pub ConstantTable);
+
+impl FromToml for ConstantEntry {
+    fn expected() -> String {
+        "a number, an amount or a table".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        if matches!(value.get_ref(), DeValue::Table(_)) {
+            return ConstantTable::read(value, reader).map(ConstantEntry);
+        }
+        let amount = Amount::read(value, reader)?;
+        let unit = amount.unit.clone().map(|(text, span)| Stated {
+            value: text,
+            key: span.clone(),
+            span,
+        });
+        let value = Some(Stated {
+            value: amount,
+            span: value.span(),
+            key: value.span(),
+        });
+        Some(ConstantEntry(ConstantTable {
+            value,
+            unit,
+            ..ConstantTable::default()
+        }))
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [Amount::schema(), ConstantTable::schema()] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        ConstantTable::tables(path, rows);
+    }
+}
+
+/// Numbers in the file itself or in a column of a CSV file.
+#[derive(Debug, Clone)]
+pub enum Numbers {
+    /// As a list.
+    List(Vec<Stated<f64>>),
+    /// In a column.
+    Column(Box<ColumnTable>),
+}
+
+impl FromToml for Numbers {
+    fn expected() -> String {
+        "a list of numbers, or { file = \"…\", column = \"…\" }".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Array(_) => Vec::read(value, reader).map(Numbers::List),
+            DeValue::Table(_) => {
+                ColumnTable::read(value, reader).map(|table| Numbers::Column(Box::new(table)))
+            }
+            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [Vec::<Stated<f64>>::schema(), ColumnTable::schema()] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        ColumnTable::tables(path, rows);
+    }
+}
+
+/// What the reported value is, seen from the readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReadingsOf {
+    /// Their mean: u = s/√n.
+    Mean,
+    /// A single reading: u = s.
+    Single,
+    /// The mean of this many readings: u = s/√m.
+    Several(u64),
+}
+
+impl FromToml for ReadingsOf {
+    fn expected() -> String {
+        "\"mean\", \"single\" or a number of readings".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(word) if word == "mean" => Some(ReadingsOf::Mean),
+            DeValue::String(word) if word == "single" => Some(ReadingsOf::Single),
+            DeValue::String(word) => reader.refuse(unknown_word(
+                value,
+                word,
+                &["mean", "single"],
+                &Self::expected(),
+            )),
+            _ => match u64::read(value, reader)? {
+                0 => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+                count => Some(ReadingsOf::Several(count)),
+            },
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [{ "enum": ["mean", "single"] }, { "type": "integer", "minimum": 1 }] })
+    }
+}
+
+/// A number of trials, or `"adaptive"`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TrialsEntry {
+    /// Exactly this many.
+    Fixed(u64),
+    /// As many as needed.
+    Adaptive,
+}
+
+impl FromToml for TrialsEntry {
+    fn expected() -> String {
+        "a number of trials or \"adaptive\"".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::String(word) if word == "adaptive" => Some(TrialsEntry::Adaptive),
+            DeValue::String(word) if word.parse::<f64>().is_err() => {
+                reader.refuse(unknown_word(value, word, &["adaptive"], &Self::expected()))
+            }
+            _ => u64::read(value, reader).map(TrialsEntry::Fixed),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [{ "enum": ["adaptive"] }, { "type": "integer", "minimum": 1000 }] })
+    }
+}

@@ -1,0 +1,245 @@
+//! `gumption eval`: budget files in, reports out.
+
+use std::io::{stderr, stdout};
+use std::path::{Path, PathBuf};
+
+use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Trials};
+use gumption::propagate::{self, Evaluation, MonteCarloChoice, Options};
+use gumption::report::{self, Language, Page, Report};
+use serde_json::Value;
+
+use super::{Outcome, output};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Budget files
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Print JSON: exact numbers, stable names (`gumption schema evaluation`)
+    #[arg(long, conflicts_with = "markdown")]
+    json: bool,
+    /// Print Markdown
+    #[arg(long)]
+    markdown: bool,
+    /// Language of the report: en or zh
+    #[arg(long, value_name = "LANG", default_value = "en")]
+    lang: Language,
+    /// Do not run Monte Carlo
+    #[arg(long, conflicts_with_all = ["trials", "seed"])]
+    no_mc: bool,
+    /// Monte Carlo trials, or `adaptive` to run until the results are stable
+    #[arg(long, value_name = "N|adaptive", value_parser = parse_trials)]
+    trials: Option<Trials>,
+    /// Seed of the random numbers; the same seed gives the same result to the last bit
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Worker threads; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Print every row of a series in full, not only the first
+    #[arg(long)]
+    full: bool,
+    /// Columns of the text report
+    #[arg(long, value_name = "N", default_value = "100", value_parser = parse_width)]
+    width: usize,
+    /// Write to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// An evaluated row of a file.
+struct Row {
+    label: Option<String>,
+    budget: Budget,
+    evaluation: Evaluation,
+}
+
+impl Row {
+    fn report(&self, language: Language) -> Report<'_> {
+        Report {
+            budget: &self.budget,
+            evaluation: &self.evaluation,
+            label: self.label.as_deref(),
+            language,
+        }
+    }
+}
+
+pub(super) fn run(args: &Args) -> Outcome {
+    let mut worst = Outcome::Done;
+    let mut texts: Vec<String> = Vec::new();
+    let mut values: Vec<Value> = Vec::new();
+    for file in &args.files {
+        let rows = evaluate_file(args, file, &mut worst);
+        if rows.is_empty() {
+            continue;
+        }
+        if args.json {
+            values.extend(rows.iter().map(|row| report::json(&row.report(args.lang))));
+        } else {
+            texts.push(render(args, &rows));
+        }
+    }
+    let text = if args.json {
+        render_json(values)
+    } else {
+        texts.join(separator(args))
+    };
+    if text.is_empty() {
+        return worst;
+    }
+    let written = match &args.output {
+        Some(path) => output::replace(path, &text),
+        None => output::print(&text),
+    };
+    worst.max(written)
+}
+
+/// Reads and evaluates one file; says on standard error what fails, and goes on.
+fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
+    let loaded = match budget::load(file) {
+        Ok(loaded) => loaded,
+        Err(rejection) => {
+            output::warn(&rejection.render(output::may_style(&stderr())));
+            *worst = Outcome::BadInput;
+            return Vec::new();
+        }
+    };
+    let mut rows = Vec::with_capacity(loaded.rows.len());
+    for budget::Row { label, budget } in loaded.rows {
+        match propagate::evaluate(&budget, &options(args, &budget)) {
+            Ok(evaluation) => rows.push(Row {
+                label,
+                budget,
+                evaluation,
+            }),
+            Err(error) => {
+                let row = label.map(|l| format!(", {l}")).unwrap_or_default();
+                output::warn(&format!(
+                    "error: {}{row}: {}\n",
+                    file.display(),
+                    report::failure(&error, args.lang)
+                ));
+                *worst = (*worst).max(Outcome::Negative);
+            }
+        }
+    }
+    rows
+}
+
+/// What the arguments change in the budget's own settings.
+fn options(args: &Args, budget: &Budget) -> Options {
+    let monte_carlo = if args.no_mc {
+        MonteCarloChoice::Off
+    } else if args.trials.is_none() && args.seed.is_none() {
+        MonteCarloChoice::AsBudget
+    } else {
+        MonteCarloChoice::With(MonteCarloSettings {
+            seed: args.seed.unwrap_or(budget.monte_carlo.seed),
+            trials: args
+                .trials
+                .clone()
+                .unwrap_or_else(|| budget.monte_carlo.trials.clone()),
+        })
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    Options {
+        monte_carlo,
+        threads: args.threads.map_or(cores, usize::from),
+    }
+}
+
+/// One file as text or Markdown: a series as a table, then its first row, or all, in full.
+fn render(args: &Args, rows: &[Row]) -> String {
+    let page = Page {
+        width: args.width,
+        styled: args.output.is_none() && output::may_style(&stdout()),
+    };
+    let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(args.lang)).collect();
+    let mut parts = Vec::new();
+    if reports.len() > 1 {
+        parts.push(if args.markdown {
+            report::series_markdown(&reports)
+        } else {
+            report::series_text(&reports, page)
+        });
+    }
+    let in_full = if args.full { reports.len() } else { 1 };
+    for one in &reports[..in_full.min(reports.len())] {
+        parts.push(if args.markdown {
+            report::markdown(one)
+        } else {
+            report::text(one, page)
+        });
+    }
+    parts.join(separator(args))
+}
+
+fn separator(args: &Args) -> &'static str {
+    if args.markdown { "\n" } else { "\n\n" }
+}
+
+/// One evaluation as an object, several as an array.
+fn render_json(mut values: Vec<Value>) -> String {
+    match values.len() {
+        0 => String::new(),
+        1 => format!("{:#}\n", values.remove(0)),
+        _ => format!("{:#}\n", Value::Array(values)),
+    }
+}
+
+/// `1000000`, `1_000_000`, `1e6`, `adaptive`.
+fn parse_trials(text: &str) -> Result<Trials, String> {
+    /// Fewer say nothing about an interval; more would run for days.
+    const RANGE: std::ops::RangeInclusive<f64> = 1e3..=1e12;
+    if text == "adaptive" {
+        return Ok(Trials::Adaptive {
+            procedure: Adaptive::Stein,
+            digits: 2,
+            max: 100_000_000,
+        });
+    }
+    let number: f64 = text
+        .replace('_', "")
+        .parse()
+        .map_err(|_| "write a number such as 1_000_000 or 1e6, or `adaptive`".to_string())?;
+    if !RANGE.contains(&number) || number.fract() != 0.0 {
+        return Err("write a whole number of trials from 1000 to 1e12, or `adaptive`".to_string());
+    }
+    Ok(Trials::Fixed(number as u64))
+}
+
+/// Narrower pages cannot hold a budget table.
+fn parse_width(text: &str) -> Result<usize, String> {
+    let width: usize = text
+        .parse()
+        .map_err(|_| "write a number of columns, such as 100".to_string())?;
+    Ok(width.clamp(60, 200))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trials_are_written_in_several_ways() {
+        assert_eq!(parse_trials("1_000_000"), Ok(Trials::Fixed(1_000_000)));
+        assert_eq!(parse_trials("2e5"), Ok(Trials::Fixed(200_000)));
+        assert!(matches!(
+            parse_trials("adaptive"),
+            Ok(Trials::Adaptive { .. })
+        ));
+        assert!(
+            ["10", "-1", "1.5e3x", "1e13", "nan", "1000.5", ""]
+                .iter()
+                .all(|t| parse_trials(t).is_err())
+        );
+    }
+
+    #[test]
+    fn one_evaluation_is_an_object_and_several_are_an_array() {
+        assert!(render_json(vec![]).is_empty());
+        assert!(render_json(vec![Value::from(1)]).starts_with('1'));
+        assert!(render_json(vec![Value::from(1), Value::from(2)]).starts_with('['));
+    }
+}

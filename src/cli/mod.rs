@@ -1,0 +1,83 @@
+//! Subcommands, exit codes and output.
+
+mod concepts;
+mod eval;
+mod explain;
+mod new;
+mod output;
+mod schema;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// How a run ended; the process's exit code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Outcome {
+    /// All went well: 0.
+    Done,
+    /// A budget was read but has no value or no result: 1.
+    Negative,
+    /// A file or an argument is wrong: 2.
+    BadInput,
+}
+
+impl From<Outcome> for ExitCode {
+    fn from(outcome: Outcome) -> Self {
+        ExitCode::from(outcome as u8)
+    }
+}
+
+/// Measurement uncertainty: a budget file in, an uncertainty statement out.
+#[derive(Debug, Parser)]
+#[command(
+    name = "gumption",
+    version,
+    propagate_version = true,
+    max_term_width = 100,
+    after_help = "Exit codes: 0 all went well, 1 a budget gives no result, 2 a file or an argument is wrong.\n\nStart with `gumption new my-budget.toml`, edit the file, then `gumption eval my-budget.toml`."
+)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Evaluate budget files: budget table, GUM and Monte Carlo, statement for the certificate
+    Eval(eval::Args),
+    /// Write a commented budget file to start from
+    New(new::Args),
+    /// Print the JSON Schema of budget files or of the JSON output
+    Schema(schema::Args),
+    /// Explain a distribution, function, profile, error code or concept
+    Explain(explain::Args),
+}
+
+/// Runs the program.
+pub(crate) fn run() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        Command::Eval(args) => eval::run(&args),
+        Command::New(args) => new::run(&args),
+        Command::Schema(args) => schema::run(&args),
+        Command::Explain(args) => explain::run(&args),
+    };
+    outcome.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn a_worse_outcome_wins() {
+        assert!(Outcome::BadInput > Outcome::Negative && Outcome::Negative > Outcome::Done);
+    }
+}

@@ -1,0 +1,97 @@
+//! Standard output, files, colour.
+
+use std::io::{ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use super::Outcome;
+
+/// Prints to standard output. A reader that has gone away (`gumption … | head`) is no error.
+pub(super) fn print(text: &str) -> Outcome {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            complain(&format!("cannot write to standard output: {error}"))
+        }
+        _ => Outcome::Done,
+    }
+}
+
+/// Says on standard error what is wrong.
+pub(super) fn complain(message: &str) -> Outcome {
+    warn(&format!("error: {message}\n"));
+    Outcome::BadInput
+}
+
+/// Writes to standard error; there is nobody to tell when that fails.
+pub(super) fn warn(text: &str) {
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// Replaces a file as a whole: readers see the old content or the new one, never half of it.
+pub(super) fn replace(path: &Path, text: &str) -> Outcome {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(format!(".{}.tmp", std::process::id()));
+    let beside: PathBuf = path.with_file_name(name);
+    let written = std::fs::write(&beside, text).and_then(|()| std::fs::rename(&beside, path));
+    match written {
+        Ok(()) => Outcome::Done,
+        Err(error) => {
+            let _ = std::fs::remove_file(&beside);
+            complain(&format!("cannot write {}: {error}", path.display()))
+        }
+    }
+}
+
+/// Writes a file that must not exist yet; one that cannot be completed is removed again.
+pub(super) fn create(path: &Path, text: &str) -> Outcome {
+    let mut file = match std::fs::File::create_new(path) {
+        Ok(file) => file,
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            return complain(&format!(
+                "{} exists already and is left as it is; give another name, or `-` to print the template",
+                path.display()
+            ));
+        }
+        Err(error) => return complain(&format!("cannot create {}: {error}", path.display())),
+    };
+    match file.write_all(text.as_bytes()) {
+        Ok(()) => Outcome::Done,
+        Err(error) => {
+            let _ = std::fs::remove_file(path);
+            complain(&format!("cannot write {}: {error}", path.display()))
+        }
+    }
+}
+
+/// Whether a stream may be coloured: a terminal, and the user has not said no (no-color.org).
+pub(super) fn may_style(stream: &impl IsTerminal) -> bool {
+    let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
+    let dumb = std::env::var_os("TERM").is_some_and(|v| v == "dumb");
+    stream.is_terminal() && !refused && !dumb
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_existing_file_is_left_alone() {
+        let path =
+            std::env::temp_dir().join(format!("gumption-create-{}.toml", std::process::id()));
+        let _ = std::fs::remove_file(&path);
+        assert_eq!(create(&path, "first"), Outcome::Done);
+        assert_eq!(create(&path, "second"), Outcome::BadInput);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "first");
+        assert_eq!(replace(&path, "third"), Outcome::Done);
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "third");
+        std::fs::remove_file(&path).unwrap();
+    }
+
+    #[test]
+    fn a_directory_that_does_not_exist_is_named() {
+        assert_eq!(
+            replace(Path::new("/nowhere/at/all.txt"), ""),
+            Outcome::BadInput
+        );
+    }
+}

@@ -1,0 +1,28 @@
+//! `gumption schema`: JSON Schema for editors and for readers of the JSON output.
+
+use gumption::{budget, report};
+
+use super::{Outcome, output};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Which schema
+    #[arg(value_enum, default_value_t = Which::Budget)]
+    which: Which,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Which {
+    /// Budget files
+    Budget,
+    /// The output of `gumption eval --json`
+    Evaluation,
+}
+
+pub(super) fn run(args: &Args) -> Outcome {
+    let schema = match args.which {
+        Which::Budget => budget::schema(),
+        Which::Evaluation => report::schema(),
+    };
+    output::print(&format!("{schema:#}\n"))
+}

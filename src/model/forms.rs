@@ -1,0 +1,189 @@
+//! Special forms: `kelvin`, `value_in`, `solve`.
+
+use super::catalogue::is_reserved;
+use super::faults;
+use super::graph::Id;
+use super::lower::{Kind, Lowering, Value};
+use super::printer;
+use super::syntax::{Expr, Infix, Node};
+use super::units::Operand;
+use crate::fault::Fault;
+use crate::quantity::{Dimension, Factor, Unit};
+
+/// kelvin(T).
+pub fn kelvin(l: &mut Lowering<'_>, argument: &Expr) -> Option<Value> {
+    let value = l.value(argument)?;
+    let unit = l.quantity(&value, argument)?;
+    let kelvin = Unit {
+        dimension: Dimension::of([0, 0, 0, 0, 1, 0, 0, 0]),
+        factor: Factor::ONE,
+        origin: None,
+        symbol: "K".to_string(),
+    };
+    if unit.dimension == kelvin.dimension {
+        return l.converted(&value, &kelvin);
+    }
+    let text = printer::expression(argument);
+    l.report(
+        Fault::new(
+            faults::CLASH,
+            argument.span.clone(),
+            format!(
+                "`kelvin` needs a temperature, but `{text}` is in {}",
+                unit.symbol
+            ),
+        )
+        .label(format!("in {}", unit.symbol))
+        .help("give the quantity in °C, °F or K"),
+    );
+    None
+}
+
+/// value_in(x, 'unit').
+pub fn value_in(l: &mut Lowering<'_>, argument: &Expr, unit: &Expr) -> Option<Value> {
+    let value = l.value(argument);
+    let Node::Unit(text) = &unit.node else {
+        l.report(
+            Fault::new(
+                faults::UNIT_TEXT,
+                unit.span.clone(),
+                "`value_in` needs a unit between single quotes",
+            )
+            .label("expected a unit")
+            .help("write `value_in(x, 'mm')`"),
+        );
+        return None;
+    };
+    let wanted = l.unit(text);
+    let (value, wanted) = (value?, wanted?);
+    let found = l.quantity(&value, argument)?;
+    // A difference in K has no value in °C.
+    if wanted.is_point() && !found.is_point() {
+        l.point_fault(unit, &wanted);
+        return None;
+    }
+    match l.converted(&value.with_unit_if_zero(&wanted), &wanted) {
+        Some(out) => Some(out.with_kind(Kind::Quantity(Unit::one()))).map(|v| Value {
+            zero: false,
+            literal: false,
+            ..v
+        }),
+        None => {
+            let name = printer::expression(argument);
+            l.report(
+                Fault::new(
+                    faults::CLASH,
+                    text.span.clone(),
+                    format!(
+                        "`{name}` is in {} and has no value in {}",
+                        found.symbol, wanted.symbol
+                    ),
+                )
+                .label(format!("expected a unit like {}", found.symbol))
+                .related(argument.span.clone(), format!("in {}", found.symbol))
+                .help(format!("write `value_in({name}, '{}')`", found.symbol)),
+            );
+            None
+        }
+    }
+}
+
+/// solve(lhs == rhs, unknown, start).
+pub fn solve(
+    l: &mut Lowering<'_>,
+    e: &Expr,
+    equation: &Expr,
+    unknown: &Expr,
+    start: &Expr,
+) -> Option<Value> {
+    let begin = l
+        .scalar(start)
+        .and_then(|s| Some((l.quantity(&s, start)?, s)));
+    let name = unknown_name(l, unknown);
+    let ((unit, begin), name) = (begin?, name?);
+    let y = l.builder.unknown();
+    let frame = l.locals.last_mut()?;
+    frame.insert(name.clone(), Value::scalar(y, unit.clone()));
+    let residual = residual(l, equation);
+    if let Some(frame) = l.locals.last_mut() {
+        frame.remove(&name);
+    }
+    let residual = residual?;
+    let Some(root) = l.builder.solve(y, residual, begin.elements[0]) else {
+        l.report(
+            Fault::new(
+                faults::UNKNOWN_OF_SOLVE,
+                equation.span.clone(),
+                format!("the equation does not depend on `{name}`"),
+            )
+            .label(format!("`{name}` has no effect here"))
+            .related(unknown.span.clone(), "the unknown")
+            .help(format!("write an equation that contains `{name}`")),
+        );
+        return None;
+    };
+    let out = Value::scalar(root, unit);
+    l.watch(&out, e, unknown);
+    Some(out)
+}
+
+fn unknown_name(l: &mut Lowering<'_>, unknown: &Expr) -> Option<String> {
+    let text = printer::expression(unknown);
+    let (message, help) = match &unknown.node {
+        Node::Name(name) if is_reserved(name) => (
+            format!("`{name}` belongs to the language"),
+            "choose another name for the unknown",
+        ),
+        Node::Name(name) => {
+            let local = l
+                .locals
+                .last()
+                .is_some_and(|frame| frame.contains_key(name));
+            if !local && !l.scope.contains_key(name) {
+                return Some(name.clone());
+            }
+            (
+                format!("`{name}` has a value already and cannot be the unknown"),
+                "choose a new name for the unknown",
+            )
+        }
+        _ => (
+            format!("`{text}` cannot be the unknown"),
+            "write a new name: `solve(equation, unknown, start)`",
+        ),
+    };
+    l.report(
+        Fault::new(faults::UNKNOWN_OF_SOLVE, unknown.span.clone(), message)
+            .label("expected a new name")
+            .help(help),
+    );
+    None
+}
+
+/// lhs - rhs of an equation, or an expression that shall be zero.
+fn residual(l: &mut Lowering<'_>, equation: &Expr) -> Option<Id> {
+    if let Node::Chain { first, rest } = &equation.node
+        && let [(Infix::Equal, right)] = rest.as_slice()
+    {
+        let (a, b) = (l.scalar(first), l.scalar(right));
+        let (a, b) = (a?, b?);
+        let joined = l.join(
+            Operand {
+                value: &a,
+                expr: first,
+            },
+            Operand {
+                value: &b,
+                expr: right,
+            },
+            "equal",
+        )?;
+        return Some(
+            l.builder
+                .sub(joined.left.elements[0], joined.right.elements[0]),
+        );
+    }
+    let value = l.scalar(equation)?;
+    l.quantity(&value, equation)?;
+    Some(value.elements[0])
+}

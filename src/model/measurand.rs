@@ -1,0 +1,271 @@
+//! The value of each measurand: where it comes from, whether it fits the unit that is wanted.
+
+use std::collections::BTreeSet;
+
+use super::catalogue;
+use super::check::{Check, reserved};
+use super::faults;
+use super::graph::Id;
+use super::lower::{Binding, Value};
+use super::printer;
+use super::syntax::{Expr, Statement};
+use super::units::in_words;
+use super::{MeasurandSource, Place};
+use crate::fault::Fault;
+use crate::quantity::{Dimension, Unit, hint_for_clash};
+
+/// The value of a measurand and where it comes from.
+pub struct Outcome {
+    pub id: Id,
+    pub unit: Unit,
+    /// The statement that gives it.
+    pub statement: usize,
+    /// All statements of its own text.
+    pub own: Vec<usize>,
+}
+
+impl Check<'_> {
+    /// The value of a measurand.
+    pub fn measurand(&mut self, index: usize, measurand: &MeasurandSource<'_>) -> Option<Outcome> {
+        let outcome = match measurand.model {
+            Some(text) => self.own_model(index, measurand, text),
+            None => self.shared_model(index, measurand),
+        };
+        let Some(outcome) = outcome else {
+            self.l
+                .scope
+                .entry(measurand.name.to_string())
+                .or_insert(Binding::Faulty);
+            return None;
+        };
+        // Later measurands may use this one.
+        if !self.l.scope.contains_key(measurand.name) && !catalogue::is_reserved(measurand.name) {
+            let value = Value::scalar(outcome.id, outcome.unit.clone());
+            self.l
+                .scope
+                .insert(measurand.name.to_string(), Binding::Value(value));
+            self.defined
+                .insert(measurand.name.to_string(), outcome.statement);
+            self.spans
+                .insert(measurand.name.to_string(), (Place::Measurand(index), 0..0));
+        }
+        Some(outcome)
+    }
+
+    fn own_model(
+        &mut self,
+        index: usize,
+        measurand: &MeasurandSource<'_>,
+        text: &str,
+    ) -> Option<Outcome> {
+        let place = Place::Measurand(index);
+        if catalogue::is_reserved(measurand.name) {
+            self.l.place = Place::Entry(index);
+            self.l.report(reserved(measurand.name, 0..0));
+        }
+        if self.l.symbol(measurand.name).is_some() {
+            self.l.place = Place::Entry(index);
+            let name = measurand.name;
+            self.l.report(
+                Fault::new(
+                    faults::DEFINED_TWICE,
+                    0..0,
+                    format!("`{name}` is a measurand and an input or constant at once"),
+                )
+                .label("also an input or constant")
+                .help("choose another name for one of them"),
+            );
+        }
+        let before: BTreeSet<String> = self.l.scope.keys().cloned().collect();
+        let own = self.text(text, place, true);
+        let outcome = own.last().copied().and_then(|statement| {
+            let (value, expr) = self.statement_value(statement)?;
+            let (id, unit) = self.result(index, measurand, &value, &expr, place)?;
+            Some(Outcome {
+                id,
+                unit,
+                statement,
+                own,
+            })
+        });
+        // The names of this text are its own.
+        let added: Vec<String> = self
+            .l
+            .scope
+            .keys()
+            .filter(|n| !before.contains(*n))
+            .cloned()
+            .collect();
+        for name in added {
+            self.l.scope.remove(&name);
+            self.defined.remove(&name);
+            self.spans.remove(&name);
+        }
+        outcome
+    }
+
+    fn statement_value(&mut self, statement: usize) -> Option<(Value, Expr)> {
+        match &self.statements[statement].statement {
+            Statement::Value(expr) => Some((self.last.take()?, expr.clone())),
+            Statement::Assign { name, value }
+                if self.defined.get(&name.text) == Some(&statement) =>
+            {
+                match self.l.scope.get(&name.text)? {
+                    Binding::Value(found) => Some((found.clone(), value.clone())),
+                    _ => None,
+                }
+            }
+            _ => None,
+        }
+    }
+
+    fn shared_model(&mut self, index: usize, measurand: &MeasurandSource<'_>) -> Option<Outcome> {
+        let name = measurand.name;
+        let statement = self.defined.get(name).copied();
+        match (self.l.scope.get(name), statement) {
+            (Some(Binding::Value(_)), Some(statement)) => {
+                let place = self.statements[statement].place;
+                let (value, expr) = self.statement_value(statement)?;
+                let (id, unit) = self.result(index, measurand, &value, &expr, place)?;
+                Some(Outcome {
+                    id,
+                    unit,
+                    statement,
+                    own: Vec::new(),
+                })
+            }
+            (Some(Binding::Faulty), _) if self.l.symbol(name).is_none() => None,
+            _ => {
+                self.l.place = Place::Entry(index);
+                self.l.report(
+                    Fault::new(faults::NO_MODEL, 0..0, format!("the measurand `{name}` has no model"))
+                        .label("no model")
+                        .help(format!("add `model = \"…\"` here, or define `{name} = …` in the model at the top of the file")),
+                );
+                None
+            }
+        }
+    }
+
+    /// Checks the value of a measurand and brings it to its unit.
+    fn result(
+        &mut self,
+        index: usize,
+        measurand: &MeasurandSource<'_>,
+        value: &Value,
+        expr: &Expr,
+        place: Place,
+    ) -> Option<(Id, Unit)> {
+        self.l.place = place;
+        let found = self.l.quantity(value, expr)?;
+        let text = printer::expression(expr);
+        if value.vector {
+            self.l.report(
+                Fault::new(
+                    faults::VECTOR_RESULT,
+                    expr.span.clone(),
+                    format!(
+                        "`{}` is a vector of {} elements",
+                        measurand.name,
+                        value.elements.len()
+                    ),
+                )
+                .label("expected a single value")
+                .help(format!("reduce it, `mean({text})`, or take one element")),
+            );
+            return None;
+        }
+        let Some(wanted) = &measurand.unit else {
+            if found.dimension == Dimension::NONE {
+                let out = self.l.converted(value, &Unit::one())?;
+                return Some((out.elements[0], Unit::one()));
+            }
+            self.l.place = Place::Entry(index);
+            self.l.report(
+                Fault::new(
+                    faults::RESULT_NEEDS_UNIT,
+                    0..0,
+                    format!(
+                        "the measurand `{}` has no unit, but its model gives {}",
+                        measurand.name, found.symbol
+                    ),
+                )
+                .label(format!("the value is in {}", found.symbol))
+                .help(format!(
+                    "add `unit = \"{}\"`, or another unit of this dimension",
+                    found.symbol
+                )),
+            );
+            return None;
+        };
+        let value = value.with_unit_if_zero(wanted);
+        let found = value.unit().cloned().unwrap_or(found);
+        if found.dimension != wanted.dimension {
+            let message = format!(
+                "the value is {}, but `{}` is wanted {}",
+                in_words(&found),
+                measurand.name,
+                in_words(wanted)
+            );
+            let help = self.result_help(expr, &found, wanted);
+            self.l.report(
+                Fault::new(faults::RESULT_UNIT, expr.span.clone(), message)
+                    .label(in_words(&found))
+                    .help(help),
+            );
+            return None;
+        }
+        if found.is_point() != wanted.is_point() {
+            self.point_result(measurand.name, expr, &found, wanted);
+            return None;
+        }
+        let out = self.l.converted(&value, wanted)?;
+        Some((out.elements[0], wanted.clone()))
+    }
+
+    fn result_help(&self, expr: &Expr, found: &Unit, wanted: &Unit) -> String {
+        if let Some(hint) = hint_for_clash(wanted, found) {
+            return hint;
+        }
+        let forgotten = expr
+            .names()
+            .into_iter()
+            .find(|n| self.l.symbol(n).is_some_and(|s| s.unit.is_one()));
+        match forgotten {
+            Some(name) => {
+                let missing = wanted.quotient(found).symbol;
+                format!(
+                    "if `{name}` has a unit, state it (`unit = \"{missing}\"` would fit if it is a factor), or correct the measurand's unit"
+                )
+            }
+            None => format!(
+                "correct the formula, or write `unit = \"{}\"` for the measurand",
+                found.symbol
+            ),
+        }
+    }
+
+    fn point_result(&mut self, name: &str, expr: &Expr, found: &Unit, wanted: &Unit) {
+        if found.is_point() {
+            self.l.point_fault(expr, found);
+            return;
+        }
+        let text = printer::expression(expr);
+        self.l.report(
+            Fault::new(
+                faults::POINT,
+                expr.span.clone(),
+                format!(
+                    "the value is a difference in {}, but `{name}` is wanted on the {} scale",
+                    found.symbol, wanted.symbol
+                ),
+            )
+            .label(format!("a difference in {}", found.symbol))
+            .help(format!(
+                "write `unit = \"{}\"`, or add the difference to a point: `0 '{}' + ({text})`",
+                wanted.difference().symbol,
+                wanted.symbol
+            )),
+        );
+    }
+}

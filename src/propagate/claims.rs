@@ -1,0 +1,207 @@
+//! Claimed figures held against those obtained.
+
+use crate::budget::{Budget, Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
+
+use super::{Evaluation, MeasurandResult};
+
+/// One claimed figure against one obtained figure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// What is compared, with the claimed number and its tolerance.
+    pub claimed: ClaimedFigure,
+    /// Index of the claim in the budget.
+    pub claim: usize,
+    /// Which method gave the obtained figure.
+    pub method: Method,
+    /// The obtained figure; `None` where it does not exist (no Monte Carlo, no moments, several measurands only).
+    pub obtained: Option<f64>,
+    /// Whether the claim is about this method; otherwise the figure is shown beside for information.
+    pub judged: bool,
+}
+
+/// Which method gave a figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// GUM, first order.
+    Gum,
+    /// GUM with second-order terms.
+    SecondOrder,
+    /// Monte Carlo.
+    MonteCarlo,
+}
+
+impl Comparison {
+    /// Whether the obtained figure is the claimed one within its tolerance.
+    pub fn agrees(&self) -> bool {
+        // A figure exactly half a unit away was rounded either way; rounding of doubles must not decide.
+        let slack = 1e-9 * self.claimed.tolerance + 4.0 * f64::EPSILON * self.claimed.value.abs();
+        self.obtained
+            .is_some_and(|obtained| (obtained - self.claimed.value).abs() <= self.claimed.tolerance + slack)
+    }
+
+    /// Obtained divided by claimed, where that says something.
+    pub fn ratio(&self) -> Option<f64> {
+        self.obtained
+            .filter(|_| self.claimed.value != 0.0)
+            .map(|obtained| obtained / self.claimed.value)
+            .filter(|ratio| ratio.is_finite())
+    }
+}
+
+/// Every claimed figure of a budget against what was obtained, in the order of the file. A claim that names no
+/// method is judged by GUM, with Monte Carlo beside.
+pub fn compare_claims(budget: &Budget, evaluation: &Evaluation) -> Vec<Comparison> {
+    let mut comparisons = Vec::new();
+    for (index, claim) in budget.claims.iter().enumerate() {
+        for figure in &claim.figures {
+            for (method, judged) in methods(claim.method) {
+                let obtained = obtained(budget, evaluation, claim, &figure.what, method);
+                if judged || obtained.is_some() {
+                    comparisons.push(Comparison {
+                        claimed: figure.clone(),
+                        claim: index,
+                        method,
+                        obtained,
+                        judged,
+                    });
+                }
+            }
+        }
+    }
+    comparisons
+}
+
+fn methods(claimed: ClaimedMethod) -> Vec<(Method, bool)> {
+    match claimed {
+        ClaimedMethod::Unstated => vec![(Method::Gum, true), (Method::MonteCarlo, false)],
+        ClaimedMethod::Gum => vec![(Method::Gum, true)],
+        ClaimedMethod::SecondOrder => vec![(Method::SecondOrder, true)],
+        ClaimedMethod::MonteCarlo => vec![(Method::MonteCarlo, true)],
+    }
+}
+
+fn obtained(
+    budget: &Budget,
+    evaluation: &Evaluation,
+    claim: &Claim,
+    what: &Figure,
+    method: Method,
+) -> Option<f64> {
+    let result = evaluation.results.get(claim.measurand)?;
+    match method {
+        Method::Gum => by_gum(budget, evaluation, result, claim, what),
+        Method::SecondOrder => by_second_order(result, claim, what),
+        Method::MonteCarlo => by_monte_carlo(evaluation, result, claim, what),
+    }
+}
+
+fn by_gum(
+    budget: &Budget,
+    evaluation: &Evaluation,
+    result: &MeasurandResult,
+    claim: &Claim,
+    what: &Figure,
+) -> Option<f64> {
+    let gum = &result.gum;
+    match what {
+        Figure::Estimate => Some(gum.estimate),
+        Figure::StandardUncertainty => Some(gum.u),
+        // U claimed with its own k is compared for that k: what differs is then u, not the convention.
+        Figure::ExpandedUncertainty => Some(
+            claim
+                .figure(&Figure::CoverageFactor)
+                .map_or(gum.coverage.expanded, |k| k * gum.u),
+        ),
+        Figure::CoverageFactor => Some(gum.coverage.k),
+        Figure::DegreesOfFreedom => Some(gum.freedom.value()),
+        Figure::CoverageProbability => Some(gum.coverage.probability),
+        Figure::Lower => Some(gum.estimate - gum.coverage.half_width_for_p),
+        Figure::Upper => Some(gum.estimate + gum.coverage.half_width_for_p),
+        Figure::ShortestLower | Figure::ShortestUpper | Figure::Shift => None,
+        Figure::Correlation(with) => evaluation
+            .joint
+            .as_ref()
+            .and_then(|joint| joint.correlation.get((claim.measurand, *with)).copied()),
+        Figure::Ellipsoid => evaluation.joint.as_ref().map(|joint| joint.k_ellipsoid),
+        Figure::Rectangle => evaluation.joint.as_ref().map(|joint| joint.k_rectangle),
+        Figure::RegionFreedom => evaluation.joint.as_ref().map(|joint| joint.dof.value()),
+        Figure::Validated(digits) => verdict(result, *digits),
+        Figure::Input(index, Part::Estimate) => budget.inputs.get(*index).map(|input| input.estimate),
+        Figure::Input(index, part) => gum.inputs.get(*index).and_then(|line| part_of(line, *part)),
+        Figure::Component(index, part) => {
+            gum.components.get(*index).and_then(|line| part_of(line, *part))
+        }
+    }
+}
+
+fn part_of(line: &super::Contribution, part: Part) -> Option<f64> {
+    match part {
+        Part::Estimate => None,
+        Part::StandardUncertainty => Some(line.u),
+        Part::DegreesOfFreedom => Some(line.dof),
+        Part::Sensitivity => Some(line.sensitivity),
+        // Published tables print |c|·u.
+        Part::Contribution => Some(line.contribution.abs()),
+    }
+}
+
+fn by_second_order(result: &MeasurandResult, claim: &Claim, what: &Figure) -> Option<f64> {
+    let second = result.second_order.as_ref()?;
+    let k = claim
+        .figure(&Figure::CoverageFactor)
+        .unwrap_or(result.gum.coverage.k);
+    let estimate = result.gum.estimate + second.shift;
+    match what {
+        Figure::Estimate => Some(estimate),
+        Figure::StandardUncertainty => Some(second.u),
+        Figure::ExpandedUncertainty => Some(k * second.u),
+        Figure::Lower => Some(estimate - k * second.u),
+        Figure::Upper => Some(estimate + k * second.u),
+        Figure::Shift => Some(second.shift),
+        _ => None,
+    }
+}
+
+fn by_monte_carlo(
+    evaluation: &Evaluation,
+    result: &MeasurandResult,
+    claim: &Claim,
+    what: &Figure,
+) -> Option<f64> {
+    let monte_carlo = result.monte_carlo.as_ref()?;
+    let half = (monte_carlo.symmetric[1] - monte_carlo.symmetric[0]) / 2.0;
+    match what {
+        Figure::Estimate => monte_carlo.estimate,
+        Figure::StandardUncertainty => monte_carlo.u,
+        Figure::ExpandedUncertainty => match claim.figure(&Figure::CoverageFactor) {
+            Some(k) => monte_carlo.u.map(|u| k * u),
+            None => Some(half),
+        },
+        Figure::Lower => Some(monte_carlo.symmetric[0]),
+        Figure::Upper => Some(monte_carlo.symmetric[1]),
+        Figure::ShortestLower => Some(monte_carlo.shortest[0]),
+        Figure::ShortestUpper => Some(monte_carlo.shortest[1]),
+        Figure::Correlation(with) => evaluation
+            .joint
+            .as_ref()
+            .and_then(|joint| joint.monte_carlo_correlation.as_ref())
+            .and_then(|correlation| correlation.get((claim.measurand, *with)).copied()),
+        Figure::Ellipsoid => regions(evaluation).map(|regions| regions.k_ellipsoid),
+        Figure::Rectangle => regions(evaluation).map(|regions| regions.k_rectangle),
+        Figure::Validated(digits) => verdict(result, *digits),
+        _ => None,
+    }
+}
+
+fn regions(evaluation: &Evaluation) -> Option<&super::Regions> {
+    evaluation.joint.as_ref().and_then(|joint| joint.regions.as_ref())
+}
+
+fn verdict(result: &MeasurandResult, digits: u8) -> Option<f64> {
+    result
+        .validation
+        .as_ref()?
+        .iter()
+        .find(|validation| validation.digits == digits)
+        .map(|validation| f64::from(u8::from(validation.validated)))
+}

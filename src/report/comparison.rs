@@ -1,0 +1,259 @@
+//! GUM and Monte Carlo side by side, with the verdict of JCGM 101 clause 8.
+
+use crate::propagate::{Coverage, CoverageBasis, MeasurandResult, Run, Validation};
+
+use super::document::Block;
+use super::language::{Language, Word};
+use super::number::{
+    NONE, TABLE_DIGITS, aligned, exact, freedom, grouped, probability, significant,
+};
+use super::remarks::tolerance;
+use super::table::{Cell, ColumnKind, Table};
+use super::{Report, difference_symbol};
+
+/// The table and the verdict for one measurand.
+pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
+    let result = &report.evaluation.results[measurand];
+    let mut blocks = vec![Block::Table(table(report, measurand, result))];
+    match (&result.validation, &report.evaluation.run) {
+        (Some(validation), _) => blocks.push(Block::List(
+            validation
+                .iter()
+                .map(|v| verdict(report, measurand, v))
+                .collect(),
+        )),
+        (None, None) => blocks.push(Block::Paragraph(
+            report
+                .language
+                .pick(
+                    "Monte Carlo was not run, so the GUM result is not validated.",
+                    "未运行蒙特卡洛法，GUM 法的结果未经验证。",
+                )
+                .to_string(),
+        )),
+        (None, Some(_)) => {}
+    }
+    blocks
+}
+
+fn table(report: &Report<'_>, measurand: usize, result: &MeasurandResult) -> Table {
+    let l = report.language;
+    let unit = &report.measurand(measurand).1;
+    let (gum, monte_carlo) = (&result.gum, result.monte_carlo.as_ref());
+    let p = probability(report.coverage_probability());
+    // Intervals need a scale to be rounded to even where u does not exist.
+    let scale = match monte_carlo {
+        Some(mc) => mc.u.unwrap_or((mc.symmetric[1] - mc.symmetric[0]) / 4.0),
+        None => gum.u,
+    };
+    let scale = if gum.u > 0.0 {
+        gum.u.min(if scale > 0.0 { scale } else { gum.u })
+    } else {
+        scale
+    };
+    let show = |x: f64| aligned(x, scale, TABLE_DIGITS);
+    let optional =
+        |x: Option<f64>, form: &dyn Fn(f64) -> String| x.map_or_else(|| NONE.to_string(), form);
+    let interval = |[low, high]: [f64; 2]| format!("[{}, {}]", show(low), show(high));
+    let three = |x: f64| significant(x, TABLE_DIGITS);
+
+    let head = if unit.symbol == "1" {
+        String::new()
+    } else {
+        l.pick(
+            format!("in {}", unit.symbol),
+            format!("单位：{}", unit.symbol),
+        )
+    };
+    let mut table = Table::new([
+        (head.as_str(), ColumnKind::Words),
+        (l.word(Word::Gum), ColumnKind::Numbers),
+        (l.word(Word::MonteCarlo), ColumnKind::Numbers),
+    ]);
+    let mut row = |label: String, gum: String, trials: Option<String>| {
+        table.push(vec![
+            Cell::Text(label),
+            gum.into(),
+            trials.map_or(Cell::Empty, Cell::Text),
+        ]);
+    };
+    row(
+        l.word(Word::Estimate).into(),
+        show(gum.estimate),
+        monte_carlo.map(|mc| optional(mc.estimate, &show)),
+    );
+    row(
+        with_unit(l.word(Word::StandardUncertainty), &difference_symbol(unit)),
+        three(gum.u),
+        monte_carlo.map(|mc| optional(mc.u, &three)),
+    );
+    if let Some(second) = result.second_order.as_ref().filter(|s| s.matters) {
+        row(
+            l.word(Word::SecondOrderShift).into(),
+            show(gum.estimate + second.shift),
+            None,
+        );
+        row(l.word(Word::SecondOrderU).into(), three(second.u), None);
+    }
+    if let Some(mc) = monte_carlo.filter(|mc| mc.estimate.is_none() || mc.u.is_none()) {
+        row(
+            l.word(Word::Median).into(),
+            String::new(),
+            Some(show(mc.median)),
+        );
+    }
+    // The factor that the Monte Carlo interval would need: what k means there.
+    let implied = monte_carlo.and_then(|mc| {
+        mc.u.filter(|u| *u > 0.0)
+            .map(|u| (mc.symmetric[1] - mc.symmetric[0]) / (2.0 * u))
+    });
+    row(
+        l.word(Word::CoverageFactor).into(),
+        three(gum.coverage.k),
+        monte_carlo.map(|_| optional(implied, &three)),
+    );
+    let half = gum.coverage.half_width_for_p;
+    let name = match l {
+        Language::English => format!("{p} interval, symmetric"),
+        Language::Chinese => format!("{p} 包含区间，概率对称"),
+    };
+    row(
+        name,
+        interval([gum.estimate - half, gum.estimate + half]),
+        monte_carlo.map(|mc| interval(mc.symmetric)),
+    );
+    if let Some(mc) = monte_carlo {
+        row(
+            l.pick(
+                format!("{p} interval, shortest"),
+                format!("{p} 包含区间，最短"),
+            ),
+            String::new(),
+            Some(interval(mc.shortest)),
+        );
+        if let (Some(skewness), Some(kurtosis)) = (mc.skewness, mc.excess_kurtosis) {
+            let text = format!(
+                "{}, {}",
+                aligned(skewness, 0.1, 1),
+                aligned(kurtosis, 0.1, 1)
+            );
+            let label = [l.word(Word::Skewness), l.word(Word::Kurtosis)].join(l.pick(", ", "、"));
+            row(label, String::new(), Some(text));
+        }
+    }
+    if let Some(run) = &report.evaluation.run {
+        row(
+            l.word(Word::Trials).into(),
+            String::new(),
+            Some(trials(run, measurand, l)),
+        );
+    }
+    table
+}
+
+fn with_unit(label: &str, unit: &str) -> String {
+    if unit.is_empty() {
+        label.to_string()
+    } else {
+        format!("{label} / {unit}")
+    }
+}
+
+/// `1 000 000, seed 1`, and for an adaptive run what it reached.
+fn trials(run: &Run, measurand: usize, language: Language) -> String {
+    let count = grouped(run.trials);
+    let seed = run.seed;
+    let base = language.pick(
+        format!("{count}, seed {seed}"),
+        format!("{count}，种子 {seed}"),
+    );
+    let Some(adaptive) = &run.adaptive else {
+        return base;
+    };
+    let delta = adaptive
+        .delta
+        .get(measurand)
+        .map_or_else(|| NONE.to_string(), |d| tolerance(*d));
+    match language {
+        Language::English => format!(
+            "{base}, stable to δ = {delta}: {}",
+            if adaptive.reached { "yes" } else { "no" }
+        ),
+        Language::Chinese => format!(
+            "{base}，数值容差 δ = {delta}：{}",
+            if adaptive.reached {
+                "达到"
+            } else {
+                "未达到"
+            }
+        ),
+    }
+}
+
+/// One line of JCGM 101 clause 8.
+fn verdict(report: &Report<'_>, measurand: usize, v: &Validation) -> String {
+    let unit = difference_symbol(report.measurand(measurand).1);
+    let unit = if unit.is_empty() {
+        unit
+    } else {
+        format!(" {unit}")
+    };
+    let (low, high, delta) = (
+        significant(v.d_low, 2),
+        significant(v.d_high, 2),
+        exact(v.delta),
+    );
+    match report.language {
+        Language::English => format!(
+            "Clause 8, {} of u: d_low = {low}, d_high = {high}, δ = {delta}{unit}: GUM is {}",
+            if v.digits == 1 {
+                "1 digit".to_string()
+            } else {
+                format!("{} digits", v.digits)
+            },
+            if v.validated {
+                "validated"
+            } else {
+                "not validated"
+            },
+        ),
+        Language::Chinese => format!(
+            "按 u 的 {} 位有效数字验证：d_low = {low}，d_high = {high}，δ = {delta}{unit}：GUM 法{}",
+            v.digits,
+            if v.validated {
+                "通过验证"
+            } else {
+                "未通过验证"
+            },
+        ),
+    }
+}
+
+/// Where k came from, in a few words.
+pub(super) fn basis_of_k(coverage: &Coverage, language: Language) -> String {
+    match (&coverage.basis, language) {
+        (CoverageBasis::Normal, Language::English) => "normal distribution".to_string(),
+        (CoverageBasis::Normal, Language::Chinese) => "正态分布".to_string(),
+        (CoverageBasis::StudentT { dof }, Language::English) => {
+            format!("t-distribution, ν = {}", freedom(*dof))
+        }
+        (CoverageBasis::StudentT { dof }, Language::Chinese) => {
+            format!("t 分布，ν = {}", freedom(*dof))
+        }
+        (CoverageBasis::Output { dominant, shape }, Language::English) => {
+            format!(
+                "{shape} distribution, dominated by {}",
+                language.list(dominant)
+            )
+        }
+        (CoverageBasis::Output { dominant, shape }, Language::Chinese) => {
+            format!(
+                "{}，{} 占优势",
+                super::statement::shape_in_chinese(shape),
+                language.list(dominant)
+            )
+        }
+        (CoverageBasis::Fixed, Language::English) => "fixed".to_string(),
+        (CoverageBasis::Fixed, Language::Chinese) => "约定值".to_string(),
+    }
+}

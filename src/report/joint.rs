@@ -1,0 +1,132 @@
+//! The joint result of several measurands (JCGM 102).
+
+use nalgebra::DMatrix;
+
+use super::Report;
+use super::document::Block;
+use super::language::{Language, Word};
+use super::number::{TABLE_DIGITS, freedom, probability, significant};
+use super::statement::coefficient;
+use super::table::{Cell, Column, ColumnKind, Table};
+
+/// Correlation matrices and the factors of the coverage regions.
+pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
+    let Some(joint) = &report.evaluation.joint else {
+        return Vec::new();
+    };
+    let l = report.language;
+    let mut blocks = vec![Block::Section(l.word(Word::Joint).to_string())];
+    blocks.push(Block::Table(matrix(
+        report,
+        &joint.correlation,
+        l.word(Word::Gum),
+    )));
+    if let Some(correlation) = &joint.monte_carlo_correlation {
+        blocks.push(Block::Table(matrix(
+            report,
+            correlation,
+            l.word(Word::MonteCarlo),
+        )));
+    }
+    if joint.degenerate {
+        blocks.push(Block::Paragraph(
+            l.pick(
+                "At least one measurand is a linear function of the others, so that no joint coverage region exists; use the single intervals.",
+                "至少一个输出量是其他输出量的线性函数，联合包含区域不存在；请使用各输出量的包含区间。",
+            )
+            .to_string(),
+        ));
+        return blocks;
+    }
+    blocks.push(Block::Table(regions(report)));
+    let p = probability(report.coverage_probability());
+    let dof = freedom(joint.dof.value());
+    blocks.push(Block::Paragraph(match l {
+        Language::English => format!(
+            "k_q·u(y_j) are the half-widths of intervals that hold all measurands at once with probability {p}; k_p scales the ellipsoid given by the covariance matrix (ν = {dof})."
+        ),
+        Language::Chinese => format!("k_q·u(y_j) 为各输出量同时落入的区间半宽，联合包含概率为 {p}；k_p 为由协方差矩阵确定的椭球的包含因子（ν = {dof}）。"),
+    }));
+    blocks
+}
+
+fn matrix(report: &Report<'_>, correlation: &DMatrix<f64>, head: &str) -> Table {
+    let n = report.evaluation.results.len();
+    let name = |i: usize| report.measurand(i).0.to_string();
+    let label =
+        [report.language.word(Word::Correlation), head].join(report.language.pick(", ", "，"));
+    let mut columns = vec![Column {
+        head: label,
+        kind: ColumnKind::Words,
+    }];
+    columns.extend((0..n).map(|i| Column {
+        head: name(i),
+        kind: ColumnKind::Numbers,
+    }));
+    let mut table = Table {
+        columns,
+        rows: Vec::new(),
+    };
+    for i in 0..n {
+        let mut cells: Vec<Cell> = vec![name(i).into()];
+        cells.extend((0..n).map(|j| {
+            Cell::Text(
+                correlation
+                    .get((i, j))
+                    .map_or_else(String::new, |r| coefficient(*r)),
+            )
+        }));
+        table.push(cells);
+    }
+    table
+}
+
+fn regions(report: &Report<'_>) -> Table {
+    let l = report.language;
+    let mut table = Table::new([
+        (l.pick("coverage region", "包含区域"), ColumnKind::Words),
+        (l.word(Word::Gum), ColumnKind::Numbers),
+        (l.word(Word::MonteCarlo), ColumnKind::Numbers),
+    ]);
+    let Some(joint) = &report.evaluation.joint else {
+        return table;
+    };
+    let regions = joint.regions.as_ref();
+    let show = |x: Option<f64>| x.map_or(Cell::Empty, |x| significant(x, TABLE_DIGITS).into());
+    let comma = l.pick(", ", "，");
+    let mut row = |label: String, gum: Option<f64>, trials: Option<f64>| {
+        table.push(vec![label.into(), show(gum), show(trials)])
+    };
+    row(
+        format!("k_p{comma}{}", l.word(Word::Ellipsoid)),
+        Some(joint.k_ellipsoid),
+        regions.map(|r| r.k_ellipsoid),
+    );
+    row(
+        format!("k_q{comma}{}", l.word(Word::Hyperrectangle)),
+        Some(joint.k_rectangle),
+        regions.map(|r| r.k_rectangle),
+    );
+    if let Some(regions) = regions {
+        let size = match report.evaluation.results.len() {
+            2 => l.pick("area", "面积"),
+            _ => l.pick("volume", "体积"),
+        };
+        row(
+            format!("{size}{comma}{}", l.word(Word::Ellipsoid)),
+            None,
+            Some(regions.ellipsoid_volume),
+        );
+        if let Some(smallest) = regions.smallest_volume {
+            row(
+                l.pick(
+                    format!("{size}, smallest region"),
+                    format!("{size}，最小区域"),
+                ),
+                None,
+                Some(smallest),
+            );
+        }
+    }
+    table
+}

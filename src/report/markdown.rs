@@ -1,0 +1,143 @@
+//! The report as Markdown (GitHub's tables).
+
+use super::Report;
+use super::compose::compose;
+use super::document::Block;
+use super::table::{Cell, ColumnKind, Row, Table, bar};
+
+/// The report as Markdown.
+pub fn markdown(report: &Report<'_>) -> String {
+    draw(&compose(report))
+}
+
+/// Blocks as Markdown, a blank line between them.
+pub(super) fn draw(blocks: &[Block]) -> String {
+    let parts: Vec<String> = blocks.iter().map(draw_block).collect();
+    format!("{}\n", parts.join("\n\n"))
+}
+
+fn draw_block(block: &Block) -> String {
+    match block {
+        Block::Title(title) => format!("# {}", escaped(title)),
+        Block::Section(title) => format!("## {}", escaped(title)),
+        Block::Fields(fields) => {
+            let line = |(name, text): &(String, String)| {
+                format!("- **{}**: {}", escaped(name), escaped(text))
+            };
+            fields.iter().map(line).collect::<Vec<_>>().join("\n")
+        }
+        Block::Paragraph(text) => escaped(text),
+        Block::Formula(lines) => format!("```text\n{}\n```", lines.join("\n")),
+        Block::Table(table) => draw_table(table),
+        Block::List(items) => items
+            .iter()
+            .map(|i| format!("- {}", escaped(i)))
+            .collect::<Vec<_>>()
+            .join("\n"),
+        Block::Statement(sentences) => sentences
+            .iter()
+            .map(|s| format!("> {}", escaped(s)))
+            .collect::<Vec<_>>()
+            .join("\n>\n"),
+        Block::Footer(lines) => format!(
+            "---\n\n{}",
+            lines
+                .iter()
+                .map(|l| escaped(l))
+                .collect::<Vec<_>>()
+                .join("  \n")
+        ),
+    }
+}
+
+fn draw_table(table: &Table) -> String {
+    let heads: Vec<String> = table.columns.iter().map(|c| escaped(&c.head)).collect();
+    let marks: Vec<&str> = table
+        .columns
+        .iter()
+        .map(|c| {
+            if c.kind == ColumnKind::Numbers {
+                "---:"
+            } else {
+                ":---"
+            }
+        })
+        .collect();
+    let mut lines = vec![row(&heads), row(&marks)];
+    for line in &table.rows {
+        match line {
+            Row::Cells(cells) => {
+                let mut texts: Vec<String> = cells.iter().map(cell).collect();
+                texts.resize(table.columns.len(), String::new());
+                lines.push(row(&texts));
+            }
+            // A rule has no counterpart inside a Markdown table.
+            Row::Rule => {}
+            Row::Across(text) => {
+                let mut texts = vec![format!("*{}*", escaped(text))];
+                texts.resize(table.columns.len(), String::new());
+                lines.push(row(&texts));
+            }
+        }
+    }
+    lines.join("\n")
+}
+
+fn row<S: AsRef<str>>(cells: &[S]) -> String {
+    let cells: Vec<&str> = cells.iter().map(AsRef::as_ref).collect();
+    format!("| {} |", cells.join(" | "))
+}
+
+fn cell(cell: &Cell) -> String {
+    match cell {
+        Cell::Text(text) => escaped(text),
+        Cell::Part(text) => format!("&emsp;{}", escaped(text)),
+        Cell::Share(share) => bar(*share, 10),
+        Cell::Empty => String::new(),
+    }
+}
+
+/// Text that Markdown leaves as it is. An underscore inside a word is safe.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut inside_word = false;
+    let mut chars = text.chars().peekable();
+    let mut code = false;
+    while let Some(c) = chars.next() {
+        let next_is_word = chars.peek().is_some_and(|n| n.is_alphanumeric());
+        match c {
+            // Text between backquotes is set as code by Markdown too.
+            '`' => code = !code,
+            '|' => out.push('\\'),
+            '\\' | '*' | '<' | '~' if !code => out.push('\\'),
+            '_' if !code && (!inside_word || !next_is_word) => out.push('\\'),
+            _ => {}
+        }
+        out.push(if c == '\n' { ' ' } else { c });
+        inside_word = c.is_alphanumeric();
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_markdown_would_eat_is_escaped() {
+        assert_eq!(escaped("a*b | <c> x_"), "a\\*b \\| \\<c> x\\_");
+        assert_eq!(escaped("u_c of `half_width*`"), "u_c of `half_width*`");
+    }
+
+    #[test]
+    fn a_table_has_one_cell_per_column() {
+        let mut table = Table::new([("a", ColumnKind::Words), ("b", ColumnKind::Numbers)]);
+        table.push(vec![Cell::Part("x|y".to_string())]);
+        table.rows.push(Row::Rule);
+        table.rows.push(Row::Across("rest".to_string()));
+        assert_eq!(
+            draw_table(&table),
+            "| a | b |\n| :--- | ---: |\n| &emsp;x\\|y |  |\n| *rest* |  |"
+        );
+    }
+}

@@ -1,0 +1,150 @@
+//! How numbers look in tables and sentences: significant digits, alignment with an uncertainty,
+//! percentages, counts.
+
+use crate::quantity::{Decimal, PowerStyle, Rounding, Style};
+
+/// Shown where a number does not exist.
+pub(super) const NONE: &str = "—";
+
+/// Digits kept of an uncertainty in tables: one more than a statement has, so that a reader can add
+/// the rows up again (GUM 7.2.6).
+pub(super) const TABLE_DIGITS: u8 = 3;
+
+/// Powers of ten as `×10^-5`: legible in every font of a terminal.
+pub(super) const STYLE: Style = Style {
+    grouping: crate::quantity::Grouping::None,
+    power: PowerStyle::Caret,
+};
+
+/// A decimal number, or a dash for none.
+pub(super) fn print(number: &Decimal) -> String {
+    if number.is_finite() || number.to_f64().is_infinite() {
+        number.print(STYLE)
+    } else {
+        NONE.to_string()
+    }
+}
+
+/// `x` with this many significant digits. Zeros that would only fill up to the decimal marker are
+/// written as a power of ten, so that no digit is shown that is not known.
+pub(super) fn significant(x: f64, digits: u8) -> String {
+    let rounded = Decimal::from_f64(x).round_to_significant(digits, Rounding::HalfEven);
+    match (rounded.leading_place(), rounded.place()) {
+        (Some(leading), Some(place)) if place > 0 => {
+            format!(
+                "{}{}",
+                rounded.shifted(-leading).print_plain(STYLE),
+                STYLE.power(leading)
+            )
+        }
+        _ => print(&rounded),
+    }
+}
+
+/// `x` as the file or the double has it, without superfluous digits.
+pub(super) fn exact(x: f64) -> String {
+    print(&Decimal::from_f64(x))
+}
+
+/// `x` rounded to the last place that `scale` has with this many digits; all digits of `x` where
+/// `scale` says nothing (zero or not finite), two where nothing else would be left.
+pub(super) fn aligned(x: f64, scale: f64, digits: u8) -> String {
+    /// A double has no more.
+    const MOST: i32 = 15;
+    let Some(place) = place_of(scale, digits) else {
+        return exact(x);
+    };
+    let rounded = at_place(x, place);
+    match rounded.leading_place() {
+        None if x != 0.0 => significant(x, 2),
+        Some(leading) if leading - place >= MOST => exact(x),
+        None if place < -6 => "0".to_string(),
+        _ => print(&rounded),
+    }
+}
+
+/// `x` rounded to nearest at a place.
+pub(super) fn at_place(x: f64, place: i32) -> Decimal {
+    Decimal::from_f64(x).round_to_place(place, Rounding::HalfEven)
+}
+
+/// Power of ten of the last of the first `digits` significant digits of `scale`.
+fn place_of(scale: f64, digits: u8) -> Option<i32> {
+    let rounded = Decimal::from_f64(scale).round_to_significant(digits, Rounding::HalfEven);
+    rounded.leading_place().and(rounded.place())
+}
+
+/// Percentage with one decimal: `95.4`, and `<0.1` for something that would look like nothing.
+pub(super) fn percent(share: f64) -> String {
+    let hundredfold = 100.0 * share;
+    if hundredfold != 0.0 && hundredfold.abs() < 0.05 {
+        return "<0.1".to_string();
+    }
+    print(&at_place(hundredfold, -1))
+}
+
+/// A probability in percent with the digits it was stated with: `95 %`, `95.45 %`.
+pub(super) fn probability(p: f64) -> String {
+    let text = at_place(100.0 * p, -2).print_plain(STYLE);
+    format!("{} %", text.trim_end_matches('0').trim_end_matches('.'))
+}
+
+/// Degrees of freedom: whole numbers as such, one decimal below 100.
+pub(super) fn freedom(dof: f64) -> String {
+    let place = if dof < 100.0 { -1 } else { 0 };
+    let text = print(&at_place(dof, place));
+    text.strip_suffix(".0").map_or(text.clone(), str::to_string)
+}
+
+/// A whole number in groups of three: `1 000 000`.
+pub(super) fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let mut text = String::with_capacity(digits.len() * 4 / 3);
+    for (i, c) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(' ');
+        }
+        text.push(c);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn aligns_an_estimate_with_its_uncertainty() {
+        assert_eq!(aligned(100.0214712, 0.00035, 2), "100.02147");
+        assert_eq!(aligned(10.05762, 0.027, 2), "10.058");
+        assert_eq!(aligned(0.0, 0.0012, 2), "0.0000");
+        assert_eq!(aligned(1.0, 1e5, 2), "1.0");
+        assert_eq!(aligned(20.0, 1e-17, 2), "20");
+        assert_eq!(aligned(1.234567e-3, 2.6e-8, 2), "0.001234567");
+    }
+
+    #[test]
+    fn shows_powers_of_ten_only_where_they_help() {
+        assert_eq!(significant(1234.5, 3), "1.23×10^3");
+        assert_eq!(significant(0.00012345, 4), "0.0001234");
+        assert_eq!(significant(0.0000012345, 3), "1.23×10^-6");
+        assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(exact(299792458.0), "299792458");
+        assert_eq!(exact(1e-7), "1×10^-7");
+        assert_eq!(exact(1500.0), "1500");
+    }
+
+    #[test]
+    fn words_for_counts_and_shares() {
+        assert_eq!(grouped(1_000_000), "1 000 000");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(freedom(f64::INFINITY), "∞");
+        assert_eq!(freedom(9.0), "9");
+        assert_eq!(freedom(16.72), "16.7");
+        assert_eq!(probability(0.9545), "95.45 %");
+        assert_eq!(probability(0.95), "95 %");
+        assert_eq!(percent(0.0001), "<0.1");
+        assert_eq!(percent(0.345), "34.5");
+        assert_eq!(percent(0.0), "0.0");
+    }
+}

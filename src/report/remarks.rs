@@ -1,0 +1,190 @@
+//! Findings as sentences: what was found, what follows from it, what to do.
+
+use crate::propagate::{EvaluationError, FindingKind};
+
+use super::Report;
+use super::language::Language;
+use super::number::{aligned, freedom, grouped, significant};
+
+/// All findings and the budget's remarks, each one paragraph.
+pub(super) fn remarks(report: &Report<'_>) -> Vec<String> {
+    let several = report.evaluation.results.len() > 1;
+    let mut sentences = Vec::new();
+    for finding in &report.evaluation.findings {
+        let sentence = finding_sentence(report, finding.measurand, &finding.kind);
+        sentences.push(match finding.measurand {
+            Some(m) if several => report.language.pick(
+                format!("{}: {sentence}", report.measurand(m).0),
+                format!("{}：{sentence}", report.measurand(m).0),
+            ),
+            _ => sentence,
+        });
+    }
+    for remark in &report.budget.remarks {
+        sentences.push(report.language.pick(&remark.en, &remark.zh).clone());
+    }
+    sentences
+}
+
+/// A stable name of the kind, for machines.
+pub(super) fn code(kind: &FindingKind) -> &'static str {
+    match kind {
+        FindingKind::VanishingSensitivity { .. } => "vanishing_sensitivity",
+        FindingKind::SecondOrderMatters { .. } => "second_order_matters",
+        FindingKind::NotValidated => "not_validated",
+        FindingKind::NeedsMonteCarlo => "needs_monte_carlo",
+        FindingKind::MomentsMissing { .. } => "moments_missing",
+        FindingKind::FailedTrials { .. } => "failed_trials",
+        FindingKind::NotConverged { .. } => "not_converged",
+        FindingKind::FreedomRefused { .. } => "freedom_refused",
+        FindingKind::FewDegreesOfFreedom { .. } => "few_degrees_of_freedom",
+        FindingKind::Irregular { .. } => "irregular",
+        FindingKind::NearSingular { .. } => "near_singular",
+        FindingKind::Asymmetric => "asymmetric",
+    }
+}
+
+/// One finding in the report's language.
+pub(super) fn finding_sentence(
+    report: &Report<'_>,
+    measurand: Option<usize>,
+    kind: &FindingKind,
+) -> String {
+    match report.language {
+        Language::English => english(report, measurand, kind),
+        Language::Chinese => chinese(report, measurand, kind),
+    }
+}
+
+fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> String {
+    match kind {
+        FindingKind::VanishingSensitivity { input } => format!(
+            "The sensitivity coefficient of {input} is zero at the estimates although {input} is uncertain. The first-order budget does not see {input} at all and its u may be too small. Rely on the second-order terms and on Monte Carlo."
+        ),
+        FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
+            "The model is noticeably nonlinear over the uncertainties of its inputs: second-order terms move the estimate by {} and change u from {} to {}. Do not use the first-order figures alone.",
+            amount(report, measurand, significant(*shift, 2)),
+            significant(*u_first, 3),
+            amount(report, measurand, significant(*u_second, 3)),
+        ),
+        FindingKind::NotValidated => "The GUM result is not validated by Monte Carlo (JCGM 101, clause 8): its interval differs from the Monte Carlo interval by more than the tolerance. The statement therefore uses the Monte Carlo result.".to_string(),
+        FindingKind::NeedsMonteCarlo => "First order is doubtful for this budget and Monte Carlo was not run, so nothing checks the result. Run the evaluation with Monte Carlo before using it.".to_string(),
+        FindingKind::MomentsMissing { reason } => format!(
+            "The output has no mean or no standard deviation that could be stated: {reason}. Median and coverage interval are given instead. Check whether an input with very few degrees of freedom, or a divisor that may be zero, is meant."
+        ),
+        FindingKind::FailedTrials { failed, trials } => format!(
+            "In {} of {} Monte Carlo trials the model had no finite value (for example a division by zero or the root of a negative number). The results leave these trials out. Check whether the distributions of the inputs reach values that are physically impossible.",
+            grouped(*failed),
+            grouped(*trials),
+        ),
+        FindingKind::NotConverged { trials } => format!(
+            "The adaptive Monte Carlo procedure stopped at its maximum of {} trials before the results were stable to the numerical tolerance asked for. The last digit shown may change with the seed. Raise `max_trials` or ask for fewer digits.",
+            grouped(*trials),
+        ),
+        FindingKind::FreedomRefused { members, lower_bound } => format!(
+            "The effective degrees of freedom are not defined, because {} are correlated and have different finite degrees of freedom: the Welch–Satterthwaite formula is for independent terms. k is taken for the smallest of them, ν = {}, which makes U too large rather than too small. State a common `dof`, or replace the correlation by a shared source.",
+            Language::English.list(members),
+            freedom(*lower_bound),
+        ),
+        FindingKind::FewDegreesOfFreedom { dof } => format!(
+            "Only {} effective degrees of freedom: u itself is uncertain by about {} %, and k is large for this reason. More readings of the dominant input would lower U.",
+            freedom(*dof),
+            significant(100.0 / (2.0 * dof).sqrt(), 2),
+        ),
+        FindingKind::Irregular { what } => format!(
+            "The model is not smooth at the estimates: {what}. A derivative says little there, so the GUM figures may be wrong. Rely on Monte Carlo."
+        ),
+        FindingKind::NearSingular { what } => format!(
+            "The model comes close to a point where it has no value: {what}. The output may have very long tails, and neither u nor k then describes it well. Look at the coverage interval, and check the uncertainty of that quantity."
+        ),
+        FindingKind::Asymmetric => "The distribution of the output is asymmetric, so that the probabilistically symmetric and the shortest coverage interval differ. Do not write the result as estimate ± U; state the interval.".to_string(),
+    }
+}
+
+fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> String {
+    match kind {
+        FindingKind::VanishingSensitivity { input } => format!(
+            "{input} 存在不确定度，但在估计值处其灵敏系数为零，一阶 GUM 法完全反映不出 {input} 的影响，所得标准不确定度可能偏小。应以二阶项和蒙特卡洛法的结果为准。"
+        ),
+        FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
+            "在输入量的不确定度范围内，测量模型的非线性明显：二阶项使估计值移动 {}，标准不确定度由 {} 变为 {}。不应单独使用一阶结果。",
+            amount(report, measurand, significant(*shift, 2)),
+            significant(*u_first, 3),
+            amount(report, measurand, significant(*u_second, 3)),
+        ),
+        FindingKind::NotValidated => "GUM 法的结果未通过蒙特卡洛法验证（JJF 1059.2、JCGM 101 第 8 章）：两种包含区间的端点之差超过数值容差。证书用语因此采用蒙特卡洛法的结果。".to_string(),
+        FindingKind::NeedsMonteCarlo => "一阶近似对本评定是否适用存疑，而蒙特卡洛法未运行，结果没有得到验证。使用前应运行蒙特卡洛法。".to_string(),
+        FindingKind::MomentsMissing { reason } => format!(
+            "输出量的均值或标准差不存在或不收敛（{reason}），因此给出中位数和包含区间。请检查是否有自由度极小的输入量，或可能为零的除数。"
+        ),
+        FindingKind::FailedTrials { failed, trials } => format!(
+            "{} 次蒙特卡洛试验中有 {} 次模型没有有限值（例如除以零或对负数开方），这些试验未计入结果。请检查输入量的分布是否包含物理上不可能的值。",
+            grouped(*trials),
+            grouped(*failed),
+        ),
+        FindingKind::NotConverged { trials } => format!(
+            "自适应蒙特卡洛法达到最大试验次数 {} 时，结果仍未稳定到所要求的数值容差，末位数字可能随随机种子变化。请增大 `max_trials` 或减少要求的位数。",
+            grouped(*trials),
+        ),
+        FindingKind::FreedomRefused { members, lower_bound } => format!(
+            "{}相关且自由度（有限）各不相同，韦尔奇-萨特思韦特公式只适用于相互独立的分量，故有效自由度没有定义。k 按其中最小的自由度 ν = {} 取值，所得 U 偏大而不会偏小。请给出共同的 `dof`，或用共同来源代替相关系数。",
+            Language::Chinese.list(members),
+            freedom(*lower_bound),
+        ),
+        FindingKind::FewDegreesOfFreedom { dof } => format!(
+            "有效自由度仅为 {}：标准不确定度本身的相对不确定度约为 {} %，包含因子因此较大。增加主要输入量的重复测量次数可减小 U。",
+            freedom(*dof),
+            significant(100.0 / (2.0 * dof).sqrt(), 2),
+        ),
+        FindingKind::Irregular { what } => format!("测量模型在估计值处不光滑：{what}。此处的导数意义不大，GUM 法的结果可能不正确，应以蒙特卡洛法为准。"),
+        FindingKind::NearSingular { what } => format!(
+            "测量模型接近无定义的点：{what}。输出量的分布可能有很长的尾部，标准不确定度和包含因子不能很好地描述它。请看包含区间，并核对该量的不确定度。"
+        ),
+        FindingKind::Asymmetric => "输出量的分布不对称，概率对称包含区间与最短包含区间不同。不要写成估计值 ± U 的形式，应给出包含区间。".to_string(),
+    }
+}
+
+/// An amount in the unit of the measurand's differences.
+fn amount(report: &Report<'_>, measurand: Option<usize>, number: String) -> String {
+    let unit = measurand
+        .map(|m| super::difference_symbol(report.measurand(m).1))
+        .unwrap_or_default();
+    if unit.is_empty() {
+        number
+    } else {
+        format!("{number} {unit}")
+    }
+}
+
+/// Why a budget could not be evaluated, and what to do.
+pub fn failure(error: &EvaluationError, language: Language) -> String {
+    match (error, language) {
+        (EvaluationError::NoValue { measurand }, Language::English) => format!(
+            "The model of {measurand} has no finite value at the estimates of its inputs (for example a division by zero or the root of a negative number). Check the estimates and the formula."
+        ),
+        (EvaluationError::NoValue { measurand }, Language::Chinese) => {
+            format!(
+                "在输入量的估计值处，{measurand} 的测量模型没有有限值（例如除以零或对负数开方）。请核对估计值和公式。"
+            )
+        }
+        (EvaluationError::NoDerivative { measurand, input }, Language::English) => format!(
+            "The model of {measurand} has no finite derivative with respect to {input} at the estimates, so the GUM method cannot be used, and Monte Carlo was switched off. Run the evaluation with Monte Carlo."
+        ),
+        (EvaluationError::NoDerivative { measurand, input }, Language::Chinese) => {
+            format!(
+                "在估计值处，{measurand} 的测量模型对 {input} 的导数不是有限值，GUM 法不适用，而蒙特卡洛法被关闭。请运行蒙特卡洛法。"
+            )
+        }
+        (EvaluationError::AllTrialsFailed { measurand }, Language::English) => format!(
+            "Not one Monte Carlo trial gave a finite value of {measurand}. Check the distributions of the inputs and the formula."
+        ),
+        (EvaluationError::AllTrialsFailed { measurand }, Language::Chinese) => {
+            format!("所有蒙特卡洛试验都没有得到 {measurand} 的有限值。请核对输入量的分布和公式。")
+        }
+    }
+}
+
+/// The bound that clause 8 compares with, for a table: `δ = 0.0005`.
+pub(super) fn tolerance(delta: f64) -> String {
+    aligned(delta, delta, 1)
+}

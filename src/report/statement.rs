@@ -1,0 +1,419 @@
+//! The sentence for the certificate, per profile and per basis.
+//!
+//! U goes to one or two significant digits and y to the same last place (GUM 7.2.6, ILAC-P14). A
+//! result that rests on Monte Carlo states its coverage interval, and never a half-width that would
+//! pretend symmetry.
+
+use crate::budget::{Conventions, CoverageRule};
+use crate::distribution::KINDS;
+use crate::propagate::{Basis, Coverage, CoverageBasis, FindingKind, Freedom, MonteCarlo};
+use crate::quantity::{Decimal, Rounded, RoundingRule, Unit, space_before};
+
+use super::language::Language;
+use super::number::{
+    NONE, STYLE, at_place, exact, freedom, grouped, print, probability, significant,
+};
+use super::{Report, difference_symbol, symbol};
+
+/// One sentence (or a few) per measurand, and one for the correlation of several.
+pub fn statement(report: &Report<'_>) -> Vec<String> {
+    let mut sentences: Vec<String> = (0..report.evaluation.results.len())
+        .map(|m| of_measurand(report, m))
+        .collect();
+    sentences.extend(correlations(report));
+    sentences
+}
+
+fn of_measurand(report: &Report<'_>, measurand: usize) -> String {
+    let result = &report.evaluation.results[measurand];
+    let subject = Subject::new(report, measurand);
+    match (result.basis, &result.monte_carlo) {
+        (Basis::MonteCarlo, Some(monte_carlo)) => subject.monte_carlo_sentence(monte_carlo),
+        _ => subject.gum_sentence(
+            result.gum.estimate,
+            result.gum.u,
+            &result.gum.coverage,
+            &result.gum.freedom,
+        ),
+    }
+}
+
+/// What a sentence about one measurand needs.
+struct Subject<'a> {
+    report: &'a Report<'a>,
+    measurand: usize,
+    name: &'a str,
+    unit: &'a Unit,
+    conventions: &'a Conventions,
+    language: Language,
+}
+
+/// How a profile writes result and uncertainty.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    /// `y = (… ± …) unit`.
+    PlusMinus,
+    /// `y = … unit, U = … unit, k = …` (JJF 1059.1 5.3; a lone uncertainty carries no sign).
+    Apart,
+}
+
+impl<'a> Subject<'a> {
+    fn new(report: &'a Report<'a>, measurand: usize) -> Self {
+        let (name, unit) = report.measurand(measurand);
+        Subject {
+            report,
+            measurand,
+            name,
+            unit,
+            conventions: &report.budget.conventions,
+            language: report.language,
+        }
+    }
+
+    fn form(&self) -> Form {
+        let apart = ["JJF", "CNAS"]
+            .iter()
+            .any(|p| self.conventions.profile.starts_with(p));
+        if apart || !self.conventions.state_probability {
+            Form::Apart
+        } else {
+            Form::PlusMinus
+        }
+    }
+
+    fn gum_sentence(&self, estimate: f64, u: f64, coverage: &Coverage, dof: &Freedom) -> String {
+        let expanded = coverage.expanded;
+        if expanded == 0.0 || !expanded.is_finite() {
+            return self.without_uncertainty(estimate);
+        }
+        let pair = rule(self.conventions).align(estimate, expanded);
+        let u = self.small(u);
+        let k = self.factor(coverage);
+        match self.form() {
+            Form::PlusMinus => {
+                let space = self.language.pick(" ", "");
+                format!(
+                    "{}{space}{}",
+                    self.equation(&pair),
+                    self.explained(&self.amount(&pair.uncertainty), &u, &k, coverage, dof)
+                )
+            }
+            Form::Apart => self.apart(&pair, &u, &k, coverage, dof),
+        }
+    }
+
+    /// `I = (9.9990 ± 0.0017) mA.`
+    fn equation(&self, pair: &Rounded) -> String {
+        format!(
+            "{} = {}{}",
+            self.name,
+            pair.plus_minus_unit(&self.unit.symbol, STYLE),
+            self.language.pick(".", "。")
+        )
+    }
+
+    fn explained(
+        &self,
+        expanded: &str,
+        u: &str,
+        k: &str,
+        coverage: &Coverage,
+        dof: &Freedom,
+    ) -> String {
+        let reason = self.reason(k, coverage, dof);
+        match self.language {
+            Language::English => format!(
+                "The number after ± is the expanded uncertainty U = {expanded}, the combined standard uncertainty u_c = {u} times the coverage factor k = {k}{reason}."
+            ),
+            Language::Chinese => format!(
+                "其中 ± 号后的数为扩展不确定度 U = {expanded}，由合成标准不确定度 u_c = {u} 乘以包含因子 k = {k} 得到{reason}。"
+            ),
+        }
+    }
+
+    /// Why k has this value, and what it covers.
+    fn reason(&self, k: &str, coverage: &Coverage, dof: &Freedom) -> String {
+        let p = probability(self.stated_probability(coverage));
+        match (&coverage.basis, self.language) {
+            (CoverageBasis::Fixed, _) if !self.conventions.state_probability => String::new(),
+            (CoverageBasis::Normal, Language::English) => {
+                format!(
+                    ", which for a normal distribution corresponds to a coverage probability of about {p}"
+                )
+            }
+            (CoverageBasis::Normal, Language::Chinese) => {
+                format!("；对于正态分布，包含概率约为 {p}")
+            }
+            (CoverageBasis::StudentT { dof: used }, Language::English) => format!(
+                ", which for a t-distribution with ν_eff {} effective degrees of freedom corresponds to a coverage probability of about {p}",
+                shown_freedom(*used, dof),
+            ),
+            (CoverageBasis::StudentT { dof: used }, Language::Chinese) => {
+                format!(
+                    "；按有效自由度 ν_eff {} 的 t 分布，包含概率约为 {p}",
+                    shown_freedom(*used, dof)
+                )
+            }
+            (CoverageBasis::Output { dominant, shape }, Language::English) => format!(
+                ", found from the assumed {shape} distribution of the result, in which {} dominate{}, for a coverage probability of {p}",
+                self.language.list(dominant),
+                if dominant.len() == 1 { "s" } else { "" },
+            ),
+            (CoverageBasis::Output { dominant, shape }, Language::Chinese) => format!(
+                "；{} 占优势，被测量的分布按{}处理，k = {k} 对应的包含概率为 {p}",
+                self.language.list(dominant),
+                shape_in_chinese(shape),
+            ),
+            (CoverageBasis::Fixed, Language::English) => {
+                format!(", a fixed factor, for which the coverage probability is about {p}")
+            }
+            (CoverageBasis::Fixed, Language::Chinese) => format!("；k 取约定值，包含概率约为 {p}"),
+        }
+    }
+
+    /// `y = …, U = …, k = 2` or, where p is stated, `U_95 = …, k_95 = 2.26, ν_eff = 9`.
+    fn apart(
+        &self,
+        pair: &Rounded,
+        u: &str,
+        k: &str,
+        coverage: &Coverage,
+        dof: &Freedom,
+    ) -> String {
+        let name = self.name;
+        let (y, expanded) = (self.value(&pair.estimate), self.amount(&pair.uncertainty));
+        let index = if self.names_probability(coverage) {
+            format!(
+                "_{}",
+                probability(self.stated_probability(coverage)).trim_end_matches(" %")
+            )
+        } else {
+            String::new()
+        };
+        let nu = match &coverage.basis {
+            CoverageBasis::StudentT { dof: used } => {
+                format!(", ν_eff {}", shown_freedom(*used, dof))
+            }
+            _ => String::new(),
+        };
+        let shape = match (&coverage.basis, self.language) {
+            (CoverageBasis::Output { dominant, shape }, Language::English) => {
+                format!(
+                    " k was found from the {shape} distribution that {} give{} the result.",
+                    self.language.list(dominant),
+                    if dominant.len() == 1 { "s" } else { "" }
+                )
+            }
+            (CoverageBasis::Output { dominant, shape }, Language::Chinese) => {
+                format!(
+                    "{} 占优势，k 按{}确定。",
+                    self.language.list(dominant),
+                    shape_in_chinese(shape)
+                )
+            }
+            _ => String::new(),
+        };
+        match self.language {
+            Language::English => format!(
+                "{name} = {y}; U{index} = {expanded}, k{index} = {k}{nu}. The expanded uncertainty is the combined standard uncertainty u_c = {u} multiplied by the coverage factor.{shape}"
+            ),
+            Language::Chinese => format!(
+                "{name} = {y}；U{index} = {expanded}，k{index} = {k}{}。扩展不确定度由合成标准不确定度 u_c = {u} 乘以包含因子得到。{shape}",
+                nu.replace(", ", "，"),
+            ),
+        }
+    }
+
+    /// With k fixed at 2 or 3, p need not be stated (JJF 1059.1 5.3); with a k found for p it must be.
+    fn names_probability(&self, coverage: &Coverage) -> bool {
+        self.conventions.state_probability || coverage.basis != CoverageBasis::Fixed
+    }
+
+    /// For a fixed k the probability that it happens to have, to the whole percent.
+    fn stated_probability(&self, coverage: &Coverage) -> f64 {
+        match coverage.basis {
+            CoverageBasis::Fixed => (coverage.probability * 100.0).round() / 100.0,
+            _ => coverage.probability,
+        }
+    }
+
+    /// k as the profile states it: a fixed one as it was given, others to two decimals.
+    fn factor(&self, coverage: &Coverage) -> String {
+        match (&coverage.basis, self.conventions.coverage_factor) {
+            (CoverageBasis::Fixed, CoverageRule::Fixed(k)) => exact(k),
+            _ => two_decimals(coverage.k),
+        }
+    }
+
+    fn monte_carlo_sentence(&self, monte_carlo: &MonteCarlo) -> String {
+        let shortest = self
+            .report
+            .finds(self.measurand, |kind| *kind == FindingKind::Asymmetric);
+        let interval = if shortest {
+            monte_carlo.shortest
+        } else {
+            monte_carlo.symmetric
+        };
+        let p = probability(self.report.coverage_probability());
+        let which = match (shortest, self.language) {
+            (true, Language::English) => "shortest",
+            (true, Language::Chinese) => "最短",
+            (false, Language::English) => "probabilistically symmetric",
+            (false, Language::Chinese) => "概率对称",
+        };
+        let scale = monte_carlo.u.unwrap_or((interval[1] - interval[0]) / 4.0);
+        let centre = monte_carlo.estimate.unwrap_or(monte_carlo.median);
+        if scale <= 0.0 || !scale.is_finite() {
+            return self.without_uncertainty(centre);
+        }
+        let rule = rule(self.conventions);
+        let pair = rule.align(centre, scale);
+        let [low, high] = interval.map(|end| self.value(&rule.to_place_of(&pair, end)));
+        let value = self.value(&pair.estimate);
+        let trials = self
+            .report
+            .evaluation
+            .run
+            .as_ref()
+            .map_or(0, |run| run.trials);
+        let trials = grouped(trials);
+        let name = self.name;
+        match (monte_carlo.u, self.language) {
+            (Some(_), Language::English) => format!(
+                "{name}: estimate {value}, standard uncertainty u = {u}, {which} {p} coverage interval from {low} to {high}. These figures were found by the Monte Carlo method with {trials} trials, because the distribution of the result is not one for which an estimate with a symmetric expanded uncertainty would be right.",
+                u = self.amount(&pair.uncertainty),
+            ),
+            (Some(_), Language::Chinese) => format!(
+                "{name}：估计值 {value}，标准不确定度 u = {u}，包含概率 {p} 的{which}包含区间为 {low} 至 {high}。以上结果由蒙特卡洛法（{trials} 次试验）得到，因为该输出量的分布不适合用估计值加对称的扩展不确定度表示。",
+                u = self.amount(&pair.uncertainty),
+            ),
+            (None, Language::English) => format!(
+                "{name}: median {value}, {which} {p} coverage interval from {low} to {high}, found by the Monte Carlo method with {trials} trials. No standard uncertainty is stated, because the distribution of the result has none."
+            ),
+            (None, Language::Chinese) => format!(
+                "{name}：中位数 {value}，包含概率 {p} 的{which}包含区间为 {low} 至 {high}，由蒙特卡洛法（{trials} 次试验）得到。该分布的标准差不存在，故不给出标准不确定度。"
+            ),
+        }
+    }
+
+    fn without_uncertainty(&self, estimate: f64) -> String {
+        let value = with_unit(&exact(estimate), &symbol(self.unit));
+        match self.language {
+            Language::English => format!(
+                "{} = {value}. No uncertainty can be stated: the evaluation gives none.",
+                self.name
+            ),
+            Language::Chinese => format!(
+                "{} = {value}。本评定未得到不确定度，无法给出扩展不确定度。",
+                self.name
+            ),
+        }
+    }
+
+    /// A value of the measurand with its unit.
+    fn value(&self, number: &Decimal) -> String {
+        with_unit(&print(number), &symbol(self.unit))
+    }
+
+    /// A lone uncertainty with its unit.
+    fn amount(&self, number: &Decimal) -> String {
+        with_unit(&print(number), &difference_symbol(self.unit))
+    }
+
+    /// A standard uncertainty beside U: two digits whatever the profile says about U.
+    fn small(&self, u: f64) -> String {
+        with_unit(&significant(u, 2), &difference_symbol(self.unit))
+    }
+}
+
+/// ν as it was used for k; a lower bound where ν_eff is not defined.
+fn shown_freedom(used: f64, found: &Freedom) -> String {
+    let relation = if matches!(found, Freedom::Refused { .. }) {
+        "≥"
+    } else {
+        "="
+    };
+    format!("{relation} {}", freedom(used))
+}
+
+fn two_decimals(k: f64) -> String {
+    print(&at_place(k, -2))
+}
+
+/// The Chinese name of a shape that [`CoverageBasis::Output`] names in English.
+pub(super) fn shape_in_chinese(shape: &str) -> String {
+    let known = KINDS.iter().find(|k| k.name_en == shape || k.key == shape);
+    known.map_or_else(|| shape.to_string(), |k| k.name_zh.to_string())
+}
+
+fn with_unit(number: &str, unit: &str) -> String {
+    match unit {
+        "" => number.to_string(),
+        _ => format!("{number}{}{unit}", space_before(unit)),
+    }
+}
+
+/// How the profile rounds U and y.
+fn rule(conventions: &Conventions) -> RoundingRule {
+    RoundingRule {
+        digits: conventions.digits,
+        rounding: conventions.rounding,
+        up_if_lowered_by_5_percent: conventions.up_if_lowered_by_5_percent,
+    }
+}
+
+fn correlations(report: &Report<'_>) -> Option<String> {
+    let joint = report.evaluation.joint.as_ref()?;
+    let from_trials = report
+        .evaluation
+        .results
+        .iter()
+        .any(|r| r.basis == Basis::MonteCarlo);
+    let matrix = match &joint.monte_carlo_correlation {
+        Some(matrix) if from_trials => matrix,
+        _ => &joint.correlation,
+    };
+    let n = report.evaluation.results.len();
+    let mut pairs = Vec::new();
+    for i in 0..n {
+        for j in i + 1..n {
+            if let Some(r) = matrix.get((i, j)) {
+                pairs.push(format!(
+                    "r({}, {}) = {}",
+                    report.measurand(i).0,
+                    report.measurand(j).0,
+                    coefficient(*r)
+                ));
+            }
+        }
+    }
+    /// More pairs belong in a table.
+    const MOST: usize = 10;
+    if pairs.is_empty() {
+        return None;
+    }
+    if pairs.len() > MOST {
+        return Some(match report.language {
+            Language::English => "The estimates are correlated; the correlation coefficients are given in the table of the joint result.".to_string(),
+            Language::Chinese => "各估计值相关，相关系数见联合结果表。".to_string(),
+        });
+    }
+    Some(match report.language {
+        Language::English => format!("Correlation of the estimates: {}.", pairs.join(", ")),
+        Language::Chinese => format!("各估计值之间的相关系数：{}。", pairs.join("，")),
+    })
+}
+
+/// A correlation coefficient: two decimals, more digits near ±1 (GUM 7.2.6).
+pub(super) fn coefficient(r: f64) -> String {
+    let place = if r.abs() < 0.9 || r.abs() == 1.0 {
+        -2
+    } else {
+        ((1.0 - r.abs()).log10().floor() as i32 - 1).clamp(-6, -3)
+    };
+    if r.is_finite() {
+        at_place(r, place).print_plain(STYLE)
+    } else {
+        NONE.to_string()
+    }
+}

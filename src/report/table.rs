@@ -1,0 +1,406 @@
+//! Tables: one description, fitted to a terminal's width or left natural for Markdown.
+
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
+
+/// Spaces between columns, and what is left of them on a narrow page.
+const GAP: usize = 2;
+const NARROW_GAP: usize = 1;
+
+/// A table.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Table {
+    pub(super) columns: Vec<Column>,
+    pub(super) rows: Vec<Row>,
+}
+
+/// A column: its head and how it behaves.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Column {
+    pub(super) head: String,
+    pub(super) kind: ColumnKind,
+}
+
+/// How a column is set, and what it gives up when the page is narrow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum ColumnKind {
+    /// Words, to the left; cut with an ellipsis when there is no other way.
+    Words,
+    /// Numbers, to the right; never cut.
+    Numbers,
+    /// Words, to the left, on several lines when the page is narrow.
+    Wrapped,
+    /// A bar for a share; narrowed first, then dropped.
+    Bar,
+}
+
+/// A line of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Row {
+    /// One cell per column; missing ones are empty.
+    Cells(Vec<Cell>),
+    /// A line across.
+    Rule,
+    /// Words that run over all columns.
+    Across(String),
+}
+
+/// The content of one place.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Cell {
+    /// Words or a number.
+    Text(String),
+    /// A part of the row above.
+    Part(String),
+    /// A share of one, drawn as a bar.
+    Share(f64),
+    /// Nothing.
+    Empty,
+}
+
+impl<T: Into<String>> From<T> for Cell {
+    fn from(text: T) -> Self {
+        Cell::Text(text.into())
+    }
+}
+
+impl Table {
+    /// A table without rows.
+    pub(super) fn new<const N: usize>(columns: [(&str, ColumnKind); N]) -> Self {
+        let columns = columns
+            .into_iter()
+            .map(|(head, kind)| Column {
+                head: head.to_string(),
+                kind,
+            })
+            .collect();
+        Table {
+            columns,
+            rows: Vec::new(),
+        }
+    }
+
+    /// Adds a row of cells.
+    pub(super) fn push(&mut self, cells: Vec<Cell>) {
+        self.rows.push(Row::Cells(cells));
+    }
+
+    /// Drops the columns in which no row has anything.
+    pub(super) fn without_empty_columns(mut self) -> Self {
+        for i in (0..self.columns.len()).rev() {
+            let blank = |row: &Row| match row {
+                Row::Cells(cells) => cells
+                    .get(i)
+                    .is_none_or(|c| *c == Cell::Empty || *c == Cell::Text(String::new())),
+                Row::Rule | Row::Across(_) => true,
+            };
+            if !self.rows.iter().all(blank) {
+                continue;
+            }
+            self.columns.remove(i);
+            for row in &mut self.rows {
+                if let Row::Cells(cells) = row
+                    && i < cells.len()
+                {
+                    cells.remove(i);
+                }
+            }
+        }
+        self
+    }
+
+    /// The lines of the table within `width` columns of the terminal where that is possible: the
+    /// head, a rule, the rows.
+    pub(super) fn lines(&self, width: usize) -> Vec<String> {
+        let (widths, gap) = self.fitted(width);
+        let full = total(&widths, gap);
+        let rule = "─".repeat(full);
+        let mut lines = Vec::with_capacity(self.rows.len() + 2);
+        if self.columns.iter().any(|c| !c.head.is_empty()) {
+            let heads: Vec<Cell> = self
+                .columns
+                .iter()
+                .map(|c| Cell::Text(c.head.clone()))
+                .collect();
+            self.draw(&heads, &widths, gap, &mut lines);
+            lines.push(rule.clone());
+        }
+        for row in &self.rows {
+            match row {
+                Row::Cells(cells) => self.draw(cells, &widths, gap, &mut lines),
+                Row::Rule => lines.push(rule.clone()),
+                Row::Across(text) => lines.extend(wrapped(text, full.max(40).min(width))),
+            }
+        }
+        lines
+    }
+
+    fn natural(&self) -> Vec<usize> {
+        let mut widths: Vec<usize> = self.columns.iter().map(|c| c.head.width()).collect();
+        for row in &self.rows {
+            let Row::Cells(cells) = row else { continue };
+            for (width, cell) in widths.iter_mut().zip(cells) {
+                *width = (*width).max(cell.width());
+            }
+        }
+        widths
+    }
+
+    /// Column widths and gap that fit the page; a width of zero drops a column. What gives way, in
+    /// this order: bars, space between columns, wrapped words, other words.
+    fn fitted(&self, page: usize) -> (Vec<usize>, usize) {
+        let mut widths = self.natural();
+        for gap in [GAP, NARROW_GAP] {
+            let mut with_bars = widths.clone();
+            self.shrink(ColumnKind::Bar, SHORTEST_BAR, page, gap, &mut with_bars);
+            if total(&with_bars, gap) <= page {
+                return (with_bars, gap);
+            }
+        }
+        for (width, column) in widths.iter_mut().zip(&self.columns) {
+            if column.kind == ColumnKind::Bar {
+                *width = 0;
+            }
+        }
+        self.shrink(ColumnKind::Wrapped, 24, page, GAP, &mut widths);
+        if total(&widths, GAP) <= page {
+            return (widths, GAP);
+        }
+        self.shrink(ColumnKind::Words, 5, page, NARROW_GAP, &mut widths);
+        (widths, NARROW_GAP)
+    }
+
+    /// Takes from the widest columns of a kind until the table fits or they are down to `least`.
+    fn shrink(
+        &self,
+        kind: ColumnKind,
+        least: usize,
+        page: usize,
+        gap: usize,
+        widths: &mut [usize],
+    ) {
+        while total(widths, gap) > page {
+            let widest = (0..widths.len())
+                .filter(|i| self.columns[*i].kind == kind)
+                .max_by_key(|i| widths[*i]);
+            let Some(i) = widest.filter(|i| widths[*i] > least) else {
+                return;
+            };
+            widths[i] -= 1;
+        }
+    }
+
+    fn draw(&self, cells: &[Cell], widths: &[usize], gap: usize, lines: &mut Vec<String>) {
+        let mut columns: Vec<(usize, ColumnKind, Vec<String>)> = Vec::with_capacity(widths.len());
+        for (i, (column, width)) in self.columns.iter().zip(widths).enumerate() {
+            if *width > 0 {
+                let cell = cells.get(i).unwrap_or(&Cell::Empty);
+                columns.push((*width, column.kind, cell.set(column.kind, *width)));
+            }
+        }
+        let height = columns
+            .iter()
+            .map(|(_, _, set)| set.len())
+            .max()
+            .unwrap_or(0);
+        for h in 0..height {
+            let parts: Vec<String> = columns
+                .iter()
+                .map(|(width, kind, set)| {
+                    let text = set.get(h).map_or("", String::as_str);
+                    let space = " ".repeat(width.saturating_sub(text.width()));
+                    if *kind == ColumnKind::Numbers {
+                        format!("{space}{text}")
+                    } else {
+                        format!("{text}{space}")
+                    }
+                })
+                .collect();
+            lines.push(parts.join(&" ".repeat(gap)).trim_end().to_string());
+        }
+    }
+}
+
+/// Width of a table with these columns.
+fn total(widths: &[usize], gap: usize) -> usize {
+    widths
+        .iter()
+        .filter(|w| **w > 0)
+        .map(|w| w + gap)
+        .sum::<usize>()
+        .saturating_sub(gap)
+}
+
+/// Natural width of a bar, and the least that still says something.
+const BAR: usize = 10;
+const SHORTEST_BAR: usize = 4;
+
+impl Cell {
+    fn width(&self) -> usize {
+        match self {
+            Cell::Text(text) => text.width(),
+            Cell::Part(text) => text.width() + 2,
+            Cell::Share(_) => BAR,
+            Cell::Empty => 0,
+        }
+    }
+
+    /// The cell's lines in a column of this width.
+    fn set(&self, kind: ColumnKind, width: usize) -> Vec<String> {
+        let text = match self {
+            Cell::Text(text) => text.clone(),
+            Cell::Part(text) => format!("  {text}"),
+            Cell::Share(share) => bar(*share, width),
+            Cell::Empty => String::new(),
+        };
+        match kind {
+            ColumnKind::Words => vec![cut(&text, width)],
+            ColumnKind::Wrapped => wrapped(&text, width),
+            ColumnKind::Numbers | ColumnKind::Bar => vec![text],
+        }
+    }
+}
+
+/// A bar of eighths of a character; a share that is not between nothing and all fills what it can.
+pub(super) fn bar(share: f64, width: usize) -> String {
+    const EIGHTHS: [&str; 8] = ["", "▏", "▎", "▍", "▌", "▋", "▊", "▉"];
+    let units = (share.clamp(0.0, 1.0) * 8.0 * width as f64).round() as usize;
+    format!("{}{}", "█".repeat(units / 8), EIGHTHS[units % 8])
+}
+
+/// The text cut to a width, with an ellipsis where something is missing.
+fn cut(text: &str, width: usize) -> String {
+    if text.width() <= width {
+        return text.to_string();
+    }
+    let mut kept = String::new();
+    for c in text.chars() {
+        if kept.width() + c.width().unwrap_or(0) + 1 > width {
+            break;
+        }
+        kept.push(c);
+    }
+    kept.push('…');
+    kept
+}
+
+/// The text on lines of at most `width`, broken at spaces and between Chinese characters; a single
+/// word that is longer stands alone on its line.
+pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut line = String::new();
+    for piece in pieces(text) {
+        if !line.is_empty() && line.width() + piece.trim_end().width() > width {
+            lines.push(line.trim_end().to_string());
+            line.clear();
+        }
+        line.push_str(piece);
+    }
+    lines.push(line.trim_end().to_string());
+    lines
+}
+
+/// Smallest parts that stay on one line: words with the space after them, single wide characters
+/// with the punctuation that must not begin a line.
+fn pieces(text: &str) -> Vec<&str> {
+    let mut cuts = vec![0];
+    let mut before = [' '; 2];
+    for (i, c) in text.char_indices() {
+        if i > 0 && may_break(before, c) {
+            cuts.push(i);
+        }
+        before = [before[1], c];
+    }
+    cuts.push(text.len());
+    cuts.dedup();
+    cuts.windows(2).map(|w| &text[w[0]..w[1]]).collect()
+}
+
+/// Whether a line may end before `next`. `U = 0.12`, `1 000 000` and `95 %` stay together.
+fn may_break([second, last]: [char; 2], next: char) -> bool {
+    const ENDS: &str = "，。；：、）”！？)";
+    const BINDS: &str = "=±≈<≤/";
+    if last == ' ' {
+        let number = second.is_ascii_digit() && (next.is_ascii_digit() || next == '%');
+        return next != ' ' && !number && !BINDS.contains(next) && !BINDS.contains(second);
+    }
+    (is_wide(last) || is_wide(next))
+        && next != ' '
+        && last != '（'
+        && last != '“'
+        && !ENDS.contains(next)
+}
+
+fn is_wide(c: char) -> bool {
+    c.width() == Some(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample() -> Table {
+        let mut table = Table::new([
+            ("quantity", ColumnKind::Words),
+            ("u", ColumnKind::Numbers),
+            ("how", ColumnKind::Wrapped),
+            ("", ColumnKind::Bar),
+        ]);
+        table.push(vec![
+            "V".into(),
+            "0.12".into(),
+            "half-width of the interval divided by the root of three".into(),
+            Cell::Share(0.5),
+        ]);
+        table.push(vec![
+            Cell::Part("校准".to_string()),
+            "1.5".into(),
+            "U/k".into(),
+            Cell::Share(1.0),
+        ]);
+        table.rows.push(Row::Rule);
+        table
+    }
+
+    #[test]
+    fn keeps_every_column_on_a_wide_page() {
+        let lines = sample().lines(100);
+        assert_eq!(
+            lines[2],
+            "V         0.12  half-width of the interval divided by the root of three  █████"
+        );
+        assert_eq!(
+            lines[3],
+            "  校准     1.5  U/k                                                      ██████████"
+        );
+    }
+
+    #[test]
+    fn a_narrow_page_drops_the_bar_and_wraps_words() {
+        let lines = sample().lines(44);
+        assert!(lines.iter().all(|l| l.width() <= 44), "{lines:#?}");
+        assert!(lines.iter().all(|l| !l.contains('█')));
+        assert!(
+            lines
+                .iter()
+                .any(|l| l.trim() == "divided by the root of three"),
+            "{lines:#?}"
+        );
+    }
+
+    #[test]
+    fn bars_have_eighths() {
+        assert_eq!(bar(1.0, 4), "████");
+        assert_eq!(bar(0.53, 4), "██▏");
+        assert_eq!(bar(-0.2, 4), "");
+        assert_eq!(bar(1.7, 2), "██");
+    }
+
+    #[test]
+    fn chinese_breaks_between_characters_but_not_before_a_stop() {
+        assert_eq!(
+            wrapped("扩展不确定度。包含因子", 12),
+            ["扩展不确定", "度。包含因子"]
+        );
+        assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
+    }
+}

@@ -5,6 +5,8 @@
 mod claims;
 mod covariance;
 mod coverage;
+#[cfg(test)]
+mod draft;
 mod findings;
 mod freedom;
 mod gum;
@@ -12,6 +14,8 @@ mod joint;
 mod monte_carlo;
 mod second_order;
 mod shape;
+#[cfg(test)]
+mod tests;
 mod validation;
 
 pub use claims::{Comparison, Method, compare_claims};
@@ -39,10 +43,12 @@ pub struct Evaluation {
 /// Both methods for one measurand.
 #[derive(Debug, Clone)]
 pub struct MeasurandResult {
+    /// First order.
     pub gum: Gum,
     /// `None` when the model is linear in all uncertain inputs, and when the second-order terms are
     /// no correction (not finite, or larger than the variance they are to correct).
     pub second_order: Option<SecondOrder>,
+    /// `None` when Monte Carlo was not run.
     pub monte_carlo: Option<MonteCarlo>,
     /// GUM-S1 clause 8 for two and for one significant digit of u(y); `None` without Monte Carlo.
     pub validation: Option<[Validation; 2]>,
@@ -70,7 +76,9 @@ pub struct Gum {
     pub inputs: Vec<Contribution>,
     /// One per component, in the order of the budget: coefficient = Σ over inputs of c_i·a_ij.
     pub components: Vec<Contribution>,
+    /// ν_eff.
     pub freedom: Freedom,
+    /// k, U and the interval.
     pub coverage: Coverage,
 }
 
@@ -101,7 +109,9 @@ pub enum Freedom {
     /// Not defined: `members` are correlated and have different ν. `lower_bound` is ν_eff with the
     /// smallest of their ν for all of them, used for a conservative k.
     Refused {
+        /// A substitute for ν_eff, no bound where the members cancel one another.
         lower_bound: f64,
+        /// Names of the components.
         members: Vec<String>,
     },
 }
@@ -120,7 +130,9 @@ impl Freedom {
 /// k, U and the interval of the GUM.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Coverage {
+    /// Coverage factor.
     pub k: f64,
+    /// Where k came from.
     pub basis: CoverageBasis,
     /// p for which k was found; for a fixed k the p that it has for the output's distribution.
     pub probability: f64,
@@ -134,14 +146,18 @@ pub struct Coverage {
 /// Where k came from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CoverageBasis {
+    /// Normal distribution, ν_eff is infinite or plays no part.
     Normal,
     /// t with these degrees of freedom, truncated or not as the conventions say.
     StudentT {
+        /// ν as it entered t.
         dof: f64,
     },
     /// Distribution of the linearised output: the named components dominate.
     Output {
+        /// Names of the components, the largest first.
         dominant: Vec<String>,
+        /// Name of their distribution.
         shape: &'static str,
     },
     /// The profile or file fixes it.
@@ -166,12 +182,15 @@ pub struct MonteCarlo {
     pub estimate: Option<f64>,
     /// Standard deviation; likewise.
     pub u: Option<f64>,
+    /// Median; exists always.
     pub median: f64,
     /// Probabilistically symmetric p-interval (JCGM 101 7.7.2, 5.3.3).
     pub symmetric: [f64; 2],
     /// Shortest p-interval (5.3.4).
     pub shortest: [f64; 2],
+    /// γ₁; `None` when the moments do not exist.
     pub skewness: Option<f64>,
+    /// γ₂, zero for a normal distribution; likewise.
     pub excess_kurtosis: Option<f64>,
     /// Standard error of estimate, u and the two symmetric endpoints (batch method).
     pub standard_errors: [f64; 4],
@@ -184,16 +203,22 @@ pub struct MonteCarlo {
 /// Counts in equal bins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Histogram {
+    /// Left edge of the first bin.
     pub start: f64,
+    /// Width of a bin.
     pub width: f64,
+    /// Trials in each bin.
     pub counts: Vec<u64>,
 }
 
 /// How the Monte Carlo method was run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
+    /// Trials that were run.
     pub trials: u64,
+    /// Seed of the random numbers.
     pub seed: u64,
+    /// p of the intervals.
     pub coverage_probability: f64,
     /// For an adaptive run: procedure, δ of each measurand, whether it was reached.
     pub adaptive: Option<AdaptiveRun>,
@@ -202,10 +227,13 @@ pub struct Run {
 /// What an adaptive run reached.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AdaptiveRun {
+    /// Which procedure.
     pub procedure: Adaptive,
+    /// Significant digits of u(y) that were to be stable.
     pub digits: u8,
     /// Numerical tolerance of each measurand (JCGM 101 7.9.2).
     pub delta: Vec<f64>,
+    /// Whether all results were stable before the maximum of trials.
     pub reached: bool,
 }
 
@@ -216,8 +244,11 @@ pub struct Validation {
     pub digits: u8,
     /// δ = ½·10^l.
     pub delta: f64,
+    /// |y − U_p − y_low|.
     pub d_low: f64,
+    /// |y + U_p − y_high|.
     pub d_high: f64,
+    /// Whether neither difference exceeds δ.
     pub validated: bool,
 }
 
@@ -226,9 +257,11 @@ pub struct Validation {
 pub struct JointResult {
     /// Covariance and correlation of the outputs, GUM.
     pub covariance: DMatrix<f64>,
+    /// Correlation coefficients, GUM.
     pub correlation: DMatrix<f64>,
     /// The same from Monte Carlo; `None` when not run or moments do not exist.
     pub monte_carlo_covariance: Option<DMatrix<f64>>,
+    /// Correlation coefficients, Monte Carlo.
     pub monte_carlo_correlation: Option<DMatrix<f64>>,
     /// ν of the covariance matrix (Willink–Hall), infinite when all are.
     pub dof: Freedom,
@@ -236,6 +269,7 @@ pub struct JointResult {
     pub k_ellipsoid: f64,
     /// k_q of the hyper-rectangle (JCGM 102 6.5.3): simultaneous intervals y_j ± k_q u_j.
     pub k_rectangle: f64,
+    /// Regions from Monte Carlo; `None` when not run or not defined.
     pub regions: Option<Regions>,
     /// Outputs that are (numerically) linear functions of the others, so that no region exists.
     pub degenerate: bool,
@@ -251,7 +285,9 @@ pub struct Regions {
     /// Area (volume) of ellipsoid, and of the smallest region (grid of equal cells), the latter for
     /// two and three measurands only.
     pub ellipsoid_volume: f64,
+    /// Area (volume) of the smallest region.
     pub smallest_volume: Option<f64>,
+    /// Grid cells in it.
     pub smallest_cells: Option<usize>,
 }
 
@@ -260,6 +296,7 @@ pub struct Regions {
 pub struct Finding {
     /// Index of the measurand it concerns; `None` = the whole budget.
     pub measurand: Option<usize>,
+    /// What it is.
     pub kind: FindingKind,
 }
 
@@ -267,11 +304,17 @@ pub struct Finding {
 #[derive(Debug, Clone, PartialEq)]
 pub enum FindingKind {
     /// c = 0 while u(x) > 0 and the input does act at second order (or in Monte Carlo).
-    VanishingSensitivity { input: String },
+    VanishingSensitivity {
+        /// Name of the input.
+        input: String,
+    },
     /// Second-order terms change u or the estimate at the digits reported.
     SecondOrderMatters {
+        /// ½ ΣΣ f_ij u(x_i, x_j).
         shift: f64,
+        /// u(y), first order.
         u_first: f64,
+        /// u(y) with second-order terms.
         u_second: f64,
     },
     /// Clause 8: GUM is not validated; the statement uses Monte Carlo.
@@ -279,22 +322,44 @@ pub enum FindingKind {
     /// No Monte Carlo was run and first order is doubtful.
     NeedsMonteCarlo,
     /// Mean or standard deviation do not exist or do not converge; quantiles are given.
-    MomentsMissing { reason: String },
+    MomentsMissing {
+        /// Why, in words.
+        reason: String,
+    },
     /// Some trials gave no finite value.
-    FailedTrials { failed: u64, trials: u64 },
+    FailedTrials {
+        /// How many.
+        failed: u64,
+        /// Of how many.
+        trials: u64,
+    },
     /// The adaptive procedure stopped at its maximum.
-    NotConverged { trials: u64 },
+    NotConverged {
+        /// Trials that were run.
+        trials: u64,
+    },
     /// ν_eff refused.
     FreedomRefused {
+        /// Names of the components.
         members: Vec<String>,
+        /// What is used in place of ν_eff.
         lower_bound: f64,
     },
     /// ν_eff is small (< 10): k is large and uncertain.
-    FewDegreesOfFreedom { dof: f64 },
+    FewDegreesOfFreedom {
+        /// ν_eff.
+        dof: f64,
+    },
     /// The model has a kink or a step at the estimates (abs, min, max, if, round …).
-    Irregular { what: String },
+    Irregular {
+        /// The operation, in words.
+        what: String,
+    },
     /// The divisor or the argument of a function is within a few u of a pole or of its domain's end.
-    NearSingular { what: String },
+    NearSingular {
+        /// The operation, in words.
+        what: String,
+    },
     /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
     Asymmetric,
 }
@@ -311,8 +376,11 @@ pub struct Options {
 /// What the caller asks of Monte Carlo.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MonteCarloChoice {
+    /// As the file says.
     AsBudget,
+    /// First order and second order only.
     Off,
+    /// With these settings.
     With(MonteCarloSettings),
 }
 
@@ -442,9 +510,20 @@ fn both_methods(
 #[derive(Debug, Clone, PartialEq)]
 pub enum EvaluationError {
     /// f(x) is not finite at the estimates.
-    NoValue { measurand: String },
+    NoValue {
+        /// Its name.
+        measurand: String,
+    },
     /// A derivative is not finite although f(x) is, and Monte Carlo was switched off.
-    NoDerivative { measurand: String, input: String },
+    NoDerivative {
+        /// Whose derivative.
+        measurand: String,
+        /// With respect to what.
+        input: String,
+    },
     /// Every trial failed.
-    AllTrialsFailed { measurand: String },
+    AllTrialsFailed {
+        /// Its name.
+        measurand: String,
+    },
 }

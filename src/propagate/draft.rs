@@ -1,0 +1,170 @@
+//! Budgets for the tests, built without a file.
+
+use nalgebra::DMatrix;
+
+use crate::budget::{
+    Budget, Component, Conventions, CoverageRule, DofRule, Evaluation, Group, Heading, Input, Law,
+    Measurand, MonteCarloSettings, OutputShape, Owner, TScale, Term, Trials,
+};
+use crate::distribution::Distribution;
+use crate::model::{MeasurandSource, Request, Role, Symbol, compile};
+use crate::quantity::{Rounding, Unit, UnitTable};
+
+/// A budget of dimensionless inputs with one component each.
+pub(super) struct Draft {
+    names: Vec<String>,
+    inputs: Vec<Input>,
+    components: Vec<Component>,
+    groups: Vec<Group>,
+}
+
+impl Draft {
+    pub(super) fn new() -> Self {
+        Draft {
+            names: Vec::new(),
+            inputs: Vec::new(),
+            components: Vec::new(),
+            groups: Vec::new(),
+        }
+    }
+
+    pub(super) fn input(
+        mut self,
+        name: &str,
+        estimate: f64,
+        distribution: Distribution,
+        u: f64,
+        dof: f64,
+    ) -> Self {
+        let component = self.components.len();
+        self.components.push(Component {
+            name: name.to_string(),
+            label: name.to_string(),
+            owner: Owner::Input(self.inputs.len()),
+            unit: Unit::one(),
+            distribution,
+            u,
+            dof,
+            evaluation: Evaluation::TypeB,
+            how: String::new(),
+            certificate: None,
+            source: None,
+        });
+        self.inputs.push(Input {
+            name: name.to_string(),
+            description: None,
+            group: None,
+            unit: Unit::one(),
+            estimate,
+            terms: vec![Term {
+                component,
+                coefficient: 1.0,
+            }],
+        });
+        self.names.push(name.to_string());
+        self
+    }
+
+    pub(super) fn normal(self, name: &str, estimate: f64, u: f64, dof: f64) -> Self {
+        self.input(
+            name,
+            estimate,
+            Distribution::Normal { mean: 0.0, sd: u },
+            u,
+            dof,
+        )
+    }
+
+    pub(super) fn rectangle(self, name: &str, estimate: f64, a: f64, dof: f64) -> Self {
+        let distribution = Distribution::Uniform {
+            lower: -a,
+            upper: a,
+        };
+        self.input(name, estimate, distribution, a / 3f64.sqrt(), dof)
+    }
+
+    pub(super) fn correlate(
+        mut self,
+        members: &[usize],
+        entries: &[f64],
+        dof: Option<f64>,
+    ) -> Self {
+        let n = members.len();
+        let correlation = DMatrix::from_row_slice(n, n, entries);
+        self.groups.push(Group {
+            members: members.to_vec(),
+            correlation,
+            law: Law::Normal,
+            dof,
+        });
+        self
+    }
+
+    /// Adds the component of another input to an input (a shared source).
+    pub(super) fn share(mut self, input: usize, other: usize, coefficient: f64) -> Self {
+        let component = self.inputs[other].terms[0].component;
+        self.inputs[input].terms.push(Term {
+            component,
+            coefficient,
+        });
+        self
+    }
+
+    pub(super) fn budget(self, p: f64, models: &[(&str, &str)]) -> Budget {
+        let place = |(i, name): (usize, &String)| Symbol {
+            name: name.clone(),
+            unit: Unit::one(),
+            role: Role::Input(i),
+        };
+        let symbols: Vec<Symbol> = self.names.iter().enumerate().map(place).collect();
+        let measurands: Vec<MeasurandSource<'_>> = models
+            .iter()
+            .map(|(name, model)| MeasurandSource {
+                name,
+                model: Some(model),
+                unit: None,
+            })
+            .collect();
+        let units = UnitTable::default();
+        let request = Request {
+            symbols: &symbols,
+            shared: None,
+            measurands: &measurands,
+            units: &units,
+        };
+        Budget {
+            heading: Heading::default(),
+            conventions: Conventions {
+                profile: "GUM".to_string(),
+                overrides: Vec::new(),
+                coverage_probability: p,
+                coverage_factor: CoverageRule::StudentT,
+                output_shape: OutputShape::Convolution,
+                degrees_of_freedom: DofRule::Truncated,
+                rounding: Rounding::HalfEven,
+                digits: 2,
+                up_if_lowered_by_5_percent: false,
+                t_scale: TScale::Scale,
+                state_probability: true,
+            },
+            monte_carlo: MonteCarloSettings {
+                seed: 1,
+                trials: Trials::Fixed(200_000),
+            },
+            model: compile(&request).unwrap_or_else(|faults| panic!("{faults:#?}")),
+            inputs: self.inputs,
+            constants: Vec::new(),
+            measurands: models
+                .iter()
+                .map(|(name, _)| Measurand {
+                    name: name.to_string(),
+                    description: None,
+                })
+                .collect(),
+            components: self.components,
+            groups: self.groups,
+            claims: Vec::new(),
+            remarks: Vec::new(),
+        }
+    }
+}

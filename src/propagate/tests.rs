@@ -1,0 +1,423 @@
+//! Whole evaluations, against published figures and closed forms.
+
+use super::draft::Draft;
+use super::*;
+use crate::budget::CoverageRule;
+use crate::distribution::Distribution;
+
+const INF: f64 = f64::INFINITY;
+
+fn run(budget: &Budget, monte_carlo: MonteCarloChoice) -> Evaluation {
+    evaluate(
+        budget,
+        &Options {
+            monte_carlo,
+            threads: 2,
+        },
+    )
+    .unwrap()
+}
+
+fn gum(budget: &Budget) -> Evaluation {
+    run(budget, MonteCarloChoice::Off)
+}
+
+#[track_caller]
+fn close(found: f64, expected: f64, tolerance: f64) {
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{found} is not {expected} ± {tolerance}"
+    );
+}
+
+fn kinds(evaluation: &Evaluation) -> Vec<&FindingKind> {
+    evaluation
+        .findings
+        .iter()
+        .map(|finding| &finding.kind)
+        .collect()
+}
+
+fn shares_sum_to_one(result: &Gum) {
+    close(
+        result.inputs.iter().map(|line| line.share).sum(),
+        1.0,
+        1e-12,
+    );
+    close(
+        result.components.iter().map(|line| line.share).sum(),
+        1.0,
+        1e-12,
+    );
+}
+
+#[test]
+fn gum_h_1_with_nine_inputs() {
+    let arcsine = Distribution::Arcsine {
+        lower: -0.5,
+        upper: 0.5,
+    };
+    let budget = Draft::new()
+        .normal("Ls", 5e7, 25.0, 18.0)
+        .normal("d1", 0.0, 5.8, 24.0)
+        .normal("d2", 0.0, 3.9, 5.0)
+        .normal("d3", 0.0, 6.7, 8.0)
+        .rectangle("alphas", 1.15e-5, 2e-6, INF)
+        .rectangle("dalpha", 0.0, 1e-6, 50.0)
+        .normal("theta1", -0.1, 0.2, INF)
+        .input("theta2", 0.0, arcsine, 0.5 / 2f64.sqrt(), INF)
+        .rectangle("dtheta", 0.0, 0.05, 2.0)
+        .budget(
+            0.99,
+            &[(
+                "l",
+                "Ls+d1+d2+d3-(Ls*dalpha*(theta1+theta2)+Ls*alphas*dtheta)",
+            )],
+        );
+    let evaluation = gum(&budget);
+    let result = &evaluation.results[0];
+    close(result.gum.u, 31.6637674111, 2e-9);
+    close(result.gum.freedom.value(), 16.7521475092, 2e-8);
+    close(result.gum.inputs[8].contribution.abs(), 16.5988202392, 2e-9);
+    assert_eq!(
+        result.gum.coverage.basis,
+        CoverageBasis::StudentT { dof: 16.0 }
+    );
+    close(result.gum.coverage.k, 2.92, 0.005);
+    shares_sum_to_one(&result.gum);
+    // u rises to 34 nm; two of three temperatures and αs have no sensitivity coefficient.
+    let second = result.second_order.as_ref().unwrap();
+    close(second.u, 34.0, 0.5);
+    assert!(second.matters);
+    for input in ["alphas", "theta1", "theta2"] {
+        let wanted = FindingKind::VanishingSensitivity {
+            input: input.to_string(),
+        };
+        assert!(kinds(&evaluation).contains(&&wanted), "{input}");
+    }
+    assert!(kinds(&evaluation).contains(&&FindingKind::NeedsMonteCarlo));
+    assert_eq!(result.basis, Basis::Gum);
+}
+
+#[test]
+fn gum_h_2_impedance() {
+    let volts = [5.007, 4.994, 5.005, 4.99, 4.999];
+    let amperes = [0.019663, 0.019639, 0.01964, 0.019685, 0.019678];
+    let phases = [1.0456, 1.0438, 1.0468, 1.0428, 1.0433];
+    let rows = [volts, amperes, phases];
+    let mean = rows.map(|row| row.iter().sum::<f64>() / 5.0);
+    let covariance = |a: usize, b: usize| {
+        let products = (0..5).map(|n| (rows[a][n] - mean[a]) * (rows[b][n] - mean[b]));
+        products.sum::<f64>() / 20.0
+    };
+    let u = [0, 1, 2].map(|a| covariance(a, a).sqrt());
+    let r: Vec<f64> = (0..9)
+        .map(|n| covariance(n / 3, n % 3) / (u[n / 3] * u[n % 3]))
+        .collect();
+    let budget = Draft::new()
+        .normal("V", mean[0], u[0], 4.0)
+        .normal("I", mean[1], u[1], 4.0)
+        .normal("phi", mean[2], u[2], 4.0)
+        .correlate(&[0, 1, 2], &r, Some(4.0))
+        .budget(
+            0.95,
+            &[("R", "V/I*cos(phi)"), ("X", "V/I*sin(phi)"), ("Z", "V/I")],
+        );
+    let evaluation = gum(&budget);
+    let expected = [
+        (127.732, 0.071, 0.0005),
+        (219.847, 0.295, 0.001),
+        (254.260, 0.236, 0.0005),
+    ];
+    for (result, (y, u, tolerance)) in evaluation.results.iter().zip(expected) {
+        close(result.gum.estimate, y, 0.0005);
+        close(result.gum.u, u, tolerance);
+        match result.gum.freedom {
+            Freedom::Ensembles(dof) => close(dof, 4.0, 1e-12),
+            ref other => panic!("{other:?}"),
+        }
+        shares_sum_to_one(&result.gum);
+    }
+    let joint = evaluation.joint.unwrap();
+    close(joint.correlation[(0, 1)], -0.588, 0.0005);
+    close(joint.correlation[(0, 2)], -0.485, 0.0005);
+    close(joint.correlation[(1, 2)], 0.993, 0.0005);
+    close(joint.dof.value(), 4.0, 1e-12);
+    // Z² = R² + X².
+    assert!(joint.degenerate);
+}
+
+#[test]
+fn s1_9_4_comparison_loss() {
+    let budget = Draft::new()
+        .normal("x1", 0.0, 0.005, INF)
+        .normal("x2", 0.0, 0.005, INF)
+        .budget(0.95, &[("y", "x1^2 + x2^2")]);
+    let evaluation = run(&budget, MonteCarloChoice::AsBudget);
+    let result = &evaluation.results[0];
+    assert_eq!((result.gum.estimate, result.gum.u), (0.0, 0.0));
+    let second = result.second_order.as_ref().unwrap();
+    close(second.shift, 5e-5, 1e-18);
+    close(second.u, 5e-5, 1e-18);
+    assert_eq!(result.basis, Basis::MonteCarlo);
+    let mc = result.monte_carlo.as_ref().unwrap();
+    close(mc.estimate.unwrap(), 5e-5, 1e-6);
+    let kinds = kinds(&evaluation);
+    for wanted in [
+        FindingKind::VanishingSensitivity {
+            input: "x1".to_string(),
+        },
+        FindingKind::VanishingSensitivity {
+            input: "x2".to_string(),
+        },
+        FindingKind::NotValidated,
+        FindingKind::Asymmetric,
+    ] {
+        assert!(kinds.contains(&&wanted), "{wanted:?}");
+    }
+    assert!(!kinds.contains(&&FindingKind::NeedsMonteCarlo));
+}
+
+#[test]
+fn s1_9_2_2_is_validated() {
+    let budget = (1..=4)
+        .fold(Draft::new(), |draft, i| {
+            draft.normal(&format!("x{i}"), 0.0, 1.0, INF)
+        })
+        .budget(0.95, &[("y", "x1 + x2 + x3 + x4")]);
+    let evaluation = run(&budget, MonteCarloChoice::AsBudget);
+    let result = &evaluation.results[0];
+    close(result.gum.coverage.expanded, 3.92, 0.005);
+    assert!(result.validation.unwrap()[0].validated);
+    assert_eq!(result.basis, Basis::Gum);
+    assert!(result.second_order.is_none());
+    assert!(evaluation.findings.is_empty(), "{:?}", evaluation.findings);
+    assert_eq!(evaluation.run.unwrap().trials, 200_000);
+}
+
+#[test]
+fn s1_9_2_4_is_not_validated() {
+    let root = 3f64.sqrt();
+    let budget = (1..=3)
+        .fold(Draft::new(), |draft, i| {
+            draft.rectangle(&format!("x{i}"), 0.0, root, INF)
+        })
+        .rectangle("x4", 0.0, 10.0 * root, INF)
+        .budget(0.95, &[("y", "x1 + x2 + x3 + x4")]);
+    let evaluation = run(&budget, MonteCarloChoice::AsBudget);
+    let result = &evaluation.results[0];
+    close(result.gum.coverage.expanded, 19.9, 0.05);
+    let validation = result.validation.unwrap()[0];
+    close(validation.d_high, 2.9, 0.15);
+    assert_eq!(result.basis, Basis::MonteCarlo);
+    // With k from the output's distribution the same budget is.
+    let mut output = budget;
+    output.conventions.coverage_factor = CoverageRule::Output;
+    let evaluation = run(&output, MonteCarloChoice::AsBudget);
+    assert!(evaluation.results[0].validation.unwrap()[0].validated);
+}
+
+#[test]
+fn s2_9_2_two_measurands_with_a_common_input() {
+    let budget = (1..=3)
+        .fold(Draft::new(), |draft, i| {
+            draft.normal(&format!("x{i}"), 0.0, 1.0, INF)
+        })
+        .budget(0.95, &[("y1", "x1 + x3"), ("y2", "x2 + x3")]);
+    let joint = run(&budget, MonteCarloChoice::AsBudget).joint.unwrap();
+    close(joint.covariance[(0, 0)], 2.0, 1e-12);
+    close(joint.correlation[(0, 1)], 0.5, 1e-12);
+    close(joint.k_ellipsoid, 2.45, 0.005);
+    close(joint.k_rectangle, 2.21, 0.005);
+    assert!(!joint.degenerate);
+    close(joint.monte_carlo_correlation.unwrap()[(0, 1)], 0.5, 0.01);
+    assert!(joint.regions.is_some());
+}
+
+#[test]
+fn kessel_lead_with_correlated_ratios() {
+    let budget = Draft::new()
+        .normal("M204", 203.9730436, 1.3e-6, INF)
+        .normal("R1", 0.02564, 0.00012, INF)
+        .normal("M206", 205.9744653, 1.3e-6, INF)
+        .normal("R2", 0.47846, 0.00072, INF)
+        .normal("M207", 206.9758969, 1.3e-6, INF)
+        .normal("R3", 0.4109, 0.0011, INF)
+        .normal("M208", 207.9766521, 1.3e-6, INF)
+        .correlate(
+            &[1, 3, 5],
+            &[1.0, 0.41, 0.0, 0.41, 1.0, 0.01, 0.0, 0.01, 1.0],
+            None,
+        )
+        .budget(
+            0.95,
+            &[(
+                "M",
+                "(M204*R1 + M206*R2 + M207*R3 + M208)/(R1 + R2 + R3 + 1)",
+            )],
+        );
+    let result = &gum(&budget).results[0];
+    close(result.gum.estimate, 207.2080729198705, 1e-9);
+    close(result.gum.u, 0.00059357979, 5e-11);
+    shares_sum_to_one(&result.gum);
+}
+
+#[test]
+fn a_shared_source_counts_once() {
+    // a = A + S, b = B + 2S, y = a − b: u² = u_A² + u_B² + u_S².
+    let draft = |models: &[(&str, &str)]| {
+        Draft::new()
+            .normal("s", 0.0, 0.5, 6.0)
+            .normal("a", 1.0, 0.3, INF)
+            .normal("b", 2.0, 0.4, INF)
+            .share(1, 0, 1.0)
+            .share(2, 0, 2.0)
+            .budget(0.95, models)
+    };
+    let budget = draft(&[("y", "a - b + 0*s"), ("z", "2*a - b + 0*s")]);
+    let evaluation = gum(&budget);
+    let y = &evaluation.results[0].gum;
+    close(y.u, (0.09_f64 + 0.16 + 0.25).sqrt(), 1e-14);
+    close(y.inputs[1].u, (0.09_f64 + 0.25).sqrt(), 1e-14);
+    close(y.components[0].sensitivity, -1.0, 1e-14);
+    shares_sum_to_one(y);
+    // In 2a − b the source cancels exactly.
+    let z = &evaluation.results[1].gum;
+    close(z.u, (0.36_f64 + 0.16).sqrt(), 1e-14);
+    assert_eq!(z.components[0].contribution, 0.0);
+    assert_eq!(z.freedom, Freedom::Infinite);
+}
+
+#[test]
+fn merging_two_independent_normals_changes_nothing() {
+    let split = Draft::new()
+        .normal("a", 1.0, 0.3, INF)
+        .normal("b", 0.0, 0.4, INF)
+        .normal("c", 2.0, 0.7, 9.0)
+        .budget(0.95, &[("y", "(a + b)*c")]);
+    let merged = Draft::new()
+        .normal("a", 1.0, 0.5, INF)
+        .normal("c", 2.0, 0.7, 9.0)
+        .budget(0.95, &[("y", "a*c")]);
+    let (split, merged) = (gum(&split), gum(&merged));
+    let (split, merged) = (&split.results[0], &merged.results[0]);
+    close(split.gum.u, merged.gum.u, 1e-14);
+    close(split.gum.freedom.value(), merged.gum.freedom.value(), 1e-10);
+    close(
+        split.gum.inputs[0].share + split.gum.inputs[1].share,
+        merged.gum.inputs[0].share,
+        1e-14,
+    );
+    close(
+        split.second_order.as_ref().unwrap().u,
+        merged.second_order.as_ref().unwrap().u,
+        1e-14,
+    );
+}
+
+#[test]
+fn the_unit_of_the_measurand_changes_neither_k_nor_shares() {
+    let draft = |model: &str| {
+        Draft::new()
+            .normal("a", 1.0, 0.3, 4.0)
+            .normal("b", 2.0, 0.4, 7.0)
+            .correlate(&[0, 1], &[1.0, 0.6, 0.6, 1.0], None)
+            .normal("c", 3.0, 0.1, 5.0)
+            .budget(0.95, &[("y", model)])
+    };
+    let plain = gum(&draft("a*b + exp(c)"));
+    let plain = &plain.results[0];
+    for scale in ["1e-27", "1e10"] {
+        let scaled = gum(&draft(&format!("{scale} * (a*b + exp(c))")));
+        let (scaled, factor) = (&scaled.results[0], scale.parse::<f64>().unwrap());
+        close(scaled.gum.coverage.k, plain.gum.coverage.k, 1e-12);
+        close(scaled.gum.u / factor / plain.gum.u, 1.0, 1e-13);
+        for (a, b) in scaled.gum.inputs.iter().zip(&plain.gum.inputs) {
+            close(a.share, b.share, 1e-13);
+        }
+        let u = |result: &MeasurandResult| result.second_order.as_ref().unwrap().u;
+        close(u(scaled) / factor / u(plain), 1.0, 1e-12);
+        assert!(
+            matches!(&scaled.gum.freedom, Freedom::Refused { members, .. } if members == &["a", "b"])
+        );
+    }
+}
+
+#[test]
+fn doubtful_models_are_named() {
+    let budget = Draft::new()
+        .normal("a", 0.0, 0.1, INF)
+        .normal("b", 0.3, 0.1, INF)
+        .budget(0.95, &[("y", "abs(a) + 1/b")]);
+    let evaluation = gum(&budget);
+    let kinds = kinds(&evaluation);
+    assert!(
+        kinds
+            .iter()
+            .any(|kind| matches!(kind, FindingKind::Irregular { .. })),
+        "{kinds:?}"
+    );
+    assert!(
+        kinds
+            .iter()
+            .any(|kind| matches!(kind, FindingKind::NearSingular { .. })),
+        "{kinds:?}"
+    );
+    assert_eq!(
+        kinds
+            .iter()
+            .filter(|kind| ***kind == FindingKind::NeedsMonteCarlo)
+            .count(),
+        1
+    );
+}
+
+#[test]
+fn no_value_and_no_derivative() {
+    let draft = |model: &str| {
+        Draft::new()
+            .normal("a", 0.0, 0.1, INF)
+            .budget(0.95, &[("y", model)])
+    };
+    let off = Options {
+        monte_carlo: MonteCarloChoice::Off,
+        threads: 1,
+    };
+    let error = evaluate(&draft("1/a"), &off).unwrap_err();
+    assert_eq!(
+        error,
+        EvaluationError::NoValue {
+            measurand: "y".to_string()
+        }
+    );
+    let error = evaluate(&draft("sqrt(a)"), &off).unwrap_err();
+    let expected = EvaluationError::NoDerivative {
+        measurand: "y".to_string(),
+        input: "a".to_string(),
+    };
+    assert_eq!(error, expected);
+    // Monte Carlo can still say something, of the half of the trials that have a root.
+    let evaluation = run(&draft("sqrt(a)"), MonteCarloChoice::AsBudget);
+    assert_eq!(evaluation.results[0].basis, Basis::MonteCarlo);
+    assert!(
+        kinds(&evaluation)
+            .iter()
+            .any(|kind| matches!(kind, FindingKind::FailedTrials { .. }))
+    );
+}
+
+#[test]
+fn a_thousand_inputs() {
+    let mut draft = Draft::new();
+    let mut terms = Vec::new();
+    for i in 0..1000 {
+        draft = draft.normal(&format!("x{i}"), 1.0, 0.01, 5.0);
+        terms.push(format!("x{i}"));
+    }
+    let budget = draft.budget(0.95, &[("y", &terms.join(" + "))]);
+    let evaluation = gum(&budget);
+    let result = &evaluation.results[0].gum;
+    close(result.u, 0.01 * 1000f64.sqrt(), 1e-12);
+    close(result.freedom.value(), 5000.0, 1e-6);
+    shares_sum_to_one(result);
+}

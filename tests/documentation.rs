@@ -26,7 +26,10 @@ fn toml_blocks(text: &str) -> Vec<(usize, String)> {
 
 #[test]
 fn every_example_in_the_documentation_evaluates() {
-    let options = Options { monte_carlo: MonteCarloChoice::Off, ..Options::default() };
+    let options = Options {
+        monte_carlo: MonteCarloChoice::Off,
+        ..Options::default()
+    };
     let mut evaluated = 0;
     let mut pages = common::files("docs", "md");
     pages.push(common::root().join("README.md"));
@@ -37,7 +40,8 @@ fn every_example_in_the_documentation_evaluates() {
             let loaded = budget::read(&block, &name, &common::root().join("docs"))
                 .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
             for row in &loaded.rows {
-                propagate::evaluate(&row.budget, &options).unwrap_or_else(|error| panic!("{name}: {error}"));
+                propagate::evaluate(&row.budget, &options)
+                    .unwrap_or_else(|error| panic!("{name}: {error:?}"));
             }
             evaluated += 1;
         }

@@ -33,7 +33,11 @@ fn every_mistake_is_refused_with_its_message() {
         }
         stale.extend(common::stale(&path.with_extension("txt"), &shown));
     }
-    assert!(accepted.is_empty(), "not refused as bad input:\n  {}", accepted.join("\n  "));
+    assert!(
+        accepted.is_empty(),
+        "not refused as bad input:\n  {}",
+        accepted.join("\n  ")
+    );
     common::assert_fresh(&stale);
 }
 
@@ -41,8 +45,14 @@ fn every_mistake_is_refused_with_its_message() {
 fn no_message_shows_the_inside_of_the_program() {
     for path in common::files("tests/bad_budgets", "txt") {
         let text = std::fs::read_to_string(&path).expect("a readable file");
-        for inside in ["panicked", "unwrap", "Option<", "Some(", "None,", "src/", "f64", "serde"] {
-            assert!(!text.contains(inside), "{} shows `{inside}`", common::relative(&path));
+        for inside in [
+            "panicked", "unwrap", "Option<", "Some(", "None,", "src/", "f64", "serde",
+        ] {
+            assert!(
+                !text.contains(inside),
+                "{} shows `{inside}`",
+                common::relative(&path)
+            );
         }
     }
 }

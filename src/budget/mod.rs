@@ -48,7 +48,7 @@ pub struct Heading {
     /// Date of the measurement, ISO 8601.
     pub date: Option<String>,
     /// Where the figures come from.
-    pub source: Option<String>,
+    pub reference: Option<String>,
     /// Anything the reader should know.
     pub note: Option<String>,
 }
@@ -111,7 +111,7 @@ pub struct Constant {
     /// What it is.
     pub description: Option<String>,
     /// Where it comes from.
-    pub source: Option<String>,
+    pub reference: Option<String>,
 }
 
 /// An input quantity X_i.
@@ -183,7 +183,7 @@ pub struct Component {
     /// The certificate behind it.
     pub certificate: Option<Certificate>,
     /// Where the number comes from.
-    pub source: Option<String>,
+    pub reference: Option<String>,
 }
 
 /// Where a value comes from.

@@ -47,8 +47,6 @@ impl Profile {
             up_if_lowered_by_5_percent: self.up_if_lowered_by_5_percent,
             t_scale: self.t_scale,
             state_probability: self.state_probability,
-            output_shape: OutputShape::default(),
-            degrees_of_freedom: DofRule::default(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::distributions::DistributionEntry;
 use super::table::{Stated, table, words};
 use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
-use super::variants::{ConstantEntry, Numbers, ReadingsOf, SourceEntry, TrialsEntry};
+use super::variants::{ConstantEntry, Numbers, ReadingsOf, Sources, TrialsEntry};
 
 type List<T> = Vec<Stated<T>>;
 
@@ -20,10 +20,10 @@ table! {
         author: String,
         /// Date of the measurement; certificates past due on it are remarked on.
         date: Date,
-        /// Causes of uncertainty that several inputs share; or a text: where the figures come from.
-        source: SourceEntry,
-        /// Where the figures come from, in files that have `[source.NAME]` tables.
+        /// Where the figures come from.
         reference: String,
+        /// Causes of uncertainty that several inputs share.
+        source: Sources,
         /// Anything the reader should know.
         note: String,
         /// Conventions on which guides differ: GUM (default), EA, JJF, JJF-up, NIST, UKAS or S1.
@@ -179,7 +179,7 @@ table! {
         /// What it is.
         description: String,
         /// Where it comes from.
-        source: String,
+        reference: String,
     }
 }
 
@@ -293,7 +293,7 @@ table! {
         /// Standard uncertainty for the GUM method only, where a published table uses another one than that of the distribution.
         gum_u: Amount,
         /// Where the number comes from.
-        source_text: String,
+        reference: String,
     }
 }
 
@@ -377,7 +377,7 @@ table! {
         /// Correlation coefficient.
         r: f64,
         /// How it is known.
-        source_text: String,
+        reference: String,
     }
 }
 
@@ -393,7 +393,7 @@ table! {
         /// Degrees of freedom of the covariance matrix.
         dof: Dof,
         /// Where the matrix comes from.
-        source_text: String,
+        reference: String,
     }
 }
 

@@ -7,31 +7,29 @@ use super::faults::WRONG_TYPE;
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, unknown_word};
 use super::tables::{ColumnTable, ConstantTable, SourceTable};
 use super::values::{Amount, Named};
+use crate::fault::Fault;
 
-/// `source` at the top: a text, or the table of shared causes.
+/// `[source.NAME]`: causes of uncertainty that several inputs share.
 #[derive(Debug, Clone)]
-pub enum SourceEntry {
-    /// Where the figures come from.
-    Text(String),
-    /// `[source.NAME]`.
-    Tables(Named<SourceTable>),
-}
+pub struct Sources(pub Named<SourceTable>);
 
-impl FromToml for SourceEntry {
+impl FromToml for Sources {
     fn expected() -> String {
-        "tables [source.NAME], or a text".into()
+        "tables [source.NAME]".into()
     }
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
-        match value.get_ref() {
-            DeValue::String(text) => Some(SourceEntry::Text(text.to_string())),
-            DeValue::Table(_) => Named::read(value, reader).map(SourceEntry::Tables),
-            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+        if matches!(value.get_ref(), DeValue::String(_)) {
+            let fault = Fault::new(WRONG_TYPE, value.span(), "`source` is not a text here")
+                .label("expected tables [source.NAME], the causes that several inputs share")
+                .help("to say where the figures come from, write reference = \"…\"");
+            return reader.refuse(fault);
         }
+        Named::read(value, reader).map(Sources)
     }
 
     fn schema() -> Value {
-        json!({ "oneOf": [String::schema(), Named::<SourceTable>::schema()] })
+        Named::<SourceTable>::schema()
     }
 
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {

@@ -35,8 +35,9 @@ impl Comparison {
     pub fn agrees(&self) -> bool {
         // A figure exactly half a unit away was rounded either way; rounding of doubles must not decide.
         let slack = 1e-9 * self.claimed.tolerance + 4.0 * f64::EPSILON * self.claimed.value.abs();
-        self.obtained
-            .is_some_and(|obtained| (obtained - self.claimed.value).abs() <= self.claimed.tolerance + slack)
+        self.obtained.is_some_and(|obtained| {
+            (obtained - self.claimed.value).abs() <= self.claimed.tolerance + slack
+        })
     }
 
     /// Obtained divided by claimed, where that says something.
@@ -126,11 +127,14 @@ fn by_gum(
         Figure::Rectangle => evaluation.joint.as_ref().map(|joint| joint.k_rectangle),
         Figure::RegionFreedom => evaluation.joint.as_ref().map(|joint| joint.dof.value()),
         Figure::Validated(digits) => verdict(result, *digits),
-        Figure::Input(index, Part::Estimate) => budget.inputs.get(*index).map(|input| input.estimate),
-        Figure::Input(index, part) => gum.inputs.get(*index).and_then(|line| part_of(line, *part)),
-        Figure::Component(index, part) => {
-            gum.components.get(*index).and_then(|line| part_of(line, *part))
+        Figure::Input(index, Part::Estimate) => {
+            budget.inputs.get(*index).map(|input| input.estimate)
         }
+        Figure::Input(index, part) => gum.inputs.get(*index).and_then(|line| part_of(line, *part)),
+        Figure::Component(index, part) => gum
+            .components
+            .get(*index)
+            .and_then(|line| part_of(line, *part)),
     }
 }
 
@@ -194,7 +198,10 @@ fn by_monte_carlo(
 }
 
 fn regions(evaluation: &Evaluation) -> Option<&super::Regions> {
-    evaluation.joint.as_ref().and_then(|joint| joint.regions.as_ref())
+    evaluation
+        .joint
+        .as_ref()
+        .and_then(|joint| joint.regions.as_ref())
 }
 
 fn verdict(result: &MeasurandResult, digits: u8) -> Option<f64> {

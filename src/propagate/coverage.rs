@@ -283,7 +283,7 @@ mod tests {
             evaluation: Evaluation::TypeB,
             how: String::new(),
             certificate: None,
-            source: None,
+            reference: None,
         }
     }
 

@@ -48,7 +48,7 @@ impl Draft {
             evaluation: Evaluation::TypeB,
             how: String::new(),
             certificate: None,
-            source: None,
+            reference: None,
         });
         self.inputs.push(Input {
             name: name.to_string(),

@@ -373,6 +373,16 @@ pub struct Options {
     pub threads: usize,
 }
 
+impl Default for Options {
+    /// Monte Carlo as the budget says, on as many threads as the machine offers.
+    fn default() -> Self {
+        Options {
+            monte_carlo: MonteCarloChoice::AsBudget,
+            threads: std::thread::available_parallelism().map_or(1, usize::from),
+        }
+    }
+}
+
 /// What the caller asks of Monte Carlo.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MonteCarloChoice {

@@ -444,7 +444,7 @@ fn provenance(component: &Component, language: Language) -> String {
         })
         .flatten()
         .collect();
-    parts.extend(component.source.clone());
+    parts.extend(component.reference.clone());
     parts.join(language.pick(", ", "，"))
 }
 
@@ -502,7 +502,7 @@ pub(super) fn constants(report: &Report<'_>) -> Vec<Block> {
                 numbers.push(format!("… ({})", c.values.len()));
             }
             let mut text = numbers.join(", ");
-            for more in [Some(&unit), c.description.as_ref(), c.source.as_ref()]
+            for more in [Some(&unit), c.description.as_ref(), c.reference.as_ref()]
                 .into_iter()
                 .flatten()
                 .filter(|t| !t.is_empty())

@@ -97,11 +97,13 @@ fn method(method: Method, language: Language) -> &'static str {
 
 /// Power of ten of the last digit that the claim states.
 fn last_place(comparison: &Comparison) -> i32 {
-    let tolerance = comparison.claimed.tolerance;
+    let tolerance: f64 = comparison.claimed.tolerance;
     if tolerance > 0.0 && tolerance.is_finite() {
         (2.0 * tolerance).log10().floor() as i32
     } else {
-        Decimal::from_f64(comparison.claimed.value).place().unwrap_or(0)
+        Decimal::from_f64(comparison.claimed.value)
+            .place()
+            .unwrap_or(0)
     }
 }
 
@@ -132,11 +134,17 @@ fn verdict(comparison: &Comparison, language: Language) -> String {
     match comparison.ratio() {
         Some(ratio) if (0.5..2.0).contains(&ratio) => {
             let percent = significant(100.0 * (ratio - 1.0), 2);
-            language.pick(format!("differs by {percent} %"), format!("相差 {percent} %"))
+            language.pick(
+                format!("differs by {percent} %"),
+                format!("相差 {percent} %"),
+            )
         }
         Some(ratio) => {
             let times = significant(ratio, 3);
-            language.pick(format!("is {times} times the claim"), format!("为声称值的 {times} 倍"))
+            language.pick(
+                format!("is {times} times the claim"),
+                format!("为声称值的 {times} 倍"),
+            )
         }
         None => language.pick("differs", "不一致").to_string(),
     }
@@ -154,7 +162,13 @@ pub(super) fn summary(report: &Report<'_>, measurand: usize) -> Option<String> {
     let differing: Vec<String> = all
         .iter()
         .filter(|c| !c.agrees())
-        .map(|c| format!("{}: {}", label(report, &c.claimed.what), verdict(c, report.language)))
+        .map(|c| {
+            format!(
+                "{}: {}",
+                label(report, &c.claimed.what),
+                verdict(c, report.language)
+            )
+        })
         .collect();
     Some(if differing.is_empty() {
         report.language.pick("agrees", "一致").to_string()
@@ -208,7 +222,11 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
 
 /// Who says so, and what else is to be known.
 fn words(claim: &Claim) -> impl Iterator<Item = &str> {
-    claim.reference.iter().chain(&claim.note).map(String::as_str)
+    claim
+        .reference
+        .iter()
+        .chain(&claim.note)
+        .map(String::as_str)
 }
 
 fn title(report: &Report<'_>, claim: &Claim) -> String {
@@ -228,11 +246,16 @@ fn push(report: &Report<'_>, table: &mut Table, comparison: &Comparison, before:
         Figure::Validated(_) => number(what, comparison.claimed.value, place, l).into(),
         _ => exact(comparison.claimed.value).into(),
     };
-    let name: Cell = if repeated { Cell::Empty } else { label(report, what).into() };
+    let name: Cell = if repeated {
+        Cell::Empty
+    } else {
+        label(report, what).into()
+    };
     // Two digits beyond the claim's last show what rounding hides.
-    let obtained = comparison
-        .obtained
-        .map_or_else(|| NONE.to_string(), |value| number(what, value, place - 2, l));
+    let obtained = comparison.obtained.map_or_else(
+        || NONE.to_string(),
+        |value| number(what, value, place - 2, l),
+    );
     table.push(vec![
         name,
         claimed,

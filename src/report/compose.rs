@@ -57,7 +57,7 @@ fn heading(report: &Report<'_>) -> Vec<Block> {
         (Word::Object, &heading.object),
         (Word::Author, &heading.author),
         (Word::Date, &heading.date),
-        (Word::Source, &heading.source),
+        (Word::Source, &heading.reference),
         (Word::Note, &heading.note),
     ]
     .into_iter()

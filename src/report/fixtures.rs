@@ -6,8 +6,9 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use crate::budget::{
-    Budget, Certificate, Claim, Component, CoverageRule, Evaluation as Kind, Group, Heading, Input,
-    Law, Measurand, MonteCarloSettings, Owner, PROFILES, Remark, Term, Trials,
+    Budget, Certificate, Claim, ClaimedFigure, ClaimedMethod, Component, CoverageRule,
+    Evaluation as Kind, Figure, Group, Heading, Input, Law, Measurand, MonteCarloSettings, Owner,
+    PROFILES, Remark, Term, Trials,
 };
 use crate::distribution::Distribution;
 use crate::model::{MeasurandSource, Model, Request, Role, Symbol, compile};
@@ -131,7 +132,7 @@ impl Bench {
             },
             how: how.to_string(),
             certificate: None,
-            source: None,
+            reference: None,
         });
     }
 
@@ -661,7 +662,7 @@ pub(super) fn joint() -> Case {
         evaluation: Kind::TypeB,
         how: "from a sample of 3".to_string(),
         certificate: None,
-        source: Some("Manual, p. 12".to_string()),
+        reference: Some("Manual, p. 12".to_string()),
     });
     for i in 0..2 {
         bench.inputs[i].terms.push(Term {

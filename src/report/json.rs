@@ -14,7 +14,7 @@ use crate::budget::{
 };
 use crate::propagate::{
     Basis, Contribution, Coverage, CoverageBasis, Freedom, Gum, JointResult, MeasurandResult,
-    MonteCarlo, Run, Validation,
+    Method, MonteCarlo, Run, Validation, compare_claims,
 };
 use crate::quantity::Rounding;
 
@@ -122,7 +122,7 @@ record! {
         /// Date of the measurement, ISO 8601.
         date: Option<&'a str>,
         /// Where the figures come from.
-        source: Option<&'a str>,
+        reference: Option<&'a str>,
         /// Further words.
         note: Option<&'a str>,
     }
@@ -348,7 +348,7 @@ record! {
         /// Calibration certificate.
         certificate: Option<CertificateJson<'a>>,
         /// Other source.
-        source: Option<&'a str>,
+        reference: Option<&'a str>,
     }
 }
 
@@ -402,7 +402,7 @@ record! {
         /// Description.
         description: Option<&'a str>,
         /// Source.
-        source: Option<&'a str>,
+        reference: Option<&'a str>,
     }
 }
 
@@ -559,7 +559,7 @@ impl<'a> Document<'a> {
                 object: heading.object.as_deref(),
                 author: heading.author.as_deref(),
                 date: heading.date.as_deref(),
-                source: heading.source.as_deref(),
+                reference: heading.reference.as_deref(),
                 note: heading.note.as_deref(),
             },
             conventions: conventions(&budget.conventions),
@@ -598,7 +598,7 @@ impl<'a> Document<'a> {
                     values: numbers(&c.values),
                     unit: &c.unit.symbol,
                     description: c.description.as_deref(),
-                    source: c.source.as_deref(),
+                    reference: c.reference.as_deref(),
                 })
                 .collect(),
             joint: evaluation.joint.as_ref().map(joint),
@@ -606,7 +606,8 @@ impl<'a> Document<'a> {
             claims: budget
                 .claims
                 .iter()
-                .map(|c| claim_json(report, c))
+                .enumerate()
+                .map(|(index, c)| claim_json(report, index, c))
                 .collect(),
             findings: evaluation
                 .findings
@@ -830,7 +831,7 @@ fn component<'a>(c: &'a Component, inputs: &'a [Input]) -> ComponentJson<'a> {
             date: c.date.as_deref(),
             due: c.due.as_deref(),
         }),
-        source: c.source.as_deref(),
+        reference: c.reference.as_deref(),
     }
 }
 

@@ -46,7 +46,8 @@ pub fn stale(path: &Path, generated: &str) -> Option<String> {
         return None;
     }
     if std::env::var_os("GUMPTION_UPDATE").is_some() {
-        std::fs::create_dir_all(path.parent().expect("a file has a folder")).expect("a writable folder");
+        std::fs::create_dir_all(path.parent().expect("a file has a folder"))
+            .expect("a writable folder");
         std::fs::write(path, generated).expect("a writable file");
         return None;
     }

@@ -12,8 +12,19 @@ use crate::quantity::{Decimal, Unit};
 
 /// The keys of a claim that state a figure.
 const FIGURES: [&str; 13] = [
-    "value", "u", "U", "k", "dof", "p", "interval", "shortest", "shift", "correlation", "region",
-    "validated", "inputs",
+    "value",
+    "u",
+    "U",
+    "k",
+    "dof",
+    "p",
+    "interval",
+    "shortest",
+    "shift",
+    "correlation",
+    "region",
+    "validated",
+    "inputs",
 ];
 
 /// k = 2 is meant as 2.00.
@@ -111,17 +122,29 @@ impl Checker<'_> {
             reading.push(Figure::Estimate, number, half, stated);
         }
         let deviations = [
-            (&table.u, Figure::StandardUncertainty, reading.tolerance(|t| &t.u)),
-            (&table.U, Figure::ExpandedUncertainty, reading.tolerance(|t| &t.U)),
+            (
+                &table.u,
+                Figure::StandardUncertainty,
+                reading.tolerance(|t| &t.u),
+            ),
+            (
+                &table.U,
+                Figure::ExpandedUncertainty,
+                reading.tolerance(|t| &t.U),
+            ),
             (&table.shift, Figure::Shift, reading.tolerance(|t| &t.shift)),
         ];
         for (amount, what, tolerance) in deviations {
             let Some(amount) = amount else { continue };
             if amount.value.number < 0.0 && what != Figure::Shift {
                 self.faults.push(
-                    Fault::new(NOT_POSITIVE, amount.span.clone(), "the claimed uncertainty is negative")
-                        .label("must not be negative")
-                        .help("write it without sign"),
+                    Fault::new(
+                        NOT_POSITIVE,
+                        amount.span.clone(),
+                        "the claimed uncertainty is negative",
+                    )
+                    .label("must not be negative")
+                    .help("write it without sign"),
                 );
                 continue;
             }
@@ -147,13 +170,23 @@ impl Checker<'_> {
             && let Some(value) = self.positive_dof(dof)
         {
             let stated = reading.tolerance(|t| &t.dof);
-            reading.push(Figure::DegreesOfFreedom, value, self.half_digit(dof), stated);
+            reading.push(
+                Figure::DegreesOfFreedom,
+                value,
+                self.half_digit(dof),
+                stated,
+            );
         }
         if let Some(p) = &table.p
             && let Some(value) = self.probability(p)
         {
             let stated = reading.tolerance(|t| &t.p);
-            reading.push(Figure::CoverageProbability, value, self.half_digit(p), stated);
+            reading.push(
+                Figure::CoverageProbability,
+                value,
+                self.half_digit(p),
+                stated,
+            );
         }
         let Some(region) = table.region.as_ref().map(|region| &region.value) else {
             return;
@@ -173,7 +206,11 @@ impl Checker<'_> {
     fn claimed_limits(&mut self, reading: &mut Reading<'_>) {
         let table = reading.table;
         let intervals = [
-            (&table.interval, [Figure::Lower, Figure::Upper], reading.tolerance(|t| &t.interval)),
+            (
+                &table.interval,
+                [Figure::Lower, Figure::Upper],
+                reading.tolerance(|t| &t.interval),
+            ),
             (
                 &table.shortest,
                 [Figure::ShortestLower, Figure::ShortestUpper],
@@ -208,10 +245,18 @@ impl Checker<'_> {
     fn correlations_claimed(&mut self, reading: &mut Reading<'_>, file: &FileTable) {
         for (name, r) in entries(&reading.table.correlation) {
             let wanted = r.map(|_| name.clone());
-            let wanted = Some(Stated { span: r.key.clone(), ..wanted });
+            let wanted = Some(Stated {
+                span: r.key.clone(),
+                ..wanted
+            });
             if let Some(with) = self.claimed(&wanted, &r.key, file) {
                 let stated = reading.tolerance(|t| &t.correlation);
-                reading.push(Figure::Correlation(with), r.value, self.half_digit(r), stated);
+                reading.push(
+                    Figure::Correlation(with),
+                    r.value,
+                    self.half_digit(r),
+                    stated,
+                );
             }
         }
     }
@@ -226,8 +271,12 @@ impl Checker<'_> {
                 reading.push(what, f64::from(u8::from(verdict.value)), 0.5, None);
             }
             _ => self.faults.push(
-                Fault::new(CLAIM, stated.span.clone(), "the claimed verdict is incomplete")
-                    .label("expected { digits = 2, verdict = true } or the like, with 1 or 2 digits"),
+                Fault::new(
+                    CLAIM,
+                    stated.span.clone(),
+                    "the claimed verdict is incomplete",
+                )
+                .label("expected { digits = 2, verdict = true } or the like, with 1 or 2 digits"),
             ),
         }
     }
@@ -278,12 +327,25 @@ impl Checker<'_> {
         }
         let numbers = [
             (&table.dof, Part::DegreesOfFreedom, None),
-            (&table.sensitivity, Part::Sensitivity, reading.tolerance(|t| &t.sensitivity)),
-            (&table.contribution, Part::Contribution, reading.tolerance(|t| &t.contribution)),
+            (
+                &table.sensitivity,
+                Part::Sensitivity,
+                reading.tolerance(|t| &t.sensitivity),
+            ),
+            (
+                &table.contribution,
+                Part::Contribution,
+                reading.tolerance(|t| &t.contribution),
+            ),
         ];
         for (number, part, tolerance) in numbers {
             if let Some(number) = number {
-                reading.push(figure(part), number.value, self.half_digit(number), tolerance);
+                reading.push(
+                    figure(part),
+                    number.value,
+                    self.half_digit(number),
+                    tolerance,
+                );
             }
         }
     }
@@ -293,7 +355,12 @@ impl Checker<'_> {
             .inputs
             .iter()
             .map(|input| input.name.as_str())
-            .chain(register.components.iter().map(|component| component.name.as_str()));
+            .chain(
+                register
+                    .components
+                    .iter()
+                    .map(|component| component.name.as_str()),
+            );
         let fault = Fault::new(
             UNKNOWN_NAME,
             stated.key.clone(),
@@ -332,7 +399,10 @@ impl Checker<'_> {
             number: 0.0,
             unit: value.unit.clone(),
         });
-        match (self.quantity(&half, unit, owner), self.quantity(&zero, unit, owner)) {
+        match (
+            self.quantity(&half, unit, owner),
+            self.quantity(&zero, unit, owner),
+        ) {
             (Some(half), Some(zero)) => (half - zero).abs(),
             _ => 0.0,
         }

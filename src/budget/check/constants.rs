@@ -37,7 +37,7 @@ impl Checker<'_> {
                 values: values.unwrap_or_else(|| vec![f64::NAN]),
                 unit: unit.unwrap_or_else(Unit::one),
                 description: table.description.as_ref().map(|text| text.value.clone()),
-                source: table.source.as_ref().map(|text| text.value.clone()),
+                reference: table.reference.as_ref().map(|text| text.value.clone()),
             });
         }
         constants

@@ -49,7 +49,7 @@ pub(super) struct Draft {
     pub location: Location,
     pub kind: Kind,
     pub certificate: Option<Certificate>,
-    pub source: Option<String>,
+    pub reference: Option<String>,
     pub place: Range<usize>,
 }
 

@@ -276,9 +276,9 @@ impl Checker<'_> {
                 location: Location::None,
                 kind: Kind::Other,
                 certificate: None,
-                source: stated
+                reference: stated
                     .value
-                    .source_text
+                    .reference
                     .as_ref()
                     .map(|text| text.value.clone()),
                 place: stated.span.clone(),

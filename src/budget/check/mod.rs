@@ -35,7 +35,6 @@ use std::path::Path;
 use super::table::Stated;
 use super::tables::FileTable;
 use super::values::Named;
-use super::variants::SourceEntry;
 use super::{Budget, Conventions, Heading, Remark, Row, TScale};
 use crate::budget::faults::NAME_TWICE;
 use crate::fault::Fault;
@@ -84,7 +83,7 @@ pub(super) fn rows(
     directory: &Path,
 ) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
     let mut faults = Vec::new();
-    let heading = heading(file, &mut faults);
+    let heading = heading(file);
     let variants = series::variants(file, &mut faults);
     let mut rows = Vec::new();
     for variant in variants {
@@ -104,36 +103,15 @@ pub(super) fn rows(
     }
 }
 
-fn heading(file: &FileTable, faults: &mut Vec<Fault>) -> Heading {
+fn heading(file: &FileTable) -> Heading {
     let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|stated| stated.value.clone());
-    let mut source = text(&file.reference);
-    if let Some(Stated {
-        value: SourceEntry::Text(words),
-        key,
-        ..
-    }) = &file.source
-    {
-        if let Some(reference) = &file.reference {
-            faults.push(
-                Fault::new(
-                    NAME_TWICE,
-                    reference.key.clone(),
-                    "the origin of the figures is stated twice",
-                )
-                .label("second statement")
-                .related(key.clone(), "first statement")
-                .help("leave out one of `source` and `reference`"),
-            );
-        }
-        source = Some(words.clone());
-    }
     Heading {
         title: text(&file.title).unwrap_or_default(),
         method: text(&file.method),
         object: text(&file.object),
         author: text(&file.author),
         date: file.date.as_ref().map(|date| date.value.0.clone()),
-        source,
+        reference: text(&file.reference),
         note: text(&file.note),
     }
 }
@@ -198,13 +176,7 @@ impl Checker<'_> {
 
 /// The shared causes of a file.
 fn shared(file: &FileTable) -> &[(String, Stated<super::tables::SourceTable>)] {
-    match &file.source {
-        Some(Stated {
-            value: SourceEntry::Tables(Named(entries)),
-            ..
-        }) => entries,
-        _ => &[],
-    }
+    file.source.as_ref().map_or(&[], |stated| &stated.value.0.0)
 }
 
 /// The named entries of an optional table.

@@ -71,7 +71,7 @@ impl Register {
             evaluation: draft.evaluation,
             how: draft.how,
             certificate: draft.certificate,
-            source: draft.source,
+            reference: draft.reference,
         });
         self.components.len() - 1
     }

@@ -151,7 +151,7 @@ impl Checker<'_> {
             let help = match nearest(&stated.value, names.iter().map(String::as_str)) {
                 Some(near) => format!("did you mean \"{near}\"?"),
                 None => format!(
-                    "declare it: [source.{}]; where a number comes from is `source_text`",
+                    "declare it: [source.{}]; where a number comes from is `reference`",
                     stated.value
                 ),
             };

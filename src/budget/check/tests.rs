@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::budget::{Budget, Law, Rejection, TScale, read};
+use crate::budget::{Budget, Figure, Law, Rejection, TScale, read};
 use crate::distribution::Distribution;
 
 fn refused(text: &str) -> Rejection {
@@ -500,7 +500,10 @@ fn series_replace_values_row_by_row() {
     assert_eq!(rows.len(), 2);
     assert_eq!(rows[1].label.as_deref(), Some("two"));
     assert_eq!(rows[1].budget.inputs[0].estimate, 2.0);
-    assert_eq!(rows[1].budget.claims[0].value, Some(2.2));
+    assert_eq!(
+        rows[1].budget.claims[0].figure(&Figure::Estimate),
+        Some(2.2)
+    );
     assert_eq!(
         faults(&text.replace("[\"two\", 2, 2.2]", "[\"two\", 2]"))
             .iter()
@@ -520,7 +523,7 @@ fn claims_are_read_in_the_unit_of_the_measurand() {
     let claim = budget(&one("value = 1\nu = 0.1\n[claim]\nU = \"200 mV\"\nk = 2"))
         .claims
         .remove(0);
-    close(claim.expanded.unwrap(), 0.2);
+    close(claim.figure(&Figure::ExpandedUncertainty).unwrap(), 0.2);
     assert_eq!(
         faults(&one("value = 1\nu = 0.1\n[claim]\nnote = \"x\""))[0].0,
         "B0403"

@@ -338,7 +338,7 @@ impl Checker<'_> {
             location: core.location,
             kind,
             certificate,
-            source: table.source_text.as_ref().map(|text| text.value.clone()),
+            reference: table.reference.as_ref().map(|text| text.value.clone()),
             place: context.place.clone(),
         })
     }

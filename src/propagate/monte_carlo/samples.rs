@@ -111,7 +111,7 @@ pub(super) fn component(name: &str, distribution: Distribution, u: f64) -> Compo
         evaluation: Evaluation::TypeB,
         how: String::new(),
         certificate: None,
-        source: None,
+        reference: None,
     }
 }
 

@@ -36,7 +36,6 @@ use super::table::Stated;
 use super::tables::FileTable;
 use super::values::Named;
 use super::{Budget, Conventions, Heading, Remark, Row, TScale};
-use crate::budget::faults::NAME_TWICE;
 use crate::fault::Fault;
 use crate::quantity::UnitTable;
 

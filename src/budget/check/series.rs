@@ -3,7 +3,7 @@
 use crate::budget::faults::{SERIES, UNKNOWN_NAME};
 use crate::budget::table::Stated;
 use crate::budget::tables::{ClaimTable, FileTable, SeriesTable};
-use crate::budget::values::{Amount, Cell, Dof, OneOrMany};
+use crate::budget::values::{Amount, Cell, OneOrMany};
 use crate::fault::{Fault, nearest};
 
 /// One evaluation: the file with the values of a row in place.

@@ -48,6 +48,11 @@ pub(super) struct Outcome {
     pub terms: Terms,
     /// Standard deviation of each sensitivity coefficient c_i over the uncertainties of all inputs.
     pub slope_deviation: Vec<f64>,
+    /// ½ Σ h_kk.
+    pub shift: f64,
+    /// Root of Σ_k ¼ h_kk² (μ4 − 1) + Σ_{k<l} h_kl²: what the second derivatives alone add to u(y),
+    /// in quadrature.
+    pub curvature: f64,
 }
 
 /// The second-order terms of one measurand.
@@ -63,12 +68,17 @@ pub(super) enum Terms {
 
 /// Second-order terms of every measurand.
 pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
-    let nonlinear = budget.model.nonlinear_inputs();
+    evaluate_over(budget, linear, &budget.model.nonlinear_inputs())
+}
+
+/// Second-order terms when only the inputs marked in `changing` change, the others staying at their
+/// estimates.
+pub(super) fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Outcome> {
     let directions = directions(
         &linear.covariance,
         &budget.inputs,
         &budget.components,
-        &nonlinear,
+        changing,
     );
     let mut whole = vec![0.0; linear.x.len()];
     accumulate(linear, &directions, |steps| {
@@ -83,16 +93,16 @@ pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
     })
 }
 
-/// The directions in which a nonlinear input changes.
+/// The directions in which one of the marked inputs changes.
 fn directions(
     covariance: &Covariance,
     inputs: &[Input],
     components: &[Component],
-    nonlinear: &[bool],
+    changing: &[bool],
 ) -> Vec<Direction> {
     let mut steps: Vec<Vec<(usize, f64)>> = vec![Vec::new(); covariance.coordinates()];
     for (place, input) in inputs.iter().enumerate() {
-        if !nonlinear.get(place).copied().unwrap_or(true) {
+        if !changing.get(place).copied().unwrap_or(true) {
             continue;
         }
         let form = covariance.form(input.terms.iter().map(|t| (t.component, t.coefficient)));
@@ -145,6 +155,7 @@ struct Sums {
     g: Vec<f64>,
     shift: f64,
     added: f64,
+    curvature: f64,
     nonlinear: bool,
     slope: Vec<f64>,
 }
@@ -163,8 +174,11 @@ impl Sums {
             self.nonlinear |= h != 0.0 || t != 0.0;
             if k == l {
                 self.shift += 0.5 * h;
-                self.added += g * h * third + 0.25 * h * h * (fourth - 1.0) + g * t * fourth / 3.0;
+                let curvature = 0.25 * h * h * (fourth - 1.0);
+                self.curvature += curvature;
+                self.added += g * h * third + curvature + g * t * fourth / 3.0;
             } else {
+                self.curvature += 0.5 * h * h;
                 self.added += 0.5 * h * h + g * t;
             }
         }
@@ -197,6 +211,8 @@ impl Sums {
         Outcome {
             terms,
             slope_deviation,
+            shift: self.shift * unit,
+            curvature: self.curvature.sqrt() * unit,
         }
     }
 }
@@ -216,6 +232,7 @@ fn accumulate(
             g: measurand.standard.iter().map(|g| g / unit).collect(),
             shift: 0.0,
             added: 0.0,
+            curvature: 0.0,
             nonlinear: false,
             slope: vec![0.0; linear.x.len()],
         })
@@ -240,7 +257,7 @@ fn unit(u: f64) -> f64 {
 }
 
 /// Whether the second order is seen in two significant digits of u(y).
-fn matters(u_first: f64, u_second: f64, shift: f64) -> bool {
+pub(super) fn matters(u_first: f64, u_second: f64, shift: f64) -> bool {
     let delta = numerical_tolerance(u_second.max(u_first), 2);
     (u_second - u_first).abs() > delta || shift.abs() > delta
 }

@@ -129,16 +129,12 @@ fn verdict(comparison: &Comparison, language: Language) -> String {
         return NONE.to_string();
     }
     if comparison.agrees() {
-        return match comparison.rounded {
-            Some(rounded) if !comparison.is_near() => {
-                let rounded = exact(rounded);
-                language.pick(
-                    format!("agrees: rounds to {rounded}"),
-                    format!("一致：修约为 {rounded}"),
-                )
-            }
-            _ => language.pick("agrees", "一致").to_string(),
-        };
+        return if comparison.is_near() {
+            language.pick("agrees", "一致")
+        } else {
+            language.pick("agrees when rounded", "修约后一致")
+        }
+        .to_string();
     }
     match comparison.ratio() {
         Some(ratio) if (0.5..2.0).contains(&ratio) => {
@@ -176,7 +172,7 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     let l = report.language;
     let several = report.evaluation.results.len() > 1 || report.budget.claims.len() > 1;
     let mut table = Table::new([
-        ("", ColumnKind::Words),
+        ("", ColumnKind::Names),
         (l.word(Word::Claimed), ColumnKind::Numbers),
         ("", ColumnKind::Words),
         (l.word(Word::Obtained), ColumnKind::Numbers),

@@ -1,29 +1,42 @@
 //! Findings as sentences: what was found, what follows from it, what to do.
 
-use crate::propagate::{Basis, EvaluationError, FindingKind};
+use crate::propagate::{Basis, EvaluationError, FindingKind, is_residue};
 
 use super::language::Language;
 use super::number::{aligned, freedom, grouped, probability, significant};
 use super::{Report, moments};
 
-/// All findings and the budget's remarks, each one paragraph.
+/// All findings and the budget's remarks, each one paragraph; what is found alike of several
+/// measurands stands once.
 pub(super) fn remarks(report: &Report<'_>) -> Vec<String> {
+    let l = report.language;
     let several = report.evaluation.results.len() > 1;
-    let mut sentences = Vec::new();
+    let mut found: Vec<(String, Vec<String>)> = Vec::new();
     for finding in &report.evaluation.findings {
         let sentence = finding_sentence(report, finding.measurand, &finding.kind);
-        sentences.push(match finding.measurand {
-            Some(m) if several => report.language.pick(
-                format!("{}: {sentence}", report.measurand(m).0),
-                format!("{}：{sentence}", report.measurand(m).0),
+        let name = finding
+            .measurand
+            .filter(|_| several)
+            .map(|m| report.measurand(m).0.to_string());
+        match found.iter_mut().find(|(known, _)| *known == sentence) {
+            Some((_, names)) => names.extend(name),
+            None => found.push((sentence, Vec::from_iter(name))),
+        }
+    }
+    let findings = found.into_iter().map(|(sentence, names)| {
+        let names = l.list(&names);
+        match names.as_str() {
+            "" => sentence,
+            _ => l.pick(
+                format!("{names}: {sentence}"),
+                format!("{names}：{sentence}"),
             ),
-            _ => sentence,
-        });
-    }
-    for remark in &report.budget.remarks {
-        sentences.push(report.language.pick(&remark.en, &remark.zh).clone());
-    }
-    sentences
+        }
+    });
+    let of_budget = report.budget.remarks.iter();
+    findings
+        .chain(of_budget.map(|remark| l.pick(&remark.en, &remark.zh).clone()))
+        .collect()
 }
 
 /// A stable name of the kind, for machines.
@@ -62,8 +75,11 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             unseen_in_english(report, measurand, (inputs, *shift, *u_effect, *matters))
         }
         FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
-            "The model is noticeably nonlinear over the uncertainties of its inputs: second-order terms move the estimate by {} and change u from {} to {}. Do not use the first-order figures alone.",
-            amount(report, measurand, significant(*shift, 2)),
+            "The model is noticeably nonlinear over the uncertainties of its inputs: second-order terms {} and change u from {} to {}. Do not use the first-order figures alone.",
+            match is_residue(*shift, *u_second) {
+                true => "leave the estimate as it is".to_string(),
+                false => format!("move the estimate by {}", amount(report, measurand, significant(*shift, 2))),
+            },
             significant(*u_first, 3),
             amount(report, measurand, significant(*u_second, 3)),
         ),
@@ -105,8 +121,11 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             unseen_in_chinese(report, measurand, (inputs, *shift, *u_effect, *matters))
         }
         FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
-            "在输入量的不确定度范围内，测量模型的非线性明显：二阶项使估计值移动 {}，标准不确定度由 {} 变为 {}。不应单独使用一阶结果。",
-            amount(report, measurand, significant(*shift, 2)),
+            "在输入量的不确定度范围内，测量模型的非线性明显：二阶项{}，标准不确定度由 {} 变为 {}。不应单独使用一阶结果。",
+            match is_residue(*shift, *u_second) {
+                true => "不改变估计值".to_string(),
+                false => format!("使估计值移动 {}", amount(report, measurand, significant(*shift, 2))),
+            },
             significant(*u_first, 3),
             amount(report, measurand, significant(*u_second, 3)),
         ),
@@ -159,15 +178,16 @@ fn unseen_in_english(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
         );
     }
     let amount = |x: f64| amount(report, measurand, significant(x, 2));
-    let found = format!(
-        "Their second-order terms add {} to u in quadrature and move the estimate by {}",
-        amount(u_effect),
-        amount(shift),
-    );
-    let found = match inputs.len() {
-        1 => found.replacen("Their", "Its", 1),
-        _ => found,
+    let whose = if inputs.len() == 1 { "Its" } else { "Their" };
+    let moved = if is_residue(shift, u_effect) {
+        String::new()
+    } else {
+        format!(" and move the estimate by {}", amount(shift))
     };
+    let found = format!(
+        "{whose} second-order terms add {} to u in quadrature{moved}",
+        amount(u_effect)
+    );
     if matters {
         format!(
             "{first} {found}: the first-order u is wrong. Rely on the second-order terms and on Monte Carlo."
@@ -189,10 +209,14 @@ fn unseen_in_chinese(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
         );
     }
     let amount = |x: f64| amount(report, measurand, significant(x, 2));
+    let moved = if is_residue(shift, u_effect) {
+        String::new()
+    } else {
+        format!("，使估计值移动 {}", amount(shift))
+    };
     let found = format!(
-        "其二阶项使标准不确定度增加 {}（方和根），使估计值移动 {}",
-        amount(u_effect),
-        amount(shift)
+        "其二阶项对标准不确定度的贡献为 {}（按方和根合成）{moved}",
+        amount(u_effect)
     );
     if matters {
         format!("{first}{found}，一阶标准不确定度因而不正确，应以二阶项和蒙特卡洛法的结果为准。")
@@ -216,7 +240,7 @@ fn not_validated_in_english(report: &Report<'_>, measurand: Option<usize>) -> St
             "The GUM result is not validated by Monte Carlo (JCGM 101, clause 8): its {p} interval differs from the Monte Carlo interval by more than the tolerance. The statement therefore uses the Monte Carlo result."
         ),
         Basis::Gum => format!(
-            "The {p} interval of the GUM differs from the Monte Carlo interval by more than the tolerance δ (JCGM 101, clause 8), but estimate and standard uncertainty agree within δ. The statement claims these and a fixed k, and no coverage probability; it therefore uses the GUM result. Who needs a {p} interval takes that of Monte Carlo."
+            "The {p} interval of the GUM differs from the Monte Carlo interval by more than the tolerance δ (JCGM 101, clause 8), but estimate and standard uncertainty agree within δ. The statement claims these and a fixed k, and no coverage probability; it therefore uses the GUM result. Take the Monte Carlo interval wherever a {p} interval is needed."
         ),
     }
 }

@@ -53,10 +53,18 @@ fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
         };
         blocks.push(titled(""));
         blocks.push(Block::Table(series.results().without_empty_columns()));
-        blocks.push(Block::Paragraph(series.common_factor()));
+        blocks.extend(series.below().map(Block::Paragraph));
         if series.judged.iter().any(|claims| !claims.is_empty()) {
-            blocks.push(titled(l.word(Word::Claim)));
-            blocks.push(Block::Table(series.claims()));
+            let title = l.word(Word::Claim);
+            blocks.push(match series.one_figure() {
+                Some(figure) => {
+                    titled(&l.pick(format!("{title}, {figure}"), format!("{title}，{figure}")))
+                }
+                None => {
+                    Block::Section(l.pick(format!("{name}: {title}"), format!("{name}：{title}")))
+                }
+            });
+            blocks.push(Block::Table(series.claims().without_empty_columns()));
         }
         let repetitions = series.repetitions();
         if !repetitions.rows.is_empty() {
@@ -146,27 +154,43 @@ impl Series<'_> {
     }
 
     /// What the table has no column for.
-    fn common_factor(&self) -> String {
+    fn below(&self) -> Option<String> {
         let first = &self.rows[0];
         let l = first.language;
         let digits = first.budget.conventions.digits;
-        let clause = l.pick(
-            format!(
-                "Validated: JCGM 101 clause 8 at {digits} significant digit{} of u_c.",
-                if digits == 1 { "" } else { "s" }
-            ),
-            format!("“通过验证”按 u_c 的 {digits} 位有效数字判定（JCGM 101 第 8 章）。"),
-        );
-        match self.one_factor() {
-            Some(k) => l.pick(
-                format!("U = k·u_c with k = {k} in every row. {clause}"),
-                format!("各行 U = k·u_c，k = {k}。{clause}"),
-            ),
-            None => clause,
+        let mut sentences = Vec::new();
+        if let Some(k) = self.one_factor() {
+            sentences.push(l.pick(
+                format!("U = k·u_c with k = {k} in every row."),
+                format!("各行 U = k·u_c，k = {k}。"),
+            ));
         }
+        let result = |r: &Report<'_>| r.evaluation.results[self.measurand].validation.is_some();
+        if self.rows.iter().any(result) {
+            let plural = if digits == 1 { "" } else { "s" };
+            sentences.push(l.pick(
+                format!(
+                    "Validated: JCGM 101 clause 8 at {digits} significant digit{plural} of u_c."
+                ),
+                format!("“通过验证”按 u_c 的 {digits} 位有效数字判定（JCGM 101 第 8 章）。"),
+            ));
+        }
+        (!sentences.is_empty()).then(|| sentences.join(l.pick(" ", "")))
+    }
+
+    /// The one figure in the unit of the measurand that all rows claim, if it is one.
+    fn one_figure(&self) -> Option<String> {
+        let mut all = self.judged.iter().flatten().map(|c| &c.claimed.what);
+        let first = all.next()?;
+        let in_unit = matches!(
+            first,
+            Figure::Estimate | Figure::StandardUncertainty | Figure::ExpandedUncertainty
+        );
+        (in_unit && all.all(|what| what == first)).then(|| claim::label(&self.rows[0], first))
     }
 
     fn claims(&self) -> Table {
+        let one_figure = self.one_figure().is_some();
         let l = self.rows[0].language;
         let largest = self
             .judged
@@ -201,7 +225,11 @@ impl Series<'_> {
                         0 => report.label.unwrap_or_default().into(),
                         _ => Cell::Empty,
                     },
-                    claim::label(report, what).into(),
+                    if one_figure {
+                        Cell::Empty
+                    } else {
+                        claim::label(report, what).into()
+                    },
                     number(comparison.claimed.value, place).into(),
                     comparison
                         .obtained
@@ -319,30 +347,64 @@ fn yes_or_no(report: &Report<'_>, yes: bool) -> &'static str {
     }
 }
 
-/// Remarks of all rows, each with the rows that it concerns.
+/// A remark of one or more rows, in the words of the first of them.
+struct Common {
+    text: String,
+    labels: Vec<String>,
+    /// Whether the figures in it are those of the first row only.
+    varies: bool,
+}
+
+/// What is to be known of the rows; remarks that differ in their figures only stand once.
 fn common_remarks(rows: &[Report<'_>]) -> Vec<String> {
-    let mut found: Vec<(String, Vec<String>)> = Vec::new();
+    let mut found: Vec<Common> = Vec::new();
     for report in rows {
-        for remark in remarks::remarks(report) {
+        for text in remarks::remarks(report) {
             let label = report.label.unwrap_or_default().to_string();
-            match found.iter_mut().find(|(text, _)| *text == remark) {
-                Some((_, labels)) => labels.push(label),
-                None => found.push((remark, vec![label])),
+            let kind = without_figures(&text);
+            match found.iter_mut().find(|c| without_figures(&c.text) == kind) {
+                Some(common) => {
+                    common.labels.push(label);
+                    common.varies |= common.text != text;
+                }
+                None => found.push(Common {
+                    text,
+                    labels: vec![label],
+                    varies: false,
+                }),
             }
         }
     }
     let l = rows[0].language;
-    let everywhere = |labels: &[String]| labels.len() == rows.len();
-    found
-        .into_iter()
-        .map(|(text, labels)| match everywhere(&labels) {
-            true => text,
-            false => l.pick(
-                format!("{}: {text}", l.list(&labels)),
-                format!("{}：{text}", l.list(&labels)),
-            ),
-        })
-        .collect()
+    let sentence = |common: Common| {
+        let Common {
+            mut text,
+            labels,
+            varies,
+        } = common;
+        if varies {
+            let first = &labels[0];
+            text += &l.pick(
+                format!(" (The figures are those of {first}.)"),
+                format!("（数值取自 {first}。）"),
+            );
+        }
+        if labels.len() == rows.len() {
+            return text;
+        }
+        let labels = l.list(&labels);
+        l.pick(format!("{labels}: {text}"), format!("{labels}：{text}"))
+    };
+    found.into_iter().map(sentence).collect()
+}
+
+/// A sentence without its numbers, by which remarks of several rows are recognised as alike.
+fn without_figures(text: &str) -> String {
+    let kept = |word: &&str| !word.starts_with(|c: char| c.is_ascii_digit() || c == '-');
+    text.split_whitespace()
+        .filter(kept)
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 #[cfg(test)]

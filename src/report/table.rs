@@ -118,12 +118,7 @@ impl Table {
         let rule = "─".repeat(full);
         let mut lines = Vec::with_capacity(self.rows.len() + 2);
         if self.columns.iter().any(|c| !c.head.is_empty()) {
-            let heads: Vec<Cell> = self
-                .columns
-                .iter()
-                .map(|c| Cell::Text(c.head.clone()))
-                .collect();
-            self.draw(&heads, &widths, gap, &mut lines);
+            self.draw_heads(&widths, gap, &mut lines);
             lines.push(rule.clone());
         }
         for row in &self.rows {
@@ -137,7 +132,16 @@ impl Table {
     }
 
     fn natural(&self) -> Vec<usize> {
-        let mut widths: Vec<usize> = self.columns.iter().map(|c| c.head.width()).collect();
+        let heads = self.columns.iter().map(|c| c.head.width());
+        heads
+            .zip(self.natural_body())
+            .map(|(head, body)| head.max(body))
+            .collect()
+    }
+
+    /// The widths without the heads.
+    fn natural_body(&self) -> Vec<usize> {
+        let mut widths = vec![0; self.columns.len()];
         for row in &self.rows {
             let Row::Cells(cells) = row else { continue };
             for (width, cell) in widths.iter_mut().zip(cells) {
@@ -164,13 +168,27 @@ impl Table {
             }
         }
         self.shrink(ColumnKind::Wrapped, 24, page, GAP, &mut widths);
+        if total(&widths, NARROW_GAP) > page {
+            self.break_heads(&mut widths);
+        }
         if total(&widths, GAP) <= page {
             return (widths, GAP);
         }
         self.shrink(ColumnKind::Words, 8, page, NARROW_GAP, &mut widths);
-        self.shrink(ColumnKind::Names, 14, page, NARROW_GAP, &mut widths);
+        self.shrink(ColumnKind::Wrapped, 16, page, NARROW_GAP, &mut widths);
         self.shrink(ColumnKind::Words, 5, page, NARROW_GAP, &mut widths);
+        self.shrink(ColumnKind::Names, 10, page, NARROW_GAP, &mut widths);
         (widths, NARROW_GAP)
+    }
+
+    /// Gives columns of numbers the width of their numbers; heads that are wider go on two lines.
+    fn break_heads(&self, widths: &mut [usize]) {
+        let body = self.natural_body();
+        for ((width, column), body) in widths.iter_mut().zip(&self.columns).zip(body) {
+            if column.kind == ColumnKind::Numbers && *width > body {
+                *width = body.max(width.div_ceil(2));
+            }
+        }
     }
 
     /// Takes from the widest columns of a kind until the table fits or they are down to `least`.
@@ -194,13 +212,39 @@ impl Table {
     }
 
     fn draw(&self, cells: &[Cell], widths: &[usize], gap: usize, lines: &mut Vec<String>) {
-        let mut columns: Vec<(usize, ColumnKind, Vec<String>)> = Vec::with_capacity(widths.len());
-        for (i, (column, width)) in self.columns.iter().zip(widths).enumerate() {
-            if *width > 0 {
-                let cell = cells.get(i).unwrap_or(&Cell::Empty);
-                columns.push((*width, column.kind, cell.set(column.kind, *width)));
-            }
-        }
+        let texts = self.columns.iter().zip(widths).enumerate();
+        let texts = texts.map(|(i, (column, width))| {
+            let cell = cells.get(i).unwrap_or(&Cell::Empty);
+            cell.set(column.kind, *width)
+        });
+        self.side_by_side(texts.collect(), widths, gap, lines);
+    }
+
+    fn draw_heads(&self, widths: &[usize], gap: usize, lines: &mut Vec<String>) {
+        let texts = self.columns.iter().zip(widths);
+        let texts = texts.map(|(column, width)| match column.kind {
+            ColumnKind::Numbers => wrapped(&column.head, *width),
+            kind => Cell::Text(column.head.clone()).set(kind, *width),
+        });
+        self.side_by_side(texts.collect(), widths, gap, lines);
+    }
+
+    /// Draws cells that are already broken into lines; columns of no width are left out.
+    fn side_by_side(
+        &self,
+        cells: Vec<Vec<String>>,
+        widths: &[usize],
+        gap: usize,
+        lines: &mut Vec<String>,
+    ) {
+        let columns: Vec<(usize, ColumnKind, Vec<String>)> = self
+            .columns
+            .iter()
+            .zip(widths)
+            .zip(cells)
+            .filter(|((_, width), _)| **width > 0)
+            .map(|((column, width), set)| (*width, column.kind, set))
+            .collect();
         let height = columns
             .iter()
             .map(|(_, _, set)| set.len())
@@ -332,7 +376,7 @@ fn pieces(text: &str) -> Vec<&str> {
     let mut cuts = vec![0];
     let mut before = [' '; 2];
     for (i, c) in text.char_indices() {
-        if i > 0 && may_break(before, c) {
+        if i > 0 && may_break(before, &text[i..]) {
             cuts.push(i);
         }
         before = [before[1], c];
@@ -342,12 +386,22 @@ fn pieces(text: &str) -> Vec<&str> {
     cuts.windows(2).map(|w| &text[w[0]..w[1]]).collect()
 }
 
-/// Whether a line may end before `next`. `U = 0.12`, `1 000 000` and `95 %` stay together.
-fn may_break([second, last]: [char; 2], next: char) -> bool {
+/// Whether a line may end before `next`. `U = 0.12`, `1 000 000`, `95 %` and `94 nm` stay together.
+fn may_break([second, last]: [char; 2], rest: &str) -> bool {
+    /// Letters of a unit; longer words may be parted from their number.
+    const UNIT: usize = 5;
+    let Some(next) = rest.chars().next() else {
+        return false;
+    };
     const ENDS: &str = "，。；：、）”！？)";
-    const BINDS: &str = "=±≈<≤/";
+    const BINDS: &str = "=±≈<≤/−";
     if last == ' ' {
-        let number = second.is_ascii_digit() && (next.is_ascii_digit() || next == '%');
+        let word = rest
+            .split([' ', ',', ';', ':', '.'])
+            .next()
+            .unwrap_or_default();
+        let unit = next.is_alphanumeric() || "%°µΩ".contains(next);
+        let number = second.is_ascii_digit() && unit && word.chars().count() <= UNIT;
         return next != ' ' && !number && !BINDS.contains(next) && !BINDS.contains(second);
     }
     (is_wide(last) || is_wide(next))

@@ -67,11 +67,10 @@ pub(super) fn draw(blocks: &[Block], page: Page) -> String {
 fn draw_block(block: &Block, page: Page, lines: &mut Vec<String>) {
     match block {
         Block::Title(title) => {
-            for line in wrapped(title, page.width) {
-                let rule = "━".repeat(line.width());
-                lines.push(page.bold(&line));
-                lines.push(page.dim(&rule));
-            }
+            let title = wrapped(title, page.width);
+            let width = title.iter().map(|line| line.width()).max().unwrap_or(0);
+            lines.extend(title.iter().map(|line| page.bold(line)));
+            lines.push(page.dim(&"━".repeat(width)));
         }
         Block::Section(title) => lines.push(page.bold(title)),
         Block::Fields(fields) => {

@@ -226,3 +226,36 @@ fn verdict(result: &MeasurandResult, digits: u8) -> Option<f64> {
         .find(|validation| validation.digits == digits)
         .map(|validation| f64::from(u8::from(validation.validated)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim_of(claimed: f64, obtained: f64, rounded: Option<f64>) -> Comparison {
+        Comparison {
+            claimed: ClaimedFigure {
+                what: Figure::ExpandedUncertainty,
+                value: claimed,
+                tolerance: 0.5e-5,
+            },
+            claim: 0,
+            method: Method::Gum,
+            obtained: Some(obtained),
+            rounded,
+            judged: true,
+        }
+    }
+
+    #[test]
+    fn a_figure_agrees_within_half_a_unit() {
+        assert!(claim_of(4.3e-4, 4.25e-4, None).agrees());
+        assert!(!claim_of(4.3e-4, 4.23e-4, None).agrees());
+    }
+
+    #[test]
+    fn an_expanded_uncertainty_that_rounds_up_to_the_claim_agrees() {
+        let up = claim_of(4.3e-4, 4.231e-4, Some(4.3e-4));
+        assert!(up.agrees() && !up.is_near());
+        assert!(!claim_of(4.4e-4, 4.231e-4, Some(4.3e-4)).agrees());
+    }
+}

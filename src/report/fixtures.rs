@@ -575,6 +575,43 @@ pub(super) fn asymmetric() -> Case {
     Case { budget, evaluation }
 }
 
+/// Not validated, but symmetric: U is half the width of the Monte Carlo interval.
+pub(super) fn from_trials() -> Case {
+    let mut case = plain();
+    let half = 0.00074;
+    let interval = [1.2345678 - half, 1.2345678 + half];
+    let result = &mut case.evaluation.results[0];
+    result.monte_carlo = Some(monte_carlo(1.2345678, 0.00042, interval, interval));
+    result.validation = Some(validations(5e-6, 1e-4, 1e-4));
+    result.basis = Basis::MonteCarlo;
+    case.evaluation.run = Some(run());
+    case.evaluation.findings = vec![Finding {
+        measurand: Some(0),
+        kind: FindingKind::NotValidated,
+    }];
+    case
+}
+
+/// The same in the manner of JJF 1059.1.
+pub(super) fn from_trials_apart() -> Case {
+    let mut case = from_trials();
+    case.budget.conventions.profile = "JJF".to_string();
+    case.budget.conventions.state_probability = false;
+    case
+}
+
+/// A fixed k whose probability Monte Carlo does not confirm, though it confirms y and u.
+pub(super) fn fixed_unconfirmed() -> Case {
+    let mut case = from_trials();
+    case.budget.conventions.profile = "NIST".to_string();
+    case.budget.conventions.coverage_factor = CoverageRule::Fixed(2.0);
+    let result = &mut case.evaluation.results[0];
+    result.gum.coverage.k = 2.0;
+    result.gum.coverage.basis = CoverageBasis::Fixed;
+    result.basis = Basis::Gum;
+    case
+}
+
 /// A ratio whose moments do not exist.
 pub(super) fn without_moments() -> Case {
     let mut bench = Bench::default();

@@ -118,3 +118,42 @@ pub(super) fn in_chinese(reason: &MissingMoments) -> String {
 fn exponent(index: f64) -> String {
     print(&super::number::at_place(index, -1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn too_few_simultaneous_readings_are_counted() {
+        let reason = |readings| MissingMoments::JointReadings {
+            inputs: ["V", "I", "phi"].map(String::from).to_vec(),
+            readings,
+        };
+        let five = in_english(&reason(5));
+        assert!(five.contains("has no standard deviation: 5 simultaneous readings of 3 inputs (V, I and phi) leave ν = n − N = 5 − 3 = 2"), "{five}");
+        assert!(five.contains("from 6 on"), "{five}");
+        assert!(in_english(&reason(4)).contains("neither a mean nor"));
+    }
+
+    #[test]
+    fn chinese_is_chinese() {
+        let tail = |consequence| MissingMoments::Tail {
+            side: Side::Lower,
+            index: 1.04,
+            consequence,
+        };
+        for consequence in [
+            Consequence::NoMean,
+            Consequence::SlowMean,
+            Consequence::NoDeviation,
+            Consequence::SlowDeviation,
+        ] {
+            let sentence = in_chinese(&tail(consequence));
+            assert!(sentence.contains("−1.0 次幂"), "{sentence}");
+            assert!(
+                !sentence.contains(|c: char| c.is_ascii_alphabetic()),
+                "{sentence}"
+            );
+        }
+    }
+}

@@ -24,6 +24,9 @@ fn all() -> Vec<(&'static str, Case)> {
         ("refused_freedom", fixtures::refused_freedom()),
         ("rectangular", fixtures::rectangular()),
         ("asymmetric", fixtures::asymmetric()),
+        ("from_trials", fixtures::from_trials()),
+        ("from_trials_apart", fixtures::from_trials_apart()),
+        ("fixed_unconfirmed", fixtures::fixed_unconfirmed()),
         ("without_moments", fixtures::without_moments()),
         ("joint", fixtures::joint()),
         ("long", fixtures::long()),
@@ -34,7 +37,11 @@ fn all() -> Vec<(&'static str, Case)> {
 fn text_in_english() {
     for (name, case) in all() {
         // The others differ in their statements only.
-        if !name.starts_with("apart") && !name.starts_with("fixed_with") {
+        if !["apart", "fixed_", "from_"]
+            .iter()
+            .any(|start| name.starts_with(start))
+            || name == "fixed_factor"
+        {
             insta::assert_snapshot!(
                 format!("text_{name}"),
                 text(&case.report(Language::English), page(100))

@@ -31,8 +31,13 @@ fn every_budget_agrees_with_the_figures_it_claims() {
     let mut compared = 0;
     let mut wrong = Vec::new();
     for path in common::files("budgets", "toml") {
-        let loaded =
-            budget::load(&path).unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+        let loaded = match budget::load(&path) {
+            Ok(loaded) => loaded,
+            Err(rejection) => {
+                wrong.push(rejection.render(false));
+                continue;
+            }
+        };
         if path.ends_with("four-point-tumble-runs.toml") || path.ends_with("four-point-tumble.toml")
         {
             continue; // claims of a source whose formulas are lost: shown in the report, see `tumble_claims`

@@ -145,7 +145,8 @@ const BUDGETS: &[(&str, &[&str])] = &[
     ("wuebbeler_ex2_ohm", &["electrical/resistance-from-limits"]),
 ];
 
-/// Cases without inputs: tests of coverage factors and tolerances in `tests/independent`.
+/// Cases without inputs: Table G.2, the coverage factors of JCGM 102 6.5 and the tolerances of JCGM 101 7.9.2
+/// are unit tests of `special::student_t`, `propagate::joint` and `propagate::validation`.
 const WITHOUT_BUDGET: [&str; 3] = [
     "gum_g2_t_table",
     "s2_coverage_factors",
@@ -214,7 +215,7 @@ fn every_reference_case_is_covered() {
             .map(|id| format!("{id}: no such case")),
     );
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert!(compared > 80, "only {compared} figures compared");
+    assert!(compared >= 80, "only {compared} figures compared");
 }
 
 #[test]

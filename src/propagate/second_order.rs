@@ -337,6 +337,18 @@ mod tests {
 
     impl Cubic {
         fn outcome(&self, u: &[f64], groups: &[Group], of: impl Fn(usize) -> Moments) -> Outcome {
+            self.outcome_in(u, groups, of, &vec![Some(0); self.g.len()])
+                .0
+        }
+
+        /// The outcome, and how many sweeps it took.
+        fn outcome_in(
+            &self,
+            u: &[f64],
+            groups: &[Group],
+            of: impl Fn(usize) -> Moments,
+            blocks: &[Option<usize>],
+        ) -> (Outcome, usize) {
             let n = self.g.len();
             let covariance = Covariance::from_parts(u.to_vec(), vec![INF; n], groups);
             let inputs: Vec<Input> = (0..n).map(input).collect();
@@ -368,8 +380,9 @@ mod tests {
                     third,
                 }]
             };
-            let plan = Plan::new(&directions, &vec![Some(0); n]);
-            accumulate(&linear, &directions, &plan, along).remove(0)
+            let plan = Plan::new(&directions, blocks);
+            let outcome = accumulate(&linear, &directions, &plan, along).remove(0);
+            (outcome, plan.sweeps.len())
         }
 
         fn found(&self, u: &[f64], groups: &[Group], of: Moments) -> SecondOrder {
@@ -529,6 +542,38 @@ mod tests {
         let grouped = model.found(&[0.3, 0.2], &correlated(0.0), NORMAL);
         close(alone.u, grouped.u);
         close(alone.shift, grouped.shift);
+    }
+
+    #[test]
+    fn blocks_that_do_not_interact_share_sweeps() {
+        // Blocks {0, 1}, {2}, {3, 4}; the correlation of 1 and 2 lies across two of them.
+        let mut h = DMatrix::from_diagonal_element(5, 5, 0.7);
+        for (i, j) in [(0, 1), (3, 4)] {
+            h[(i, j)] = -0.4;
+            h[(j, i)] = -0.4;
+        }
+        let model = Cubic {
+            g: vec![1.0, -0.5, 2.0, 0.3, 0.0],
+            h,
+            t: vec![0.1, 0.2, -0.3, 0.4, 0.5],
+        };
+        let u = [0.5, 0.6, 0.7, 0.8, 0.9];
+        let groups = [Group {
+            members: vec![1, 2],
+            ..correlated(0.6)[0].clone()
+        }];
+        let blocks = [Some(7), Some(7), Some(2), Some(4), Some(4)];
+        let (whole, all) = model.outcome_in(&u, &groups, |_| NORMAL, &[Some(0); 5]);
+        let (parts, shared) = model.outcome_in(&u, &groups, |_| NORMAL, &blocks);
+        assert_eq!((all, shared), (5, 3));
+        let (Terms::Found(whole_terms), Terms::Found(terms)) = (&whole.terms, &parts.terms) else {
+            panic!()
+        };
+        close(terms.u, whole_terms.u);
+        close(terms.shift, whole_terms.shift);
+        for (a, b) in parts.slope_deviation.iter().zip(&whole.slope_deviation) {
+            close(*a, *b);
+        }
     }
 
     #[test]

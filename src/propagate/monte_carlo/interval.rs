@@ -359,6 +359,52 @@ mod tests {
     }
 
     #[test]
+    fn many_values_equal_a_full_sort() {
+        type Draw = fn(&mut Stream) -> f64;
+        let draws: [(&str, Draw); 5] = [
+            ("normal", |s| s.normal()),
+            ("heavy", |s| s.student_t(0.5)),
+            ("constant", |_| 2.0),
+            ("two values", |s| if s.uniform() < 0.5 { -0.0 } else { 0.0 }),
+            ("whole numbers", |s| (3.0 * s.normal()).round()),
+        ];
+        for (name, draw) in draws {
+            let mut stream = Stream::new(23);
+            for (count, p) in [(100_000, 0.95), (262_143, 0.6827), (262_144, 0.999)] {
+                let sample: Vec<f64> = (0..count).map(|_| draw(&mut stream)).collect();
+                let ranks = Ranks::new(count, p);
+                let (symmetric, width, median) = by_full_sort(&sample, p);
+                for threads in [1, 3] {
+                    let ordered = Ordered::new(&sample, ranks.last, threads);
+                    assert_eq!(ordered.symmetric(ranks), symmetric, "{name} {count}");
+                    let [low, high] = ordered.shortest(ranks);
+                    assert_eq!(high - low, width, "{name} {count}");
+                    assert_eq!(ordered.median(), median, "{name} {count}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_wrong_guess_is_noticed() {
+        // Every seventh value is far above the rest: only those are looked at beforehand.
+        let sample: Vec<f64> = (0..7 * PILOT)
+            .map(|i| {
+                if i % 7 == 0 {
+                    1e6 + i as f64
+                } else {
+                    (i % 1009) as f64
+                }
+            })
+            .collect();
+        let ranks = Ranks::new(sample.len(), 0.95);
+        let (symmetric, _, median) = by_full_sort(&sample, 0.95);
+        let ordered = Ordered::new(&sample, ranks.last, 2);
+        assert_eq!(ordered.symmetric(ranks), symmetric);
+        assert_eq!(ordered.median(), median);
+    }
+
+    #[test]
     fn ranks_of_the_standard() {
         // 7.7.2: pM whole: q = 9500, (M − q)/2 = 250.
         assert_eq!(

@@ -41,9 +41,9 @@ use interval::{Ordered, Ranks};
 use moments::{Moments, Pivot};
 use store::Store;
 
-/// Most model values that are kept, over all outputs (1.6 GB). A run that asks for more trials is
-/// cut to what fits, and [`Run::trials`] says how many there were.
-pub(crate) const MOST_VALUES: u64 = 200_000_000;
+/// Most model values that are kept, over all outputs (1.6 GB). A fixed number of trials that needs
+/// more is refused; an adaptive run stops there and says so.
+const MOST_VALUES: u64 = 200_000_000;
 
 /// What the GUM found for one output; moments are formed about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,13 +69,20 @@ pub(crate) struct McOutcome {
 /// Runs the Monte Carlo method on `threads` threads; the result does not depend on their number.
 ///
 /// # Errors
-/// [`EvaluationError::AllTrialsFailed`] when an output has fewer than two finite values.
+/// [`EvaluationError::AllTrialsFailed`] when an output has fewer than two finite values, and
+/// [`EvaluationError::TooManyTrials`] when the values of so many trials cannot be kept.
 pub(crate) fn run(
     budget: &Budget,
     settings: &MonteCarloSettings,
     gum: &[GumForMc],
     threads: usize,
 ) -> Result<McOutcome, EvaluationError> {
+    let most = most_trials(budget.model.outputs().len());
+    if let Trials::Fixed(asked) = settings.trials
+        && asked > most
+    {
+        return Err(EvaluationError::TooManyTrials { asked, most });
+    }
     let source = budget_source::BudgetSource::new(budget, settings.seed);
     let question = Question {
         settings,
@@ -89,6 +96,11 @@ pub(crate) fn run(
         .map_err(|output| EvaluationError::AllTrialsFailed {
             measurand: budget.model.outputs()[output].name.clone(),
         })
+}
+
+/// Trials whose values can be kept.
+fn most_trials(outputs: usize) -> u64 {
+    (MOST_VALUES / outputs.max(1) as u64).max(1)
 }
 
 /// What is asked of a source of trials.
@@ -138,7 +150,7 @@ impl Question<'_> {
     }
 
     fn draw<S: Source>(&self, source: &S) -> (Store, Run) {
-        let most = (MOST_VALUES / source.outputs().max(1) as u64).max(1);
+        let most = most_trials(source.outputs());
         let (store, adaptive) = match self.settings.trials {
             Trials::Fixed(trials) => {
                 let trials = trials.clamp(1, most);

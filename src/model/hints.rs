@@ -7,38 +7,6 @@ use super::operation::Smoothness;
 use super::{ModelFault, Place};
 use crate::fault::Fault;
 
-/// Whether each input takes part in any nonlinear operation.
-pub fn nonlinear_inputs(graph: &Graph, inputs: usize) -> Vec<bool> {
-    let mut bent = vec![false; graph.ops.len()];
-    let mut out = vec![false; inputs];
-    for (i, op) in graph.ops.iter().enumerate().rev() {
-        let above = bent[i];
-        let constant = |id: Id| graph.constant(id).is_some();
-        match *op {
-            Op::Input(place) => out[place as usize] |= above,
-            Op::Unary(row, a) => bent[a as usize] |= above || row.name != "-",
-            Op::Binary(row, a, b) => {
-                let (in_a, in_b) = match row.name {
-                    "+" | "-" => (false, false),
-                    "*" => (!constant(b), !constant(a)),
-                    "/" => (!constant(b), true),
-                    "quantize" => (!constant(b), true),
-                    _ => (true, true),
-                };
-                bent[a as usize] |= above || in_a;
-                bent[b as usize] |= above || in_b;
-            }
-            Op::Select(c, a, b) => {
-                bent[c as usize] = true;
-                bent[a as usize] |= above;
-                bent[b as usize] |= above;
-            }
-            _ => graph.operands(*op, |a| bent[a as usize] = true),
-        }
-    }
-    out
-}
-
 /// Operations whose derivative does not exist or hides something here, in words.
 pub fn irregularities(graph: &Graph, x: &[f64]) -> Vec<String> {
     let mut found = Vec::new();

@@ -15,6 +15,7 @@ mod functions;
 mod graph;
 mod hints;
 mod implicit;
+mod interaction;
 mod jet;
 mod lexer;
 mod lower;
@@ -203,7 +204,14 @@ impl Model {
 
     /// Whether each input takes part in any nonlinear operation; the others have no second derivatives.
     pub fn nonlinear_inputs(&self) -> Vec<bool> {
-        hints::nonlinear_inputs(&self.graph, self.inputs)
+        let blocks = self.interactions();
+        blocks.iter().map(Option::is_some).collect()
+    }
+
+    /// The block of each input: derivatives of second and higher order with respect to inputs of
+    /// different blocks are zero. `None` for inputs that take part in no nonlinear operation.
+    pub fn interactions(&self) -> Vec<Option<usize>> {
+        interaction::blocks(&self.graph, self.inputs)
     }
 
     /// Which of the request's symbols no measurand depends on.
@@ -215,6 +223,12 @@ impl Model {
     /// words: `abs(x - a) has a kink where x - a is 0, which is just here`.
     pub fn irregularities(&self, x: &[f64]) -> Vec<String> {
         hints::irregularities(&self.graph, x)
+    }
+
+    /// Measurands that have no finite value at `x`, each with the operation that is to blame.
+    pub fn undefined(&self, x: &[f64]) -> Vec<ModelFault> {
+        let names = self.outputs.iter().map(|output| output.name.as_str());
+        hints::undefined(&self.graph, x, names)
     }
 
     /// Divisors and function arguments that come within `reach` standard uncertainties of a pole or of

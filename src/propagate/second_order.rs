@@ -11,6 +11,11 @@
 //! Σ_ij \[½ f_ij² + f_i f_ijj\] u_i² u_j²; other components enter with their own moments. Members of a
 //! correlated group are taken as jointly normal, and so is t, of which the GUM propagates u = s/√n
 //! and not the standard deviation.
+//!
+//! The derivatives along one direction cost one sweep through the model. Directions that move
+//! different blocks of inputs ([`crate::model::Model::interactions`]) share a sweep, and the sums
+//! run only over directions that have a block in common: Σ xᵢ² takes one sweep for any number of
+//! inputs.
 
 use super::SecondOrder;
 use super::covariance::Covariance;
@@ -63,23 +68,16 @@ pub(super) enum Terms {
 
 /// Second-order terms of every measurand.
 pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
-    let nonlinear = budget.model.nonlinear_inputs();
+    let blocks = budget.model.interactions();
     let directions = directions(
         &linear.covariance,
         &budget.inputs,
         &budget.components,
-        &nonlinear,
+        &blocks,
     );
-    let mut whole = vec![0.0; linear.x.len()];
-    accumulate(linear, &directions, |steps| {
-        for &(input, change) in steps {
-            whole[input] = change;
-        }
-        let along = budget.model.along(&linear.x, &whole);
-        for &(input, _) in steps {
-            whole[input] = 0.0;
-        }
-        along
+    let plan = Plan::new(&directions, &blocks);
+    accumulate(linear, &directions, &plan, |direction| {
+        budget.model.along(&linear.x, direction)
     })
 }
 
@@ -88,11 +86,11 @@ fn directions(
     covariance: &Covariance,
     inputs: &[Input],
     components: &[Component],
-    nonlinear: &[bool],
+    blocks: &[Option<usize>],
 ) -> Vec<Direction> {
     let mut steps: Vec<Vec<(usize, f64)>> = vec![Vec::new(); covariance.coordinates()];
     for (place, input) in inputs.iter().enumerate() {
-        if !nonlinear.get(place).copied().unwrap_or(true) {
+        if blocks[place].is_none() {
             continue;
         }
         let form = covariance.form(input.terms.iter().map(|t| (t.component, t.coefficient)));
@@ -140,6 +138,50 @@ fn moments(distribution: &Distribution) -> Moments {
         .unwrap_or(NORMAL)
 }
 
+/// Which directions share a sweep, and which meet in a block.
+struct Plan {
+    /// Per block: (direction, input, change).
+    steps: Vec<Vec<(usize, usize, f64)>>,
+    /// Per direction: the blocks that it moves.
+    moved: Vec<Vec<usize>>,
+    /// Directions of each sweep, no two of which move the same block.
+    sweeps: Vec<Vec<usize>>,
+}
+
+impl Plan {
+    /// Puts every direction into the first sweep after those of its neighbours so far.
+    fn new(directions: &[Direction], blocks: &[Option<usize>]) -> Self {
+        let count = blocks.iter().flatten().max().map_or(0, |last| last + 1);
+        let mut plan = Plan {
+            steps: vec![Vec::new(); count],
+            moved: Vec::with_capacity(directions.len()),
+            sweeps: Vec::new(),
+        };
+        let mut next = vec![0; count];
+        for (l, direction) in directions.iter().enumerate() {
+            let mut moved = Vec::with_capacity(1);
+            for &(input, change) in &direction.steps {
+                if let Some(block) = blocks[input] {
+                    plan.steps[block].push((l, input, change));
+                    moved.push(block);
+                }
+            }
+            moved.sort_unstable();
+            moved.dedup();
+            let sweep = moved.iter().map(|block| next[*block]).max().unwrap_or(0);
+            for block in &moved {
+                next[*block] = sweep + 1;
+            }
+            if sweep == plan.sweeps.len() {
+                plan.sweeps.push(Vec::new());
+            }
+            plan.sweeps[sweep].push(l);
+            plan.moved.push(moved);
+        }
+        plan
+    }
+}
+
 /// Sums while they grow.
 struct Sums {
     g: Vec<f64>,
@@ -147,19 +189,24 @@ struct Sums {
     added: f64,
     nonlinear: bool,
     slope: Vec<f64>,
+    /// h_kl and t_kll of the directions k that meet the current one, else zero.
+    met: Vec<[f64; 2]>,
 }
 
 impl Sums {
     /// Adds the terms in which direction `l` is the second index.
-    fn add(&mut self, l: usize, along: &Along, directions: &[Direction]) {
+    fn add(&mut self, l: usize, along: &Along, directions: &[Direction], plan: &Plan) {
+        let meeting = || plan.moved[l].iter().flat_map(|block| &plan.steps[*block]);
+        for &(k, input, change) in meeting() {
+            let [h, t] = &mut self.met[k];
+            *h += along.second[input] * change;
+            *t += along.third[input] * change;
+        }
         let Moments { third, fourth } = directions[l].moments;
-        for (k, direction) in directions.iter().enumerate() {
-            let (mut h, mut t) = (0.0, 0.0);
-            for &(input, change) in &direction.steps {
-                h += along.second[input] * change;
-                t += along.third[input] * change;
-            }
-            let g = self.g[direction.coordinate];
+        for &(k, ..) in meeting() {
+            // A direction with several steps here is counted at the first.
+            let [h, t] = std::mem::take(&mut self.met[k]);
+            let g = self.g[directions[k].coordinate];
             self.nonlinear |= h != 0.0 || t != 0.0;
             if k == l {
                 self.shift += 0.5 * h;
@@ -168,6 +215,10 @@ impl Sums {
                 self.added += 0.5 * h * h + g * t;
             }
         }
+    }
+
+    /// Adds one sweep to Σ_l (Σ_j f_ij d_j)²; each input moves with one direction of it at most.
+    fn add_slopes(&mut self, along: &Along) {
         for (sum, second) in self.slope.iter_mut().zip(&along.second) {
             *sum += second * second;
         }
@@ -201,11 +252,12 @@ impl Sums {
     }
 }
 
-/// Runs through the directions; `along` gives the derivatives of all measurands along one.
+/// Runs through the sweeps; `along` gives the derivatives of all measurands along a direction.
 fn accumulate(
     linear: &Linear,
     directions: &[Direction],
-    mut along: impl FnMut(&[(usize, f64)]) -> Vec<Along>,
+    plan: &Plan,
+    mut along: impl FnMut(&[f64]) -> Vec<Along>,
 ) -> Vec<Outcome> {
     let units: Vec<f64> = linear.measurands.iter().map(|m| unit(m.u)).collect();
     let mut sums: Vec<Sums> = linear
@@ -218,14 +270,22 @@ fn accumulate(
             added: 0.0,
             nonlinear: false,
             slope: vec![0.0; linear.x.len()],
+            met: vec![[0.0; 2]; directions.len()],
         })
         .collect();
-    for (l, direction) in directions.iter().enumerate() {
-        let all = along(&direction.steps);
+    let mut whole = vec![0.0; linear.x.len()];
+    for sweep in &plan.sweeps {
+        let steps = || sweep.iter().flat_map(|l| &directions[*l].steps);
+        steps().for_each(|&(input, change)| whole[input] = change);
+        let all = along(&whole);
+        steps().for_each(|&(input, _)| whole[input] = 0.0);
         for ((sums, mut along), unit) in sums.iter_mut().zip(all).zip(&units) {
             along.second.iter_mut().for_each(|s| *s /= unit);
             along.third.iter_mut().for_each(|t| *t /= unit);
-            sums.add(l, &along, directions);
+            sums.add_slopes(&along);
+            for &l in sweep {
+                sums.add(l, &along, directions, plan);
+            }
         }
     }
     sums.into_iter()
@@ -277,6 +337,18 @@ mod tests {
 
     impl Cubic {
         fn outcome(&self, u: &[f64], groups: &[Group], of: impl Fn(usize) -> Moments) -> Outcome {
+            self.outcome_in(u, groups, of, &vec![Some(0); self.g.len()])
+                .0
+        }
+
+        /// The outcome, and how many sweeps it took.
+        fn outcome_in(
+            &self,
+            u: &[f64],
+            groups: &[Group],
+            of: impl Fn(usize) -> Moments,
+            blocks: &[Option<usize>],
+        ) -> (Outcome, usize) {
             let n = self.g.len();
             let covariance = Covariance::from_parts(u.to_vec(), vec![INF; n], groups);
             let inputs: Vec<Input> = (0..n).map(input).collect();
@@ -297,9 +369,7 @@ mod tests {
                     moments: of(coordinate),
                 })
                 .collect();
-            let along = |steps: &[(usize, f64)]| {
-                let mut d = vec![0.0; n];
-                steps.iter().for_each(|&(i, change)| d[i] = change);
+            let along = |d: &[f64]| {
                 let second = (0..n)
                     .map(|i| (0..n).map(|j| self.h[(i, j)] * d[j]).sum())
                     .collect();
@@ -310,7 +380,9 @@ mod tests {
                     third,
                 }]
             };
-            accumulate(&linear, &directions, along).remove(0)
+            let plan = Plan::new(&directions, blocks);
+            let outcome = accumulate(&linear, &directions, &plan, along).remove(0);
+            (outcome, plan.sweeps.len())
         }
 
         fn found(&self, u: &[f64], groups: &[Group], of: Moments) -> SecondOrder {
@@ -470,6 +542,38 @@ mod tests {
         let grouped = model.found(&[0.3, 0.2], &correlated(0.0), NORMAL);
         close(alone.u, grouped.u);
         close(alone.shift, grouped.shift);
+    }
+
+    #[test]
+    fn blocks_that_do_not_interact_share_sweeps() {
+        // Blocks {0, 1}, {2}, {3, 4}; the correlation of 1 and 2 lies across two of them.
+        let mut h = DMatrix::from_diagonal_element(5, 5, 0.7);
+        for (i, j) in [(0, 1), (3, 4)] {
+            h[(i, j)] = -0.4;
+            h[(j, i)] = -0.4;
+        }
+        let model = Cubic {
+            g: vec![1.0, -0.5, 2.0, 0.3, 0.0],
+            h,
+            t: vec![0.1, 0.2, -0.3, 0.4, 0.5],
+        };
+        let u = [0.5, 0.6, 0.7, 0.8, 0.9];
+        let groups = [Group {
+            members: vec![1, 2],
+            ..correlated(0.6)[0].clone()
+        }];
+        let blocks = [Some(7), Some(7), Some(2), Some(4), Some(4)];
+        let (whole, all) = model.outcome_in(&u, &groups, |_| NORMAL, &[Some(0); 5]);
+        let (parts, shared) = model.outcome_in(&u, &groups, |_| NORMAL, &blocks);
+        assert_eq!((all, shared), (5, 3));
+        let (Terms::Found(whole_terms), Terms::Found(terms)) = (&whole.terms, &parts.terms) else {
+            panic!()
+        };
+        close(terms.u, whole_terms.u);
+        close(terms.shift, whole_terms.shift);
+        for (a, b) in parts.slope_deviation.iter().zip(&whole.slope_deviation) {
+            close(*a, *b);
+        }
     }
 
     #[test]

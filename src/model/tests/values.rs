@@ -319,6 +319,30 @@ fn hints_name_kinks_steps_and_poles() {
         model("a b c", "exp(2 * a) + b * c", "").nonlinear_inputs(),
         [true, true, true]
     );
+    let blocks = |names, text| {
+        let found = model(names, text, "").interactions();
+        let mut order: Vec<usize> = Vec::new();
+        let number = |block: Option<usize>| {
+            let block = block?;
+            if !order.contains(&block) {
+                order.push(block);
+            }
+            order.iter().position(|known| *known == block)
+        };
+        found.into_iter().map(number).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        blocks("a b c d e", "a^2 + b * c / 2 - 3 * d + exp(2 * e)"),
+        [Some(0), Some(1), Some(1), None, Some(2)]
+    );
+    // What is summed first and then squared interacts; a common constant joins nothing.
+    assert_eq!(blocks("a b", "(a + b)^2"), [Some(0), Some(0)]);
+    assert_eq!(blocks("a b", "2 / a + 2 / b"), [Some(0), Some(1)]);
+    assert_eq!(blocks("a b", "ln(a^2 + b^2)"), [Some(0), Some(0)]);
+    assert_eq!(
+        blocks("a b c", "s = a + b\ns * c + a^2"),
+        [Some(0), Some(0), Some(0)]
+    );
     assert_eq!(
         model("a b", "if(a > 0, 1 / b, b)", "").irregularities(&[1.0, 0.0]),
         Vec::<String>::new()

@@ -109,8 +109,6 @@ impl<S: Source> Experiment<'_, S> {
     fn extend(&mut self, batches: u64) {
         if batches > self.batches {
             let new = self.batches..batches;
-            self.store
-                .reserve(((new.end - new.start) * self.layout.batch()) as usize);
             simulate(
                 self.source,
                 self.layout,
@@ -327,9 +325,9 @@ mod tests {
             let (store, adaptive) = adapt(&source, target(procedure, 2, 2_000_000), 2);
             assert!(adaptive.reached && adaptive.delta == [0.05], "{adaptive:?}");
             let moments = store.moments(0).unwrap();
-            let mut values = store.into_columns().remove(0);
+            let values = store.into_columns().remove(0);
             let ranks = Ranks::new(values.len(), 0.95);
-            let [low, high] = Ordered::new(&mut values, ranks.last).symmetric(ranks);
+            let [low, high] = Ordered::new(&values, ranks.last, 1).symmetric(ranks);
             let found = [moments.mean(), moments.sd(), low, high];
             found.iter().zip(truth).all(|(a, b)| (a - b).abs() <= 0.05)
         });

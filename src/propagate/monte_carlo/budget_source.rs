@@ -48,7 +48,7 @@ impl<'b> Source for BudgetSource<'b> {
         }
     }
 
-    fn draw(&self, worker: &mut Worker<'b>, chunk: u64, trials: usize, columns: &mut [Vec<f64>]) {
+    fn draw(&self, worker: &mut Worker<'b>, chunk: u64, columns: &mut [&mut [f64]]) {
         let Worker {
             runner,
             scratch,
@@ -56,16 +56,14 @@ impl<'b> Source for BudgetSource<'b> {
             outputs,
         } = worker;
         self.draw.start(scratch, chunk);
-        columns.iter_mut().for_each(Vec::clear);
-        let mut left = trials;
-        while left > 0 {
+        let trials = columns.first().map_or(0, |column| column.len());
+        for start in (0..trials).step_by(LANES) {
             self.draw.next(scratch, inputs);
             runner.run(inputs, outputs);
-            let count = left.min(LANES);
+            let end = trials.min(start + LANES);
             for (column, block) in columns.iter_mut().zip(outputs.iter()) {
-                column.extend_from_slice(&block.0[..count]);
+                column[start..end].copy_from_slice(&block.0[..end - start]);
             }
-            left -= count;
         }
     }
 }

@@ -1,16 +1,16 @@
-//! Chunks of trials, shared among threads and handed on in order.
+//! Chunks of trials, shared among threads.
 //!
 //! A chunk is the unit of randomness: its streams are seeded from (seed, chunk, component), so any
 //! chunk can be drawn by any thread, or again later. Everything that is summed is summed within a
 //! chunk first and then over chunks in their order; results are therefore the same bits for any
-//! number of threads.
+//! number of threads. Every chunk is drawn into its own place among the trials that are kept, so
+//! that nothing is copied and no thread waits for another.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, PoisonError};
 
 use super::moments::{Moments, Pivot};
+use super::store::Store;
 
 /// Most trials in a chunk: 64 blocks of 256.
 pub(super) const CHUNK: u64 = 1 << 14;
@@ -26,17 +26,9 @@ pub(super) trait Source: Sync {
     /// Scratch space for one thread.
     fn worker(&self) -> Self::Worker;
 
-    /// Replaces each column by the first `trials` values of that output in `chunk`.
-    fn draw(&self, worker: &mut Self::Worker, chunk: u64, trials: usize, columns: &mut [Vec<f64>]);
-}
-
-/// Receives the chunks in order.
-///
-/// This is the only place where trials are kept, so a sink that counts instead of storing can
-/// replace [`super::store::Store`] without a change elsewhere in the engine.
-pub(super) trait Sink: Send {
-    /// Takes the next chunk: the values of every output and their moments.
-    fn absorb(&mut self, columns: &[Vec<f64>], moments: Vec<Moments>);
+    /// Fills each column with the first values of that output in `chunk`; all columns are of one
+    /// length.
+    fn draw(&self, worker: &mut Self::Worker, chunk: u64, columns: &mut [&mut [f64]]);
 }
 
 /// How trials are cut: batches (the "applications of MCM" of JCGM 101 7.9.4) of whole chunks, the last
@@ -75,112 +67,86 @@ impl Layout {
     }
 }
 
-/// Draws `batches` on `threads` threads and hands them to `sink` in order.
+/// Draws `batches` on `threads` threads and adds them to what `store` holds.
 pub(super) fn simulate<S: Source>(
     source: &S,
     layout: Layout,
     batches: Range<u64>,
     pivots: &[Pivot],
     threads: usize,
-    sink: &mut impl Sink,
+    store: &mut Store,
 ) {
-    let chunks = layout.chunks(batches);
-    let next = AtomicU64::new(chunks.start);
-    let queue = Mutex::new(Queue {
-        expected: chunks.start,
-        waiting: BTreeMap::new(),
-        spare: Vec::new(),
-        sink,
-    });
-    let work = || {
-        let mut worker = source.worker();
-        loop {
-            let chunk = next.fetch_add(1, Ordering::Relaxed);
-            if chunk >= chunks.end {
-                break;
-            }
-            let mut columns = lock(&queue)
-                .spare
-                .pop()
-                .unwrap_or_else(|| vec![Vec::new(); source.outputs()]);
-            source.draw(&mut worker, chunk, layout.trials_in(chunk), &mut columns);
-            let moments = columns
-                .iter()
-                .zip(pivots)
-                .map(|(c, pivot)| Moments::of(c, *pivot))
-                .collect();
-            lock(&queue).push(chunk, columns, moments);
-        }
+    let sizes = layout
+        .chunks(batches)
+        .map(|chunk| (chunk, layout.trials_in(chunk)));
+    let moments = {
+        let mut free = store.extend(sizes.clone().map(|(_, trials)| trials).sum());
+        let pieces: Vec<_> = sizes
+            .map(|(chunk, trials)| (chunk, split_off(&mut free, trials)))
+            .collect();
+        parallel_map(
+            pieces,
+            threads,
+            || source.worker(),
+            |worker, (chunk, mut columns)| {
+                source.draw(worker, chunk, &mut columns);
+                let pairs = columns.iter().zip(pivots);
+                pairs.map(|(c, pivot)| Moments::of(c, *pivot)).collect()
+            },
+        )
     };
-    let helpers = (threads.max(1) as u64)
-        .min(chunks.end.saturating_sub(chunks.start))
-        .max(1)
-        - 1;
-    std::thread::scope(|scope| {
-        for _ in 0..helpers {
-            scope.spawn(work);
-        }
-        work();
-    });
+    store.add_moments(moments);
 }
 
-/// A panic in another thread is propagated by the scope; the queue itself stays consistent.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+/// The first `count` places of every column; the columns keep the rest.
+fn split_off<'c>(columns: &mut [&'c mut [f64]], count: usize) -> Vec<&'c mut [f64]> {
+    let first = |column: &mut &'c mut [f64]| {
+        let (first, rest) = std::mem::take(column).split_at_mut(count);
+        *column = rest;
+        first
+    };
+    columns.iter_mut().map(first).collect()
 }
 
-/// Puts finished chunks back into order.
-struct Queue<'s, K> {
-    expected: u64,
-    waiting: BTreeMap<u64, (Vec<Vec<f64>>, Vec<Moments>)>,
-    /// Buffers to be used again.
-    spare: Vec<Vec<Vec<f64>>>,
-    sink: &'s mut K,
-}
-
-impl<K: Sink> Queue<'_, K> {
-    fn push(&mut self, chunk: u64, columns: Vec<Vec<f64>>, moments: Vec<Moments>) {
-        self.waiting.insert(chunk, (columns, moments));
-        while let Some((columns, moments)) = self.waiting.remove(&self.expected) {
-            self.sink.absorb(&columns, moments);
-            self.spare.push(columns);
-            self.expected += 1;
-        }
-    }
-}
-
-/// `task(0..count)` on several threads, results in order.
-pub(super) fn parallel_map<T: Send>(
-    tasks: Vec<Box<dyn FnOnce() -> T + Send + '_>>,
+/// `task` of every item on several threads, each with a scratch space; results in the order of the
+/// items.
+pub(super) fn parallel_map<I: Send, W, T: Send>(
+    items: Vec<I>,
     threads: usize,
+    scratch: impl Fn() -> W + Sync,
+    task: impl Fn(&mut W, I) -> T + Sync,
 ) -> Vec<T> {
-    let helpers = threads.clamp(1, tasks.len().max(1)) - 1;
-    let queue = Mutex::new(tasks.into_iter().enumerate());
-    let done = Mutex::new(BTreeMap::new());
+    let helpers = threads.clamp(1, items.len().max(1)) - 1;
+    let queue = Mutex::new(items.into_iter().enumerate());
     let work = || {
+        let mut scratch = scratch();
+        let mut done = Vec::new();
         loop {
-            let task = lock(&queue).next();
-            let Some((index, task)) = task else { break };
-            let result = task();
-            lock(&done).insert(index, result);
+            // Whoever panics while taking an item leaves the queue consistent.
+            let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some((index, item)) = next else { break };
+            done.push((index, task(&mut scratch, item)));
         }
+        done
     };
-    std::thread::scope(|scope| {
-        for _ in 0..helpers {
-            scope.spawn(work);
+    let mut done = std::thread::scope(|scope| {
+        let helpers: Vec<_> = (0..helpers).map(|_| scope.spawn(work)).collect();
+        let mut done = work();
+        for helper in helpers {
+            match helper.join() {
+                Ok(theirs) => done.extend(theirs),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
         }
-        work();
+        done
     });
-    done.into_inner()
-        .unwrap_or_else(PoisonError::into_inner)
-        .into_values()
-        .collect()
+    done.sort_unstable_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, result)| result).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::samples::Sampled;
-    use super::super::store::Store;
     use super::*;
 
     #[test]
@@ -224,10 +190,8 @@ mod tests {
 
     #[test]
     fn parallel_map_keeps_order() {
-        let tasks: Vec<Box<dyn FnOnce() -> usize + Send>> = (0..50_usize)
-            .map(|i| Box::new(move || i * i) as Box<_>)
-            .collect();
+        let items: Vec<usize> = (0..50).collect();
         let squares: Vec<usize> = (0..50).map(|i| i * i).collect();
-        assert_eq!(parallel_map(tasks, 4), squares);
+        assert_eq!(parallel_map(items, 4, || (), |_, i| i * i), squares);
     }
 }

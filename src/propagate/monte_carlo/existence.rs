@@ -11,6 +11,8 @@
 
 use std::fmt;
 
+use gumption_lanes::elementary::ln;
+
 use super::heavy::HeavyComponent;
 use super::interval::Ordered;
 
@@ -54,7 +56,7 @@ impl Tail {
     }
 
     /// Judges both ends of a sample by its √M most extreme values there.
-    pub(super) fn heavier(sample: &Ordered<'_>) -> Tail {
+    pub(super) fn heavier(sample: &Ordered) -> Tail {
         let lower = Tail::of(sample, Side::Lower);
         let upper = Tail::of(sample, Side::Upper);
         if lower.at_most < upper.at_most {
@@ -67,7 +69,7 @@ impl Tail {
     /// Existence has the benefit of the doubt: two standard errors (α/√k) are added. And a power law
     /// shows the same α at every depth. Where it is clearly larger further out, by four standard
     /// errors, the tail only begins wide (rare outliers of a much wider but light-tailed kind).
-    fn of(sample: &Ordered<'_>, side: Side) -> Tail {
+    fn of(sample: &Ordered, side: Side) -> Tail {
         let k = Tail::reach(sample.count());
         if k < FEWEST || k >= sample.depth() {
             return Tail {
@@ -102,7 +104,7 @@ impl Tail {
 }
 
 /// Hill's estimate of the tail index from the k most extreme deviations from the median.
-fn hill(sample: &Ordered<'_>, side: Side, k: usize) -> f64 {
+fn hill(sample: &Ordered, side: Side, k: usize) -> f64 {
     let deviation = |i: usize| match side {
         Side::Lower => sample.median() - sample.at(i),
         Side::Upper => sample.at(sample.count() + 1 - i) - sample.median(),
@@ -111,7 +113,7 @@ fn hill(sample: &Ordered<'_>, side: Side, k: usize) -> f64 {
     if threshold <= 0.0 {
         return f64::INFINITY;
     }
-    let sum: f64 = (1..=k).map(|i| (deviation(i) / threshold).ln()).sum();
+    let sum: f64 = (1..=k).map(|i| ln(deviation(i) / threshold)).sum();
     if sum > 0.0 {
         k as f64 / sum
     } else {
@@ -198,8 +200,8 @@ mod tests {
 
     fn verdict(seed: u64, draw: impl Fn(&mut Stream) -> f64) -> Verdict {
         let mut stream = Stream::new(seed);
-        let mut values: Vec<f64> = (0..TRIALS).map(|_| draw(&mut stream)).collect();
-        let ordered = Ordered::new(&mut values, TRIALS / 20);
+        let values: Vec<f64> = (0..TRIALS).map(|_| draw(&mut stream)).collect();
+        let ordered = Ordered::new(&values, TRIALS / 20, 1);
         Verdict::new(None, &Tail::heavier(&ordered))
     }
 
@@ -255,10 +257,10 @@ mod tests {
     #[test]
     fn hill_finds_the_index_of_a_pareto_tail() {
         let mut stream = Stream::new(9);
-        let mut values: Vec<f64> = (0..TRIALS)
+        let values: Vec<f64> = (0..TRIALS)
             .map(|_| -stream.uniform().powf(-1.0 / 1.7))
             .collect();
-        let ordered = Ordered::new(&mut values, 20_000);
+        let ordered = Ordered::new(&values, 20_000, 1);
         let tail = Tail::heavier(&ordered);
         assert_eq!(tail.side, Side::Lower);
         assert!((tail.index - 1.7).abs() < 0.17, "{tail:?}");
@@ -267,8 +269,8 @@ mod tests {
     #[test]
     fn few_trials_prove_nothing() {
         let mut stream = Stream::new(2);
-        let mut values: Vec<f64> = (0..300).map(|_| stream.student_t(1.0)).collect();
-        let ordered = Ordered::new(&mut values, 100);
+        let values: Vec<f64> = (0..300).map(|_| stream.student_t(1.0)).collect();
+        let ordered = Ordered::new(&values, 100, 1);
         assert_eq!(
             Verdict::new(None, &Tail::heavier(&ordered)),
             Verdict::Present

@@ -1,7 +1,9 @@
 //! Coverage intervals and the median from order statistics (JCGM 101 7.7), without a full sort.
 //!
-//! Only the two tails of (1 − p)·M values are sorted; selection separates them from the middle.
-//! Results are exactly those of a full sort.
+//! Only the two tails of (1 − p)·M values are sorted; one pass with cuts that a small part of the
+//! values suggests separates them from the middle. Results are exactly those of a full sort.
+
+use super::engine::parallel_map;
 
 /// The ranks of JCGM 101 7.7.2: of M ordered values, an interval reaches from rank r to rank r + q.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,50 +32,98 @@ impl Ranks {
     }
 }
 
-/// A sample whose two tails are in order.
+/// Values looked at to guess where the tails begin.
+const PILOT: usize = 1 << 14;
+
+/// Values that one thread takes at a time.
+const PART: usize = 1 << 16;
+
+/// The median and the two tails of a sample, in order.
 #[derive(Debug)]
-pub(super) struct Ordered<'a> {
-    values: &'a [f64],
-    /// So many values at either end are sorted.
-    depth: usize,
+pub(super) struct Ordered {
+    count: usize,
+    /// The smallest values, ascending; all values where the tails would meet.
+    low: Vec<f64>,
+    /// The largest values, ascending.
+    high: Vec<f64>,
     median: f64,
 }
 
-impl<'a> Ordered<'a> {
-    /// Arranges at least one finite value so that both tails of `depth` values are sorted.
-    pub(super) fn new(values: &'a mut [f64], depth: usize) -> Self {
-        let count = values.len();
+impl Ordered {
+    /// Orders the tails of `depth` values of at least one finite value.
+    pub(super) fn new(values: &[f64], depth: usize, threads: usize) -> Self {
         let depth = depth.max(1);
-        if depth >= count.div_ceil(2) {
-            values.sort_unstable_by(f64::total_cmp);
-            let median = midpoint(values[(count - 1) / 2], values[count / 2]);
-            return Ordered {
-                values,
-                depth: count,
-                median,
-            };
+        Cuts::guess(values, depth)
+            .and_then(|cuts| Ordered::selected(values, depth, &cuts, threads))
+            .unwrap_or_else(|| Ordered::sorted(values.to_vec()))
+    }
+
+    /// One pass collects what lies beyond or between the cuts; `None` where they do not hold what is
+    /// looked for.
+    fn selected(values: &[f64], depth: usize, cuts: &Cuts, threads: usize) -> Option<Self> {
+        let parts = values.chunks(PART).collect();
+        let parts = parallel_map(parts, threads, || (), |(), part| Selected::of(part, cuts));
+        let below = parts.iter().map(|part| part.below).sum::<usize>();
+        let joined = |of: fn(&Selected) -> &Vec<f64>| -> Vec<f64> {
+            parts.iter().flat_map(|part| of(part)).copied().collect()
+        };
+        let mut middle = joined(|part| &part.middle);
+        let (low, high) = (joined(|part| &part.low), joined(|part| &part.high));
+        let (lower, upper) = ((values.len() - 1) / 2, values.len() / 2);
+        if low.len() < depth || high.len() < depth {
+            return None;
         }
-        values.select_nth_unstable_by(depth, f64::total_cmp);
-        let middle = count - 2 * depth;
-        values[depth..].select_nth_unstable_by(middle, f64::total_cmp);
-        values[..depth].sort_unstable_by(f64::total_cmp);
-        values[count - depth..].sort_unstable_by(f64::total_cmp);
-        let median = median_of(&mut values[depth..count - depth]);
+        let (lower, upper) = (lower.checked_sub(below)?, upper.checked_sub(below)?);
+        if upper >= middle.len() {
+            return None;
+        }
+        let (before, upper_value, _) = middle.select_nth_unstable_by(upper, f64::total_cmp);
+        let upper_value = *upper_value;
+        let lower_value = if lower == upper {
+            upper_value
+        } else {
+            before.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+        };
+        let tails = vec![(low, Side::Low), (high, Side::High)];
+        let mut tails = parallel_map(
+            tails,
+            threads,
+            || (),
+            |(), (mut tail, side)| {
+                side.keep(&mut tail, depth);
+                tail.sort_unstable_by(f64::total_cmp);
+                tail
+            },
+        );
+        let high = tails.pop()?;
+        let low = tails.pop()?;
+        Some(Ordered {
+            count: values.len(),
+            low,
+            high,
+            median: midpoint(lower_value, upper_value),
+        })
+    }
+
+    fn sorted(mut values: Vec<f64>) -> Self {
+        values.sort_unstable_by(f64::total_cmp);
+        let count = values.len();
         Ordered {
-            values,
-            depth,
-            median,
+            count,
+            median: midpoint(values[(count - 1) / 2], values[count / 2]),
+            low: values,
+            high: Vec::new(),
         }
     }
 
     /// How many values.
     pub(super) fn count(&self) -> usize {
-        self.values.len()
+        self.count
     }
 
     /// How many values at either end are in order.
     pub(super) fn depth(&self) -> usize {
-        self.depth
+        self.low.len()
     }
 
     /// The middle value, or the mean of the two in the middle.
@@ -81,18 +131,17 @@ impl<'a> Ordered<'a> {
         self.median
     }
 
-    /// All values, their tails in order.
-    pub(super) fn values(&self) -> &[f64] {
-        self.values
+    /// The smallest and the largest value.
+    pub(super) fn range(&self) -> [f64; 2] {
+        [self.at(1), self.at(self.count)]
     }
 
     /// y₍rank₎, counted from 1; the rank lies in one of the sorted tails.
     pub(super) fn at(&self, rank: usize) -> f64 {
-        debug_assert!(
-            rank <= self.depth || rank > self.count() - self.depth,
-            "rank {rank}"
-        );
-        self.values[rank - 1]
+        match self.low.get(rank - 1) {
+            Some(value) => *value,
+            None => self.high[rank - 1 - (self.count - self.high.len())],
+        }
     }
 
     /// The probabilistically symmetric interval (7.7.2).
@@ -133,12 +182,10 @@ impl<'a> Ordered<'a> {
 
     /// The value at a fractional distance from a rank, kept inside the sorted tail of that rank.
     fn between(&self, rank: usize, offset: f64) -> f64 {
-        let (first, last) = if self.depth == self.count() {
-            (1, self.count())
-        } else if rank <= self.depth {
-            (1, self.depth)
+        let (first, last) = if rank <= self.low.len() {
+            (1, self.low.len())
         } else {
-            (self.count() - self.depth + 1, self.count())
+            (self.count - self.high.len() + 1, self.count)
         };
         let place = (rank as f64 + offset).clamp(first as f64, last as f64);
         let below = place.floor();
@@ -148,19 +195,91 @@ impl<'a> Ordered<'a> {
     }
 }
 
-/// Median of at least one value.
-fn median_of(values: &mut [f64]) -> f64 {
-    let half = values.len() / 2;
-    let odd = values.len() % 2 == 1;
-    let (lower, middle, _) = values.select_nth_unstable_by(half, f64::total_cmp);
-    let middle = *middle;
-    if odd {
-        middle
-    } else {
-        midpoint(
-            lower.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-            middle,
-        )
+/// An end of a sample.
+#[derive(Debug, Clone, Copy)]
+enum Side {
+    Low,
+    High,
+}
+
+impl Side {
+    /// Leaves the `depth` most extreme of a tail's values.
+    fn keep(self, tail: &mut Vec<f64>, depth: usize) {
+        if depth < tail.len() {
+            let extreme_first = |a: &f64, b: &f64| match self {
+                Side::Low => a.total_cmp(b),
+                Side::High => b.total_cmp(a),
+            };
+            tail.select_nth_unstable_by(depth - 1, extreme_first);
+            tail.truncate(depth);
+        }
+    }
+}
+
+/// Values between which the tails and the median are expected.
+struct Cuts {
+    /// The lower tail ends below, the upper one begins above.
+    tails: [f64; 2],
+    middle: [f64; 2],
+}
+
+impl Cuts {
+    /// From the order statistics of every n-th value, six of their standard errors further than
+    /// expected; whether the guess holds is checked later. `None` where sorting everything is as
+    /// quick.
+    fn guess(values: &[f64], depth: usize) -> Option<Cuts> {
+        if values.len() < 4 * PILOT || depth > values.len() / 4 {
+            return None;
+        }
+        let mut pilot: Vec<f64> = values
+            .iter()
+            .step_by(values.len() / PILOT)
+            .copied()
+            .collect();
+        pilot.sort_unstable_by(f64::total_cmp);
+        let count = pilot.len() as f64;
+        let place = |share: f64, errors: f64| {
+            let error = (share * (1.0 - share) / count).sqrt() + 1.0 / count;
+            pilot[((share + errors * error) * count) as usize]
+        };
+        let share = depth as f64 / values.len() as f64;
+        Some(Cuts {
+            tails: [place(share, 6.0), place(1.0 - share, -6.0)],
+            middle: [place(0.5, -6.0), place(0.5, 6.0)],
+        })
+    }
+}
+
+/// What the cuts select from some values.
+struct Selected {
+    low: Vec<f64>,
+    middle: Vec<f64>,
+    high: Vec<f64>,
+    /// Values below the middle.
+    below: usize,
+}
+
+impl Selected {
+    fn of(values: &[f64], cuts: &Cuts) -> Self {
+        let mut selected = Selected {
+            low: Vec::new(),
+            middle: Vec::new(),
+            high: Vec::new(),
+            below: 0,
+        };
+        for &value in values {
+            selected.below += usize::from(value < cuts.middle[0]);
+            if value <= cuts.tails[0] {
+                selected.low.push(value);
+            }
+            if value >= cuts.tails[1] {
+                selected.high.push(value);
+            }
+            if value >= cuts.middle[0] && value <= cuts.middle[1] {
+                selected.middle.push(value);
+            }
+        }
+        selected
     }
 }
 
@@ -228,8 +347,8 @@ mod tests {
                     continue;
                 }
                 let (symmetric, width, median) = by_full_sort(&sample, p);
-                let mut values = sample.clone();
-                let ordered = Ordered::new(&mut values, ranks.last);
+                let values = sample.clone();
+                let ordered = Ordered::new(&values, ranks.last, 2);
                 assert_eq!(ordered.symmetric(ranks), symmetric, "{count} {p}");
                 let [low, high] = ordered.shortest(ranks);
                 assert_eq!(high - low, width, "{count} {p}");
@@ -237,6 +356,52 @@ mod tests {
                 assert_eq!(symmetric_ends(&mut sample.clone(), p), symmetric);
             }
         }
+    }
+
+    #[test]
+    fn many_values_equal_a_full_sort() {
+        type Draw = fn(&mut Stream) -> f64;
+        let draws: [(&str, Draw); 5] = [
+            ("normal", |s| s.normal()),
+            ("heavy", |s| s.student_t(0.5)),
+            ("constant", |_| 2.0),
+            ("two values", |s| if s.uniform() < 0.5 { -0.0 } else { 0.0 }),
+            ("whole numbers", |s| (3.0 * s.normal()).round()),
+        ];
+        for (name, draw) in draws {
+            let mut stream = Stream::new(23);
+            for (count, p) in [(100_000, 0.95), (262_143, 0.6827), (262_144, 0.999)] {
+                let sample: Vec<f64> = (0..count).map(|_| draw(&mut stream)).collect();
+                let ranks = Ranks::new(count, p);
+                let (symmetric, width, median) = by_full_sort(&sample, p);
+                for threads in [1, 3] {
+                    let ordered = Ordered::new(&sample, ranks.last, threads);
+                    assert_eq!(ordered.symmetric(ranks), symmetric, "{name} {count}");
+                    let [low, high] = ordered.shortest(ranks);
+                    assert_eq!(high - low, width, "{name} {count}");
+                    assert_eq!(ordered.median(), median, "{name} {count}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_wrong_guess_is_noticed() {
+        // Every seventh value is far above the rest: only those are looked at beforehand.
+        let sample: Vec<f64> = (0..7 * PILOT)
+            .map(|i| {
+                if i % 7 == 0 {
+                    1e6 + i as f64
+                } else {
+                    (i % 1009) as f64
+                }
+            })
+            .collect();
+        let ranks = Ranks::new(sample.len(), 0.95);
+        let (symmetric, _, median) = by_full_sort(&sample, 0.95);
+        let ordered = Ordered::new(&sample, ranks.last, 2);
+        assert_eq!(ordered.symmetric(ranks), symmetric);
+        assert_eq!(ordered.median(), median);
     }
 
     #[test]
@@ -267,9 +432,9 @@ mod tests {
     #[test]
     fn few_values_give_the_whole_range() {
         for count in 1..6 {
-            let mut values: Vec<f64> = (0..count).map(|i| i as f64).collect();
+            let values: Vec<f64> = (0..count).map(|i| i as f64).collect();
             let ranks = Ranks::new(count, 0.99);
-            let ordered = Ordered::new(&mut values, ranks.last);
+            let ordered = Ordered::new(&values, ranks.last, 2);
             assert_eq!(ordered.symmetric(ranks), [0.0, (count - 1) as f64]);
             assert_eq!(ordered.shortest(ranks), [0.0, (count - 1) as f64]);
         }
@@ -277,9 +442,9 @@ mod tests {
 
     #[test]
     fn equal_widths_prefer_the_symmetric_interval() {
-        let mut values: Vec<f64> = (0..1000).map(f64::from).collect();
+        let values: Vec<f64> = (0..1000).map(f64::from).collect();
         let ranks = Ranks::new(1000, 0.9);
-        let ordered = Ordered::new(&mut values, ranks.last);
+        let ordered = Ordered::new(&values, ranks.last, 2);
         assert_eq!(ordered.shortest(ranks), ordered.symmetric(ranks));
     }
 
@@ -287,9 +452,9 @@ mod tests {
     fn shortest_interval_of_a_one_sided_distribution_starts_at_its_end() {
         // χ² with 2 degrees of freedom is exponential with mean 2: [0, −2 ln 0.05].
         let mut stream = Stream::new(3);
-        let mut values: Vec<f64> = (0..400_000).map(|_| -2.0 * stream.uniform().ln()).collect();
+        let values: Vec<f64> = (0..400_000).map(|_| -2.0 * stream.uniform().ln()).collect();
         let ranks = Ranks::new(values.len(), 0.95);
-        let ordered = Ordered::new(&mut values, ranks.last);
+        let ordered = Ordered::new(&values, ranks.last, 2);
         let [low, high] = ordered.shortest(ranks);
         assert!(low < 0.01, "{low}");
         assert!((high + 2.0 * 0.05_f64.ln()).abs() < 0.05, "{high}");
@@ -307,8 +472,8 @@ mod tests {
         let mut ends = Vec::new();
         let mut stated = 0.0;
         for _ in 0..200 {
-            let mut values: Vec<f64> = (0..count).map(|_| stream.normal()).collect();
-            let ordered = Ordered::new(&mut values, ranks.last);
+            let values: Vec<f64> = (0..count).map(|_| stream.normal()).collect();
+            let ordered = Ordered::new(&values, ranks.last, 2);
             ends.push(ordered.symmetric(ranks)[1]);
             stated += ordered.standard_error(ranks.symmetric + ranks.covered) / 200.0;
         }

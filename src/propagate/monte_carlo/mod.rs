@@ -34,16 +34,16 @@ use nalgebra::DMatrix;
 use super::{EvaluationError, MonteCarlo, Regions, Run};
 use crate::budget::{Budget, MonteCarloSettings, Trials};
 use adaptive::Target;
-use engine::{Layout, Source, parallel_map, simulate};
+use engine::{Layout, Source, simulate};
 use existence::{Tail, Verdict};
 use heavy::HeavyComponent;
 use interval::{Ordered, Ranks};
 use moments::{Moments, Pivot};
 use store::Store;
 
-/// Most model values that are kept, over all outputs (1.6 GB). A run that asks for more trials is
-/// cut to what fits, and [`Run::trials`] says how many there were.
-pub(crate) const MOST_VALUES: u64 = 200_000_000;
+/// Most model values that are kept, over all outputs (1.6 GB). A fixed number of trials that needs
+/// more is refused; an adaptive run stops there and says so.
+const MOST_VALUES: u64 = 200_000_000;
 
 /// What the GUM found for one output; moments are formed about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,13 +69,20 @@ pub(crate) struct McOutcome {
 /// Runs the Monte Carlo method on `threads` threads; the result does not depend on their number.
 ///
 /// # Errors
-/// [`EvaluationError::AllTrialsFailed`] when an output has fewer than two finite values.
+/// [`EvaluationError::AllTrialsFailed`] when an output has fewer than two finite values, and
+/// [`EvaluationError::TooManyTrials`] when the values of so many trials cannot be kept.
 pub(crate) fn run(
     budget: &Budget,
     settings: &MonteCarloSettings,
     gum: &[GumForMc],
     threads: usize,
 ) -> Result<McOutcome, EvaluationError> {
+    let most = most_trials(budget.model.outputs().len());
+    if let Trials::Fixed(asked) = settings.trials
+        && asked > most
+    {
+        return Err(EvaluationError::TooManyTrials { asked, most });
+    }
     let source = budget_source::BudgetSource::new(budget, settings.seed);
     let question = Question {
         settings,
@@ -89,6 +96,11 @@ pub(crate) fn run(
         .map_err(|output| EvaluationError::AllTrialsFailed {
             measurand: budget.model.outputs()[output].name.clone(),
         })
+}
+
+/// Trials whose values can be kept.
+fn most_trials(outputs: usize) -> u64 {
+    (MOST_VALUES / outputs.max(1) as u64).max(1)
 }
 
 /// What is asked of a source of trials.
@@ -116,17 +128,12 @@ impl Question<'_> {
             return Err(output);
         }
         let joint = region::joint(store.columns(), self.p);
-        let tasks = store
-            .into_columns()
-            .into_iter()
+        let columns = store.into_columns().into_iter();
+        let (outputs, verdicts): (Vec<_>, Vec<_>) = columns
             .zip(&moments)
             .zip(&self.heavy)
-            .map(|((column, moments), heavy)| {
-                Box::new(move || summary(column, moments, heavy.as_ref(), self.p)) as Box<_>
-            })
-            .collect();
-        let (outputs, verdicts): (Vec<_>, Vec<_>) =
-            parallel_map(tasks, self.threads).into_iter().unzip();
+            .map(|((column, moments), heavy)| self.summary(column, moments, heavy.as_ref()))
+            .unzip();
         let joint = joint.filter(|_| verdicts.iter().all(Verdict::has_deviation));
         let (covariance, correlation, regions) = joint
             .map(|j| (Some(j.covariance), Some(j.correlation), j.regions))
@@ -143,12 +150,11 @@ impl Question<'_> {
     }
 
     fn draw<S: Source>(&self, source: &S) -> (Store, Run) {
-        let most = (MOST_VALUES / source.outputs().max(1) as u64).max(1);
+        let most = most_trials(source.outputs());
         let (store, adaptive) = match self.settings.trials {
             Trials::Fixed(trials) => {
                 let trials = trials.clamp(1, most);
                 let mut store = Store::new(source.outputs());
-                store.reserve(trials as usize);
                 let layout = Layout::new(trials);
                 simulate(source, layout, 0..1, &self.pivots, self.threads, &mut store);
                 (store, None)
@@ -176,48 +182,48 @@ impl Question<'_> {
         };
         (store, run)
     }
-}
 
-/// Everything about one output.
-fn summary(
-    mut values: Vec<f64>,
-    moments: &Moments,
-    heavy: Option<&HeavyComponent>,
-    p: f64,
-) -> (MonteCarlo, Verdict) {
-    if moments.failed() > 0 {
-        values.retain(|value| value.is_finite());
+    /// Everything about one output.
+    fn summary(
+        &self,
+        mut values: Vec<f64>,
+        moments: &Moments,
+        heavy: Option<&HeavyComponent>,
+    ) -> (MonteCarlo, Verdict) {
+        if moments.failed() > 0 {
+            values.retain(|value| value.is_finite());
+        }
+        let ranks = Ranks::new(values.len(), self.p);
+        let depth = ranks.last.max(Tail::reach(values.len()) + 2);
+        let ordered = Ordered::new(&values, depth, self.threads);
+        let tail = Tail::heavier(&ordered);
+        let verdict = Verdict::new(heavy, &tail);
+        let (has_mean, has_deviation) = (verdict.has_mean(), verdict.has_deviation());
+        let symmetric = ordered.symmetric(ranks);
+        let given = |given: bool, value: f64| given.then_some(value);
+        let result = MonteCarlo {
+            estimate: given(has_mean, moments.mean()),
+            u: given(has_deviation, moments.sd()),
+            median: ordered.median(),
+            symmetric,
+            shortest: ordered.shortest(ranks),
+            skewness: moments
+                .skewness()
+                .filter(|_| has_deviation && tail.exists(3.0)),
+            excess_kurtosis: moments
+                .excess_kurtosis()
+                .filter(|_| has_deviation && tail.exists(4.0)),
+            standard_errors: [
+                given(has_deviation, moments.mean_error()).unwrap_or(f64::NAN),
+                given(has_deviation, moments.sd_error()).unwrap_or(f64::NAN),
+                ordered.standard_error(ranks.symmetric),
+                ordered.standard_error(ranks.symmetric + ranks.covered),
+            ],
+            failed: moments.failed(),
+            histogram: histogram::histogram(&values, ordered.range(), symmetric, self.threads),
+        };
+        (result, verdict)
     }
-    let ranks = Ranks::new(values.len(), p);
-    let depth = ranks.last.max(Tail::reach(values.len()) + 2);
-    let ordered = Ordered::new(&mut values, depth);
-    let tail = Tail::heavier(&ordered);
-    let verdict = Verdict::new(heavy, &tail);
-    let (has_mean, has_deviation) = (verdict.has_mean(), verdict.has_deviation());
-    let symmetric = ordered.symmetric(ranks);
-    let given = |given: bool, value: f64| given.then_some(value);
-    let result = MonteCarlo {
-        estimate: given(has_mean, moments.mean()),
-        u: given(has_deviation, moments.sd()),
-        median: ordered.median(),
-        symmetric,
-        shortest: ordered.shortest(ranks),
-        skewness: moments
-            .skewness()
-            .filter(|_| has_deviation && tail.exists(3.0)),
-        excess_kurtosis: moments
-            .excess_kurtosis()
-            .filter(|_| has_deviation && tail.exists(4.0)),
-        standard_errors: [
-            given(has_deviation, moments.mean_error()).unwrap_or(f64::NAN),
-            given(has_deviation, moments.sd_error()).unwrap_or(f64::NAN),
-            ordered.standard_error(ranks.symmetric),
-            ordered.standard_error(ranks.symmetric + ranks.covered),
-        ],
-        failed: moments.failed(),
-        histogram: histogram::histogram(ordered.values(), symmetric),
-    };
-    (result, verdict)
 }
 
 #[cfg(test)]

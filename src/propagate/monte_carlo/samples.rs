@@ -84,15 +84,12 @@ impl Source for Sampled {
         vec![0.0; self.outputs]
     }
 
-    fn draw(&self, trial: &mut Vec<f64>, chunk: u64, trials: usize, columns: &mut [Vec<f64>]) {
+    fn draw(&self, trial: &mut Vec<f64>, chunk: u64, columns: &mut [&mut [f64]]) {
         let mut stream = Stream::new(self.seed.wrapping_mul(1_000_003).wrapping_add(chunk));
-        for column in columns.iter_mut() {
-            column.clear();
-        }
-        for _ in 0..trials {
+        for i in 0..columns[0].len() {
             (self.draw)(&mut stream, trial);
             for (column, value) in columns.iter_mut().zip(trial.iter()) {
-                column.push(*value);
+                column[i] = *value;
             }
         }
     }

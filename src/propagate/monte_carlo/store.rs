@@ -1,6 +1,5 @@
 //! The trials themselves, kept for order statistics.
 
-use super::engine::Sink;
 use super::moments::Moments;
 
 /// Keeps every model value, one column per output, in trial order.
@@ -20,11 +19,28 @@ impl Store {
         }
     }
 
-    /// Makes room for so many further trials.
-    pub(super) fn reserve(&mut self, trials: usize) {
-        for column in &mut self.columns {
-            column.reserve_exact(trials);
-        }
+    /// Makes room for so many further trials and gives the new places of every column.
+    pub(super) fn extend(&mut self, trials: usize) -> Vec<&mut [f64]> {
+        let add = |column: &mut Vec<f64>| {
+            let before = column.len();
+            if before == 0 {
+                // Memory that the system hands out as zeros need not be written here.
+                *column = vec![0.0; trials];
+            } else {
+                column.resize(before + trials, 0.0);
+            }
+            before
+        };
+        let extended = self.columns.iter_mut().map(|column| {
+            let before = add(column);
+            &mut column[before..]
+        });
+        extended.collect()
+    }
+
+    /// Adds the moments of the next chunks.
+    pub(super) fn add_moments(&mut self, chunks: Vec<Vec<Moments>>) {
+        self.moments.extend(chunks);
     }
 
     /// Trials so far, failed ones included.
@@ -67,14 +83,5 @@ impl Store {
     /// Gives the columns away.
     pub(super) fn into_columns(self) -> Vec<Vec<f64>> {
         self.columns
-    }
-}
-
-impl Sink for Store {
-    fn absorb(&mut self, columns: &[Vec<f64>], moments: Vec<Moments>) {
-        for (kept, new) in self.columns.iter_mut().zip(columns) {
-            kept.extend_from_slice(new);
-        }
-        self.moments.push(moments);
     }
 }

@@ -1,0 +1,32 @@
+//! Timing and budgets that the benchmarks share.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use gumption::budget::{self, Budget};
+
+/// The shortest of several runs, which other work on the machine disturbs least.
+pub fn best_of<T>(runs: usize, mut run: impl FnMut() -> T) -> Duration {
+    let time = |_| {
+        let start = Instant::now();
+        std::hint::black_box(run());
+        start.elapsed()
+    };
+    (0..runs.max(1)).map(time).min().unwrap_or_default()
+}
+
+/// The budget of a text.
+///
+/// # Panics
+/// Where the text has faults.
+pub fn budget(text: &str) -> Budget {
+    let loaded = budget::read(text, "benchmark", Path::new("")).unwrap_or_else(|rejection| {
+        panic!("a budget of the benchmark has faults: {rejection:?}");
+    });
+    loaded
+        .rows
+        .into_iter()
+        .next()
+        .expect("a file has one row")
+        .budget
+}

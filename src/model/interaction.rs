@@ -1,0 +1,77 @@
+//! Which inputs can have mixed derivatives with one another.
+//!
+//! An operation is *bent* where its value goes, directly or through others, into an operation that
+//! is not linear in it. All that reaches one nonlinear operation may interact; what only meets in
+//! sums does not. In y = x₁² + x₂x₃ + x₄ the blocks are {x₁}, {x₂, x₃}, and x₄ has none: derivatives
+//! of second and higher order with respect to inputs of different blocks are zero, so that one
+//! sweep may run along a direction in every block at once.
+
+use super::graph::{Graph, Id, Op};
+
+/// The block of each input; `None` for inputs in which every output is linear.
+pub fn blocks(graph: &Graph, inputs: usize) -> Vec<Option<usize>> {
+    let mut bent = vec![false; graph.ops.len()];
+    let mut sets = Sets::new(graph.ops.len());
+    let mut out = vec![None; inputs];
+    for (i, op) in graph.ops.iter().enumerate().rev() {
+        let above = bent[i];
+        let mut meets = |id: Id, nonlinear: bool| {
+            if (above || nonlinear) && graph.constant(id).is_none() {
+                bent[id as usize] = true;
+                sets.unite(i, id as usize);
+            }
+        };
+        let varies = |id: Id| graph.constant(id).is_none();
+        match *op {
+            Op::Unary(row, a) => meets(a, row.name != "-"),
+            Op::Binary(row, a, b) => {
+                let (in_a, in_b) = match row.name {
+                    "+" | "-" => (false, false),
+                    "*" => (varies(b), varies(a)),
+                    "/" | "quantize" => (varies(b), true),
+                    _ => (true, true),
+                };
+                meets(a, in_a);
+                meets(b, in_b);
+            }
+            Op::Select(c, a, b) => {
+                meets(c, true);
+                meets(a, false);
+                meets(b, false);
+            }
+            _ => graph.operands(*op, |a| meets(a, true)),
+        }
+    }
+    for (i, op) in graph.ops.iter().enumerate() {
+        if let (Op::Input(place), true) = (op, bent[i]) {
+            out[*place as usize] = Some(sets.of(i));
+        }
+    }
+    out
+}
+
+/// Disjoint sets with path halving.
+struct Sets {
+    parent: Vec<usize>,
+}
+
+impl Sets {
+    fn new(count: usize) -> Self {
+        Sets {
+            parent: (0..count).collect(),
+        }
+    }
+
+    fn of(&mut self, mut i: usize) -> usize {
+        while self.parent[i] != i {
+            self.parent[i] = self.parent[self.parent[i]];
+            i = self.parent[i];
+        }
+        i
+    }
+
+    fn unite(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.of(a), self.of(b));
+        self.parent[a] = b;
+    }
+}

@@ -1,9 +1,8 @@
 //! Every published case that needs only inputs, a model and the two methods is a budget of the library. The
 //! cases lie beside the project where it is developed; elsewhere this test has nothing to read and says so.
 
-mod common;
-
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 use gumption::budget;
 use gumption::propagate::{self, Evaluation, MonteCarloChoice, Options};
@@ -182,7 +181,7 @@ const NOT_HELD: &[(&str, &str, &str)] = &[(
 
 #[test]
 fn every_reference_case_is_covered() {
-    let folder = common::root().join("../shared/reference/cases");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/reference/cases");
     let Ok(entries) = std::fs::read_dir(&folder) else {
         eprintln!("skipped: no reference cases at {}", folder.display());
         return;
@@ -221,7 +220,7 @@ fn every_reference_case_is_covered() {
 #[test]
 fn every_budget_of_the_table_exists() {
     for file in BUDGETS.iter().flat_map(|(_, files)| *files) {
-        let path = common::root().join(format!("budgets/{file}.toml"));
+        let path = path_of(file);
         assert!(path.is_file(), "{}", path.display());
     }
 }
@@ -230,7 +229,7 @@ fn every_budget_of_the_table_exists() {
 /// evaluation itself, so that a claim copied wrongly does not stay unseen; returns how many.
 fn compare(id: &str, case: &Table, files: &[&str], wrong: &mut Vec<String>) -> usize {
     let [file] = files else { return 0 };
-    let path = common::root().join(format!("budgets/{file}.toml"));
+    let path = path_of(file);
     let loaded = match budget::load(&path) {
         Ok(loaded) => loaded,
         Err(rejection) => {
@@ -302,4 +301,8 @@ fn obtained(found: &Evaluation, expected: &Value) -> Option<f64> {
         "nu_eff" => Some(result.gum.freedom.value()),
         _ => None,
     }
+}
+
+fn path_of(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("budgets/{file}.toml"))
 }

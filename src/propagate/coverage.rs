@@ -345,9 +345,9 @@ mod tests {
     }
 
     #[test]
-    fn truncation_cuts_what_is_printed() {
+    fn truncation_follows_rounding_to_two_decimals() {
         assert_eq!(entered_dof(DofRule::Truncated, 18.9987), 19.0);
-        assert_eq!(entered_dof(DofRule::Truncated, 16.94), 16.0);
+        assert_eq!(entered_dof(DofRule::Truncated, 16.98), 16.0);
         assert_eq!(entered_dof(DofRule::Truncated, 1.7), 1.0);
         assert_eq!(entered_dof(DofRule::Truncated, 0.6), 0.6);
         assert_eq!(entered_dof(DofRule::Truncated, INF), INF);

@@ -107,7 +107,10 @@ mod tests {
 
     #[test]
     fn near_names_share_something() {
-        assert_eq!(nearest("half_widht", ["value", "half_width"]), Some("half_width"));
+        assert_eq!(
+            nearest("half_widht", ["value", "half_width"]),
+            Some("half_width")
+        );
         assert_eq!(nearest("i_0", ["V", "I_0"]), Some("I_0"));
         assert_eq!(nearest("r", ["P", "R"]), Some("R"));
         assert_eq!(nearest("J", ["V", "I"]), None);

@@ -240,7 +240,12 @@ fn an_impossible_correlation_is_mended_in_silence_and_changes_u() {
 #[test]
 fn an_impossible_correlation_is_refused_with_a_bare_math_domain_error() {
     let shown = refusal(&impossible_correlation());
-    for told in ["cannot occur together", "r(b, c) = 0.9", "r(a, c) = -0.9", "help"] {
+    for told in [
+        "cannot occur together",
+        "r(b, c) = 0.9",
+        "r(a, c) = -0.9",
+        "help",
+    ] {
         assert!(shown.contains(told), "no {told} in\n{shown}");
     }
 }

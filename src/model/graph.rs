@@ -9,8 +9,8 @@ use std::sync::Arc;
 
 use super::Place;
 use super::jet::Jet;
-use super::syntax::Span;
 use super::operation::{self, Binary, Unary, binary_row, unary};
+use super::syntax::Span;
 
 /// Place of an operation in its graph.
 pub type Id = u32;

@@ -78,7 +78,8 @@ pub fn undefined<'a>(
         if values[*output as usize].value().is_finite() {
             continue;
         }
-        let blamed = culprit(graph, &values, *output).and_then(|id| Some((id, graph.labels.get(&id)?)));
+        let blamed =
+            culprit(graph, &values, *output).and_then(|id| Some((id, graph.labels.get(&id)?)));
         let (place, span, why, label) = match blamed {
             Some((id, label)) => {
                 let (why, short) = reason(graph, &values, id, label);
@@ -118,7 +119,11 @@ fn culprit(graph: &Graph, values: &[Jet<1>], output: Id) -> Option<Id> {
             // The branch that is not taken is not to blame.
             Op::Select(c, a, b) => {
                 consider(c);
-                consider(if values[c as usize].value() != 0.0 { a } else { b });
+                consider(if values[c as usize].value() != 0.0 {
+                    a
+                } else {
+                    b
+                });
             }
             _ => graph.operands(op, consider),
         }
@@ -138,15 +143,20 @@ fn reason(graph: &Graph, values: &[Jet<1>], id: Id, label: &Label) -> (String, S
             format!("the search for `{argument}` from its starting value finds no solution"),
             "no solution found".to_string(),
         ),
-        Op::Binary(row, _, b) if row.name == "/" && at(b) == 0.0 => (
-            format!("the divisor `{argument}` is 0"),
-            "is 0".to_string(),
-        ),
+        Op::Binary(row, _, b) if row.name == "/" && at(b) == 0.0 => {
+            (format!("the divisor `{argument}` is 0"), "is 0".to_string())
+        }
         Op::Unary(_, a) | Op::Power(a, _) => (
-            format!("`{call}` has no finite value where `{argument}` is {}", shown(at(a))),
+            format!(
+                "`{call}` has no finite value where `{argument}` is {}",
+                shown(at(a))
+            ),
             format!("`{argument}` is {} here", shown(at(a))),
         ),
-        _ => (format!("`{call}` has no finite value"), "not finite".to_string()),
+        _ => (
+            format!("`{call}` has no finite value"),
+            "not finite".to_string(),
+        ),
     }
 }
 

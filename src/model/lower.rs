@@ -453,7 +453,10 @@ impl<'r> Lowering<'r> {
         if a == b || !left.value.vector || !right.value.vector {
             return Some(());
         }
-        let (x, y) = (printer::expression(left.expr), printer::expression(right.expr));
+        let (x, y) = (
+            printer::expression(left.expr),
+            printer::expression(right.expr),
+        );
         self.report(
             Fault::new(
                 faults::LENGTHS,

@@ -16,7 +16,10 @@ pub(super) fn for_unknown<'a>(
     if letters != name && is_known(letters) {
         return format!("write `{letters}^{}`", &name[letters.len()..]);
     }
-    if let Some(symbol) = by_english_name(name).map(str::to_owned).or_else(|| by_prefixed_name(name)) {
+    if let Some(symbol) = by_english_name(name)
+        .map(str::to_owned)
+        .or_else(|| by_prefixed_name(name))
+    {
         return format!("write `{symbol}`");
     }
     if let Some(base) = QUALIFIERS

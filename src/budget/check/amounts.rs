@@ -141,7 +141,10 @@ impl Checker<'_> {
                     Fault::new(
                         RELATIVE_UNCLEAR,
                         amount.span.clone(),
-                        format!("{number} {} of {} may be meant of its value or as it stands", own.symbol, context.owner),
+                        format!(
+                            "{number} {} of {} may be meant of its value or as it stands",
+                            own.symbol, context.owner
+                        ),
                     )
                     .label("relative or absolute?")
                     .help(ratio_help(context, number, fraction, &unit)),
@@ -238,13 +241,23 @@ fn ratio_help(context: &Context<'_>, number: f64, fraction: f64, unit: &Unit) ->
             show(value),
             show(fraction)
         ),
-        None => format!("for a fraction of the value write {} with relative = true", show(fraction)),
+        None => format!(
+            "for a fraction of the value write {} with relative = true",
+            show(fraction)
+        ),
     };
     let absolute = Unit::one()
         .conversion_to(unit)
         .map_or(number, |conversion| conversion.apply(fraction));
-    let name = if unit.is_one() { String::new() } else { format!(" (in {})", unit.symbol) };
-    format!("{relative}; for an absolute amount write the plain number {}{name}", show(absolute))
+    let name = if unit.is_one() {
+        String::new()
+    } else {
+        format!(" (in {})", unit.symbol)
+    };
+    format!(
+        "{relative}; for an absolute amount write the plain number {}{name}",
+        show(absolute)
+    )
 }
 
 fn clash(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {

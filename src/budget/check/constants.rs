@@ -23,9 +23,9 @@ impl Checker<'_> {
                     .as_ref()
                     .and_then(|unit| self.quantity(value, unit, name))
                     .map(|value| vec![value]),
-                (None, Some(values)) if !values.value.is_empty() => {
-                    unit.as_ref().map(|_| values.value.iter().map(|value| value.value).collect())
-                }
+                (None, Some(values)) if !values.value.is_empty() => unit
+                    .as_ref()
+                    .map(|_| values.value.iter().map(|value| value.value).collect()),
                 _ if table.refused => None,
                 _ => self.refuse(
                     Fault::new(

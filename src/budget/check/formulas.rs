@@ -101,7 +101,10 @@ impl Checker<'_> {
             Err(faults) => {
                 // A name may be declared in the part of the file that was refused.
                 let hidden = self.hidden_names;
-                for fault in faults.into_iter().filter(|f| !(hidden && is_missing(&f.fault))) {
+                for fault in faults
+                    .into_iter()
+                    .filter(|f| !(hidden && is_missing(&f.fault)))
+                {
                     let placed = self.placed(fault, file, constants.len(), register);
                     self.faults.push(placed);
                 }
@@ -174,17 +177,34 @@ impl Checker<'_> {
         if !register.entries.is_empty() || self.hidden_names {
             return;
         }
-        let names: Vec<&str> = model.outputs().iter().map(|output| output.name.as_str()).collect();
+        let names: Vec<&str> = model
+            .outputs()
+            .iter()
+            .map(|output| output.name.as_str())
+            .collect();
         let end = self.text.trim_end().len();
         self.faults.push(
-            Fault::new(NO_MEASURAND, end..end, format!("the file has no input, so nothing makes {} uncertain", names.join(", ")))
-                .label("expected an [input.NAME]")
-                .help("add for example:\n[input.V]\nvalue = 5.0\nunit = \"V\"\nu = 0.01"),
+            Fault::new(
+                NO_MEASURAND,
+                end..end,
+                format!(
+                    "the file has no input, so nothing makes {} uncertain",
+                    names.join(", ")
+                ),
+            )
+            .label("expected an [input.NAME]")
+            .help("add for example:\n[input.V]\nvalue = 5.0\nunit = \"V\"\nu = 0.01"),
         );
     }
 
     /// Reports measurands that have no value at the estimates.
-    fn undefined(&mut self, model: &Model, file: &FileTable, constants: usize, register: &Register) {
+    fn undefined(
+        &mut self,
+        model: &Model,
+        file: &FileTable,
+        constants: usize,
+        register: &Register,
+    ) {
         let estimates: Vec<f64> = register.inputs.iter().map(|input| input.estimate).collect();
         if register.incomplete || estimates.iter().any(|estimate| !estimate.is_finite()) {
             return;

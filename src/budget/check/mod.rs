@@ -183,14 +183,22 @@ fn names_hidden(file: &FileTable) -> bool {
         entry.unwrap_or_else(|| file.present.iter().any(|(present, _)| *present == key))
     };
     file.unknown
-        || refused("input", file.input.as_ref().map(|named| named.value.refused))
-        || refused("constant", file.constant.as_ref().map(|named| named.value.refused))
+        || refused(
+            "input",
+            file.input.as_ref().map(|named| named.value.refused),
+        )
+        || refused(
+            "constant",
+            file.constant.as_ref().map(|named| named.value.refused),
+        )
         || refused("model", file.model.as_ref().map(|_| false))
 }
 
 /// The shared causes of a file.
 fn shared(file: &FileTable) -> &[(String, Stated<super::tables::SourceTable>)] {
-    file.source.as_ref().map_or(&[], |stated| &stated.value.0.entries)
+    file.source
+        .as_ref()
+        .map_or(&[], |stated| &stated.value.0.entries)
 }
 
 /// The named entries of an optional table.

@@ -81,7 +81,11 @@ impl Checker<'_> {
     fn check_name(&mut self, name: &str, place: &Range<usize>, kind: &str) {
         if !is_identifier(name) {
             self.hidden_names = true;
-            let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+            let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) {
+                "an"
+            } else {
+                "a"
+            };
             self.faults.push(
                 Fault::new(
                     BAD_NAME,

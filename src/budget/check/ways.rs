@@ -224,24 +224,38 @@ impl Checker<'_> {
             }
             [] if table.refused => None,
             [] if table.certificate.is_some() => {
-                let place = table.certificate.as_ref().map_or(context.place.clone(), |stated| stated.span.clone());
+                let place = table
+                    .certificate
+                    .as_ref()
+                    .map_or(context.place.clone(), |stated| stated.span.clone());
                 self.refuse(
-                    Fault::new(MISSING_KEY, place, format!("the certificate of {} states no uncertainty", context.owner))
-                        .label("`U` is missing")
-                        .help("add U and k: certificate = { U = …, k = 2 }"),
+                    Fault::new(
+                        MISSING_KEY,
+                        place,
+                        format!("the certificate of {} states no uncertainty", context.owner),
+                    )
+                    .label("`U` is missing")
+                    .help("add U and k: certificate = { U = …, k = 2 }"),
                 )
             }
             [] => self.refuse(
-                Fault::new(NO_DOUBT, context.place.clone(), format!("{} has no uncertainty", context.owner))
-                    .label("nothing here states an uncertainty")
-                    .help(
-                        "state it by `u`, `half_width`, `certificate`, `readings`, `step` …; \
+                Fault::new(
+                    NO_DOUBT,
+                    context.place.clone(),
+                    format!("{} has no uncertainty", context.owner),
+                )
+                .label("nothing here states an uncertainty")
+                .help(
+                    "state it by `u`, `half_width`, `certificate`, `readings`, `step` …; \
                          a number that is exact belongs into [constant]",
-                    ),
+                ),
             ),
             [(_, _, first), (_, _, second), more @ ..] => {
                 let keys: Vec<String> = ways.iter().map(|(_, key, _)| format!("`{key}`")).collect();
-                let entries: Vec<String> = ways.iter().map(|(_, key, _)| format!("{{ {key} = … }}")).collect();
+                let entries: Vec<String> = ways
+                    .iter()
+                    .map(|(_, key, _)| format!("{{ {key} = … }}"))
+                    .collect();
                 let message = format!(
                     "the uncertainty of {} is stated in {} ways, {}",
                     context.owner,

@@ -11,8 +11,6 @@
 
 use std::fmt;
 
-use gumption_lanes::elementary::ln;
-
 use super::heavy::HeavyComponent;
 use super::interval::Ordered;
 
@@ -113,7 +111,7 @@ fn hill(sample: &Ordered, side: Side, k: usize) -> f64 {
     if threshold <= 0.0 {
         return f64::INFINITY;
     }
-    let sum: f64 = (1..=k).map(|i| ln(deviation(i) / threshold)).sum();
+    let sum: f64 = (1..=k).map(|i| libm::log(deviation(i) / threshold)).sum();
     if sum > 0.0 {
         k as f64 / sum
     } else {

@@ -65,7 +65,7 @@ impl Ordered {
         let parts = parallel_map(parts, threads, || (), |(), part| Selected::of(part, cuts));
         let below = parts.iter().map(|part| part.below).sum::<usize>();
         let joined = |of: fn(&Selected) -> &Vec<f64>| -> Vec<f64> {
-            parts.iter().flat_map(|part| of(part)).copied().collect()
+            parts.iter().flat_map(of).copied().collect()
         };
         let mut middle = joined(|part| &part.middle);
         let (low, high) = (joined(|part| &part.low), joined(|part| &part.high));

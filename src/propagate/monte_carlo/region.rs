@@ -228,7 +228,7 @@ impl Grid {
     /// For two and three outputs. The width 3.5·M^(−1/(m+2)) standard deviations balances resolution
     /// against counts in a cell (Scott's rule).
     fn new(outputs: usize, trials: usize) -> Option<Self> {
-        let cell = 3.5 * (trials as f64).powf(-1.0 / (outputs as f64 + 2.0));
+        let cell = 3.5 * libm::pow(trials as f64, -1.0 / (outputs as f64 + 2.0));
         (2..=3).contains(&outputs).then(|| Grid {
             outputs,
             cell,

@@ -57,6 +57,9 @@ struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     fn new(columns: &'a [Vec<f64>]) -> Option<Self> {
+        if columns.len() < 2 {
+            return None;
+        }
         let trials = columns.first()?.len();
         let failed = columns.iter().flatten().any(|value| !value.is_finite());
         let complete = failed.then(|| {
@@ -64,7 +67,7 @@ impl<'a> Rows<'a> {
             (0..trials).filter(finite).collect::<Vec<_>>()
         });
         let count = complete.as_ref().map_or(trials, Vec::len);
-        (columns.len() >= 2 && count >= 2).then_some(Rows {
+        (count >= 2).then_some(Rows {
             columns,
             complete,
             count,

@@ -86,15 +86,35 @@ impl Fault {
 /// The known name nearest to a misspelt one, if any is near enough to be meant.
 ///
 /// Damerau–Levenshtein distance at most a third of the length (at least one edit), compared
-/// without regard to case.
+/// without regard to case. Names that have no character in common are never near: `V` is not a
+/// misspelt `I`.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = name.to_lowercase();
     known
         .into_iter()
         .map(|k| (strsim::damerau_levenshtein(&wanted, &k.to_lowercase()), k))
         .filter(|(distance, k)| {
-            *distance <= (name.chars().count().max(k.chars().count()) / 3).max(1)
+            let length = name.chars().count().max(k.chars().count());
+            *distance <= (length / 3).max(1) && *distance < length
         })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, k)| k)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn near_names_share_something() {
+        assert_eq!(
+            nearest("half_widht", ["value", "half_width"]),
+            Some("half_width")
+        );
+        assert_eq!(nearest("i_0", ["V", "I_0"]), Some("I_0"));
+        assert_eq!(nearest("r", ["P", "R"]), Some("R"));
+        assert_eq!(nearest("J", ["V", "I"]), None);
+        assert_eq!(nearest("δ", ["V", "I"]), None);
+        assert_eq!(nearest("", ["V"]), None);
+    }
 }

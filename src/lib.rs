@@ -14,7 +14,51 @@
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
 //! | [`budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget |
+//! | [`report`] | text, Markdown, JSON, and the certificate's sentence |
 //! | [`report`] | text, Markdown, JSON and the certificate's sentence |
+//!
+//! # A tour
+//!
+//! Text in, figures out. [`budget::read`] gives every fault of the text at once, or one
+//! [`budget::Budget`] (one for each row of a series); [`propagate::evaluate`] runs both methods;
+//! [`report::Report`] joins the two for the renderers.
+//!
+//! ```
+//! use gumption::budget;
+//! use gumption::propagate::{self, Options};
+//! use gumption::report::{self, Language, Report};
+//!
+//! let text = r#"
+//!     title = "Current through a resistor"
+//!
+//!     [measurand.I]
+//!     model = "V / R"
+//!     unit = "mA"
+//!
+//!     [input]
+//!     V = { value = 1.0001, unit = "V", u = 0.0003 }
+//!     R = { value = 100.02, unit = "ohm", half_width = 0.01 }
+//! "#;
+//!
+//! // CSV files that a budget names are looked up from the folder.
+//! let loaded = budget::read(text, "current.toml", "".as_ref())
+//!     .map_err(|rejection| rejection.render(false))?;
+//! let budget = &loaded.rows[0].budget;
+//!
+//! let evaluation = propagate::evaluate(budget, &Options::default())
+//!     .map_err(|error| report::failure(&error, Language::English))?;
+//! let gum = &evaluation.results[0].gum;
+//! println!("y = {} mA, u = {} mA, k = {}", gum.estimate, gum.u, gum.coverage.k);
+//! assert!((gum.estimate - 9.999).abs() < 1e-6);
+//! assert!((gum.u - 3.0546e-3).abs() < 1e-6);
+//! assert!((gum.coverage.k - 1.96).abs() < 1e-4);
+//!
+//! let report = Report { budget, evaluation: &evaluation, label: None, language: Language::English };
+//! for sentence in report::statement(&report) {
+//!     println!("{sentence}");
+//! }
+//! # Ok::<(), String>(())
+//! ```
 
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]

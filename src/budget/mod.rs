@@ -26,13 +26,13 @@ use nalgebra::DMatrix;
 
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
 pub use profile::{PROFILES, Profile, profile_named};
-pub use reader::{Loaded, keys, load, read, schema, template};
+pub use reader::{Loaded, keys, load, load_under, read, schema, template};
 pub use rejection::Rejection;
 pub use table::KeyRow;
 
 use crate::distribution::Distribution;
 use crate::model::Model;
-use crate::quantity::{Rounding, Unit};
+use crate::quantity::{Rounding, RoundingRule, Unit};
 
 /// What a file says about the measurement besides numbers.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -267,6 +267,17 @@ pub struct Conventions {
     pub t_scale: TScale,
     /// Print k and not p (JJF 1059.1 with k = 2).
     pub state_probability: bool,
+}
+
+impl Conventions {
+    /// How U and y are rounded.
+    pub fn rounding_rule(&self) -> RoundingRule {
+        RoundingRule {
+            digits: self.digits,
+            rounding: self.rounding,
+            up_if_lowered_by_5_percent: self.up_if_lowered_by_5_percent,
+        }
+    }
 }
 
 /// Where k comes from.

@@ -9,9 +9,9 @@ use toml::de::DeTable;
 use super::check;
 use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE};
 use super::rejection::Rejection;
-use super::table::{FromToml, KeyRow, Reader, Table, read_table};
+use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
-use super::{Heading, Row};
+use super::{Heading, Profile, Row};
 use crate::fault::Fault;
 
 /// A file that was accepted.
@@ -28,6 +28,14 @@ pub struct Loaded {
 /// # Errors
 /// The file cannot be read, or has faults.
 pub fn load(path: &Path) -> Result<Loaded, Rejection> {
+    load_under(path, None)
+}
+
+/// Reads and checks a budget file under another profile than the one that it names.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Rejection> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|error| {
         let fault = Fault::new(
@@ -49,7 +57,8 @@ pub fn load(path: &Path) -> Result<Loaded, Rejection> {
         .help("save the file as UTF-8");
         Rejection::new(&name, &valid, vec![fault])
     })?;
-    read(&text, &name, path.parent().unwrap_or_else(|| Path::new("")))
+    let directory = path.parent().unwrap_or_else(|| Path::new(""));
+    read_under(&text, &name, directory, profile)
 }
 
 /// Checks the text of a budget; CSV files are looked up in `directory`.
@@ -57,6 +66,15 @@ pub fn load(path: &Path) -> Result<Loaded, Rejection> {
 /// # Errors
 /// The text has faults: all of them.
 pub fn read(text: &str, name: &str, directory: &Path) -> Result<Loaded, Rejection> {
+    read_under(text, name, directory, None)
+}
+
+fn read_under(
+    text: &str,
+    name: &str,
+    directory: &Path,
+    profile: Option<&Profile>,
+) -> Result<Loaded, Rejection> {
     // Editors on Windows put a byte order mark in front; places are counted behind it.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (table, errors) = DeTable::parse_recoverable(text);
@@ -67,7 +85,14 @@ pub fn read(text: &str, name: &str, directory: &Path) -> Result<Loaded, Rejectio
             .collect();
         return Err(Rejection::new(name, text, faults));
     }
-    let (file, mut faults) = tables(&table, text);
+    let (mut file, mut faults) = tables(&table, text);
+    if let Some(profile) = profile {
+        file.profile = Some(Stated {
+            value: profile.name.into(),
+            span: 0..0,
+            key: 0..0,
+        });
+    }
     match check::rows(&file, text, directory) {
         Ok((heading, rows)) if faults.is_empty() => Ok(Loaded { heading, rows }),
         Ok(_) => Err(Rejection::new(name, text, faults)),

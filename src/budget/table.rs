@@ -161,9 +161,11 @@ const SYNONYMS: [(&str, &str); 22] = [
 
 /// The known key that an unknown one most likely means.
 fn meant(name: &str, known: &[&'static str]) -> Option<&'static str> {
+    let name = name.to_lowercase().replace(['-', ' '], "_");
+    let name = name.as_str();
     let synonym = SYNONYMS
         .iter()
-        .find(|(word, key)| *word == name.to_lowercase() && known.contains(key));
+        .find(|(word, key)| *word == name && known.contains(key));
     synonym
         .map(|(_, key)| *key)
         .or_else(|| nearest(name, known.iter().copied()))
@@ -203,9 +205,9 @@ fn unknown_key(key: &Spanned<DeString<'_>>, table: &str, known: &[&'static str])
             .help("an expanded uncertainty stands with its k: certificate = { U = …, k = 2 }");
     }
     match meant(name, known) {
-        Some(near) => fault.help(format!(
-            "did you mean `{near}`? Known keys: {}",
-            known.join(", ")
+        Some(near) => fault.help(format!("did you mean `{near}`?")),
+        None if super::tables::FileTable::keys().contains(&name.as_ref()) => fault.help(format!(
+            "`{name}` belongs to the top of the file, above the first [table]: a line belongs to the header above it"
         )),
         None => fault.help(format!("known keys: {}", known.join(", "))),
     }

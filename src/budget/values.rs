@@ -329,12 +329,11 @@ impl<T: FromToml> FromToml for OneOrMany<T> {
 
 /// Entries under names that the user chooses, in the order of the file.
 #[derive(Debug, Clone)]
-pub struct Named<T>(pub Vec<(String, Stated<T>)>);
-
-impl<T> Default for Named<T> {
-    fn default() -> Self {
-        Named(Vec::new())
-    }
+pub struct Named<T> {
+    /// The entries that could be read.
+    pub entries: Vec<(String, Stated<T>)>,
+    /// Whether an entry could not be read.
+    pub refused: bool,
 }
 
 impl<T: FromToml> FromToml for Named<T> {
@@ -346,20 +345,25 @@ impl<T: FromToml> FromToml for Named<T> {
         let DeValue::Table(table) = value.get_ref() else {
             return reader.wrong_type(WRONG_TYPE, value, &Self::expected());
         };
-        let mut entries = Vec::new();
+        let mut named = Named {
+            entries: Vec::new(),
+            refused: false,
+        };
         for (key, item) in in_order(table) {
-            if let Some(read) = T::read(item, reader) {
-                entries.push((
-                    key.get_ref().to_string(),
-                    Stated {
-                        value: read,
-                        span: item.span(),
-                        key: key.span(),
-                    },
-                ));
-            }
+            let Some(read) = T::read(item, reader) else {
+                named.refused = true;
+                continue;
+            };
+            named.entries.push((
+                key.get_ref().to_string(),
+                Stated {
+                    value: read,
+                    span: item.span(),
+                    key: key.span(),
+                },
+            ));
         }
-        Some(Named(entries))
+        Some(named)
     }
 
     fn schema() -> Value {

@@ -3,7 +3,7 @@
 use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 
-use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Trials};
+use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Profile, Trials};
 use gumption::propagate::{self, Evaluation, MonteCarloChoice, Options};
 use gumption::report::{self, Language, Page, Report};
 use serde_json::Value;
@@ -39,9 +39,13 @@ pub(super) struct Args {
     /// Print every row of a series in full, not only the first
     #[arg(long)]
     full: bool,
-    /// Columns of the text report
-    #[arg(long, value_name = "N", default_value = "100", value_parser = parse_width)]
-    width: usize,
+    /// Evaluate under this profile in place of the file's (`gumption explain` lists them); what the
+    /// file's [conventions] change still holds
+    #[arg(long, value_name = "NAME", value_parser = parse_profile)]
+    profile: Option<&'static Profile>,
+    /// Columns of the text report [default: those of the terminal, else 100]
+    #[arg(long, value_name = "N", value_parser = parse_width)]
+    width: Option<usize>,
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -97,7 +101,7 @@ pub(super) fn run(args: &Args) -> Outcome {
 
 /// Reads and evaluates one file; says on standard error what fails, and goes on.
 fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
-    let loaded = match budget::load(file) {
+    let loaded = match budget::load_under(file, args.profile) {
         Ok(loaded) => loaded,
         Err(rejection) => {
             output::warn(&rejection.render(output::may_style(&stderr())));
@@ -152,7 +156,7 @@ fn options(args: &Args, budget: &Budget) -> Options {
 /// One file as text or Markdown: a series as a table, then its first row, or all, in full.
 fn render(args: &Args, rows: &[Row]) -> String {
     let page = Page {
-        width: args.width,
+        width: args.width.unwrap_or_else(|| page_width(args)),
         styled: args.output.is_none() && output::may_style(&stdout()),
     };
     let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(args.lang)).collect();
@@ -209,12 +213,35 @@ fn parse_trials(text: &str) -> Result<Trials, String> {
     Ok(Trials::Fixed(number as u64))
 }
 
+/// Columns of the terminal that the report goes to, if it goes to one.
+fn page_width(args: &Args) -> usize {
+    /// Where nobody says otherwise, and at most: longer lines are hard to read.
+    const USUAL: usize = 100;
+    let stated = std::env::var("COLUMNS").ok().and_then(|c| c.parse().ok());
+    let terminal = || terminal_size::terminal_size_of(stdout()).map(|(w, _)| usize::from(w.0));
+    match &args.output {
+        Some(_) => USUAL,
+        None => stated
+            .or_else(terminal)
+            .map_or(USUAL, |columns: usize| columns.clamp(NARROWEST, 120)),
+    }
+}
+
+fn parse_profile(text: &str) -> Result<&'static Profile, String> {
+    budget::profile_named(text).ok_or_else(|| {
+        let names: Vec<&str> = budget::PROFILES.iter().map(|p| p.name).collect();
+        format!("the profiles are {}", names.join(", "))
+    })
+}
+
 /// Narrower pages cannot hold a budget table.
+const NARROWEST: usize = 60;
+
 fn parse_width(text: &str) -> Result<usize, String> {
     let width: usize = text
         .parse()
         .map_err(|_| "write a number of columns, such as 100".to_string())?;
-    Ok(width.clamp(60, 200))
+    Ok(width.clamp(NARROWEST, 200))
 }
 
 #[cfg(test)]

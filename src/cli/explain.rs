@@ -1,5 +1,9 @@
-//! `gumption explain`: what a distribution, function, profile, error code or concept is.
+//! `gumption explain`: what a distribution, function, profile, key, error code or concept is.
 
+mod keys;
+mod pages;
+
+use gumption::budget::KeyRow;
 use gumption::fault::{Code, nearest};
 use gumption::{budget, distribution, model, quantity};
 
@@ -8,10 +12,13 @@ use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// A distribution, function, profile, error code (B001, M001, U001) or concept; all are listed
-    /// without it
+    /// A distribution, function, profile, key, error code (B0101, M0101, U001) or concept; all are
+    /// listed without it
     #[arg(value_name = "TOPIC", num_args = 0..)]
     topic: Vec<String>,
+    /// Print a whole section (`keys`, `errors` …) as a page of Markdown
+    #[arg(long, requires = "topic")]
+    markdown: bool,
 }
 
 /// One thing that can be explained.
@@ -30,17 +37,31 @@ enum Section {
     Distributions,
     Functions,
     Profiles,
+    Keys,
     Errors,
 }
 
 impl Section {
-    const ALL: [Section; 5] = [
+    const ALL: [Section; 6] = [
         Section::Concepts,
         Section::Distributions,
         Section::Functions,
         Section::Profiles,
+        Section::Keys,
         Section::Errors,
     ];
+
+    /// The topic under which the whole section is listed.
+    fn name(self) -> &'static str {
+        match self {
+            Section::Concepts => "concepts",
+            Section::Distributions => "distributions",
+            Section::Functions => "functions",
+            Section::Profiles => "profiles",
+            Section::Keys => "keys",
+            Section::Errors => "errors",
+        }
+    }
 
     fn title(self) -> &'static str {
         match self {
@@ -48,23 +69,55 @@ impl Section {
             Section::Distributions => "Distributions",
             Section::Functions => "Functions of the model language",
             Section::Profiles => "Profiles",
+            Section::Keys => "Keys of a budget file",
             Section::Errors => "Error codes",
         }
+    }
+
+    /// Whether there are too many topics for the overview to say what each one is.
+    fn is_long(self) -> bool {
+        matches!(self, Section::Keys | Section::Errors)
     }
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
     let topics = topics();
     if args.topic.is_empty() {
-        return output::print(&list(&topics));
+        return output::print(&overview(&topics));
     }
     let wanted = args.topic.join(" ");
-    let found: Vec<&Topic> = topics.iter().filter(|t| t.is_called(&wanted)).collect();
-    if found.is_empty() {
+    let section = Section::ALL
+        .into_iter()
+        .find(|s| s.name() == folded(&wanted));
+    if args.markdown {
+        return match section {
+            Some(section) => output::print(&pages::page(section, &topics)),
+            None => output::complain(&format!(
+                "--markdown prints whole sections: {}",
+                Section::ALL.map(Section::name).join(", ")
+            )),
+        };
+    }
+    let mut texts: Vec<String> = section.map(|s| listed(s, &topics)).into_iter().collect();
+    texts.extend(found(&wanted, &topics).iter().map(|t| t.explained()));
+    if texts.is_empty() {
         return output::complain(&unknown(&wanted, &topics));
     }
-    let texts: Vec<String> = found.iter().map(|t| t.explained()).collect();
     output::print(&texts.join("\n"))
+}
+
+/// Everything of that name; in a section where `u` and `U` are two topics, the one that is spelt alike.
+fn found<'t>(wanted: &str, topics: &'t [Topic]) -> Vec<&'t Topic> {
+    let alike: Vec<&Topic> = topics.iter().filter(|t| t.is_called(wanted)).collect();
+    let exact = |section: Section| {
+        alike
+            .iter()
+            .any(|t| t.section == section && t.name == wanted)
+    };
+    let chosen = alike
+        .iter()
+        .filter(|t| t.name == wanted || !exact(t.section));
+    chosen.copied().collect()
 }
 
 impl Topic {
@@ -84,9 +137,13 @@ impl Topic {
     }
 }
 
-/// Names are compared without regard to case and to the kind of separator.
+/// Names are compared without regard to case, to the kind of separator and to brackets of tables.
 fn folded(name: &str) -> String {
-    name.trim().to_lowercase().replace(['_', ' '], "-")
+    name.trim()
+        .trim_start_matches('[')
+        .trim_end_matches(']')
+        .to_lowercase()
+        .replace(['_', ' ', '–'], "-")
 }
 
 /// A paragraph on lines of at most 90 characters; lines of an example, which are indented, stay as
@@ -95,14 +152,19 @@ fn wrapped(paragraph: &str) -> String {
     if paragraph.lines().any(|l| l.starts_with("  ")) {
         return paragraph.to_string();
     }
+    filled(paragraph.split_whitespace(), " ")
+}
+
+fn filled<'a>(words: impl Iterator<Item = &'a str>, separator: &str) -> String {
     let mut lines: Vec<String> = vec![String::new()];
-    for word in paragraph.split_whitespace() {
+    for word in words {
         let line = lines.last_mut().expect("there is always a line");
-        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > 90 {
+        let width = line.chars().count() + separator.len() + word.chars().count();
+        if !line.is_empty() && width > 90 {
             lines.push(word.to_string());
         } else {
             if !line.is_empty() {
-                line.push(' ');
+                line.push_str(separator);
             }
             line.push_str(word);
         }
@@ -123,46 +185,70 @@ fn unknown(wanted: &str, topics: &[Topic]) -> String {
     )
 }
 
-fn list(topics: &[Topic]) -> String {
+fn overview(topics: &[Topic]) -> String {
     let mut text = String::from("gumption explain TOPIC, where TOPIC is one of:\n");
     for section in Section::ALL {
-        text.push_str(&format!("\n{}\n", section.title()));
-        let of_section: Vec<&Topic> = topics.iter().filter(|t| t.section == section).collect();
-        let width = of_section
-            .iter()
-            .map(|t| t.name.chars().count())
-            .max()
-            .unwrap_or(0);
-        for topic in of_section {
-            text.push_str(&format!("  {:width$}  {}\n", topic.name, topic.title));
+        text.push('\n');
+        if !section.is_long() {
+            text.push_str(&listed(section, topics));
+            continue;
         }
+        let names: Vec<&str> = topics
+            .iter()
+            .filter(|t| t.section == section)
+            .map(|t| t.name.as_str())
+            .collect();
+        let names = filled(names.into_iter(), "  ").replace('\n', "\n  ");
+        text.push_str(&format!(
+            "{} (`gumption explain {}` says what each one is)\n  {names}\n",
+            section.title(),
+            section.name()
+        ));
+    }
+    text
+}
+
+/// The topics of a section, one per line.
+fn listed(section: Section, topics: &[Topic]) -> String {
+    let of_section = || topics.iter().filter(move |t| t.section == section);
+    let width = of_section().map(|t| t.name.chars().count()).max();
+    let mut text = format!("{}\n", section.title());
+    for topic in of_section() {
+        text.push_str(&format!(
+            "  {:width$}  {}\n",
+            topic.name,
+            topic.title,
+            width = width.unwrap_or(0)
+        ));
     }
     text
 }
 
 fn topics() -> Vec<Topic> {
+    let rows = budget::keys();
     let mut topics = Vec::new();
     topics.extend(CONCEPTS.iter().map(|c| Topic {
         section: Section::Concepts,
         name: c.name.to_string(),
-        aliases: c.aliases.iter().map(|a| (*a).to_string()).collect(),
+        aliases: owned(c.aliases),
         title: c.title.to_string(),
         text: c.text.to_string(),
     }));
+    let shapes = shapes();
     topics.extend(distribution::KINDS.iter().map(|kind| {
         Topic {
             section: Section::Distributions,
             name: kind.key.to_string(),
-            aliases: kind
-                .aliases
-                .iter()
-                .map(|a| (*a).to_string())
-                .chain([kind.name_zh.to_string()])
-                .collect(),
+            aliases: [owned(kind.aliases), vec![kind.name_zh.to_string()]].concat(),
             title: format!("{} ({})", kind.name_en, kind.name_zh),
             text: format!(
-                "{}\n\nUse it when {}.\n\n  expectation  {}\n  variance     {}\n  source       {}",
-                kind.parameters, kind.use_when, kind.expectation, kind.variance, kind.source
+                "{}\n\nUse it when {}.\n\n  expectation  {}\n  variance     {}\n  source       {}\n\n{}",
+                kind.parameters,
+                kind.use_when,
+                kind.expectation,
+                kind.variance,
+                kind.source,
+                in_a_file(kind.key, &shapes, &rows)
             ),
         }
     }));
@@ -180,6 +266,7 @@ fn topics() -> Vec<Topic> {
         title: p.source.to_string(),
         text: format!("{}\n\n{}", p.en, p.zh),
     }));
+    topics.extend(keys::topics());
     topics.extend(codes().map(|code| Topic {
         section: Section::Errors,
         name: code.id.to_string(),
@@ -188,6 +275,58 @@ fn topics() -> Vec<Topic> {
         text: code.explanation.to_string(),
     }));
     topics
+}
+
+fn owned(words: &[&str]) -> Vec<String> {
+    words.iter().map(|word| (*word).to_string()).collect()
+}
+
+/// The shapes that go with a width stated in another way, as the schema of budget files lists them.
+fn shapes() -> Vec<String> {
+    let schema = budget::schema();
+    let words = schema
+        .pointer("/properties/input/additionalProperties/properties/distribution/oneOf/0/enum");
+    let words = words.and_then(|words| words.as_array());
+    words
+        .into_iter()
+        .flatten()
+        .filter_map(|word| Some(word.as_str()?.to_string()))
+        .collect()
+}
+
+/// How a budget file states a distribution.
+fn in_a_file(kind: &str, shapes: &[String], rows: &[KeyRow]) -> String {
+    let doc = |table: &str, key: &str| {
+        rows.iter()
+            .find(|row| row.table == table && row.key == key)
+            .map(|row| row.doc.as_str())
+    };
+    let mut ways = Vec::new();
+    if shapes.iter().any(|shape| shape == kind) {
+        ways.push(format!(
+            "  distribution = \"{kind}\", beside half_width, limits, u or certificate"
+        ));
+    }
+    if let Some(doc) = doc("input.NAME.distribution", kind) {
+        ways.push(format!(
+            "  distribution = {{ {kind} = {{ … }} }}, with {}",
+            doc.split_once(": ")
+                .map_or(doc, |(_, parameters)| parameters)
+        ));
+    }
+    let count = match kind {
+        "empirical" => Some("sample"),
+        "poisson" => Some("count"),
+        "binomial" => Some("successes"),
+        _ => None,
+    };
+    ways.extend(count.and_then(|key| {
+        Some(format!(
+            "  {key} = …: {}",
+            doc("input.NAME", key)?.trim_start_matches("Way: ")
+        ))
+    }));
+    format!("In a budget file:\n{}", ways.join("\n"))
 }
 
 /// The codes of all modules.
@@ -217,9 +356,11 @@ mod tests {
     fn names_are_unique_within_a_section() {
         let topics = topics();
         for (i, topic) in topics.iter().enumerate() {
-            let same = topics[i + 1..]
-                .iter()
-                .any(|t| t.section == topic.section && t.is_called(&topic.name));
+            let same = topics[i + 1..].iter().any(|t| {
+                t.section == topic.section
+                    && (t.name == topic.name
+                        || topic.section != Section::Keys && t.is_called(&topic.name))
+            });
             assert!(!same, "{}", topic.name);
         }
     }
@@ -234,13 +375,51 @@ mod tests {
     fn topics_are_found_by_their_other_names() {
         let topics = topics();
         for name in [
-            "welch-satterthwaite",
+            "Welch–Satterthwaite",
             "Clause 8",
             "stein",
+            "jcgm101",
+            "Kessel shares",
+            "coverage factor",
+            "moments missing",
+            "several measurands",
             "rectangular",
+            "half_width",
+            "[[joint]]",
             "U001",
         ] {
-            assert!(topics.iter().any(|t| t.is_called(name)), "{name}");
+            assert!(!found(name, &topics).is_empty(), "{name}");
         }
+    }
+
+    #[test]
+    fn small_and_capital_letters_are_two_keys() {
+        let topics = topics();
+        let keys = |name: &str| -> Vec<String> {
+            let found = found(name, &topics).into_iter();
+            found
+                .filter(|t| t.section == Section::Keys)
+                .map(|t| t.name.clone())
+                .collect()
+        };
+        assert_eq!(keys("u"), ["u"]);
+        assert_eq!(keys("U"), ["U"]);
+    }
+
+    #[test]
+    fn every_distribution_says_how_a_file_states_it() {
+        let topics = topics();
+        for topic in topics
+            .iter()
+            .filter(|t| t.section == Section::Distributions)
+        {
+            let (_, ways) = topic.text.split_once("In a budget file:\n").expect("ways");
+            assert!(!ways.is_empty(), "{}", topic.name);
+        }
+    }
+
+    #[test]
+    fn concepts_are_in_alphabetical_order() {
+        assert!(CONCEPTS.windows(2).all(|pair| pair[0].name < pair[1].name));
     }
 }

@@ -68,6 +68,8 @@ impl<'r> Check<'r> {
             self.l.place = Place::Symbol(index);
             if catalogue::is_reserved(name) {
                 self.l.report(reserved(name, 0..0));
+                // What uses the name is judged when it has another one.
+                self.l.scope.insert(name.clone(), Binding::Faulty);
             } else if self.l.scope.contains_key(name) {
                 self.l.report(
                     Fault::new(

@@ -95,4 +95,6 @@ codes! {
         "Written out element by element the model has too many operations. Shorten the vectors or the functions that call one another.\n\n    g(x) = f(f(f(x))) …      each level multiplies the work";
     UNKNOWN_OF_SOLVE = "M0502", "the unknown of `solve` is not fit",
         "`solve(equation, unknown, start)` needs a new name as its unknown, and the equation must contain it.\n\n    d = solve(a == b, d, 1)          wrong: d does not occur\n    d = solve(d * exp(d) == a, d, 1) right";
+    UNDEFINED = "M0503", "the formula has no value at the estimates",
+        "At the estimates of the inputs the formula divides by zero, takes the root or logarithm of a negative number, exceeds the range of numbers, or its `solve` finds no solution. The message names the operation.\n\n    model = \"V / (I - I_0)\"      has no value when I and I_0 are equal";
 }

@@ -7,8 +7,10 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::Place;
 use super::jet::Jet;
 use super::operation::{self, Binary, Unary, binary_row, unary};
+use super::syntax::Span;
 
 /// Place of an operation in its graph.
 pub type Id = u32;
@@ -47,6 +49,9 @@ pub struct Label {
     pub call: Arc<str>,
     /// `x - a`: the argument or divisor.
     pub argument: Arc<str>,
+    /// Where the call (the divisor, of a quotient) stands.
+    pub place: Place,
+    pub span: Span,
 }
 
 /// A program.

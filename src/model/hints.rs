@@ -1,8 +1,11 @@
 //! What a reader must know about a model at a point: kinks, steps, poles near by.
 
-use super::graph::{Graph, Id, Op};
+use super::faults::UNDEFINED;
+use super::graph::{Graph, Id, Label, Op};
 use super::jet::Jet;
 use super::operation::Smoothness;
+use super::{ModelFault, Place};
+use crate::fault::Fault;
 
 /// Operations whose derivative does not exist or hides something here, in words.
 pub fn irregularities(graph: &Graph, x: &[f64]) -> Vec<String> {
@@ -58,6 +61,102 @@ fn collect_irregularities(graph: &Graph, x: &[f64], found: &mut Vec<String>) {
         if !found.contains(&words) {
             found.push(words);
         }
+    }
+}
+
+/// Measurands without a finite value here: the first operation whose operands are finite and whose
+/// result is not, where the user wrote it.
+pub fn undefined<'a>(
+    graph: &Graph,
+    x: &[f64],
+    names: impl Iterator<Item = &'a str>,
+) -> Vec<ModelFault> {
+    let inputs: Vec<Jet<1>> = x.iter().map(|v| Jet::constant(*v)).collect();
+    let values = graph.evaluate(&inputs);
+    let mut found: Vec<ModelFault> = Vec::new();
+    for (index, (output, name)) in graph.outputs.iter().zip(names).enumerate() {
+        if values[*output as usize].value().is_finite() {
+            continue;
+        }
+        let blamed =
+            culprit(graph, &values, *output).and_then(|id| Some((id, graph.labels.get(&id)?)));
+        let (place, span, why, label) = match blamed {
+            Some((id, label)) => {
+                let (why, short) = reason(graph, &values, id, label);
+                (label.place, label.span.clone(), why, short)
+            }
+            None => (
+                Place::Entry(index),
+                0..0,
+                "an intermediate result is too large or is no number".to_string(),
+                "no finite value".to_string(),
+            ),
+        };
+        let fault = Fault::new(
+            UNDEFINED,
+            span,
+            format!("{name} has no value at the estimates of its inputs: {why}"),
+        )
+        .label(label)
+        .help("check the estimates and the formula");
+        found.push(ModelFault { place, fault });
+    }
+    found
+}
+
+/// Goes from a result that is not finite to the operation that first made it so.
+fn culprit(graph: &Graph, values: &[Jet<1>], output: Id) -> Option<Id> {
+    let mut at = output;
+    loop {
+        let mut next = None;
+        let op = graph.ops[at as usize];
+        let mut consider = |id: Id| {
+            if next.is_none() && !values[id as usize].value().is_finite() {
+                next = Some(id);
+            }
+        };
+        match op {
+            // The branch that is not taken is not to blame.
+            Op::Select(c, a, b) => {
+                consider(c);
+                consider(if values[c as usize].value() != 0.0 {
+                    a
+                } else {
+                    b
+                });
+            }
+            _ => graph.operands(op, consider),
+        }
+        match next {
+            Some(id) => at = id,
+            None => return Some(at),
+        }
+    }
+}
+
+/// Why an operation with finite operands has no finite result, and in short for the marked place.
+fn reason(graph: &Graph, values: &[Jet<1>], id: Id, label: &Label) -> (String, String) {
+    let at = |id: Id| values[id as usize].value();
+    let (call, argument) = (&label.call, &label.argument);
+    match graph.ops[id as usize] {
+        Op::Solve(_) => (
+            format!("the search for `{argument}` from its starting value finds no solution"),
+            "no solution found".to_string(),
+        ),
+        Op::Binary(row, _, b) if row.name == "/" && at(b) == 0.0 => {
+            (format!("the divisor `{argument}` is 0"), "is 0".to_string())
+        }
+        Op::Unary(_, a) | Op::Power(a, _) => (
+            format!(
+                "`{call}` has no finite value where `{argument}` is {}",
+                shown(at(a))
+            ),
+            format!("`{argument}` is {} here", shown(at(a))),
+        ),
+        _ => (
+            format!("`{call}` has no finite value"),
+            "not finite".to_string(),
+        ),
     }
 }
 

@@ -384,11 +384,8 @@ impl<'r> Lowering<'r> {
             if let Some(value) = &left
                 && *infix == Infix::Div
             {
-                let elements = value.clone();
-                self.watch_as(&elements, || Label {
-                    call: printer::expression(operand).into(),
-                    argument: printer::expression(operand).into(),
-                });
+                let quotient = value.clone();
+                self.watch(&quotient, operand, operand);
             }
         }
         if let Some(value) = &left
@@ -403,6 +400,7 @@ impl<'r> Lowering<'r> {
     fn infix(&mut self, infix: Infix, left: Operand<'_>, right: Operand<'_>) -> Option<Value> {
         let span = left.expr.span.start..right.expr.span.end;
         let literal = left.value.literal && right.value.literal;
+        self.same_length(left, right)?;
         let value = match infix {
             Infix::Add | Infix::Sub => {
                 let joined = self.sum(left, infix, right)?;
@@ -447,6 +445,29 @@ impl<'r> Lowering<'r> {
 
     fn apply(&mut self, name: &'static str, a: &Value, b: &Value, span: Span) -> Option<Value> {
         self.elementwise(a, b, span, |builder, x, y| builder.call_binary(name, x, y))
+    }
+
+    /// Reports operands that are vectors of different lengths, by name.
+    fn same_length(&mut self, left: Operand<'_>, right: Operand<'_>) -> Option<()> {
+        let (a, b) = (left.value.elements.len(), right.value.elements.len());
+        if a == b || !left.value.vector || !right.value.vector {
+            return Some(());
+        }
+        let (x, y) = (
+            printer::expression(left.expr),
+            printer::expression(right.expr),
+        );
+        self.report(
+            Fault::new(
+                faults::LENGTHS,
+                right.expr.span.clone(),
+                format!("`{x}` has {a} elements, `{y}` has {b}"),
+            )
+            .label(format!("{b} elements"))
+            .related(left.expr.span.clone(), format!("{a} elements"))
+            .help("vectors are combined element by element and need equal lengths"),
+        );
+        None
     }
 
     /// Element by element, a scalar going with every element of a vector.
@@ -647,14 +668,17 @@ impl<'r> Lowering<'r> {
 
     /// Notes how the user wrote the operations of a value, for hints about poles and kinks.
     pub fn watch(&mut self, value: &Value, call: &Expr, argument: &Expr) {
-        self.watch_as(value, || Label {
+        // What a user's function does is shown where it is called.
+        let (place, span) = match &self.call {
+            Some((place, span, _)) => (*place, span.clone()),
+            None => (self.place, call.span.clone()),
+        };
+        let label = Label {
             call: printer::expression(call).into(),
             argument: printer::expression(argument).into(),
-        });
-    }
-
-    fn watch_as(&mut self, value: &Value, label: impl FnOnce() -> Label) {
-        let label = label();
+            place,
+            span,
+        };
         for id in &value.elements {
             self.builder.label(*id, &label);
         }

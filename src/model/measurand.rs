@@ -8,7 +8,7 @@ use super::faults;
 use super::graph::Id;
 use super::lower::{Binding, Value};
 use super::printer;
-use super::syntax::{Expr, Statement};
+use super::syntax::{Expr, Infix, Node, Statement};
 use super::units::in_words;
 use super::{MeasurandSource, Place};
 use crate::fault::Fault;
@@ -233,10 +233,20 @@ impl Check<'_> {
             .find(|n| self.l.symbol(n).is_some_and(|s| s.unit.is_one()));
         match forgotten {
             Some(name) => {
-                let missing = wanted.quotient(found).symbol;
-                format!(
-                    "if `{name}` has a unit, state it (`unit = \"{missing}\"` would fit if it is a factor), or correct the measurand's unit"
-                )
+                let missing = wanted.quotient(found);
+                match side(expr, name) {
+                    Some(Side::Factor) => format!(
+                        "`{name}` has no unit; if it was forgotten, state it (`unit = \"{}\"` would fit), or correct the measurand's unit",
+                        missing.symbol
+                    ),
+                    Some(Side::Divisor) => format!(
+                        "`{name}` has no unit; if it was forgotten, state it (`unit = \"{}\"` would fit), or correct the measurand's unit",
+                        Unit::one().quotient(&missing).symbol
+                    ),
+                    None => format!(
+                        "`{name}` has no unit; if it was forgotten, state it, or correct the measurand's unit"
+                    ),
+                }
             }
             None => format!(
                 "correct the formula, or write `unit = \"{}\"` for the measurand",
@@ -267,5 +277,41 @@ impl Check<'_> {
                 wanted.symbol
             )),
         );
+    }
+}
+
+/// How a quantity takes part in a product.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Factor,
+    Divisor,
+}
+
+/// Whether the whole expression is proportional to a name, or inversely so, as far as is plain to see.
+fn side(expr: &Expr, name: &str) -> Option<Side> {
+    match &expr.node {
+        Node::Name(own) if own == name => Some(Side::Factor),
+        Node::Minus(inner) => side(inner, name),
+        Node::Chain { first, rest } => {
+            let occurs = |e: &Expr| e.names().contains(&name);
+            let mut factors = std::iter::once((Infix::Mul, &**first))
+                .chain(rest.iter().map(|(infix, e)| (*infix, e)));
+            if !factors
+                .clone()
+                .all(|(infix, _)| matches!(infix, Infix::Mul | Infix::Div))
+            {
+                return None;
+            }
+            let (infix, only) = factors.find(|(_, e)| occurs(e))?;
+            if factors.any(|(_, e)| occurs(e)) {
+                return None;
+            }
+            match (infix, side(only, name)?) {
+                (Infix::Mul, side) => Some(side),
+                (_, Side::Factor) => Some(Side::Divisor),
+                (_, Side::Divisor) => Some(Side::Factor),
+            }
+        }
+        _ => None,
     }
 }

@@ -225,6 +225,12 @@ impl Model {
         hints::irregularities(&self.graph, x)
     }
 
+    /// Measurands that have no finite value at `x`, each with the operation that is to blame.
+    pub fn undefined(&self, x: &[f64]) -> Vec<ModelFault> {
+        let names = self.outputs.iter().map(|output| output.name.as_str());
+        hints::undefined(&self.graph, x, names)
+    }
+
     /// Divisors and function arguments that come within `reach` standard uncertainties of a pole or of
     /// the end of a domain, given the covariance-free u of every input: `x2 (divisor) is 1.4 u from 0`.
     pub fn near_singular(&self, x: &[f64], u: &[f64], reach: f64) -> Vec<String> {

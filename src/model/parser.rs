@@ -443,7 +443,14 @@ impl Parser<'_> {
             Kind::Word("if") => return self.conditional(token.span),
             _ => {
                 self.at -= usize::from(token.kind != Kind::Eof);
-                return Err(self.unexpected("a value"));
+                let before = self.at.checked_sub(1).map(|at| self.kind(at).clone());
+                let fault = self.unexpected("a value");
+                return Err(match (before, token.kind) {
+                    (Some(Kind::Sign(first @ ("+" | "-" | "*" | "/" | "^"))), Kind::Sign(second @ ("*" | "/" | "^"))) => {
+                        fault.map(|f| f.help(format!("remove `{first}` or `{second}`, or write the quantity that is missing between them")))
+                    }
+                    _ => fault,
+                });
             }
         };
         self.index(atom)

@@ -15,6 +15,9 @@ pub struct Comparison {
     pub method: Method,
     /// The obtained figure; `None` where it does not exist (no Monte Carlo, no moments, several measurands only).
     pub obtained: Option<f64>,
+    /// An expanded uncertainty rounded by the budget's own conventions, as a certificate would state
+    /// it; `None` for other figures, which claims state to nearest.
+    pub rounded: Option<f64>,
     /// Whether the claim is about this method; otherwise the figure is shown beside for information.
     pub judged: bool,
 }
@@ -31,8 +34,15 @@ pub enum Method {
 }
 
 impl Comparison {
-    /// Whether the obtained figure is the claimed one within its tolerance.
+    /// Whether the obtained figure is the claimed one within its tolerance, or an expanded uncertainty
+    /// becomes it when rounded by the budget's conventions (which may always round up).
     pub fn agrees(&self) -> bool {
+        let nearly = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs();
+        self.is_near() || self.rounded.is_some_and(|r| nearly(r, self.claimed.value))
+    }
+
+    /// Whether the obtained figure as it is lies within the tolerance.
+    pub fn is_near(&self) -> bool {
         // A figure exactly half a unit away was rounded either way; rounding of doubles must not decide.
         let slack = 1e-9 * self.claimed.tolerance + 4.0 * f64::EPSILON * self.claimed.value.abs();
         self.obtained.is_some_and(|obtained| {
@@ -58,11 +68,15 @@ pub fn compare_claims(budget: &Budget, evaluation: &Evaluation) -> Vec<Compariso
             for (method, judged) in methods(claim.method) {
                 let obtained = obtained(budget, evaluation, claim, &figure.what, method);
                 if judged || obtained.is_some() {
+                    let rounded = obtained
+                        .filter(|_| figure.what == Figure::ExpandedUncertainty)
+                        .map(|u| budget.conventions.rounding_rule().uncertainty(u).to_f64());
                     comparisons.push(Comparison {
                         claimed: figure.clone(),
                         claim: index,
                         method,
                         obtained,
+                        rounded,
                         judged,
                     });
                 }

@@ -12,8 +12,9 @@
 //! # Degrees of freedom that are not integers
 //!
 //! Clause G.4.1 asks to interpolate or to truncate; H.1.6 truncates 16.7 to 16. [`DofRule::Truncated`]
-//! cuts what is printed, ν_eff to one decimal: 18.998 is printed 19.0 and stays 19, as in the example
-//! of G.4.1. [`DofRule::Real`] evaluates t at the real ν_eff, which is the interpolation done exactly.
+//! rounds ν_eff to two decimals first, since u and ν are never known to more: the 18.9987 of the
+//! example of G.4.1 stays 19 as published, the 16.98 of JCGM 101 9.5 becomes 16 as published.
+//! [`DofRule::Real`] evaluates t at the real ν_eff, which is the interpolation done exactly.
 
 use super::covariance::Covariance;
 use super::freedom::Effective;
@@ -68,7 +69,7 @@ pub(super) fn evaluate(situation: &Situation<'_>) -> Coverage {
 /// ν by which t is entered.
 pub(super) fn entered_dof(rule: DofRule, dof: f64) -> f64 {
     match rule {
-        DofRule::Truncated if (1.0..1e9).contains(&dof) => ((10.0 * dof).round() / 10.0).floor(),
+        DofRule::Truncated if (1.0..1e9).contains(&dof) => ((100.0 * dof).round() / 100.0).floor(),
         _ => dof,
     }
 }

@@ -2,9 +2,13 @@
 
 use super::gum::Linear;
 use super::monte_carlo::McOutcome;
-use super::second_order::{Outcome, Terms};
-use super::{Basis, Finding, FindingKind, Freedom, MeasurandResult, MonteCarlo, Validation};
-use crate::budget::Budget;
+use super::second_order::{self, Outcome, Terms};
+use super::validation::{self, numerical_tolerance};
+use super::{
+    Basis, Finding, FindingKind, Freedom, Gum, MeasurandResult, MissingMoments, MonteCarlo,
+    Validation,
+};
+use crate::budget::{Budget, CoverageRule, Group, Law, Owner};
 
 /// Poles and ends of domains are looked for within this many standard uncertainties.
 const REACH: f64 = 4.0;
@@ -18,16 +22,62 @@ const VANISHED: f64 = 0.1;
 /// An effect below this part of u(y) is nothing to speak of.
 const NEGLIGIBLE: f64 = 1e-3;
 
+/// A contribution below this part of u(y) is what the arithmetic left of zero, as in cos 90°.
+const RESIDUE: f64 = 1e-12;
+
+/// Half-lengths of a coverage interval that differ by less than this part of U are called equal.
+const LOPSIDED: f64 = 0.02;
+
 /// The shortest interval is shorter than the symmetric one by at least this part of it.
 const SHORTER: f64 = 0.01;
 
 /// The method of the statement: Monte Carlo where it has not validated the GUM at the digits that
 /// are reported.
-pub(super) fn basis(validation: Option<&[Validation; 2]>, digits: u8) -> Basis {
-    let verdict = validation.and_then(|both| both.iter().find(|v| v.digits == digits.clamp(1, 2)));
-    match verdict {
-        Some(verdict) if !verdict.validated => Basis::MonteCarlo,
+///
+/// Clause 8 compares intervals for a probability. With a fixed k the statement claims y, u and k, and
+/// it is enough that Monte Carlo confirms the first two.
+pub(super) fn basis(
+    gum: &Gum,
+    monte_carlo: Option<(&MonteCarlo, &Validation)>,
+    rule: CoverageRule,
+) -> Basis {
+    match monte_carlo {
+        Some((mc, verdict)) if !verdict.validated => {
+            let claims_probability = !matches!(rule, CoverageRule::Fixed(_));
+            if claims_probability || !confirms(mc, gum, verdict.delta) {
+                Basis::MonteCarlo
+            } else {
+                Basis::Gum
+            }
+        }
         _ => Basis::Gum,
+    }
+}
+
+/// Whether estimate and standard uncertainty agree within δ.
+fn confirms(mc: &MonteCarlo, gum: &Gum, delta: f64) -> bool {
+    let near = |found: Option<f64>, figure: f64| {
+        found.is_some_and(|found| (found - figure).abs() <= delta)
+    };
+    near(mc.estimate, gum.estimate) && near(mc.u, gum.u)
+}
+
+/// Whether a contribution is nothing but a residue of the arithmetic, given what it contributes to.
+pub fn is_residue(contribution: f64, whole: f64) -> bool {
+    contribution.abs() <= RESIDUE * whole.abs()
+}
+
+impl MonteCarlo {
+    /// U such that estimate ± U is the probabilistically symmetric interval: half its width, where
+    /// both sides of the estimate are equally long within the numerical tolerance δ at these digits
+    /// of u, or within 2 %. `None` for a lopsided interval, and where there is no estimate.
+    pub fn half_width(&self, digits: u8) -> Option<f64> {
+        let (estimate, u) = (self.estimate?, self.u?);
+        let [low, high] = self.symmetric;
+        let half = (high - low) / 2.0;
+        let difference = ((high - estimate) - (estimate - low)).abs();
+        let tolerated = numerical_tolerance(u, digits).max(LOPSIDED * half);
+        (difference <= tolerated).then_some(half)
     }
 }
 
@@ -107,7 +157,7 @@ impl Evidence<'_> {
     }
 
     fn of_second_order(&self, measurand: usize, already_doubtful: bool) -> Vec<FindingKind> {
-        let mut kinds = self.vanished(measurand);
+        let mut kinds = Vec::from_iter(self.vanished(measurand));
         let u_first = self.results[measurand].gum.u;
         let doubtful = match &self.second_order[measurand].terms {
             Terms::Linear => false,
@@ -129,32 +179,76 @@ impl Evidence<'_> {
         kinds
     }
 
-    /// Inputs whose sensitivity coefficient vanishes although the measurand depends on them.
-    fn vanished(&self, measurand: usize) -> Vec<FindingKind> {
+    /// Inputs whose sensitivity coefficient vanishes although the measurand depends on them, and what
+    /// second order finds of them: all of it, less what is left when they stay at their estimates.
+    fn vanished(&self, measurand: usize) -> Option<FindingKind> {
+        let seen: Vec<Sight> = (0..self.budget.inputs.len())
+            .map(|input| self.sight(measurand, input))
+            .collect();
+        let unseen = |sight: &Sight| *sight != Sight::FirstOrder;
+        if !seen.iter().any(unseen) {
+            return None;
+        }
+        let mut others = self.budget.model.nonlinear_inputs();
+        for (changes, sight) in others.iter_mut().zip(&seen) {
+            *changes &= !unseen(sight);
+        }
+        let with = &self.second_order[measurand];
+        let without = &second_order::evaluate_over(self.budget, self.linear, &others)[measurand];
+        let shift = with.shift - without.shift;
+        let (more, less) = (with.curvature, without.curvature);
+        let u_effect = ((more - less) * (more + less)).max(0.0).sqrt();
+        let u_first = self.results[measurand].gum.u;
+        let told = shift.is_finite() && u_effect.is_finite() && !seen.contains(&Sight::Neither);
+        Some(FindingKind::VanishingSensitivity {
+            inputs: seen
+                .iter()
+                .zip(&self.budget.inputs)
+                .filter(|(sight, _)| unseen(sight))
+                .map(|(_, input)| input.name.clone())
+                .collect(),
+            shift,
+            u_effect,
+            matters: !told || second_order::matters(u_first, libm::hypot(u_first, u_effect), shift),
+        })
+    }
+
+    /// Which order of the expansion sees an input first.
+    fn sight(&self, measurand: usize, input: usize) -> Sight {
         let result = &self.results[measurand];
-        let slope_deviation = &self.second_order[measurand].slope_deviation;
+        let line = &result.gum.inputs[input];
+        let deviation = self.second_order[measurand].slope_deviation[input];
         let u = result
             .second_order
             .as_ref()
             .map_or(result.gum.u, |s| s.u.max(result.gum.u));
-        let nonlinear = self.budget.model.nonlinear_inputs();
-        let names = self.budget.inputs.iter().map(|input| &input.name);
-        names
-            .enumerate()
-            .filter(|(i, _)| {
-                let line = &result.gum.inputs[*i];
-                let acts = acts_at_second_order(line.sensitivity, slope_deviation[*i], line.u, u)
-                    || (line.sensitivity == 0.0
-                        && line.u > 0.0
-                        && nonlinear[*i]
-                        && slope_deviation[*i] == 0.0
-                        && result.basis == Basis::MonteCarlo);
-                acts && line.u > 0.0
-            })
-            .map(|(_, name)| FindingKind::VanishingSensitivity {
-                input: name.clone(),
-            })
-            .collect()
+        if line.u <= 0.0 {
+            return Sight::FirstOrder;
+        }
+        let gone = is_residue(line.contribution, u);
+        let acts = gone && deviation * line.u > RESIDUE * u;
+        if acts || acts_at_second_order(line.sensitivity, deviation, line.u, u) {
+            Sight::SecondOrder
+        } else if gone
+            && deviation == 0.0
+            && result.basis == Basis::MonteCarlo
+            && self.moves(measurand, input, line.u)
+        {
+            Sight::Neither
+        } else {
+            Sight::FirstOrder
+        }
+    }
+
+    /// Whether the measurand changes with an input at all.
+    fn moves(&self, measurand: usize, input: usize, by: f64) -> bool {
+        let at = |change: f64| {
+            let mut x = self.linear.x.clone();
+            x[input] += change;
+            self.budget.model.values(&x)[measurand]
+        };
+        let here = self.linear.values[measurand];
+        at(by) != here || at(-by) != here
     }
 
     fn of_monte_carlo(&self, measurand: usize) -> Vec<FindingKind> {
@@ -162,13 +256,15 @@ impl Evidence<'_> {
         let (Some(mc), Some(outcome)) = (&result.monte_carlo, self.monte_carlo) else {
             return Vec::new();
         };
+        let digits = self.budget.conventions.digits;
         let mut kinds = Vec::new();
-        if result.basis == Basis::MonteCarlo {
+        let verdicts = result.validation.as_ref();
+        if verdicts.is_some_and(|both| !validation::at(both, digits).validated) {
             kinds.push(FindingKind::NotValidated);
         }
         if let Some(Some(reason)) = outcome.moments_missing.get(measurand) {
             kinds.push(FindingKind::MomentsMissing {
-                reason: reason.clone(),
+                reason: self.too_few_readings(measurand).unwrap_or(reason.clone()),
             });
         }
         if mc.failed > 0 {
@@ -177,11 +273,55 @@ impl Evidence<'_> {
                 trials: outcome.run.trials,
             });
         }
-        if is_asymmetric(mc) {
+        if is_asymmetric(mc) && mc.half_width(digits).is_none() {
             kinds.push(FindingKind::Asymmetric);
         }
         kinds
     }
+
+    /// Simultaneous readings with ν ≤ 2 that the measurand depends on: what is behind a heavy tail of
+    /// the trials then.
+    fn too_few_readings(&self, measurand: usize) -> Option<MissingMoments> {
+        let lines = &self.results[measurand].gum.components;
+        let acts = |group: &&Group| group.members.iter().any(|m| lines[*m].contribution != 0.0);
+        self.budget
+            .groups
+            .iter()
+            .filter(acts)
+            .find_map(|group| self.few_readings(group))
+    }
+
+    /// The n readings of a group that was read together, if n − N ≤ 2. Such a group has ν = n − 1 in
+    /// the GUM (5.2.3) and n − N in Monte Carlo, which tells it from one with a stated ν.
+    fn few_readings(&self, group: &Group) -> Option<MissingMoments> {
+        let Law::StudentT { dof, .. } = group.law else {
+            return None;
+        };
+        let readings = dof + group.members.len() as f64;
+        let read_together = group.members.len() > 1 && group.dof == Some(readings - 1.0);
+        (dof <= 2.0 && read_together).then(|| MissingMoments::JointReadings {
+            inputs: group.members.iter().map(|m| self.owner(*m)).collect(),
+            readings: readings as usize,
+        })
+    }
+
+    /// Name of the input or source that a component belongs to.
+    fn owner(&self, component: usize) -> String {
+        let component = &self.budget.components[component];
+        match component.owner {
+            Owner::Input(input) => self.budget.inputs[input].name.clone(),
+            Owner::Source(_) => component.name.clone(),
+        }
+    }
+}
+
+/// Which order of the expansion sees an input first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sight {
+    FirstOrder,
+    SecondOrder,
+    /// Higher orders or none, as |x|³ and |x| at zero.
+    Neither,
 }
 
 fn whole(kinds: impl IntoIterator<Item = FindingKind>) -> Vec<Finding> {
@@ -216,24 +356,61 @@ fn is_asymmetric(mc: &MonteCarlo) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::propagate::Histogram;
+    use crate::propagate::{Coverage, CoverageBasis, Histogram};
 
-    fn verdicts(two: bool, one: bool) -> [Validation; 2] {
-        [(2, two), (1, one)].map(|(digits, validated)| Validation {
-            digits,
-            delta: 0.5,
-            d_low: 0.1,
-            d_high: 0.1,
-            validated,
-        })
+    fn gum(estimate: f64, u: f64) -> Gum {
+        Gum {
+            estimate,
+            u,
+            inputs: Vec::new(),
+            components: Vec::new(),
+            freedom: Freedom::Infinite,
+            coverage: Coverage {
+                k: 2.0,
+                basis: CoverageBasis::Fixed,
+                probability: 0.95,
+                expanded: 2.0 * u,
+                half_width_for_p: 1.96 * u,
+            },
+        }
     }
 
     #[test]
-    fn the_digits_reported_decide() {
-        assert_eq!(basis(Some(&verdicts(false, true)), 2), Basis::MonteCarlo);
-        assert_eq!(basis(Some(&verdicts(false, true)), 1), Basis::Gum);
-        assert_eq!(basis(Some(&verdicts(true, true)), 2), Basis::Gum);
-        assert_eq!(basis(None, 2), Basis::Gum);
+    fn the_verdict_of_clause_8_decides() {
+        let verdict = |validated| Validation {
+            digits: 2,
+            delta: 0.05,
+            d_low: 0.1,
+            d_high: 0.1,
+            validated,
+        };
+        let mc = monte_carlo([-1.9, 1.9], [-1.9, 1.9], 0.0);
+        let of = |validated, u, rule| {
+            let verdict = verdict(validated);
+            basis(&gum(0.0, u), Some((&mc, &verdict)), rule)
+        };
+        assert_eq!(of(true, 1.0, CoverageRule::Output), Basis::Gum);
+        assert_eq!(of(false, 1.0, CoverageRule::Output), Basis::MonteCarlo);
+        // A fixed k claims y and u only: 1.04 against 1.00 with δ = 0.05.
+        assert_eq!(of(false, 1.04, CoverageRule::Fixed(2.0)), Basis::Gum);
+        assert_eq!(of(false, 1.06, CoverageRule::Fixed(2.0)), Basis::MonteCarlo);
+        assert_eq!(
+            basis(&gum(0.0, 1.0), None, CoverageRule::Output),
+            Basis::Gum
+        );
+    }
+
+    #[test]
+    fn half_a_width_is_given_for_equal_sides_only() {
+        let of = |symmetric| monte_carlo(symmetric, symmetric, 0.001).half_width(2);
+        assert_eq!(of([-2.0, 2.0]), Some(2.0));
+        assert_eq!(of([-1.98, 2.02]), Some(2.0));
+        assert_eq!(of([-1.9, 2.1]), None);
+        let nothing = MonteCarlo {
+            estimate: None,
+            ..monte_carlo([-2.0, 2.0], [-2.0, 2.0], 0.001)
+        };
+        assert_eq!(nothing.half_width(2), None);
     }
 
     #[test]

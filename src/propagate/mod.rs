@@ -19,6 +19,8 @@ mod tests;
 mod validation;
 
 pub use claims::{Comparison, Method, compare_claims};
+pub use findings::is_residue;
+pub use monte_carlo::{Consequence, MissingMoments, Side};
 
 use nalgebra::DMatrix;
 
@@ -59,7 +61,8 @@ pub struct MeasurandResult {
 /// Which method the statement uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Basis {
-    /// GUM first order (validated, or Monte Carlo not run and nothing speaks against it).
+    /// GUM first order: validated, or Monte Carlo not run; also where k is fixed and Monte Carlo
+    /// confirms y and u, which is all that the statement then claims.
     Gum,
     /// Monte Carlo, because GUM was not validated.
     MonteCarlo,
@@ -303,10 +306,16 @@ pub struct Finding {
 /// The kinds of findings; the report has a sentence in each language for every one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FindingKind {
-    /// c = 0 while u(x) > 0 and the input does act at second order (or in Monte Carlo).
+    /// c = 0 (or next to it) while u(x) > 0 and the input does act beyond first order.
     VanishingSensitivity {
-        /// Name of the input.
-        input: String,
+        /// Names of all inputs concerned.
+        inputs: Vec<String>,
+        /// Their part of ½ ΣΣ f_ij u(x_i, x_j).
+        shift: f64,
+        /// What their second derivatives alone add to u(y), in quadrature.
+        u_effect: f64,
+        /// Whether that is seen at two digits of u(y), or second order cannot tell.
+        matters: bool,
     },
     /// Second-order terms change u or the estimate at the digits reported.
     SecondOrderMatters {
@@ -317,14 +326,15 @@ pub enum FindingKind {
         /// u(y) with second-order terms.
         u_second: f64,
     },
-    /// Clause 8: GUM is not validated; the statement uses Monte Carlo.
+    /// Clause 8: GUM is not validated at the digits reported. The statement uses Monte Carlo, unless it
+    /// claims no coverage probability (see [`MeasurandResult::basis`]).
     NotValidated,
     /// No Monte Carlo was run and first order is doubtful.
     NeedsMonteCarlo,
     /// Mean or standard deviation do not exist or do not converge; quantiles are given.
     MomentsMissing {
-        /// Why, in words.
-        reason: String,
+        /// Why.
+        reason: MissingMoments,
     },
     /// Some trials gave no finite value.
     FailedTrials {
@@ -507,12 +517,20 @@ fn both_methods(
         Terms::Found(found) => Some(found.clone()),
         Terms::Linear | Terms::Divergent => None,
     };
+    let verdict = validation
+        .as_ref()
+        .map(|both| validation::at(both, budget.conventions.digits));
+    let basis = findings::basis(
+        &gum,
+        monte_carlo.zip(verdict),
+        budget.conventions.coverage_factor,
+    );
     MeasurandResult {
         gum,
         second_order,
         monte_carlo: monte_carlo.cloned(),
-        basis: findings::basis(validation.as_ref(), budget.conventions.digits),
         validation,
+        basis,
     }
 }
 

@@ -53,6 +53,11 @@ pub(super) struct Outcome {
     pub terms: Terms,
     /// Standard deviation of each sensitivity coefficient c_i over the uncertainties of all inputs.
     pub slope_deviation: Vec<f64>,
+    /// ½ Σ h_kk.
+    pub shift: f64,
+    /// Root of Σ_k ¼ h_kk² (μ4 − 1) + Σ_{k<l} h_kl²: what the second derivatives alone add to u(y),
+    /// in quadrature.
+    pub curvature: f64,
 }
 
 /// The second-order terms of one measurand.
@@ -68,20 +73,36 @@ pub(super) enum Terms {
 
 /// Second-order terms of every measurand.
 pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
+    over(budget, linear, &budget.model.interactions())
+}
+
+/// Second-order terms when only the inputs marked in `changing` change, the others staying at their
+/// estimates.
+pub(super) fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Outcome> {
     let blocks = budget.model.interactions();
+    let blocks: Vec<Option<usize>> = blocks
+        .into_iter()
+        .zip(changing)
+        .map(|(block, changes)| block.filter(|_| *changes))
+        .collect();
+    over(budget, linear, &blocks)
+}
+
+/// Second-order terms over the inputs that are in a block of interacting inputs.
+fn over(budget: &Budget, linear: &Linear, blocks: &[Option<usize>]) -> Vec<Outcome> {
     let directions = directions(
         &linear.covariance,
         &budget.inputs,
         &budget.components,
-        &blocks,
+        blocks,
     );
-    let plan = Plan::new(&directions, &blocks);
+    let plan = Plan::new(&directions, blocks);
     accumulate(linear, &directions, &plan, |direction| {
         budget.model.along(&linear.x, direction)
     })
 }
 
-/// The directions in which a nonlinear input changes.
+/// The directions in which one of the marked inputs changes.
 fn directions(
     covariance: &Covariance,
     inputs: &[Input],
@@ -187,6 +208,7 @@ struct Sums {
     g: Vec<f64>,
     shift: f64,
     added: f64,
+    curvature: f64,
     nonlinear: bool,
     slope: Vec<f64>,
     /// h_kl and t_kll of the directions k that meet the current one, else zero.
@@ -210,8 +232,11 @@ impl Sums {
             self.nonlinear |= h != 0.0 || t != 0.0;
             if k == l {
                 self.shift += 0.5 * h;
-                self.added += g * h * third + 0.25 * h * h * (fourth - 1.0) + g * t * fourth / 3.0;
+                let curvature = 0.25 * h * h * (fourth - 1.0);
+                self.curvature += curvature;
+                self.added += g * h * third + curvature + g * t * fourth / 3.0;
             } else {
+                self.curvature += 0.5 * h * h;
                 self.added += 0.5 * h * h + g * t;
             }
         }
@@ -248,6 +273,8 @@ impl Sums {
         Outcome {
             terms,
             slope_deviation,
+            shift: self.shift * unit,
+            curvature: self.curvature.sqrt() * unit,
         }
     }
 }
@@ -268,6 +295,7 @@ fn accumulate(
             g: measurand.standard.iter().map(|g| g / unit).collect(),
             shift: 0.0,
             added: 0.0,
+            curvature: 0.0,
             nonlinear: false,
             slope: vec![0.0; linear.x.len()],
             met: vec![[0.0; 2]; directions.len()],
@@ -300,7 +328,7 @@ fn unit(u: f64) -> f64 {
 }
 
 /// Whether the second order is seen in two significant digits of u(y).
-fn matters(u_first: f64, u_second: f64, shift: f64) -> bool {
+pub(super) fn matters(u_first: f64, u_second: f64, shift: f64) -> bool {
     let delta = numerical_tolerance(u_second.max(u_first), 2);
     (u_second - u_first).abs() > delta || shift.abs() > delta
 }

@@ -49,6 +49,12 @@ pub(crate) fn validate(gum: &Gum, mc: &MonteCarlo) -> [Validation; 2] {
     })
 }
 
+/// The verdict at the digits that are reported.
+pub(crate) fn at(both: &[Validation; 2], digits: u8) -> &Validation {
+    let [two, one] = both;
+    if digits < 2 { one } else { two }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::{Coverage, CoverageBasis, Freedom, Histogram};

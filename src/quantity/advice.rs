@@ -16,7 +16,10 @@ pub(super) fn for_unknown<'a>(
     if letters != name && is_known(letters) {
         return format!("write `{letters}^{}`", &name[letters.len()..]);
     }
-    if let Some(symbol) = by_english_name(name) {
+    if let Some(symbol) = by_english_name(name)
+        .map(str::to_owned)
+        .or_else(|| by_prefixed_name(name))
+    {
         return format!("write `{symbol}`");
     }
     if let Some(base) = QUALIFIERS
@@ -57,7 +60,7 @@ pub(super) fn for_unknown<'a>(
                 "did you mean `{known}`? A unit of your own is declared in the [unit] table"
             ),
             None => format!(
-                "declare it in the [unit] table, as in `{name} = \"10 V\"` or `{name} = \"1\"`"
+                "a unit of your own is declared in the [unit] table, by other units (`{name} = \"2.5 mm\"`) or as a pure number (`{name} = \"1\"`)"
             ),
         },
     }
@@ -83,7 +86,10 @@ fn as_product(name: &str, is_known: impl Fn(&str) -> bool) -> Option<String> {
 /// The symbol of a unit that was written out: `Volt`, `meters`, `degrees Celsius`.
 fn by_english_name(name: &str) -> Option<&'static str> {
     let name = name.to_lowercase();
-    let singular = name.strip_suffix('s').unwrap_or(&name);
+    let singular = match name.strip_suffix('s').unwrap_or(&name) {
+        "amp" => "ampere",
+        other => other,
+    };
     let british = singular.replace("meter", "metre").replace("liter", "litre");
     let wanted = [name.as_str(), singular, british.as_str()];
     UNITS
@@ -91,6 +97,34 @@ fn by_english_name(name: &str) -> Option<&'static str> {
         .find(|u| wanted.contains(&u.name_en.to_lowercase().as_str()))
         .map(|u| u.symbol)
 }
+
+/// The symbol of a unit that was written out behind a prefix: `mAmp`, `kilovolts`.
+fn by_prefixed_name(name: &str) -> Option<String> {
+    let lower = name.to_lowercase();
+    let words = PREFIX_NAMES
+        .iter()
+        .find_map(|(word, prefix)| Some((*prefix, by_english_name(lower.strip_prefix(word)?)?)));
+    let symbols = || {
+        PREFIXES
+            .iter()
+            .find_map(|(prefix, _)| Some((*prefix, by_english_name(name.strip_prefix(prefix)?)?)))
+    };
+    words
+        .or_else(symbols)
+        .map(|(prefix, symbol)| format!("{prefix}{symbol}"))
+}
+
+/// The usual prefixes written out.
+const PREFIX_NAMES: [(&str, &str); 8] = [
+    ("nano", "n"),
+    ("micro", "µ"),
+    ("milli", "m"),
+    ("centi", "c"),
+    ("hecto", "h"),
+    ("kilo", "k"),
+    ("mega", "M"),
+    ("giga", "G"),
+];
 
 /// Ends of names that say which kind of value is meant, which is not the unit's office.
 const QUALIFIERS: &[&str] = &[

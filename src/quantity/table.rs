@@ -34,6 +34,8 @@ pub enum DefinitionError {
     Name(UnitError),
     /// The definition (the value).
     Definition(UnitError),
+    /// The definition, because it runs in a circle with others.
+    Circular(UnitError),
 }
 
 static BUILTIN: LazyLock<HashMap<&'static str, Scale>> = LazyLock::new(|| {
@@ -288,7 +290,7 @@ fn circular((name, definition): (&str, &str), names: &[String]) -> Option<Defini
         "`{name}` cannot be defined by `{}`, which is itself waiting for a definition",
         term.name
     );
-    Some(DefinitionError::Definition(
+    Some(DefinitionError::Circular(
         UnitError::new(BAD_DEFINITION, term.span, message).help(
             "these definitions run in a circle; define one of them by units that are built in",
         ),
@@ -511,13 +513,14 @@ mod tests {
             .map(|(i, fault)| match fault {
                 DefinitionError::Name(e) => (*i, "name", e.span.clone()),
                 DefinitionError::Definition(e) => (*i, "definition", e.span.clone()),
+                DefinitionError::Circular(e) => (*i, "circle", e.span.clone()),
             })
             .collect();
         assert_eq!(
             codes,
             [
-                (0, "definition", 2..4),
-                (2, "definition", 0..2),
+                (0, "circle", 2..4),
+                (2, "circle", 0..2),
                 (3, "name", 0..3),
                 (4, "definition", 2..5)
             ]

@@ -2,7 +2,7 @@
 //! where each standard uncertainty comes from.
 
 use crate::budget::{Component, Evaluation as Kind, Input, Owner, Term};
-use crate::propagate::{Contribution, FindingKind, Freedom, Gum};
+use crate::propagate::{Contribution, CoverageBasis, FindingKind, Freedom, Gum, is_residue};
 
 use super::document::Block;
 use super::language::{Language, Word};
@@ -78,7 +78,7 @@ fn select(report: &Report<'_>, measurand: usize) -> Selection {
     let several = report.evaluation.results.len() > 1;
     let hidden = |i: &usize| {
         let name = &report.budget.inputs[*i].name;
-        let flagged = |k: &FindingKind| matches!(k, FindingKind::VanishingSensitivity { input } if input == name);
+        let flagged = |k: &FindingKind| matches!(k, FindingKind::VanishingSensitivity { inputs, .. } if inputs.contains(name));
         several && contributions[*i].sensitivity == 0.0 && !report.finds(measurand, flagged)
     };
     let (without_effect, mut shown): (Vec<usize>, Vec<usize>) =
@@ -110,7 +110,7 @@ fn table(report: &Report<'_>, measurand: usize, selection: &Selection) -> Table 
     let gum = &report.evaluation.results[measurand].gum;
     let (name, unit) = report.measurand(measurand);
     let mut table = Table::new([
-        (l.word(Word::Quantity), ColumnKind::Words),
+        (l.word(Word::Quantity), ColumnKind::Names),
         (l.word(Word::Estimate), ColumnKind::Numbers),
         (l.word(Word::Unit), ColumnKind::Words),
         ("u", ColumnKind::Numbers),
@@ -159,9 +159,9 @@ fn input_rows(report: &Report<'_>, gum: &Gum, i: usize, table: &mut Table) {
         significant(line.u, TABLE_DIGITS).into(),
         only.map_or(Cell::Empty, |c| distribution(c, report.language).into()),
         freedom(line.dof).into(),
-        significant(line.sensitivity, 4).into(),
-        significant(line.contribution, TABLE_DIGITS).into(),
-        percent(line.share).into(),
+        sensitivity(line, gum, input.estimate).into(),
+        contribution(line.contribution, gum).into(),
+        share(line, gum).into(),
         Cell::Share(line.share),
     ]);
     if input.terms.len() > 1 {
@@ -180,8 +180,8 @@ fn component_row(
 ) {
     let component = &report.budget.components[term.component];
     let u = term.coefficient.abs() * component.u;
-    let share = match component.owner {
-        Owner::Input(_) => percent(gum.components[term.component].share).into(),
+    let share: Cell = match component.owner {
+        Owner::Input(_) => share(&gum.components[term.component], gum).into(),
         // The share of a source is in its own row: it acts through several inputs at once.
         Owner::Source(_) => NONE.into(),
     };
@@ -193,11 +193,7 @@ fn component_row(
         distribution(component, report.language).into(),
         freedom(component.dof).into(),
         Cell::Empty,
-        significant(
-            line.sensitivity * term.coefficient * component.u,
-            TABLE_DIGITS,
-        )
-        .into(),
+        contribution(line.sensitivity * term.coefficient * component.u, gum).into(),
         share,
     ]);
 }
@@ -220,12 +216,31 @@ fn source_rows(report: &Report<'_>, gum: &Gum, table: &mut Table) {
             significant(line.u, TABLE_DIGITS).into(),
             distribution(component, report.language).into(),
             freedom(line.dof).into(),
-            significant(line.sensitivity, 4).into(),
-            significant(line.contribution, TABLE_DIGITS).into(),
-            percent(line.share).into(),
+            sensitivity(line, gum, 0.0).into(),
+            contribution(line.contribution, gum).into(),
+            share(line, gum).into(),
             Cell::Share(line.share),
         ]);
     }
+}
+
+/// A sensitivity coefficient; zero where only rounding kept it from being zero. An input whose u is
+/// negligible has a small contribution too, but its c still carries its estimate into y.
+fn sensitivity(line: &Contribution, gum: &Gum, estimate: f64) -> String {
+    let whole = gum.estimate.abs().max(gum.u);
+    let residue =
+        is_residue(line.contribution, gum.u) && is_residue(line.sensitivity * estimate, whole);
+    significant(if residue { 0.0 } else { line.sensitivity }, 4)
+}
+
+fn contribution(product: f64, gum: &Gum) -> String {
+    let residue = is_residue(product, gum.u);
+    significant(if residue { 0.0 } else { product }, TABLE_DIGITS)
+}
+
+fn share(line: &Contribution, gum: &Gum) -> String {
+    let residue = is_residue(line.contribution, gum.u);
+    percent(if residue { 0.0 } else { line.share })
 }
 
 fn shared_components(report: &Report<'_>) -> Vec<usize> {
@@ -306,10 +321,14 @@ fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, String)> {
     };
     let coverage = &gum.coverage;
     let k = significant(coverage.k, TABLE_DIGITS);
-    let (basis, p) = (
-        super::comparison::basis_of_k(coverage, l),
-        probability(coverage.probability),
-    );
+    let basis = super::comparison::basis_of_k(coverage, l);
+    let fixed = coverage.basis == CoverageBasis::Fixed;
+    let p = if fixed && !report.budget.conventions.state_probability {
+        l.pick("no probability stated", "不注明包含概率")
+            .to_string()
+    } else {
+        format!("p = {}", probability(coverage.probability))
+    };
     [
         (
             Word::Estimate,
@@ -329,8 +348,8 @@ fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, String)> {
         (
             Word::Factor,
             l.pick(
-                format!("k = {k} ({basis}, p = {p})"),
-                format!("k = {k}（{basis}，p = {p}）"),
+                format!("k = {k} ({basis}, {p})"),
+                format!("k = {k}（{basis}，{p}）"),
             ),
         ),
         (
@@ -360,7 +379,7 @@ fn subtotals(report: &Report<'_>, measurand: usize) -> Option<Table> {
         return None;
     }
     let mut table = Table::new([
-        (l.word(Word::InputGroup), ColumnKind::Words),
+        (l.word(Word::InputGroup), ColumnKind::Names),
         (l.word(Word::StandardUncertainty), ColumnKind::Numbers),
         (l.word(Word::Share), ColumnKind::Numbers),
         ("", ColumnKind::Bar),
@@ -387,7 +406,7 @@ fn subtotals(report: &Report<'_>, measurand: usize) -> Option<Table> {
 pub(super) fn origins(report: &Report<'_>) -> Vec<Block> {
     let l = report.language;
     let mut table = Table::new([
-        (l.word(Word::Component), ColumnKind::Words),
+        (l.word(Word::Component), ColumnKind::Names),
         (l.word(Word::TypeShort), ColumnKind::Words),
         (l.word(Word::Where), ColumnKind::Wrapped),
         (l.word(Word::Sources), ColumnKind::Wrapped),

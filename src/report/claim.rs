@@ -52,7 +52,7 @@ pub(super) fn subject<'a>(report: &Report<'a>, what: &Figure) -> Option<&'a str>
 }
 
 /// A figure in words.
-fn label(report: &Report<'_>, what: &Figure) -> String {
+pub(super) fn label(report: &Report<'_>, what: &Figure) -> String {
     let l = report.language;
     let plain = match what {
         Figure::Estimate => l.word(Word::Estimate),
@@ -96,7 +96,7 @@ fn method(method: Method, language: Language) -> &'static str {
 }
 
 /// Power of ten of the last digit that the claim states.
-fn last_place(comparison: &Comparison) -> i32 {
+pub(super) fn last_place(comparison: &Comparison) -> i32 {
     let tolerance: f64 = comparison.claimed.tolerance;
     if tolerance > 0.0 && tolerance.is_finite() {
         libm::log10(2.0 * tolerance).floor() as i32
@@ -108,7 +108,7 @@ fn last_place(comparison: &Comparison) -> i32 {
 }
 
 /// A claimed or obtained number in words.
-fn number(what: &Figure, value: f64, place: i32, language: Language) -> String {
+pub(super) fn number(what: &Figure, value: f64, place: i32, language: Language) -> String {
     if matches!(what, Figure::Validated(_)) {
         return if value > 0.5 {
             language.pick("yes", "是").to_string()
@@ -129,7 +129,16 @@ fn verdict(comparison: &Comparison, language: Language) -> String {
         return NONE.to_string();
     }
     if comparison.agrees() {
-        return language.pick("agrees", "一致").to_string();
+        return match comparison.rounded {
+            Some(rounded) if !comparison.is_near() => {
+                let rounded = exact(rounded);
+                language.pick(
+                    format!("agrees: rounds to {rounded}"),
+                    format!("一致：修约为 {rounded}"),
+                )
+            }
+            _ => language.pick("agrees", "一致").to_string(),
+        };
     }
     match comparison.ratio() {
         Some(ratio) if (0.5..2.0).contains(&ratio) => {
@@ -150,31 +159,12 @@ fn verdict(comparison: &Comparison, language: Language) -> String {
     }
 }
 
-/// Whether the claimed figures of a measurand agree, for a series table.
-pub(super) fn summary(report: &Report<'_>, measurand: usize) -> Option<String> {
-    let all: Vec<Comparison> = compare_claims(report.budget, report.evaluation)
+/// The claimed figures of a measurand that are judged.
+pub(super) fn judged(report: &Report<'_>, measurand: usize) -> Vec<Comparison> {
+    compare_claims(report.budget, report.evaluation)
         .into_iter()
         .filter(|c| c.judged && of(report, c).is_some_and(|claim| claim.measurand == measurand))
-        .collect();
-    if all.is_empty() {
-        return None;
-    }
-    let differing: Vec<String> = all
-        .iter()
-        .filter(|c| !c.agrees())
-        .map(|c| {
-            format!(
-                "{}: {}",
-                label(report, &c.claimed.what),
-                verdict(c, report.language)
-            )
-        })
-        .collect();
-    Some(if differing.is_empty() {
-        report.language.pick("agrees", "一致").to_string()
-    } else {
-        differing.join(", ")
-    })
+        .collect()
 }
 
 fn of<'a>(report: &Report<'a>, comparison: &Comparison) -> Option<&'a Claim> {

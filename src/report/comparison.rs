@@ -1,6 +1,6 @@
 //! GUM and Monte Carlo side by side, with the verdict of JCGM 101 clause 8.
 
-use crate::propagate::{Coverage, CoverageBasis, MeasurandResult, Run, Validation};
+use crate::propagate::{Coverage, CoverageBasis, FindingKind, MeasurandResult, Run, Validation};
 
 use super::document::Block;
 use super::language::{Language, Word};
@@ -9,7 +9,7 @@ use super::number::{
 };
 use super::remarks::tolerance;
 use super::table::{Cell, ColumnKind, Table};
-use super::{Report, difference_symbol};
+use super::{Report, difference_symbol, symbol};
 
 /// The table and the verdict for one measurand.
 pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
@@ -57,13 +57,9 @@ fn table(report: &Report<'_>, measurand: usize, result: &MeasurandResult) -> Tab
     let interval = |[low, high]: [f64; 2]| format!("[{}, {}]", show(low), show(high));
     let three = |x: f64| significant(x, TABLE_DIGITS);
 
-    let head = if unit.symbol == "1" {
-        String::new()
-    } else {
-        l.pick(
-            format!("in {}", unit.symbol),
-            format!("单位：{}", unit.symbol),
-        )
+    let head = match symbol(unit) {
+        none if none.is_empty() => none,
+        unit => l.pick(format!("in {unit}"), format!("单位：{unit}")),
     };
     let mut table = Table::new([
         (head.as_str(), ColumnKind::Words),
@@ -87,7 +83,10 @@ fn table(report: &Report<'_>, measurand: usize, result: &MeasurandResult) -> Tab
         three(gum.u),
         monte_carlo.map(|mc| optional(mc.u, &three)),
     );
-    if let Some(second) = result.second_order.as_ref().filter(|s| s.matters) {
+    let unseen = report.finds(measurand, |kind| {
+        matches!(kind, FindingKind::VanishingSensitivity { .. })
+    });
+    if let Some(second) = result.second_order.as_ref().filter(|s| s.matters || unseen) {
         row(
             l.word(Word::SecondOrderShift).into(),
             show(gum.estimate + second.shift),

@@ -141,15 +141,24 @@ fn footer(report: &Report<'_>) -> Vec<String> {
         (TScale::StandardDeviation, Language::Chinese) => "u 为 t 分布的标准差",
     };
     let profile = &conventions.profile;
+    let fixed = matches!(conventions.coverage_factor, CoverageRule::Fixed(_));
+    let k = match (fixed && !conventions.state_probability, l) {
+        (true, Language::English) => {
+            format!("{k}, no probability stated (intervals in this report are for {p})")
+        }
+        (true, Language::Chinese) => format!("{k}，不注明包含概率（本报告中的区间取 p = {p}）"),
+        (false, Language::English) => format!("p = {p}, {k}"),
+        (false, Language::Chinese) => format!("p = {p}，{k}"),
+    };
     let mut lines = vec![match l {
         Language::English => {
             let plural = if digits == 1 { "digit" } else { "digits" };
             format!(
-                "Profile {profile}: p = {p}, {k}, {digits} {plural} of U, {rounding}, Monte Carlo: {scale}."
+                "Profile {profile}: {k}, {digits} {plural} of U, {rounding}, Monte Carlo: {scale}."
             )
         }
         Language::Chinese => format!(
-            "规范 {profile}：p = {p}，{k}，U 取 {digits} 位有效数字，{rounding}，蒙特卡洛法：{scale}。"
+            "规范 {profile}：{k}，U 取 {digits} 位有效数字，{rounding}，蒙特卡洛法：{scale}。"
         ),
     }];
     if !conventions.overrides.is_empty() {

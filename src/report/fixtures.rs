@@ -13,8 +13,9 @@ use crate::budget::{
 use crate::distribution::Distribution;
 use crate::model::{MeasurandSource, Model, Request, Role, Symbol, compile};
 use crate::propagate::{
-    Basis, Contribution, Coverage, CoverageBasis, Evaluation, Finding, FindingKind, Freedom, Gum,
-    Histogram, JointResult, MeasurandResult, MonteCarlo, Regions, Run, SecondOrder, Validation,
+    Basis, Consequence, Contribution, Coverage, CoverageBasis, Evaluation, Finding, FindingKind,
+    Freedom, Gum, Histogram, JointResult, MeasurandResult, MissingMoments, MonteCarlo, Regions,
+    Run, SecondOrder, Side, Validation,
 };
 use crate::quantity::{Dimension, Factor, Unit, UnitTable};
 
@@ -558,7 +559,10 @@ pub(super) fn asymmetric() -> Case {
     };
     evaluation.findings = vec![
         find(FindingKind::VanishingSensitivity {
-            input: "theta".to_string(),
+            inputs: vec!["theta".to_string()],
+            shift: -4.9e-6,
+            u_effect: 6.93e-6,
+            matters: true,
         }),
         find(FindingKind::SecondOrderMatters {
             shift: -4.9e-6,
@@ -607,7 +611,11 @@ pub(super) fn without_moments() -> Case {
     };
     evaluation.findings = vec![
         find(FindingKind::MomentsMissing {
-            reason: "the divisor b has a density at zero".to_string(),
+            reason: MissingMoments::Tail {
+                side: Side::Upper,
+                index: 1.0,
+                consequence: Consequence::NoMean,
+            },
         }),
         find(FindingKind::FailedTrials {
             failed: 3,

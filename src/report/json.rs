@@ -503,11 +503,13 @@ record! {
         tolerance: Number,
         /// Obtained.
         obtained: Option<Number>,
+        /// Obtained expanded uncertainty, rounded by the conventions of the budget.
+        rounded: Option<Number>,
         /// Obtained divided by claimed.
         ratio: Option<Number>,
         /// Whether the claim is about this method; otherwise the figure is for information.
         judged: bool,
-        /// Whether obtained differs from claimed by no more than the tolerance.
+        /// Whether obtained differs from claimed by no more than the tolerance, or is the claimed figure when rounded.
         agrees: bool,
     }
 }
@@ -955,6 +957,7 @@ fn claim_json<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> ClaimJ
                 claimed: number(c.claimed.value),
                 tolerance: number(c.claimed.tolerance),
                 obtained: c.obtained.map(Number),
+                rounded: c.rounded.map(Number),
                 ratio: c.ratio().map(Number),
                 judged: c.judged,
                 agrees: c.agrees(),

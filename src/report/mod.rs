@@ -12,6 +12,7 @@ mod joint;
 mod json;
 mod language;
 mod markdown;
+mod moments;
 mod number;
 mod remarks;
 mod schema;
@@ -78,12 +79,12 @@ impl<'a> Report<'a> {
     }
 }
 
-/// The unit as printed after a number; nothing for dimension one.
+/// The unit as printed after a number (`Ω` for `ohm`); nothing for the unit one.
 fn symbol(unit: &Unit) -> String {
-    if unit.symbol == "1" {
+    if unit.is_one() {
         String::new()
     } else {
-        unit.symbol.clone()
+        unit.typeset()
     }
 }
 

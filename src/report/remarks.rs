@@ -1,10 +1,10 @@
 //! Findings as sentences: what was found, what follows from it, what to do.
 
-use crate::propagate::{EvaluationError, FindingKind};
+use crate::propagate::{Basis, EvaluationError, FindingKind};
 
-use super::Report;
 use super::language::Language;
-use super::number::{aligned, freedom, grouped, significant};
+use super::number::{aligned, freedom, grouped, probability, significant};
+use super::{Report, moments};
 
 /// All findings and the budget's remarks, each one paragraph.
 pub(super) fn remarks(report: &Report<'_>) -> Vec<String> {
@@ -58,20 +58,18 @@ pub(super) fn finding_sentence(
 
 fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> String {
     match kind {
-        FindingKind::VanishingSensitivity { input } => format!(
-            "The sensitivity coefficient of {input} is zero at the estimates although {input} is uncertain. The first-order budget does not see {input} at all and its u may be too small. Rely on the second-order terms and on Monte Carlo."
-        ),
+        FindingKind::VanishingSensitivity { inputs, shift, u_effect, matters } => {
+            unseen_in_english(report, measurand, (inputs, *shift, *u_effect, *matters))
+        }
         FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
             "The model is noticeably nonlinear over the uncertainties of its inputs: second-order terms move the estimate by {} and change u from {} to {}. Do not use the first-order figures alone.",
             amount(report, measurand, significant(*shift, 2)),
             significant(*u_first, 3),
             amount(report, measurand, significant(*u_second, 3)),
         ),
-        FindingKind::NotValidated => "The GUM result is not validated by Monte Carlo (JCGM 101, clause 8): its interval differs from the Monte Carlo interval by more than the tolerance. The statement therefore uses the Monte Carlo result.".to_string(),
+        FindingKind::NotValidated => not_validated_in_english(report, measurand),
         FindingKind::NeedsMonteCarlo => "First order is doubtful for this budget and Monte Carlo was not run, so nothing checks the result. Run the evaluation with Monte Carlo before using it.".to_string(),
-        FindingKind::MomentsMissing { reason } => format!(
-            "The output has no mean or no standard deviation that could be stated: {reason}. Median and coverage interval are given instead. Check whether an input with very few degrees of freedom, or a divisor that may be zero, is meant."
-        ),
+        FindingKind::MomentsMissing { reason } => moments::in_english(reason),
         FindingKind::FailedTrials { failed, trials } => format!(
             "In {} of {} Monte Carlo trials the model had no finite value (for example a division by zero or the root of a negative number). The results leave these trials out. Check whether the distributions of the inputs reach values that are physically impossible.",
             grouped(*failed),
@@ -103,20 +101,18 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
 
 fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) -> String {
     match kind {
-        FindingKind::VanishingSensitivity { input } => format!(
-            "{input} 存在不确定度，但在估计值处其灵敏系数为零，一阶 GUM 法完全反映不出 {input} 的影响，所得标准不确定度可能偏小。应以二阶项和蒙特卡洛法的结果为准。"
-        ),
+        FindingKind::VanishingSensitivity { inputs, shift, u_effect, matters } => {
+            unseen_in_chinese(report, measurand, (inputs, *shift, *u_effect, *matters))
+        }
         FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
             "在输入量的不确定度范围内，测量模型的非线性明显：二阶项使估计值移动 {}，标准不确定度由 {} 变为 {}。不应单独使用一阶结果。",
             amount(report, measurand, significant(*shift, 2)),
             significant(*u_first, 3),
             amount(report, measurand, significant(*u_second, 3)),
         ),
-        FindingKind::NotValidated => "GUM 法的结果未通过蒙特卡洛法验证（JJF 1059.2、JCGM 101 第 8 章）：两种包含区间的端点之差超过数值容差。证书用语因此采用蒙特卡洛法的结果。".to_string(),
+        FindingKind::NotValidated => not_validated_in_chinese(report, measurand),
         FindingKind::NeedsMonteCarlo => "一阶近似对本评定是否适用存疑，而蒙特卡洛法未运行，结果没有得到验证。使用前应运行蒙特卡洛法。".to_string(),
-        FindingKind::MomentsMissing { reason } => format!(
-            "输出量的均值或标准差不存在或不收敛（{reason}），因此给出中位数和包含区间。请检查是否有自由度极小的输入量，或可能为零的除数。"
-        ),
+        FindingKind::MomentsMissing { reason } => moments::in_chinese(reason),
         FindingKind::FailedTrials { failed, trials } => format!(
             "{} 次蒙特卡洛试验中有 {} 次模型没有有限值（例如除以零或对负数开方），这些试验未计入结果。请检查输入量的分布是否包含物理上不可能的值。",
             grouped(*trials),
@@ -136,11 +132,104 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             freedom(*dof),
             significant(100.0 / (2.0 * dof).sqrt(), 2),
         ),
-        FindingKind::Irregular { what } => format!("测量模型在估计值处不光滑：{what}。此处的导数意义不大，GUM 法的结果可能不正确，应以蒙特卡洛法为准。"),
+        FindingKind::Irregular { what } => format!("测量模型在估计值处不光滑（{what}）。此处的导数意义不大，GUM 法的结果可能不正确，应以蒙特卡洛法为准。"),
         FindingKind::NearSingular { what } => format!(
-            "测量模型接近无定义的点：{what}。输出量的分布可能有很长的尾部，标准不确定度和包含因子不能很好地描述它。请看包含区间，并核对该量的不确定度。"
+            "测量模型接近无定义的点（{what}，即距该点的标准不确定度倍数）。输出量的分布可能有很长的尾部，标准不确定度和包含因子不能很好地描述它。请看包含区间，并核对该量的不确定度。"
         ),
         FindingKind::Asymmetric => "输出量的分布不对称，概率对称包含区间与最短包含区间不同。不要写成估计值 ± U 的形式，应给出包含区间。".to_string(),
+    }
+}
+
+/// Inputs, shift, effect on u, and whether it matters, of [`FindingKind::VanishingSensitivity`].
+type Unseen<'a> = (&'a [String], f64, f64, bool);
+
+fn unseen_in_english(report: &Report<'_>, measurand: Option<usize>, unseen: Unseen<'_>) -> String {
+    let (inputs, shift, u_effect, matters) = unseen;
+    let names = Language::English.list(inputs);
+    let (coefficient, verb) = match inputs.len() {
+        1 => ("sensitivity coefficient", "vanishes"),
+        _ => ("sensitivity coefficients", "vanish"),
+    };
+    let first = format!(
+        "First order sees next to nothing of the uncertainty of {names}: the {coefficient} {verb} at the estimates."
+    );
+    if shift == 0.0 && u_effect == 0.0 {
+        return format!(
+            "{first} Second order does not see it either, although the measurand depends on it. Only Monte Carlo tells what it does."
+        );
+    }
+    let amount = |x: f64| amount(report, measurand, significant(x, 2));
+    let found = format!(
+        "Their second-order terms add {} to u in quadrature and move the estimate by {}",
+        amount(u_effect),
+        amount(shift),
+    );
+    let found = match inputs.len() {
+        1 => found.replacen("Their", "Its", 1),
+        _ => found,
+    };
+    if matters {
+        format!(
+            "{first} {found}: the first-order u is wrong. Rely on the second-order terms and on Monte Carlo."
+        )
+    } else {
+        format!("{first} {found}, which does not matter here.")
+    }
+}
+
+fn unseen_in_chinese(report: &Report<'_>, measurand: Option<usize>, unseen: Unseen<'_>) -> String {
+    let (inputs, shift, u_effect, matters) = unseen;
+    let names = Language::Chinese.list(inputs);
+    let first = format!(
+        "{names} 存在不确定度，但在估计值处其灵敏系数为零（或近于零），一阶 GUM 法反映不出其影响。"
+    );
+    if shift == 0.0 && u_effect == 0.0 {
+        return format!(
+            "{first}二阶项也反映不出，而被测量确实随之变化，只有蒙特卡洛法能给出其影响。"
+        );
+    }
+    let amount = |x: f64| amount(report, measurand, significant(x, 2));
+    let found = format!(
+        "其二阶项使标准不确定度增加 {}（方和根），使估计值移动 {}",
+        amount(u_effect),
+        amount(shift)
+    );
+    if matters {
+        format!("{first}{found}，一阶标准不确定度因而不正确，应以二阶项和蒙特卡洛法的结果为准。")
+    } else {
+        format!("{first}{found}，在此可以忽略。")
+    }
+}
+
+/// Which method the statement uses in spite of clause 8.
+fn basis(report: &Report<'_>, measurand: Option<usize>) -> Basis {
+    let results = &report.evaluation.results;
+    measurand
+        .and_then(|m| results.get(m))
+        .map_or(Basis::MonteCarlo, |result| result.basis)
+}
+
+fn not_validated_in_english(report: &Report<'_>, measurand: Option<usize>) -> String {
+    let p = probability(report.coverage_probability());
+    match basis(report, measurand) {
+        Basis::MonteCarlo => format!(
+            "The GUM result is not validated by Monte Carlo (JCGM 101, clause 8): its {p} interval differs from the Monte Carlo interval by more than the tolerance. The statement therefore uses the Monte Carlo result."
+        ),
+        Basis::Gum => format!(
+            "The {p} interval of the GUM differs from the Monte Carlo interval by more than the tolerance δ (JCGM 101, clause 8), but estimate and standard uncertainty agree within δ. The statement claims these and a fixed k, and no coverage probability; it therefore uses the GUM result. Who needs a {p} interval takes that of Monte Carlo."
+        ),
+    }
+}
+
+fn not_validated_in_chinese(report: &Report<'_>, measurand: Option<usize>) -> String {
+    let p = probability(report.coverage_probability());
+    match basis(report, measurand) {
+        Basis::MonteCarlo => format!(
+            "GUM 法的结果未通过蒙特卡洛法验证（JJF 1059.2、JCGM 101 第 8 章）：两种方法的 {p} 包含区间端点之差超过数值容差。证书用语因此采用蒙特卡洛法的结果。"
+        ),
+        Basis::Gum => format!(
+            "GUM 法与蒙特卡洛法的 {p} 包含区间端点之差超过数值容差 δ（JJF 1059.2、JCGM 101 第 8 章），但估计值和标准不确定度之差均不超过 δ。证书用语只给出估计值、标准不确定度和约定的 k，不声明包含概率，因此仍采用 GUM 法的结果。需要 {p} 包含区间时，应取蒙特卡洛法的区间。"
+        ),
     }
 }
 

@@ -1,12 +1,16 @@
-//! A series: the same budget once per row, as one compact table.
+//! A series: the same budget once per row, as compact tables: results, claims, repetitions.
 
-use super::Report;
+use crate::budget::Figure;
+use crate::propagate::Comparison;
+
 use super::document::Block;
 use super::language::Word;
-use super::number::{TABLE_DIGITS, aligned, probability, significant};
-use super::table::{Cell, ColumnKind, Row, Table};
+use super::number::{
+    NONE, STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, print, probability, significant,
+};
+use super::table::{Cell, ColumnKind, Table};
 use super::text::{Page, draw};
-use super::{claim, markdown, remarks, symbol};
+use super::{Report, claim, markdown, remarks, symbol};
 
 /// The rows of a series for a terminal.
 pub fn series_text(rows: &[Report<'_>], page: Page) -> String {
@@ -22,76 +26,297 @@ fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
     let Some(first) = rows.first() else {
         return Vec::new();
     };
+    let l = first.language;
     let mut blocks = vec![Block::Title(first.budget.heading.title.clone())];
     for measurand in 0..first.evaluation.results.len() {
         let (name, unit) = first.measurand(measurand);
         let unit = symbol(unit);
-        let title = if unit.is_empty() {
-            name.to_string()
-        } else {
-            format!("{name} / {unit}")
+        let titled = |words: &str| {
+            let words = if words.is_empty() {
+                String::new()
+            } else {
+                l.pick(format!(": {words}"), format!("：{words}"))
+            };
+            Block::Section(if unit.is_empty() {
+                format!("{name}{words}")
+            } else {
+                l.pick(
+                    format!("{name}{words}, in {unit}"),
+                    format!("{name}{words}，单位 {unit}"),
+                )
+            })
         };
-        blocks.push(Block::Section(title));
-        blocks.push(Block::Table(table(rows, measurand).without_empty_columns()));
+        let series = Series {
+            rows,
+            measurand,
+            judged: rows.iter().map(|r| claim::judged(r, measurand)).collect(),
+        };
+        blocks.push(titled(""));
+        blocks.push(Block::Table(series.results().without_empty_columns()));
+        blocks.push(Block::Paragraph(series.common_factor()));
+        if series.judged.iter().any(|claims| !claims.is_empty()) {
+            blocks.push(titled(l.word(Word::Claim)));
+            blocks.push(Block::Table(series.claims()));
+        }
+        let repetitions = series.repetitions();
+        if !repetitions.rows.is_empty() {
+            blocks.push(titled(l.pick("repetitions", "重复性")));
+            blocks.push(Block::Table(repetitions));
+        }
     }
     let common = common_remarks(rows);
     if !common.is_empty() {
-        blocks.push(Block::Section(
-            first.language.word(Word::Remarks).to_string(),
-        ));
+        blocks.push(Block::Section(l.word(Word::Remarks).to_string()));
         blocks.push(Block::List(common));
     }
     blocks
 }
 
-fn table(rows: &[Report<'_>], measurand: usize) -> Table {
-    let l = rows[0].language;
-    let p = probability(rows[0].coverage_probability());
-    let interval = l.pick(
-        format!("Monte Carlo {p} interval"),
-        format!("蒙特卡洛法 {p} 区间"),
-    );
-    let mut table = Table::new([
-        (l.word(Word::Row), ColumnKind::Words),
-        ("y", ColumnKind::Numbers),
-        ("u_c", ColumnKind::Numbers),
-        ("k", ColumnKind::Numbers),
-        ("U", ColumnKind::Numbers),
-        (interval.as_str(), ColumnKind::Numbers),
-        (l.pick("clause 8", "验证"), ColumnKind::Words),
-        (l.pick("claim", "声称值"), ColumnKind::Wrapped),
-    ]);
-    for report in rows {
-        let result = &report.evaluation.results[measurand];
-        let gum = &result.gum;
-        let scale = result
-            .monte_carlo
-            .as_ref()
-            .and_then(|mc| mc.u)
-            .unwrap_or(gum.u);
-        let interval = result
-            .monte_carlo
-            .as_ref()
-            .map(|mc| mc.symmetric.map(|x| aligned(x, scale, TABLE_DIGITS)));
-        let verdict = result
-            .validation
-            .map_or("", |v| match v.map(|v| v.validated) {
-                [true, _] | [_, true] => l.pick("validated", "通过"),
-                _ => l.pick("not validated", "未通过"),
-            });
-        let claim = claim::summary(report, measurand);
-        table.rows.push(Row::Cells(vec![
-            report.label.unwrap_or_default().into(),
-            aligned(gum.estimate, gum.u, 2).into(),
-            significant(gum.u, TABLE_DIGITS).into(),
-            significant(gum.coverage.k, TABLE_DIGITS).into(),
-            significant(gum.coverage.expanded, TABLE_DIGITS).into(),
-            interval.map_or(Cell::Empty, |[low, high]| format!("[{low}, {high}]").into()),
-            verdict.into(),
-            claim.unwrap_or_default().into(),
-        ]));
+/// One measurand in all rows.
+struct Series<'a> {
+    rows: &'a [Report<'a>],
+    measurand: usize,
+    /// The judged claims of each row.
+    judged: Vec<Vec<Comparison>>,
+}
+
+impl Series<'_> {
+    fn factors(&self) -> impl Iterator<Item = String> {
+        let of = |r: &Report<'_>| r.evaluation.results[self.measurand].gum.coverage.k;
+        self.rows
+            .iter()
+            .map(move |r| significant(of(r), TABLE_DIGITS))
     }
-    table
+
+    /// The one k of all rows, if it is one.
+    fn one_factor(&self) -> Option<String> {
+        let mut all = self.factors();
+        let first = all.next()?;
+        all.all(|k| k == first).then_some(first)
+    }
+
+    fn results(&self) -> Table {
+        let first = &self.rows[0];
+        let l = first.language;
+        let p = probability(first.coverage_probability());
+        let interval = l.pick(
+            format!("{p} interval, Monte Carlo"),
+            format!("蒙特卡洛法 {p} 区间"),
+        );
+        let mut table = Table::new([
+            (l.word(Word::Row), ColumnKind::Names),
+            ("y", ColumnKind::Numbers),
+            ("u_c", ColumnKind::Numbers),
+            ("k", ColumnKind::Numbers),
+            ("U", ColumnKind::Numbers),
+            (interval.as_str(), ColumnKind::Numbers),
+            (l.pick("validated", "通过验证"), ColumnKind::Words),
+        ]);
+        let several_factors = self.one_factor().is_none();
+        for (report, k) in self.rows.iter().zip(self.factors()) {
+            let result = &report.evaluation.results[self.measurand];
+            let gum = &result.gum;
+            let interval = result.monte_carlo.as_ref().map_or(Cell::Empty, |mc| {
+                let scale = mc.u.unwrap_or(gum.u);
+                let [low, high] = mc.symmetric.map(|x| aligned(x, scale, TABLE_DIGITS));
+                format!("[{low}, {high}]").into()
+            });
+            let digits = report.budget.conventions.digits.clamp(1, 2);
+            let verdict = result
+                .validation
+                .iter()
+                .flatten()
+                .find(|v| v.digits == digits)
+                .map_or("", |v| yes_or_no(report, v.validated));
+            table.push(vec![
+                report.label.unwrap_or_default().into(),
+                aligned(gum.estimate, gum.u, 2).into(),
+                significant(gum.u, TABLE_DIGITS).into(),
+                if several_factors {
+                    k.into()
+                } else {
+                    Cell::Empty
+                },
+                significant(gum.coverage.expanded, TABLE_DIGITS).into(),
+                interval,
+                verdict.into(),
+            ]);
+        }
+        table
+    }
+
+    /// What the table has no column for.
+    fn common_factor(&self) -> String {
+        let first = &self.rows[0];
+        let l = first.language;
+        let digits = first.budget.conventions.digits;
+        let clause = l.pick(
+            format!(
+                "Validated: JCGM 101 clause 8 at {digits} significant digit{} of u_c.",
+                if digits == 1 { "" } else { "s" }
+            ),
+            format!("“通过验证”按 u_c 的 {digits} 位有效数字判定（JCGM 101 第 8 章）。"),
+        );
+        match self.one_factor() {
+            Some(k) => l.pick(
+                format!("U = k·u_c with k = {k} in every row. {clause}"),
+                format!("各行 U = k·u_c，k = {k}。{clause}"),
+            ),
+            None => clause,
+        }
+    }
+
+    fn claims(&self) -> Table {
+        let l = self.rows[0].language;
+        let largest = self
+            .judged
+            .iter()
+            .flatten()
+            .filter_map(difference)
+            .fold(0.0, |most: f64, d| most.max(d.abs()));
+        let ten = power_of_thousand(largest);
+        let difference_head = match ten {
+            0 => l.pick("difference", "差值").to_string(),
+            _ => format!(
+                "{}/{}",
+                l.pick("difference", "差值"),
+                STYLE.power(ten).trim_start_matches('×')
+            ),
+        };
+        let mut table = Table::new([
+            (l.word(Word::Row), ColumnKind::Names),
+            (l.pick("figure", "量"), ColumnKind::Wrapped),
+            (l.word(Word::Claimed), ColumnKind::Numbers),
+            (l.word(Word::Obtained), ColumnKind::Numbers),
+            (difference_head.as_str(), ColumnKind::Numbers),
+            (l.pick("agrees", "一致"), ColumnKind::Words),
+        ]);
+        for (report, claims) in self.rows.iter().zip(&self.judged) {
+            for (n, comparison) in claims.iter().enumerate() {
+                let what = &comparison.claimed.what;
+                let place = claim::last_place(comparison);
+                let number = |x: f64, place: i32| claim::number(what, x, place, l);
+                table.push(vec![
+                    match n {
+                        0 => report.label.unwrap_or_default().into(),
+                        _ => Cell::Empty,
+                    },
+                    claim::label(report, what).into(),
+                    number(comparison.claimed.value, place).into(),
+                    comparison
+                        .obtained
+                        .map_or_else(|| NONE.to_string(), |x| number(x, place - 1))
+                        .into(),
+                    difference(comparison).map_or(Cell::Empty, |d| {
+                        print(&at_place(d, place - 1).shifted(-ten)).into()
+                    }),
+                    yes_or_no(report, comparison.agrees()).into(),
+                ]);
+            }
+        }
+        table
+    }
+
+    /// Mean and standard deviation over rows that repeat one another: those whose labels differ in a
+    /// last number only, and all.
+    fn repetitions(&self) -> Table {
+        let l = self.rows[0].language;
+        let mut table = Table::new([
+            (l.pick("rows", "行"), ColumnKind::Names),
+            ("n", ColumnKind::Numbers),
+            (l.pick("mean of y", "y 的均值"), ColumnKind::Numbers),
+            (l.pick("s of y", "y 的标准差"), ColumnKind::Numbers),
+            (l.pick("mean claimed", "声称值均值"), ColumnKind::Numbers),
+            (l.pick("s claimed", "声称值标准差"), ColumnKind::Numbers),
+        ]);
+        let mut groups: Vec<(&str, Vec<usize>)> = Vec::new();
+        for (row, report) in self.rows.iter().enumerate() {
+            let stem = stem(report.label.unwrap_or_default());
+            match groups.iter_mut().find(|(known, _)| *known == stem) {
+                Some((_, members)) => members.push(row),
+                None => groups.push((stem, vec![row])),
+            }
+        }
+        if groups.len() > 1 {
+            for (stem, members) in groups.iter().filter(|(_, members)| members.len() > 1) {
+                table.push(self.statistics(format!("{stem} …"), members));
+            }
+        }
+        let everything: Vec<usize> = (0..self.rows.len()).collect();
+        table.push(self.statistics(l.pick("all", "全部").to_string(), &everything));
+        table.without_empty_columns()
+    }
+
+    fn statistics(&self, name: String, members: &[usize]) -> Vec<Cell> {
+        let obtained: Vec<f64> = members
+            .iter()
+            .map(|row| {
+                self.rows[*row].evaluation.results[self.measurand]
+                    .gum
+                    .estimate
+            })
+            .collect();
+        let claimed: Vec<f64> = members
+            .iter()
+            .filter_map(|row| {
+                let estimate = |c: &&Comparison| c.claimed.what == Figure::Estimate;
+                self.judged[*row].iter().find(estimate)
+            })
+            .map(|c| c.claimed.value)
+            .collect();
+        let mut cells = vec![name.into(), freedom(members.len() as f64).into()];
+        cells.extend(mean_and_deviation(&obtained));
+        if claimed.len() == members.len() {
+            cells.extend(mean_and_deviation(&claimed));
+        }
+        cells
+    }
+}
+
+fn mean_and_deviation(xs: &[f64]) -> [Cell; 2] {
+    let n = xs.len() as f64;
+    let mean = xs.iter().sum::<f64>() / n;
+    if xs.len() < 2 {
+        return [exact(mean).into(), NONE.into()];
+    }
+    let squares: f64 = xs.iter().map(|x| (x - mean).powi(2)).sum();
+    let s = (squares / (n - 1.0)).sqrt();
+    [
+        aligned(mean, s, 2).into(),
+        significant(s, TABLE_DIGITS).into(),
+    ]
+}
+
+/// Obtained less claimed, where that is a number and not a verdict.
+fn difference(comparison: &Comparison) -> Option<f64> {
+    let verdict = matches!(comparison.claimed.what, Figure::Validated(_));
+    comparison
+        .obtained
+        .filter(|_| !verdict)
+        .map(|obtained| obtained - comparison.claimed.value)
+}
+
+/// The power of a thousand that a column with this largest number is best written in.
+fn power_of_thousand(largest: f64) -> i32 {
+    if (1e-3..1e4).contains(&largest) || largest <= 0.0 || !largest.is_finite() {
+        return 0;
+    }
+    3 * (libm::log10(largest) / 3.0).floor() as i32
+}
+
+/// A label without the number at its end.
+fn stem(label: &str) -> &str {
+    label
+        .trim_end_matches(|c: char| c.is_ascii_digit())
+        .trim_end()
+}
+
+fn yes_or_no(report: &Report<'_>, yes: bool) -> &'static str {
+    if yes {
+        report.language.pick("yes", "是")
+    } else {
+        report.language.pick("no", "否")
+    }
 }
 
 /// Remarks of all rows, each with the rows that it concerns.
@@ -118,4 +343,31 @@ fn common_remarks(rows: &[Report<'_>]) -> Vec<String> {
             ),
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_that_differ_in_a_number_repeat_one_another() {
+        assert_eq!(stem("001 run 12"), "001 run");
+        assert_eq!(stem("001"), "");
+        assert_eq!(stem("east"), "east");
+    }
+
+    #[test]
+    fn a_column_of_small_numbers_has_one_power_of_ten() {
+        assert_eq!(power_of_thousand(1.7e-5), -6);
+        assert_eq!(power_of_thousand(0.02), 0);
+        assert_eq!(power_of_thousand(4.4e5), 3);
+        assert_eq!(power_of_thousand(0.0), 0);
+    }
+
+    #[test]
+    fn mean_and_deviation_of_repetitions() {
+        let [mean, s] = mean_and_deviation(&[1.0, 2.0, 3.0, 4.0]);
+        // s = √(5/3).
+        assert_eq!((mean, s), ("2.5".into(), "1.29".into()));
+    }
 }

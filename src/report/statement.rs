@@ -1,13 +1,13 @@
 //! The sentence for the certificate, per profile and per basis.
 //!
 //! U goes to one or two significant digits and y to the same last place (GUM 7.2.6, ILAC-P14). A
-//! result that rests on Monte Carlo states its coverage interval, and never a half-width that would
-//! pretend symmetry.
+//! result that rests on Monte Carlo states half the width of its coverage interval as U where that
+//! interval is symmetric about y, and the interval itself where it is not.
 
 use crate::budget::{Conventions, CoverageRule};
 use crate::distribution::KINDS;
 use crate::propagate::{Basis, Coverage, CoverageBasis, FindingKind, Freedom, MonteCarlo};
-use crate::quantity::{Decimal, Rounded, RoundingRule, Unit, space_before};
+use crate::quantity::{Decimal, Rounded, Unit, space_before};
 
 use super::language::Language;
 use super::number::{
@@ -86,7 +86,7 @@ impl<'a> Subject<'a> {
         if expanded == 0.0 || !expanded.is_finite() {
             return self.without_uncertainty(estimate);
         }
-        let pair = rule(self.conventions).align(estimate, expanded);
+        let pair = self.conventions.rounding_rule().align(estimate, expanded);
         let u = self.small(u);
         let k = self.factor(coverage);
         match self.form() {
@@ -107,7 +107,7 @@ impl<'a> Subject<'a> {
         format!(
             "{} = {}{}",
             self.name,
-            pair.plus_minus_unit(&self.unit.symbol, STYLE),
+            pair.plus_minus_unit(&symbol(self.unit), STYLE),
             self.language.pick(".", "。")
         )
     }
@@ -136,6 +136,13 @@ impl<'a> Subject<'a> {
         let p = probability(self.stated_probability(coverage));
         match (&coverage.basis, self.language) {
             (CoverageBasis::Fixed, _) if !self.conventions.state_probability => String::new(),
+            // The probability of k is what Monte Carlo has just refuted.
+            (CoverageBasis::Fixed, Language::English) if self.refuted() => {
+                ", a fixed factor, for which no coverage probability is stated".to_string()
+            }
+            (CoverageBasis::Fixed, Language::Chinese) if self.refuted() => {
+                "；k 取约定值，不注明包含概率".to_string()
+            }
             (CoverageBasis::Normal, Language::English) => {
                 format!(
                     ", which for a normal distribution corresponds to a coverage probability of about {p}"
@@ -226,7 +233,14 @@ impl<'a> Subject<'a> {
 
     /// With k fixed at 2 or 3, p need not be stated (JJF 1059.1 5.3); with a k found for p it must be.
     fn names_probability(&self, coverage: &Coverage) -> bool {
-        self.conventions.state_probability || coverage.basis != CoverageBasis::Fixed
+        let fixed = coverage.basis == CoverageBasis::Fixed;
+        !fixed || (self.conventions.state_probability && !self.refuted())
+    }
+
+    /// Whether Monte Carlo has not validated the interval of the GUM.
+    fn refuted(&self) -> bool {
+        self.report
+            .finds(self.measurand, |kind| *kind == FindingKind::NotValidated)
     }
 
     /// For a fixed k the probability that it happens to have, to the whole percent.
@@ -245,7 +259,55 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// A result of Monte Carlo: y ± U where the interval is symmetric about y, else the interval.
     fn monte_carlo_sentence(&self, monte_carlo: &MonteCarlo) -> String {
+        let half = monte_carlo.half_width(self.conventions.digits);
+        match (half, monte_carlo.estimate, monte_carlo.u) {
+            (Some(half), Some(estimate), Some(u)) if half > 0.0 && u > 0.0 => {
+                self.from_trials(estimate, u, half)
+            }
+            _ => self.interval(monte_carlo),
+        }
+    }
+
+    /// y and U = half the width of the Monte Carlo interval, with the k that this implies.
+    fn from_trials(&self, estimate: f64, u: f64, half: f64) -> String {
+        let pair = self.conventions.rounding_rule().align(estimate, half);
+        let p = probability(self.report.coverage_probability());
+        let k = two_decimals(half / u);
+        let (expanded, u) = (self.amount(&pair.uncertainty), self.small(u));
+        let trials = self.trials();
+        match (self.form(), self.language) {
+            (Form::PlusMinus, Language::English) => format!(
+                "{} The number after ± is the expanded uncertainty U = {expanded}, half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials); with the standard uncertainty u = {u} this is a coverage factor k = U/u = {k}. The result of the GUM method was not validated against it.",
+                self.equation(&pair)
+            ),
+            (Form::PlusMinus, Language::Chinese) => format!(
+                "{}其中 ± 号后的数为扩展不确定度 U = {expanded}，即蒙特卡洛法（JJF 1059.2，{trials} 次试验）所得 {p} 包含区间的半宽；标准不确定度 u = {u}，相应的包含因子 k = U/u = {k}。GUM 法的结果未通过其验证。",
+                self.equation(&pair)
+            ),
+            (Form::Apart, language) => {
+                let (name, y) = (self.name, self.value(&pair.estimate));
+                let index = p.trim_end_matches(" %");
+                match language {
+                    Language::English => format!(
+                        "{name} = {y}; U_{index} = {expanded}, k_{index} = {k}. The expanded uncertainty is half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials), with the standard uncertainty u = {u}. The result of the GUM method was not validated against it."
+                    ),
+                    Language::Chinese => format!(
+                        "{name} = {y}；U_{index} = {expanded}，k_{index} = {k}。扩展不确定度为蒙特卡洛法（JJF 1059.2，{trials} 次试验）所得 {p} 包含区间的半宽，标准不确定度 u = {u}。GUM 法的结果未通过其验证。"
+                    ),
+                }
+            }
+        }
+    }
+
+    /// Trials of the run.
+    fn trials(&self) -> String {
+        let run = self.report.evaluation.run.as_ref();
+        grouped(run.map_or(0, |run| run.trials))
+    }
+
+    fn interval(&self, monte_carlo: &MonteCarlo) -> String {
         let shortest = self
             .report
             .finds(self.measurand, |kind| *kind == FindingKind::Asymmetric);
@@ -266,17 +328,11 @@ impl<'a> Subject<'a> {
         if scale <= 0.0 || !scale.is_finite() {
             return self.without_uncertainty(centre);
         }
-        let rule = rule(self.conventions);
+        let rule = self.conventions.rounding_rule();
         let pair = rule.align(centre, scale);
         let [low, high] = interval.map(|end| self.value(&rule.to_place_of(&pair, end)));
         let value = self.value(&pair.estimate);
-        let trials = self
-            .report
-            .evaluation
-            .run
-            .as_ref()
-            .map_or(0, |run| run.trials);
-        let trials = grouped(trials);
+        let trials = self.trials();
         let name = self.name;
         match (monte_carlo.u, self.language) {
             (Some(_), Language::English) => format!(
@@ -351,15 +407,6 @@ fn with_unit(number: &str, unit: &str) -> String {
     match unit {
         "" => number.to_string(),
         _ => format!("{number}{}{unit}", space_before(unit)),
-    }
-}
-
-/// How the profile rounds U and y.
-fn rule(conventions: &Conventions) -> RoundingRule {
-    RoundingRule {
-        digits: conventions.digits,
-        rounding: conventions.rounding,
-        up_if_lowered_by_5_percent: conventions.up_if_lowered_by_5_percent,
     }
 }
 

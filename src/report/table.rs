@@ -25,6 +25,8 @@ pub(super) struct Column {
 pub(super) enum ColumnKind {
     /// Words, to the left; cut with an ellipsis when there is no other way.
     Words,
+    /// Names, to the left; never cut, continued on further lines when there is no other way.
+    Names,
     /// Numbers, to the right; never cut.
     Numbers,
     /// Words, to the left, on several lines when the page is narrow.
@@ -146,7 +148,7 @@ impl Table {
     }
 
     /// Column widths and gap that fit the page; a width of zero drops a column. What gives way, in
-    /// this order: bars, space between columns, wrapped words, other words.
+    /// this order: bars, space between columns, wrapped words, other words, names.
     fn fitted(&self, page: usize) -> (Vec<usize>, usize) {
         let mut widths = self.natural();
         for gap in [GAP, NARROW_GAP] {
@@ -165,6 +167,8 @@ impl Table {
         if total(&widths, GAP) <= page {
             return (widths, GAP);
         }
+        self.shrink(ColumnKind::Words, 8, page, NARROW_GAP, &mut widths);
+        self.shrink(ColumnKind::Names, 14, page, NARROW_GAP, &mut widths);
         self.shrink(ColumnKind::Words, 5, page, NARROW_GAP, &mut widths);
         (widths, NARROW_GAP)
     }
@@ -253,6 +257,7 @@ impl Cell {
             Cell::Empty => String::new(),
         };
         match kind {
+            ColumnKind::Names => broken(&text, width),
             ColumnKind::Words => vec![cut(&text, width)],
             ColumnKind::Wrapped => wrapped(&text, width),
             ColumnKind::Numbers | ColumnKind::Bar => vec![text],
@@ -281,6 +286,28 @@ fn cut(text: &str, width: usize) -> String {
     }
     kept.push('…');
     kept
+}
+
+/// A name on lines of at most `width`, broken behind `_`, `.` or a space where there is one; further
+/// lines are set in a little.
+fn broken(text: &str, width: usize) -> Vec<String> {
+    const INDENT: &str = "    ";
+    let mut lines = Vec::new();
+    let mut line = String::new();
+    let mut seam = None;
+    for c in text.chars() {
+        if line.width() + c.width().unwrap_or(0) > width && line.trim_start() != "" {
+            let rest = line.split_off(seam.unwrap_or(line.len()));
+            lines.push(std::mem::replace(&mut line, format!("{INDENT}{rest}")));
+            seam = None;
+        }
+        line.push(c);
+        if matches!(c, '_' | '.' | ' ') && !line.trim_start().is_empty() {
+            seam = Some(line.len());
+        }
+    }
+    lines.push(line);
+    lines
 }
 
 /// The text on lines of at most `width`, broken at spaces and between Chinese characters; a single
@@ -385,6 +412,16 @@ mod tests {
                 .any(|l| l.trim() == "divided by the root of three"),
             "{lines:#?}"
         );
+    }
+
+    #[test]
+    fn names_are_whole_on_any_page() {
+        assert_eq!(broken("short", 10), ["short"]);
+        assert_eq!(
+            broken("  conductivity_of_rod", 16),
+            ["  conductivity_", "    of_rod"]
+        );
+        assert_eq!(broken("abcdefghijklmno", 10), ["abcdefghij", "    klmno"]);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! What the integration tests share: finding files, and keeping generated files fresh.
 
+#![allow(dead_code, reason = "every test file uses its own part")]
+
 use std::path::{Path, PathBuf};
 
 /// The root of the repository.
@@ -28,7 +30,6 @@ fn collect(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
 }
 
 /// A path as it is written in the repository, with `/` on every platform.
-#[allow(dead_code, reason = "not every test file names paths")]
 pub fn relative(path: &Path) -> String {
     path.strip_prefix(root())
         .unwrap_or(path)
@@ -40,7 +41,6 @@ pub fn relative(path: &Path) -> String {
 
 /// Compares a generated text with the committed one; with `GUMPTION_UPDATE=1` writes it instead.
 /// Returns what is stale, for one message about all files.
-#[allow(dead_code, reason = "not every test file generates files")]
 pub fn stale(path: &Path, generated: &str) -> Option<String> {
     if std::fs::read_to_string(path).is_ok_and(|committed| committed == generated) {
         return None;
@@ -55,7 +55,6 @@ pub fn stale(path: &Path, generated: &str) -> Option<String> {
 }
 
 /// Fails with the list of stale files and the command that renews them.
-#[allow(dead_code, reason = "not every test file generates files")]
 pub fn assert_fresh(stale: &[String]) {
     assert!(
         stale.is_empty(),

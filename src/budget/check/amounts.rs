@@ -1,6 +1,6 @@
 //! Units and amounts: from "25 µV" to a number in the unit of its input.
 
-use super::draft::Context;
+use super::draft::{Context, show};
 use super::{Checker, entries};
 use crate::budget::faults::{NOT_POSITIVE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, UNIT_CLASH};
 use crate::budget::strings::StringMap;
@@ -22,20 +22,31 @@ impl Checker<'_> {
         let pairs = stated
             .iter()
             .map(|(name, definition)| (name.as_str(), definition.value.as_str()));
+        let mut circle: Option<Fault> = None;
         for (index, error) in self.units.define_all(pairs) {
-            let Some((_, definition)) = stated.get(index) else {
+            let Some((name, definition)) = stated.get(index) else {
                 continue;
             };
+            let in_circle = matches!(&error, DefinitionError::Circular(_));
             let fault = match error {
                 DefinitionError::Name(error) => {
                     Fault::from(error).moved(|_| definition.key.clone())
                 }
-                DefinitionError::Definition(error) => {
+                DefinitionError::Definition(error) | DefinitionError::Circular(error) => {
                     self.in_string(Fault::from(error), definition)
                 }
             };
-            self.faults.push(fault);
+            // The units of one circle are one mistake.
+            match &mut circle {
+                _ if !in_circle => self.faults.push(fault),
+                None => circle = Some(fault),
+                Some(first) => {
+                    let label = format!("`{name}` waits for another one, too");
+                    first.related.push((fault.span, label));
+                }
+            }
         }
+        self.faults.extend(circle);
     }
 
     /// A stated unit; dimension one when none is stated, nothing when it was refused.
@@ -130,13 +141,13 @@ impl Checker<'_> {
                     Fault::new(
                         RELATIVE_UNCLEAR,
                         amount.span.clone(),
-                        format!("it is not clear whether {number} {} is of {} or of its unit {}", own.symbol, context.owner, unit.symbol),
+                        format!(
+                            "{number} {} of {} may be meant of its value or as it stands",
+                            own.symbol, context.owner
+                        ),
                     )
                     .label("relative or absolute?")
-                    .help(format!(
-                        "for a fraction of the value add relative = true; for an absolute amount write a plain number in the unit {}",
-                        unit.symbol
-                    )),
+                    .help(ratio_help(context, number, fraction, &unit)),
                 );
             }
         }
@@ -221,6 +232,34 @@ impl Checker<'_> {
     }
 }
 
+/// The two readings of `"1 %"` for a quantity that is itself a ratio, with their numbers.
+fn ratio_help(context: &Context<'_>, number: f64, fraction: f64, unit: &Unit) -> String {
+    let relative = match context.value {
+        Some(value) => format!(
+            "for {} of the value {} write {} with relative = true",
+            show(fraction),
+            show(value),
+            show(fraction)
+        ),
+        None => format!(
+            "for a fraction of the value write {} with relative = true",
+            show(fraction)
+        ),
+    };
+    let absolute = Unit::one()
+        .conversion_to(unit)
+        .map_or(number, |conversion| conversion.apply(fraction));
+    let name = if unit.is_one() {
+        String::new()
+    } else {
+        format!(" (in {})", unit.symbol)
+    };
+    format!(
+        "{relative}; for an absolute amount write the plain number {}{name}",
+        show(absolute)
+    )
+}
+
 fn clash(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {
     let place = amount
         .value
@@ -242,6 +281,9 @@ fn clash(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault
             own.symbol
         ))
     } else {
-        fault
+        fault.help(format!(
+            "write the amount in a unit like {0}, or as a plain number, which is in {0}",
+            unit.symbol
+        ))
     }
 }

@@ -13,15 +13,19 @@ impl Checker<'_> {
         let mut constants = Vec::new();
         for (name, stated) in entries(&file.constant) {
             let table = &stated.value.0;
-            let unit = self.unit(&table.unit);
+            let hidden = table.unknown || table.present.iter().any(|(key, _)| *key == "unit");
+            let unit = match &table.unit {
+                None if hidden => None,
+                stated => self.unit(stated),
+            };
             let values = match (&table.value, &table.values) {
                 (Some(value), None) => unit
                     .as_ref()
                     .and_then(|unit| self.quantity(value, unit, name))
                     .map(|value| vec![value]),
-                (None, Some(values)) if !values.value.is_empty() => {
-                    Some(values.value.iter().map(|value| value.value).collect())
-                }
+                (None, Some(values)) if !values.value.is_empty() => unit
+                    .as_ref()
+                    .map(|_| values.value.iter().map(|value| value.value).collect()),
                 _ if table.refused => None,
                 _ => self.refuse(
                     Fault::new(

@@ -10,6 +10,7 @@ use crate::budget::table::Stated;
 use crate::budget::tables::{FileTable, MeasurandTable};
 use crate::budget::{Constant, Measurand};
 use crate::fault::Fault;
+use crate::model::faults::{NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
 use crate::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile};
 
 impl MeasurandTable {
@@ -47,7 +48,7 @@ impl Checker<'_> {
         let stated = entries(&file.measurand);
         if stated.is_empty() {
             let refused = file.refused && file.present.iter().any(|(key, _)| *key == "measurand");
-            if refused {
+            if refused || file.unknown {
                 return None;
             }
             let end = self.text.trim_end().len();
@@ -66,8 +67,7 @@ impl Checker<'_> {
             || constants
                 .iter()
                 .any(|constant| constant.values.iter().any(|value| value.is_nan()));
-        let texts_refused = stated.iter().any(|(_, entry)| entry.value.unclear())
-            || (file.refused && self.inputs_refused(file));
+        let texts_refused = stated.iter().any(|(_, entry)| entry.value.unclear());
         // Formulas cannot be judged while a unit is unknown: the faults would be consequences.
         if unread || texts_refused {
             return None;
@@ -91,26 +91,26 @@ impl Checker<'_> {
         };
         match compile(&request) {
             Ok(model) => {
-                self.unused(file, &model, constants.len(), register);
+                if !self.hidden_names {
+                    self.unused(file, &model, constants.len(), register);
+                }
+                self.no_inputs(&model, register);
+                self.undefined(&model, file, constants.len(), register);
                 Some(model)
             }
             Err(faults) => {
-                for fault in faults {
+                // A name may be declared in the part of the file that was refused.
+                let hidden = self.hidden_names;
+                for fault in faults
+                    .into_iter()
+                    .filter(|f| !(hidden && is_missing(&f.fault)))
+                {
                     let placed = self.placed(fault, file, constants.len(), register);
                     self.faults.push(placed);
                 }
                 None
             }
         }
-    }
-
-    /// Whether an input or a constant is missing because it was refused.
-    fn inputs_refused(&self, file: &FileTable) -> bool {
-        file.present.iter().any(|(key, _)| {
-            (*key == "input" && file.input.is_none())
-                || (*key == "constant" && file.constant.is_none())
-                || (*key == "model" && file.model.is_none())
-        })
     }
 
     /// Moves a fault of a formula to its place in the file.
@@ -172,6 +172,49 @@ impl Checker<'_> {
             .map_or(0..0, |entry| entry.place.clone())
     }
 
+    /// Reports a budget in which nothing is uncertain.
+    fn no_inputs(&mut self, model: &Model, register: &Register) {
+        if !register.entries.is_empty() || self.hidden_names {
+            return;
+        }
+        let names: Vec<&str> = model
+            .outputs()
+            .iter()
+            .map(|output| output.name.as_str())
+            .collect();
+        let end = self.text.trim_end().len();
+        self.faults.push(
+            Fault::new(
+                NO_MEASURAND,
+                end..end,
+                format!(
+                    "the file has no input, so nothing makes {} uncertain",
+                    names.join(", ")
+                ),
+            )
+            .label("expected an [input.NAME]")
+            .help("add for example:\n[input.V]\nvalue = 5.0\nunit = \"V\"\nu = 0.01"),
+        );
+    }
+
+    /// Reports measurands that have no value at the estimates.
+    fn undefined(
+        &mut self,
+        model: &Model,
+        file: &FileTable,
+        constants: usize,
+        register: &Register,
+    ) {
+        let estimates: Vec<f64> = register.inputs.iter().map(|input| input.estimate).collect();
+        if register.incomplete || estimates.iter().any(|estimate| !estimate.is_finite()) {
+            return;
+        }
+        for fault in model.undefined(&estimates) {
+            let placed = self.placed(fault, file, constants, register);
+            self.faults.push(placed);
+        }
+    }
+
     fn unused(&mut self, file: &FileTable, model: &Model, constants: usize, register: &Register) {
         for index in model.unused_symbols() {
             let place = self.symbol_place(index, file, constants, register);
@@ -203,6 +246,11 @@ impl Checker<'_> {
             );
         }
     }
+}
+
+/// Whether a fault says that something is not declared.
+fn is_missing(fault: &Fault) -> bool {
+    [UNKNOWN_NAME, UNKNOWN_FUNCTION, NO_MODEL].contains(&fault.code)
 }
 
 /// Constants first, then inputs, each in the order of the file.

@@ -38,10 +38,11 @@ impl Checker<'_> {
     ) {
         for (name, stated) in entries(&file.input) {
             let table = &stated.value;
-            // A misspelt `unit` must not be judged as dimension one.
-            let unit = match (&table.unit, table.unknown) {
-                (None, true) => None,
-                _ => self.unit(&table.unit),
+            // A misspelt or unreadable `unit` must not be judged as dimension one.
+            let hidden = table.unknown || table.present.iter().any(|(key, _)| *key == "unit");
+            let unit = match &table.unit {
+                None if hidden => None,
+                stated => self.unit(stated),
             };
             let start = register.inputs.len();
             let values = table

@@ -51,6 +51,8 @@ struct Checker<'a> {
     date: Option<String>,
     faults: Vec<Fault>,
     remarks: Vec<Remark>,
+    /// Whether names that formulas use may be declared in a part of the file that was refused.
+    hidden_names: bool,
 }
 
 impl Checker<'_> {
@@ -130,6 +132,7 @@ fn budget(
         date: heading.date.clone(),
         faults,
         remarks: Vec::new(),
+        hidden_names: names_hidden(file),
     };
     let budget = checker.budget(file, resolution, heading);
     match budget {
@@ -173,12 +176,32 @@ impl Checker<'_> {
     }
 }
 
+/// Whether the file has an unknown table or key at its top, or an entry that could not be read: what a
+/// formula names may be declared there.
+fn names_hidden(file: &FileTable) -> bool {
+    let refused = |key: &str, entry: Option<bool>| {
+        entry.unwrap_or_else(|| file.present.iter().any(|(present, _)| *present == key))
+    };
+    file.unknown
+        || refused(
+            "input",
+            file.input.as_ref().map(|named| named.value.refused),
+        )
+        || refused(
+            "constant",
+            file.constant.as_ref().map(|named| named.value.refused),
+        )
+        || refused("model", file.model.as_ref().map(|_| false))
+}
+
 /// The shared causes of a file.
 fn shared(file: &FileTable) -> &[(String, Stated<super::tables::SourceTable>)] {
-    file.source.as_ref().map_or(&[], |stated| &stated.value.0.0)
+    file.source
+        .as_ref()
+        .map_or(&[], |stated| &stated.value.0.entries)
 }
 
 /// The named entries of an optional table.
 fn entries<T>(named: &Option<Stated<Named<T>>>) -> &[(String, Stated<T>)] {
-    named.as_ref().map_or(&[], |stated| &stated.value.0)
+    named.as_ref().map_or(&[], |stated| &stated.value.entries)
 }

@@ -80,11 +80,17 @@ impl Checker<'_> {
 
     fn check_name(&mut self, name: &str, place: &Range<usize>, kind: &str) {
         if !is_identifier(name) {
+            self.hidden_names = true;
+            let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) {
+                "an"
+            } else {
+                "a"
+            };
             self.faults.push(
                 Fault::new(
                     BAD_NAME,
                     place.clone(),
-                    format!("\"{name}\" cannot be the name of a {kind}"),
+                    format!("\"{name}\" cannot be the name of {article} {kind}"),
                 )
                 .label("a formula cannot name it")
                 .help(format!(

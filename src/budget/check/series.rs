@@ -204,7 +204,7 @@ fn set(variant: &mut Variant, column: &Column, cell: &Stated<Cell>, faults: &mut
                 .file
                 .input
                 .as_mut()
-                .and_then(|inputs| inputs.value.0.get_mut(*index))
+                .and_then(|inputs| inputs.value.entries.get_mut(*index))
             {
                 entry.value.value = amount;
             }
@@ -214,7 +214,7 @@ fn set(variant: &mut Variant, column: &Column, cell: &Stated<Cell>, faults: &mut
                 .file
                 .constant
                 .as_mut()
-                .and_then(|constants| constants.value.0.get_mut(*index));
+                .and_then(|constants| constants.value.entries.get_mut(*index));
             if let Some((_, entry)) = constant {
                 entry.value.0.value = amount;
             }

@@ -21,7 +21,11 @@ impl Checker<'_> {
     ) {
         for (name, stated) in sources {
             let table = &stated.value;
-            let unit = self.unit(&table.unit);
+            let hidden = table.unknown || table.present.iter().any(|(key, _)| *key == "unit");
+            let unit = match &table.unit {
+                None if hidden => None,
+                stated => self.unit(stated),
+            };
             let mut entry = SourceEntry {
                 name: name.clone(),
                 unit: unit.clone(),

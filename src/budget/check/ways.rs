@@ -224,31 +224,56 @@ impl Checker<'_> {
             }
             [] if table.refused => None,
             [] if table.certificate.is_some() => {
-                let place = table.certificate.as_ref().map_or(context.place.clone(), |stated| stated.span.clone());
+                let place = table
+                    .certificate
+                    .as_ref()
+                    .map_or(context.place.clone(), |stated| stated.span.clone());
                 self.refuse(
-                    Fault::new(MISSING_KEY, place, format!("the certificate of {} states no uncertainty", context.owner))
-                        .label("`U` is missing")
-                        .help("add U and k: certificate = { U = …, k = 2 }"),
+                    Fault::new(
+                        MISSING_KEY,
+                        place,
+                        format!("the certificate of {} states no uncertainty", context.owner),
+                    )
+                    .label("`U` is missing")
+                    .help("add U and k: certificate = { U = …, k = 2 }"),
                 )
             }
             [] => self.refuse(
-                Fault::new(NO_DOUBT, context.place.clone(), format!("{} has no uncertainty", context.owner))
-                    .label("nothing here states an uncertainty")
-                    .help(
-                        "state it by `u`, `half_width`, `certificate`, `readings`, `step` …; \
-                         a number that is exact belongs into [constant]",
-                    ),
-            ),
-            [(_, first, first_span), (_, second, span), ..] => self.refuse(
                 Fault::new(
-                    TWO_WAYS,
-                    span.clone(),
-                    format!("the uncertainty of {} is stated in two ways, `{first}` and `{second}`", context.owner),
+                    NO_DOUBT,
+                    context.place.clone(),
+                    format!("{} has no uncertainty", context.owner),
                 )
-                .label("stated again here")
-                .related(first_span.clone(), "first stated here")
-                .help("leave out one; two reasons for doubt are two entries: components = [{ … }, { … }]"),
+                .label("nothing here states an uncertainty")
+                .help(
+                    "state it by `u`, `half_width`, `certificate`, `readings`, `step` …; \
+                         a number that is exact belongs into [constant]",
+                ),
             ),
+            [(_, _, first), (_, _, second), more @ ..] => {
+                let keys: Vec<String> = ways.iter().map(|(_, key, _)| format!("`{key}`")).collect();
+                let entries: Vec<String> = ways
+                    .iter()
+                    .map(|(_, key, _)| format!("{{ {key} = … }}"))
+                    .collect();
+                let message = format!(
+                    "the uncertainty of {} is stated in {} ways, {}",
+                    context.owner,
+                    keys.len(),
+                    keys.join(" and "),
+                );
+                let mut fault = Fault::new(TWO_WAYS, second.clone(), message)
+                    .label("stated again here")
+                    .related(first.clone(), "first stated here")
+                    .help(format!(
+                        "keep one; where they are different reasons for doubt, make each an entry: components = [{}]",
+                        entries.join(", ")
+                    ));
+                for (_, _, span) in more {
+                    fault = fault.related(span.clone(), "and here");
+                }
+                self.refuse(fault)
+            }
         }
     }
 

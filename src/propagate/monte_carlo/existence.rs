@@ -9,8 +9,6 @@
 //! Two kinds of evidence: what is known of the budget ([`super::heavy`]), and Hill's estimate of α
 //! from the largest deviations on either side.
 
-use std::fmt;
-
 use super::heavy::HeavyComponent;
 use super::interval::Ordered;
 
@@ -23,18 +21,54 @@ const FEWEST: usize = 20;
 
 /// Which end of the distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub enum Side {
+    /// The one with the smallest values.
     Lower,
+    /// The one with the largest values.
     Upper,
 }
 
-impl fmt::Display for Side {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Side::Lower => "lower",
-            Side::Upper => "upper",
-        })
-    }
+/// Why the mean or the standard deviation of an output is not given.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MissingMoments {
+    /// The output depends linearly on a component with a t distribution that has no standard
+    /// deviation (ν ≤ 2) or not even a mean (ν ≤ 1).
+    HeavyComponent {
+        /// Its name.
+        name: String,
+        /// Its ν.
+        dof: f64,
+    },
+    /// Simultaneous readings: the means are multivariate t with ν = n − N ≤ 2 (JCGM 102 5.3.2).
+    JointReadings {
+        /// Names of the N inputs.
+        inputs: Vec<String>,
+        /// n, how often all of them were read.
+        readings: usize,
+    },
+    /// The extreme trials fall off like a power of the distance from the median.
+    Tail {
+        /// Which end.
+        side: Side,
+        /// Exponent of that power.
+        index: f64,
+        /// What follows for the moments.
+        consequence: Consequence,
+    },
+}
+
+/// What a heavy tail does to the first two moments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Consequence {
+    /// Neither mean nor standard deviation exists.
+    NoMean,
+    /// The mean exists but does not settle; the standard deviation does not exist.
+    SlowMean,
+    /// The standard deviation does not exist.
+    NoDeviation,
+    /// The standard deviation exists but does not settle: ten times the trials would not halve its
+    /// error.
+    SlowDeviation,
 }
 
 /// The heavier tail of a sample.
@@ -125,9 +159,9 @@ pub(super) enum Verdict {
     /// Both can be given.
     Present,
     /// The mean can be given, the standard deviation cannot.
-    NoDeviation(String),
+    NoDeviation(MissingMoments),
     /// Neither can be given.
-    NoMean(String),
+    NoMean(MissingMoments),
 }
 
 impl Verdict {
@@ -159,8 +193,8 @@ impl Verdict {
         matches!(self, Verdict::Present)
     }
 
-    /// Why not, in words.
-    pub(super) fn reason(self) -> Option<String> {
+    /// Why not.
+    pub(super) fn reason(self) -> Option<MissingMoments> {
         match self {
             Verdict::Present => None,
             Verdict::NoDeviation(reason) | Verdict::NoMean(reason) => Some(reason),
@@ -169,23 +203,21 @@ impl Verdict {
 }
 
 impl Tail {
-    fn reason(&self) -> String {
-        let Tail { side, index, .. } = self;
-        let consequence = if !self.settles(1.0) {
-            if self.exists(1.0) {
-                "the mean does not settle and the standard deviation does not exist"
-            } else {
-                "neither the mean nor the standard deviation exists"
-            }
-        } else if self.exists(2.0) {
-            "the standard deviation does not settle: ten times the trials would not halve its error"
+    fn reason(&self) -> MissingMoments {
+        let consequence = if !self.exists(1.0) {
+            Consequence::NoMean
+        } else if !self.settles(1.0) {
+            Consequence::SlowMean
+        } else if !self.exists(2.0) {
+            Consequence::NoDeviation
         } else {
-            "the standard deviation does not exist"
+            Consequence::SlowDeviation
         };
-        format!(
-            "the {side} tail of the trials falls off like the power -{index:.1} of the distance \
-             from the median, so that {consequence}"
-        )
+        MissingMoments::Tail {
+            side: self.side,
+            index: self.index,
+            consequence,
+        }
     }
 }
 
@@ -236,7 +268,7 @@ mod tests {
             // Divisor 1.5 u from zero.
             let ratio = verdict(seed, |s| (5.0 + s.normal()) / (1.5 + s.normal()));
             assert!(
-                matches!(&ratio, Verdict::NoMean(r) if r.contains("power -1.0")),
+                matches!(&ratio, Verdict::NoMean(MissingMoments::Tail { index, .. }) if (index - 1.0).abs() < 0.1),
                 "{ratio:?}"
             );
             let cauchy = verdict(seed, |s| s.student_t(1.0));
@@ -246,7 +278,14 @@ mod tests {
             // One-sided: the square of a Cauchy variable has not even a mean.
             let square = verdict(seed, |s| s.student_t(1.0).powi(2));
             assert!(
-                matches!(&square, Verdict::NoMean(r) if r.contains("upper")),
+                matches!(
+                    &square,
+                    Verdict::NoMean(MissingMoments::Tail {
+                        side: Side::Upper,
+                        consequence: Consequence::NoMean,
+                        ..
+                    })
+                ),
                 "{square:?}"
             );
         }
@@ -285,12 +324,15 @@ mod tests {
         let component = |dof| HeavyComponent::new("V.readings", dof);
         let two = Verdict::new(Some(&component(2.0)), &tail);
         assert!(
-            matches!(&two, Verdict::NoDeviation(r) if r.contains("`V.readings`")),
+            matches!(&two, Verdict::NoDeviation(MissingMoments::HeavyComponent { name, .. }) if name == "V.readings"),
             "{two:?}"
         );
         let one = Verdict::new(Some(&component(1.0)), &tail);
         assert!(
-            matches!(&one, Verdict::NoMean(r) if r.contains("1 degree of")),
+            matches!(
+                &one,
+                Verdict::NoMean(MissingMoments::HeavyComponent { dof: 1.0, .. })
+            ),
             "{one:?}"
         );
     }

@@ -5,6 +5,7 @@
 //! moments than E, however small c·E is. Trials would not show it as long as it is small. Where the
 //! component takes part in a nonlinear operation (an arctangent bounds it) only the trials can tell.
 
+use super::existence::MissingMoments;
 use crate::budget::{Budget, Component, Group, Input, Law};
 use crate::distribution::Distribution;
 
@@ -29,19 +30,12 @@ impl HeavyComponent {
         self.dof > 1.0
     }
 
-    /// Why there are no moments, in words.
-    pub(super) fn reason(&self) -> String {
-        let HeavyComponent { name, dof } = self;
-        let missing = if self.has_mean() {
-            "no standard deviation"
-        } else {
-            "neither a mean nor a standard deviation"
-        };
-        let degrees = if *dof == 1.0 { "degree" } else { "degrees" };
-        format!(
-            "`{name}` has a t distribution with {dof} {degrees} of freedom, which has {missing}, \
-             and the result depends on it linearly"
-        )
+    /// Why there are no moments.
+    pub(super) fn reason(&self) -> MissingMoments {
+        MissingMoments::HeavyComponent {
+            name: self.name.clone(),
+            dof: self.dof,
+        }
     }
 }
 
@@ -198,6 +192,6 @@ mod tests {
         };
         let found = find(&components, &[group(law)], [false; 2]).unwrap();
         assert_eq!(found, HeavyComponent::new("a", 2.0));
-        assert!(found.has_mean() && found.reason().contains("2 degrees of freedom"));
+        assert!(found.has_mean());
     }
 }

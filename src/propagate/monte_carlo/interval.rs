@@ -351,11 +351,7 @@ mod tests {
         } else {
             (pm + 0.5) as usize
         };
-        let r = if (m - q).is_multiple_of(2) {
-            (m - q) / 2
-        } else {
-            (m - q + 1) / 2
-        };
+        let r = (m - q).div_ceil(2);
         let shortest = (1..=m - q)
             .map(|r| y[r + q - 1] - y[r - 1])
             .fold(f64::INFINITY, f64::min);

@@ -35,6 +35,7 @@ use super::{EvaluationError, MonteCarlo, Regions, Run};
 use crate::budget::{Budget, MonteCarloSettings, Trials};
 use adaptive::Target;
 use engine::{Layout, Source, simulate};
+pub use existence::{Consequence, MissingMoments, Side};
 use existence::{Tail, Verdict};
 use heavy::HeavyComponent;
 use interval::{Ordered, Ranks};
@@ -63,7 +64,7 @@ pub(crate) struct McOutcome {
     pub correlation: Option<DMatrix<f64>>,
     pub regions: Option<Regions>,
     /// For every output why mean or standard deviation are not given.
-    pub moments_missing: Vec<Option<String>>,
+    pub moments_missing: Vec<Option<MissingMoments>>,
 }
 
 /// Runs the Monte Carlo method on `threads` threads; the result does not depend on their number.

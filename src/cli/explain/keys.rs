@@ -1,0 +1,203 @@
+//! The keys of a budget file, table by table.
+
+use gumption::budget::{self, KeyRow};
+
+use super::{Section, Topic};
+
+/// Tables in the order in which a reader meets them, by the first part of their path.
+const ORDER: [&str; 12] = [
+    "",
+    "measurand",
+    "input",
+    "component",
+    "source",
+    "constant",
+    "correlation",
+    "joint",
+    "series",
+    "claim",
+    "conventions",
+    "monte_carlo",
+];
+
+/// A table of the file, or several that take the same keys.
+pub(super) struct KeyTable {
+    /// Paths: `component.certificate`.
+    paths: Vec<String>,
+    pub(super) rows: Vec<KeyRow>,
+}
+
+impl KeyTable {
+    /// Where it stands, in words: `certificate` of a component.
+    pub(super) fn place(&self) -> String {
+        let [path] = &self.paths[..] else {
+            let inner: Vec<String> = self.paths.iter().map(|p| quoted(split(p).1)).collect();
+            let parent = self.paths.first().map_or("", |p| split(p).0);
+            return format!("{} of {}", inner.join(", "), in_words(parent));
+        };
+        in_words(path)
+    }
+
+    /// Whether its keys are names of distributions, which are topics of their own.
+    fn names_distributions(&self) -> bool {
+        self.paths.iter().any(|path| path.ends_with("distribution"))
+    }
+}
+
+fn in_words(path: &str) -> String {
+    match (path, split(path)) {
+        ("", _) => "the top of the file".to_string(),
+        ("component", _) => "a component".to_string(),
+        ("correlation" | "joint", _) => format!("`[[{path}]]`"),
+        (_, ("", _)) => format!("`[{path}]`"),
+        (_, (parent, inner)) => format!("{} of {}", quoted(inner), in_words(parent)),
+    }
+}
+
+fn quoted(name: &str) -> String {
+    format!("`{name}`")
+}
+
+/// The table around it, and its own name; a name that the user chooses belongs to the latter.
+fn split(path: &str) -> (&str, &str) {
+    let own = path.strip_suffix(".NAME").unwrap_or(path);
+    match own.rfind('.') {
+        Some(dot) => (&path[..dot], &path[dot + 1..]),
+        None => ("", path),
+    }
+}
+
+/// Every table of the file once. Components are described once, although their keys stand in
+/// inputs and sources as well.
+pub(super) fn tables() -> Vec<KeyTable> {
+    let rows = budget::keys();
+    let component: Vec<&str> = rows
+        .iter()
+        .filter(|row| row.table == "input.NAME.components[]")
+        .map(|row| row.key)
+        .collect();
+    let mut tables: Vec<KeyTable> = Vec::new();
+    for row in rows {
+        let path = path(&row, &component);
+        match tables.iter_mut().find(|table| table.paths[0] == path) {
+            Some(table) if table.rows.iter().any(|known| known.key == row.key) => {}
+            Some(table) => table.rows.push(row),
+            None => tables.push(KeyTable {
+                paths: vec![path],
+                rows: vec![row],
+            }),
+        }
+    }
+    let order = |table: &KeyTable| {
+        let first = table.paths[0].split('.').next();
+        ORDER.iter().position(|known| Some(*known) == first)
+    };
+    tables.sort_by_key(|table| order(table).unwrap_or(ORDER.len()));
+    alike_joined(tables)
+}
+
+/// Where a key is described.
+fn path(row: &KeyRow, component: &[&str]) -> String {
+    for owner in ["input.NAME", "source.NAME"] {
+        let Some(rest) = row.table.strip_prefix(owner) else {
+            continue;
+        };
+        return match rest.strip_prefix(".components[]").unwrap_or(rest) {
+            "" if rest.is_empty() && !component.contains(&row.key) => owner.to_string(),
+            inner => format!("component{inner}"),
+        };
+    }
+    row.table.clone()
+}
+
+/// Tables of one parent that take the same keys become one.
+fn alike_joined(tables: Vec<KeyTable>) -> Vec<KeyTable> {
+    let mut joined: Vec<KeyTable> = Vec::new();
+    for table in tables {
+        let says = |t: &KeyTable| -> Vec<(&str, String)> {
+            t.rows.iter().map(|r| (r.key, r.doc.clone())).collect()
+        };
+        let like = joined.iter_mut().find(|other| {
+            split(&other.paths[0]).0 == split(&table.paths[0]).0 && says(other) == says(&table)
+        });
+        match like {
+            Some(other) if other.paths[0].contains('.') => other.paths.extend(table.paths),
+            _ => joined.push(table),
+        }
+    }
+    joined
+}
+
+/// What a key says, without the mark of a way to state an uncertainty.
+fn meaning(doc: &str) -> &str {
+    doc.strip_prefix("Way: ").unwrap_or(doc)
+}
+
+/// One topic for each key, with all tables in which it may stand.
+pub(super) fn topics() -> Vec<Topic> {
+    let mut topics: Vec<Topic> = Vec::new();
+    for table in tables().iter().filter(|t| !t.names_distributions()) {
+        let place = table.place();
+        for row in &table.rows {
+            let way = if row.doc.starts_with("Way") {
+                "\n\nIt is one of the ways to state an uncertainty, of which a component has exactly one."
+            } else {
+                ""
+            };
+            let at = if place.starts_with("the top") {
+                "At"
+            } else {
+                "In"
+            };
+            let text = format!(
+                "{at} {place}: {} It is set to {}.{way}",
+                meaning(&row.doc),
+                row.kind
+            );
+            match topics.iter_mut().find(|topic| topic.name == row.key) {
+                Some(topic) => topic.text = format!("{}\n\n{text}", topic.text),
+                None => topics.push(Topic {
+                    section: Section::Keys,
+                    name: row.key.to_string(),
+                    aliases: Vec::new(),
+                    title: meaning(&row.doc).trim_end_matches('.').to_string(),
+                    text,
+                }),
+            }
+        }
+    }
+    topics
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_told_in_words() {
+        let places: Vec<String> = tables().iter().map(KeyTable::place).collect();
+        for place in [
+            "the top of the file",
+            "`[input.NAME]`",
+            "a component",
+            "`certificate` of a component",
+            "`readings`, `sample` of a component",
+            "`[[joint]]`",
+            "`inputs.NAME` of `[claim]`",
+            "`beta` of `distribution` of a component",
+        ] {
+            assert!(places.iter().any(|p| p == place), "{place} in {places:#?}");
+        }
+    }
+
+    #[test]
+    fn no_key_is_lost() {
+        let tables = tables();
+        for row in budget::keys() {
+            let known = tables
+                .iter()
+                .any(|t| t.rows.iter().any(|r| r.key == row.key && r.doc == row.doc));
+            assert!(known, "{} of {}", row.key, row.table);
+        }
+    }
+}

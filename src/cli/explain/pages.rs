@@ -1,0 +1,123 @@
+//! The same topics as pages of Markdown, for `docs/reference`.
+
+use super::keys::{KeyTable, tables};
+use super::{Section, Topic};
+use gumption::model;
+
+/// A section as a page.
+pub(super) fn page(section: Section, topics: &[Topic]) -> String {
+    let body = match section {
+        Section::Functions => functions(),
+        Section::Keys => tables().iter().map(key_table).collect(),
+        _ => topics
+            .iter()
+            .filter(|topic| topic.section == section)
+            .map(chapter)
+            .collect(),
+    };
+    format!(
+        "# {}\n\n{}\n\nThis page is what `gumption explain {} --markdown` prints.\n{body}",
+        section.title(),
+        introduction(section),
+        section.name(),
+    )
+}
+
+fn introduction(section: Section) -> &'static str {
+    match section {
+        Section::Concepts => "Words that the report and the messages use.",
+        Section::Distributions => {
+            "Shapes that a component may have. A shape beside a stated width is a word, a distribution with all \
+             its parameters is a table; parameters are in the unit of the input."
+        }
+        Section::Functions => "[The model language](../model-language.md) says how they are used.",
+        Section::Profiles => {
+            "A profile is a set of the conventions on which guides differ: `profile = \"EA\"` at the top of the \
+             file. `[conventions]` changes single ones."
+        }
+        Section::Keys => "[The budget file](../budget-file.md) shows every key by example.",
+        Section::Errors => {
+            "Every message begins with its code. B: the budget file, M: the model, U: units. Codes are stable."
+        }
+    }
+}
+
+fn chapter(topic: &Topic) -> String {
+    let paragraphs: Vec<String> = topic.text.split("\n\n").map(paragraph).collect();
+    format!(
+        "\n## {}: {}\n\n{}\n",
+        topic.name,
+        topic.title,
+        paragraphs.join("\n\n")
+    )
+}
+
+/// Indented lines are examples.
+fn paragraph(text: &str) -> String {
+    if !text.lines().any(|line| line.starts_with("  ")) {
+        return text.to_string();
+    }
+    let (words, example): (Vec<&str>, Vec<&str>) =
+        text.lines().partition(|line| !line.starts_with("  "));
+    let example = format!("```text\n{}\n```", example.join("\n"));
+    if words.is_empty() {
+        example
+    } else {
+        format!("{}\n\n{example}", words.join("\n"))
+    }
+}
+
+fn functions() -> String {
+    let mut page = String::from("\n| function | gives | unit |\n|---|---|---|\n");
+    for f in model::functions() {
+        page.push_str(&format!(
+            "| `{}` | {} | {} |\n",
+            f.signature, f.doc, f.dimension
+        ));
+    }
+    page
+}
+
+fn key_table(table: &KeyTable) -> String {
+    let place = table.place();
+    let mut page = format!(
+        "\n## {}\n\n{}| key | set to | meaning |\n|---|---|---|\n",
+        capital(&place),
+        note(&place)
+    );
+    for row in &table.rows {
+        let kind = row.kind.replace('|', "\\|");
+        page.push_str(&format!("| `{}` | {kind} | {} |\n", row.key, row.doc));
+    }
+    page
+}
+
+fn note(place: &str) -> &'static str {
+    match place {
+        "a component" => {
+            "An entry of `components`; with a single component its keys may stand in `[input.NAME]` or \
+             `[source.NAME]` itself. Exactly one *way* states the uncertainty.\n\n"
+        }
+        _ => "",
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters
+        .next()
+        .map(|first| first.to_uppercase().collect::<String>() + letters.as_str())
+        .unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn examples_are_fenced() {
+        assert_eq!(paragraph("plain\ntext"), "plain\ntext");
+        assert_eq!(paragraph("    a\n    b"), "```text\n    a\n    b\n```");
+        assert_eq!(paragraph("so:\n  a"), "so:\n\n```text\n  a\n```");
+    }
+}

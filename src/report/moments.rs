@@ -1,0 +1,120 @@
+//! Why a result has no mean or no standard deviation, as sentences.
+
+use crate::propagate::{Consequence, MissingMoments, Side};
+
+use super::language::Language;
+use super::number::{freedom, print};
+
+/// In English, with what to do.
+pub(super) fn in_english(reason: &MissingMoments) -> String {
+    const GIVEN: &str = "Median and coverage interval are given instead.";
+    match reason {
+        MissingMoments::HeavyComponent { name, dof } => {
+            let missing = if *dof > 1.0 {
+                "no standard deviation"
+            } else {
+                "neither a mean nor a standard deviation"
+            };
+            let degrees = if *dof == 1.0 { "degree" } else { "degrees" };
+            format!(
+                "The distribution of the output has {missing}: `{name}` has a t-distribution with {} {degrees} of freedom, which has none, and the output depends on it linearly. {GIVEN} More readings behind `{name}` would help; a standard deviation exists above 2 degrees of freedom.",
+                freedom(*dof)
+            )
+        }
+        MissingMoments::JointReadings { inputs, readings } => {
+            let (n, many) = (readings, inputs.len());
+            let names = Language::English.list(inputs);
+            let missing = if n - many.min(*n) > 1 {
+                "no standard deviation"
+            } else {
+                "neither a mean nor a standard deviation"
+            };
+            format!(
+                "The distribution of the output has {missing}: {n} simultaneous readings of {many} inputs ({names}) leave ν = n − N = {n} − {many} = {} for their multivariate t-distribution in Monte Carlo (JCGM 102, 5.3.2), which has no standard deviation for ν ≤ 2. {GIVEN} More simultaneous readings would help; a standard deviation exists from {} on.",
+                n - many.min(*n),
+                many + 3
+            )
+        }
+        MissingMoments::Tail {
+            side,
+            index,
+            consequence,
+        } => {
+            let side = match side {
+                Side::Lower => "lower",
+                Side::Upper => "upper",
+            };
+            let then = match consequence {
+                Consequence::NoMean => "neither mean nor standard deviation exists",
+                Consequence::SlowMean => {
+                    "the mean does not settle and the standard deviation does not exist"
+                }
+                Consequence::NoDeviation => "the standard deviation does not exist",
+                Consequence::SlowDeviation => {
+                    "the standard deviation does not settle: ten times the trials would not halve its error"
+                }
+            };
+            format!(
+                "The {side} tail of the Monte Carlo trials falls off like the power −{} of the distance from the median, so that {then}. {GIVEN} Check whether an input with very few degrees of freedom, or a divisor that may be zero, is meant.",
+                exponent(*index)
+            )
+        }
+    }
+}
+
+/// In Chinese.
+pub(super) fn in_chinese(reason: &MissingMoments) -> String {
+    const GIVEN: &str = "因此给出中位数和包含区间。";
+    match reason {
+        MissingMoments::HeavyComponent { name, dof } => {
+            let missing = if *dof > 1.0 {
+                "标准差不存在"
+            } else {
+                "均值和标准差均不存在"
+            };
+            format!(
+                "输出量分布的{missing}：`{name}` 服从自由度为 {} 的 t 分布，该分布的{missing}，而输出量线性地依赖于它。{GIVEN}增加 `{name}` 的测量次数可改善；自由度大于 2 时标准差才存在。",
+                freedom(*dof)
+            )
+        }
+        MissingMoments::JointReadings { inputs, readings } => {
+            let (n, many) = (readings, inputs.len());
+            let names = Language::Chinese.list(inputs);
+            let missing = if n - many.min(*n) > 1 {
+                "标准差不存在"
+            } else {
+                "均值和标准差均不存在"
+            };
+            format!(
+                "输出量分布的{missing}：{many} 个输入量（{names}）同时重复测量 {n} 次，蒙特卡洛法所用的多元 t 分布的自由度为 ν = n − N = {n} − {many} = {}（JCGM 102 的 5.3.2），ν ≤ 2 时其标准差不存在。{GIVEN}增加同时测量的次数可改善；不少于 {} 次时标准差才存在。",
+                n - many.min(*n),
+                many + 3
+            )
+        }
+        MissingMoments::Tail {
+            side,
+            index,
+            consequence,
+        } => {
+            let side = match side {
+                Side::Lower => "下侧",
+                Side::Upper => "上侧",
+            };
+            let then = match consequence {
+                Consequence::NoMean => "均值和标准差均不存在",
+                Consequence::SlowMean => "均值不收敛，标准差不存在",
+                Consequence::NoDeviation => "标准差不存在",
+                Consequence::SlowDeviation => "标准差不收敛（试验次数增至十倍，其误差也不能减半）",
+            };
+            format!(
+                "蒙特卡洛试验值分布的{side}尾部按与中位数之距的 −{} 次幂衰减，{then}，{GIVEN}请检查是否有自由度极小的输入量，或可能为零的除数。",
+                exponent(*index)
+            )
+        }
+    }
+}
+
+/// A tail index is known to one decimal at best.
+fn exponent(index: f64) -> String {
+    print(&super::number::at_place(index, -1))
+}

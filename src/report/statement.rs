@@ -457,7 +457,7 @@ pub(super) fn coefficient(r: f64) -> String {
     let place = if r.abs() < 0.9 || r.abs() == 1.0 {
         -2
     } else {
-        ((1.0 - r.abs()).log10().floor() as i32 - 1).clamp(-6, -3)
+        (libm::log10(1.0 - r.abs()).floor() as i32 - 1).clamp(-6, -3)
     };
     if r.is_finite() {
         at_place(r, place).print_plain(STYLE)

@@ -264,14 +264,14 @@ impl<'a> Subject<'a> {
         let half = monte_carlo.half_width(self.conventions.digits);
         match (half, monte_carlo.estimate, monte_carlo.u) {
             (Some(half), Some(estimate), Some(u)) if half > 0.0 && u > 0.0 => {
-                self.from_trials(estimate, u, half)
+                self.half_of_interval(estimate, u, half)
             }
             _ => self.interval(monte_carlo),
         }
     }
 
     /// y and U = half the width of the Monte Carlo interval, with the k that this implies.
-    fn from_trials(&self, estimate: f64, u: f64, half: f64) -> String {
+    fn half_of_interval(&self, estimate: f64, u: f64, half: f64) -> String {
         let pair = self.conventions.rounding_rule().align(estimate, half);
         let p = probability(self.report.coverage_probability());
         let k = two_decimals(half / u);

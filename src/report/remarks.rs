@@ -190,7 +190,7 @@ fn unseen_in_english(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
     );
     if matters {
         format!(
-            "{first} {found}: the first-order u is wrong. Rely on the second-order terms and on Monte Carlo."
+            "{first} {found}: the first-order result is wrong. Rely on Monte Carlo, and on second order where it agrees with it."
         )
     } else {
         format!("{first} {found}, which does not matter here.")
@@ -219,7 +219,9 @@ fn unseen_in_chinese(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
         amount(u_effect)
     );
     if matters {
-        format!("{first}{found}，一阶标准不确定度因而不正确，应以二阶项和蒙特卡洛法的结果为准。")
+        format!(
+            "{first}{found}，一阶结果因而不正确，应以蒙特卡洛法为准；二阶结果仅在与之一致时可用。"
+        )
     } else {
         format!("{first}{found}，在此可以忽略。")
     }

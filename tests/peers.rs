@@ -1,7 +1,6 @@
 //! Silent mistakes that other programs for measurement uncertainty were seen to make. Each test is named after
 //! the mistake and shows that it is refused here, or that the figures are right.
 
-mod common;
 #[path = "common/evaluation.rs"]
 mod evaluation;
 

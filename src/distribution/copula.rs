@@ -98,15 +98,17 @@ fn closed_form(a: &Distribution, b: &Distribution, r: f64) -> Option<Result<f64,
     use Distribution::{LogNormal, Uniform};
     match (a, b) {
         (a, b) if a.is_normal() && b.is_normal() => Some(Ok(r)),
-        (Uniform { .. }, Uniform { .. }) => Some(Ok(2.0 * (std::f64::consts::PI * r / 6.0).sin())),
+        (Uniform { .. }, Uniform { .. }) => {
+            Some(Ok(2.0 * libm::sin(std::f64::consts::PI * r / 6.0)))
+        }
         (LogNormal { sigma: s, .. }, LogNormal { sigma: t, .. }) => {
             // exp(ρst) − 1 = r·√((exp s² − 1)(exp t² − 1))
-            let spread = (s * s).exp_m1().sqrt() * (t * t).exp_m1().sqrt();
-            let smallest = (-s * t).exp_m1() / spread;
-            let largest = (s * t).exp_m1() / spread;
+            let spread = libm::expm1(s * s).sqrt() * libm::expm1(t * t).sqrt();
+            let smallest = libm::expm1(-s * t) / spread;
+            let largest = libm::expm1(s * t) / spread;
             Some(
                 within_reach(r, smallest, largest)
-                    .map(|r| ((r * spread).ln_1p() / (s * t)).clamp(-1.0, 1.0)),
+                    .map(|r| (libm::log1p(r * spread) / (s * t)).clamp(-1.0, 1.0)),
             )
         }
         _ => None,
@@ -204,11 +206,11 @@ impl Mehler {
 /// They only matter when both margins have steps, and then fall like k^(−3/2):
 /// ∫ k^(−3/2) ρᵏ dk from N, divided by its value for ρ = 1.
 fn left_out(rho: f64) -> f64 {
-    let u = -rho.ln() * (TERMS as f64 + 0.5);
+    let u = -libm::log(rho) * (TERMS as f64 + 0.5);
     if u > 700.0 {
         return 0.0;
     }
-    (-u).exp() - (std::f64::consts::PI * u).sqrt() * erfc(u.sqrt())
+    libm::exp(-u) - (std::f64::consts::PI * u).sqrt() * erfc(u.sqrt())
 }
 
 /// c_k/σ for k = 1 … TERMS.

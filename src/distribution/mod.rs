@@ -324,7 +324,7 @@ impl Distribution {
             }
             Self::LogNormal { origin, mu, .. } => {
                 *origin *= by;
-                *mu += by.ln();
+                *mu += libm::log(by);
             }
             Self::Discrete { values, .. } | Self::Empirical { sample: values } => {
                 *values = values.iter().map(|x| x * by).collect();

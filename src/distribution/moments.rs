@@ -20,7 +20,7 @@ impl Distribution {
                 scale,
             } => Some(origin + shape * scale),
             Self::LogNormal { origin, mu, sigma } => {
-                Some(origin + (mu + 0.5 * sigma * sigma).exp())
+                Some(origin + libm::exp(mu + 0.5 * sigma * sigma))
             }
             Self::Beta {
                 alpha,
@@ -59,7 +59,7 @@ impl Distribution {
             Self::Gamma { shape, scale, .. } => Some(shape * scale * scale),
             Self::LogNormal { mu, sigma, .. } => {
                 let square = sigma * sigma;
-                Some(square.exp_m1() * (2.0 * mu + square).exp())
+                Some(libm::expm1(square) * libm::exp(2.0 * mu + square))
             }
             Self::Beta {
                 alpha,
@@ -96,15 +96,15 @@ impl Distribution {
             Self::Gamma { shape, scale, .. } => Some(2.0 * shape * scale.powi(3)),
             Self::LogNormal { mu, sigma, .. } => {
                 let square = sigma * sigma;
-                let grown = square.exp_m1();
-                Some(grown * grown * (grown + 3.0) * (3.0 * mu + 1.5 * square).exp())
+                let grown = libm::expm1(square);
+                Some(grown * grown * (grown + 3.0) * libm::exp(3.0 * mu + 1.5 * square))
             }
             Self::Beta { alpha, beta, .. } => {
                 let n = alpha + beta;
                 let variance = self.variance()?;
                 let skewness = 2.0 * (beta - alpha) * (n + 1.0).sqrt()
                     / ((n + 2.0) * alpha.sqrt() * beta.sqrt());
-                Some(skewness * variance.powf(1.5))
+                Some(skewness * libm::pow(variance, 1.5))
             }
             Self::Discrete { .. } | Self::Empirical { .. } => Some(self.finite_moment(3)),
         }
@@ -137,7 +137,7 @@ impl Distribution {
             Self::Exponential { mean, .. } => Some(9.0 * mean.powi(4)),
             Self::Gamma { shape, scale, .. } => Some(3.0 * shape * (shape + 2.0) * scale.powi(4)),
             Self::LogNormal { sigma, .. } => {
-                let w = (sigma * sigma).exp();
+                let w = libm::exp(sigma * sigma);
                 let kurtosis = w * w * (w * w + 2.0 * w + 3.0) - 3.0;
                 self.variance().map(|v| kurtosis * v * v)
             }

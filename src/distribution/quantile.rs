@@ -23,14 +23,14 @@ impl Distribution {
                 dof,
             } => student_t_cdf((x - location) / scale, *dof),
             Self::Triangular { lower, mode, upper } => triangle_below(x, *lower, *mode, *upper),
-            Self::Exponential { origin, mean } => -(-((x - origin) / mean).max(0.0)).exp_m1(),
+            Self::Exponential { origin, mean } => -libm::expm1(-((x - origin) / mean).max(0.0)),
             Self::Gamma {
                 origin,
                 shape,
                 scale,
             } => gamma_regularized(*shape, ((x - origin) / scale).max(0.0)),
             Self::LogNormal { origin, mu, sigma } => {
-                normal_cdf(((x - origin).max(0.0).ln() - mu) / sigma)
+                normal_cdf((libm::log((x - origin).max(0.0)) - mu) / sigma)
             }
             Self::Beta {
                 alpha,
@@ -73,14 +73,14 @@ impl Distribution {
                 dof,
             } => student_t_sf((x - location) / scale, *dof),
             Self::Triangular { lower, mode, upper } => triangle_below(-x, -upper, -mode, -lower),
-            Self::Exponential { origin, mean } => (-((x - origin) / mean).max(0.0)).exp(),
+            Self::Exponential { origin, mean } => libm::exp(-((x - origin) / mean).max(0.0)),
             Self::Gamma {
                 origin,
                 shape,
                 scale,
             } => gamma_regularized_upper(*shape, ((x - origin) / scale).max(0.0)),
             Self::LogNormal { origin, mu, sigma } => {
-                normal_sf(((x - origin).max(0.0).ln() - mu) / sigma)
+                normal_sf((libm::log((x - origin).max(0.0)) - mu) / sigma)
             }
             Self::Beta {
                 alpha,
@@ -115,14 +115,14 @@ impl Distribution {
                 dof,
             } => location + scale * student_t_quantile(p, *dof),
             Self::Triangular { lower, mode, upper } => triangle_quantile(p, *lower, *mode, *upper),
-            Self::Exponential { origin, mean } => origin - mean * (-p).ln_1p(),
+            Self::Exponential { origin, mean } => origin - mean * libm::log1p(-p),
             Self::Gamma {
                 origin,
                 shape,
                 scale,
             } => origin + scale * inverse_gamma_regularized(*shape, p),
             Self::LogNormal { origin, mu, sigma } => {
-                origin + (mu + sigma * normal_quantile(p)).exp()
+                origin + libm::exp(mu + sigma * normal_quantile(p))
             }
             Self::Beta {
                 alpha,
@@ -161,14 +161,14 @@ impl Distribution {
                 dof,
             } => location - scale * student_t_quantile(q, *dof),
             Self::Triangular { lower, mode, upper } => -triangle_quantile(q, -upper, -mode, -lower),
-            Self::Exponential { origin, mean } => origin - mean * q.ln(),
+            Self::Exponential { origin, mean } => origin - mean * libm::log(q),
             Self::Gamma {
                 origin,
                 shape,
                 scale,
             } => origin + scale * inverse_gamma_regularized_upper(*shape, q),
             Self::LogNormal { origin, mu, sigma } => {
-                origin + (mu - sigma * normal_quantile(q)).exp()
+                origin + libm::exp(mu - sigma * normal_quantile(q))
             }
             Self::Beta {
                 alpha,
@@ -260,10 +260,10 @@ impl Distribution {
                     curved_area(inward) / (4.0 * d)
                 } else {
                     // The density is level from here to the middle.
-                    0.5 + u * flat.ln() / (4.0 * d)
+                    0.5 + u * libm::log(flat) / (4.0 * d)
                 }
             }
-            Self::Arcsine { .. } => (0.5 * inward).sqrt().asin() * 2.0 / PI,
+            Self::Arcsine { .. } => libm::asin((0.5 * inward).sqrt()) * 2.0 / PI,
             _ => 0.5 * inward,
         }
     }
@@ -289,10 +289,10 @@ impl Distribution {
                 if area < curved_area(1.0 - flat) {
                     curved_inward(area)
                 } else {
-                    1.0 - (0.5 - q) * 4.0 * d / -flat.ln()
+                    1.0 - (0.5 - q) * 4.0 * d / -libm::log(flat)
                 }
             }
-            Self::Arcsine { .. } => 2.0 * (0.5 * PI * q).sin().powi(2),
+            Self::Arcsine { .. } => 2.0 * libm::sin(0.5 * PI * q).powi(2),
             _ => 2.0 * q,
         }
     }
@@ -316,7 +316,7 @@ fn curved_area(s: f64) -> f64 {
         return 1.0;
     }
     if s > 0.1 {
-        return s + (1.0 - s) * (-s).ln_1p();
+        return s + (1.0 - s) * libm::log1p(-s);
     }
     // Σ sⁿ/(n(n−1)) from n = 2
     let mut power = s * s;
@@ -338,7 +338,7 @@ fn curved_inward(area: f64) -> f64 {
     // The area is convex in s and not below s²/2: Newton's method descends to the root.
     let mut s = (2.0 * area).sqrt().min(1.0 - 1e-16);
     for _ in 0..60 {
-        let step = (curved_area(s) - area) / -(-s).ln_1p();
+        let step = (curved_area(s) - area) / -libm::log1p(-s);
         if step.is_nan() || step <= 1e-16 * s {
             break;
         }

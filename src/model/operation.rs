@@ -1,12 +1,15 @@
 //! The table of operations: everything that is to be known about an operation stands in its row.
 //!
+//! Values at the estimates and in blocks of trials come from the same functions as far as these have a
+//! vector form, and otherwise from the `libm` crate: nothing depends on the platform's own library.
+//!
 //! An ordinary function of one argument is added by one entry in [`UNARY`]; the parser, the unit
 //! check, derivatives, blocks, hints and the help all read the table.
 
 use std::f64::consts::{FRAC_PI_2, LN_2, LN_10, PI};
 use std::hash::{Hash, Hasher};
 
-use gumption_lanes::{Block, LANES, Level, ops as kernels};
+use gumption_lanes::{Block, LANES, Level, elementary, ops as kernels};
 
 use super::jet::Jet;
 
@@ -178,12 +181,12 @@ pub static UNARY: &[Unary] = &[
     row!("abs", "absolute value", Same, f64::abs, |x| [x.abs(), sign(x), 0.0, 0.0], kernels::abs, Corner, None),
     row!("sqrt", "square root", Root(2), f64::sqrt, sqrt, kernels::sqrt, Smooth, Some(|_| 0.0)),
     row!("cbrt", "cube root", Root(3), libm::cbrt, cbrt, kernels::cbrt, Smooth, Some(|_| 0.0)),
-    row!("exp", "exponential function", One, libm::exp, |x| [libm::exp(x); 4], kernels::exp),
-    row!("ln", "natural logarithm", One, libm::log, |x| logarithm(libm::log(x), x, 1.0), kernels::ln, Smooth, Some(|_| 0.0)),
+    row!("exp", "exponential function", One, elementary::exp, |x| [elementary::exp(x); 4], kernels::exp),
+    row!("ln", "natural logarithm", One, elementary::ln, |x| logarithm(elementary::ln(x), x, 1.0), kernels::ln, Smooth, Some(|_| 0.0)),
     row!("log10", "logarithm to base 10", One, libm::log10, |x| logarithm(libm::log10(x), x, LN_10), kernels::log10, Smooth, Some(|_| 0.0)),
     row!("log2", "logarithm to base 2", One, libm::log2, |x| logarithm(libm::log2(x), x, LN_2), kernels::log2, Smooth, Some(|_| 0.0)),
-    row!("sin", "sine", Angle, libm::sin, sin, kernels::sin),
-    row!("cos", "cosine", Angle, libm::cos, cos, kernels::cos),
+    row!("sin", "sine", Angle, elementary::sin, sin, kernels::sin),
+    row!("cos", "cosine", Angle, elementary::cos, cos, kernels::cos),
     row!("tan", "tangent", Angle, libm::tan, tan, kernels::tan, Smooth, Some(|x| ((x - FRAC_PI_2) / PI).round() * PI + FRAC_PI_2)),
     row!("asin", "inverse sine", ToAngle, libm::asin, |x| arc(libm::asin(x), x, 1.0), kernels::asin, Smooth, Some(f64::signum)),
     row!("acos", "inverse cosine", ToAngle, libm::acos, |x| arc(libm::acos(x), x, -1.0), kernels::acos, Smooth, Some(f64::signum)),
@@ -264,7 +267,7 @@ impl Binary {
             Rule::Div => a / b,
             Rule::Pow => {
                 // exp(b ln a), where a and b both move.
-                let exponent = b * a.compose(&logarithm(libm::log(a.value()), a.value(), 1.0));
+                let exponent = b * a.compose(&logarithm(elementary::ln(a.value()), a.value(), 1.0));
                 exponent.compose(&[value; 3])
             }
             Rule::Atan2 => {
@@ -300,7 +303,7 @@ impl Binary {
             Rule::Div => (b.recip(), -(a / b) / b),
             Rule::Pow => {
                 let power = self.value(a, b);
-                let log = a.compose(&logarithm(libm::log(a.value()), a.value(), 1.0));
+                let log = a.compose(&logarithm(elementary::ln(a.value()), a.value(), 1.0));
                 (self.value(a, b - one) * b, power * log)
             }
             Rule::Atan2 => {
@@ -417,12 +420,12 @@ fn logarithm(value: f64, x: f64, base: f64) -> [f64; 4] {
 }
 
 fn sin(x: f64) -> [f64; 4] {
-    let (s, c) = libm::sincos(x);
+    let (s, c) = (elementary::sin(x), elementary::cos(x));
     [s, c, -s, -c]
 }
 
 fn cos(x: f64) -> [f64; 4] {
-    let (s, c) = libm::sincos(x);
+    let (s, c) = (elementary::sin(x), elementary::cos(x));
     [c, -s, -c, s]
 }
 
@@ -489,6 +492,6 @@ fn atanh(x: f64) -> [f64; 4] {
 }
 
 fn erf(x: f64) -> [f64; 4] {
-    let d = std::f64::consts::FRAC_2_SQRT_PI * libm::exp(-x * x);
+    let d = std::f64::consts::FRAC_2_SQRT_PI * elementary::exp(-x * x);
     [libm::erf(x), d, -2.0 * x * d, (4.0 * x * x - 2.0) * d]
 }

@@ -120,7 +120,7 @@ impl<'b> Situation<'b> {
         let &[_, second] = parts.as_slice() else {
             return None;
         };
-        let together = size.hypot(second.weight);
+        let together = libm::hypot(size, second.weight);
         let rectangles = self.half_width(first).zip(self.half_width(second));
         match rectangles {
             Some(widths) if rest(together) <= REMAINDER * together => {
@@ -195,7 +195,7 @@ impl<'b> Situation<'b> {
     }
 
     fn two(&self, parts: [Part; 2], (a, b): (f64, f64), rule: OutputShape) -> Output<'b> {
-        let together = parts[0].weight.hypot(parts[1].weight);
+        let together = libm::hypot(parts[0].weight, parts[1].weight);
         let (scale, remainder) = scale_and_remainder(together, rule);
         let shape = Shape::Rectangles {
             a: a * scale,
@@ -345,9 +345,9 @@ mod tests {
     }
 
     #[test]
-    fn truncation_cuts_what_is_printed() {
+    fn truncation_follows_rounding_to_two_decimals() {
         assert_eq!(entered_dof(DofRule::Truncated, 18.9987), 19.0);
-        assert_eq!(entered_dof(DofRule::Truncated, 16.94), 16.0);
+        assert_eq!(entered_dof(DofRule::Truncated, 16.98), 16.0);
         assert_eq!(entered_dof(DofRule::Truncated, 1.7), 1.0);
         assert_eq!(entered_dof(DofRule::Truncated, 0.6), 0.6);
         assert_eq!(entered_dof(DofRule::Truncated, INF), INF);

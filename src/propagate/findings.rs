@@ -209,7 +209,7 @@ impl Evidence<'_> {
                 .collect(),
             shift,
             u_effect,
-            matters: !told || second_order::matters(u_first, u_first.hypot(u_effect), shift),
+            matters: !told || second_order::matters(u_first, libm::hypot(u_first, u_effect), shift),
         })
     }
 
@@ -345,7 +345,7 @@ fn is_asymmetric(mc: &MonteCarlo) -> bool {
     let width = |[low, high]: [f64; 2]| high - low;
     let [_, _, low, high] = mc.standard_errors;
     let noise = if low.is_finite() && high.is_finite() {
-        6.0 * low.hypot(high)
+        6.0 * libm::hypot(low, high)
     } else {
         0.0
     };

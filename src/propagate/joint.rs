@@ -97,7 +97,7 @@ const MANY: usize = 25;
 fn k_rectangle(correlation: &DMatrix<f64>, p: f64, dof: f64) -> f64 {
     let m = correlation.nrows();
     let alone = student_t_two_sided_quantile(p, dof);
-    let uncorrelated = student_t_two_sided_quantile(p.powf(1.0 / m as f64), dof);
+    let uncorrelated = student_t_two_sided_quantile(libm::pow(p, 1.0 / m as f64), dof);
     if m > MANY || correlation.iter().any(|r| r.is_nan()) {
         return uncorrelated;
     }

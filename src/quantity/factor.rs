@@ -114,7 +114,7 @@ impl Factor {
         let exponent = f64::from(num) / f64::from(den);
         let (ten, ten_left) = divided(self.ten, num, den);
         let (pi, pi_left) = divided(self.pi, num, den);
-        let irrational = 10f64.powf(ten_left) * PI.powf(pi_left);
+        let irrational = libm::pow(10f64, ten_left) * libm::pow(PI, pi_left);
         let (above, above_ten) = power(self.numerator, num, den, exponent);
         let (below, below_ten) = power(self.denominator, num, den, exponent);
         let ten = ten.saturating_add(above_ten).saturating_sub(below_ten);
@@ -194,7 +194,7 @@ fn divided(exponent: i32, num: i32, den: i32) -> (i32, f64) {
 
 /// x^(num/den) as a number and a power of ten: a whole number where the power is one.
 fn power(x: f64, num: i32, den: i32, exponent: f64) -> (f64, i32) {
-    let approximate = x.powf(exponent);
+    let approximate = libm::pow(x, exponent);
     let whole = approximate.round();
     let raised =
         |base: f64, exponent: i32| whole_number(base)?.checked_pow(exponent.unsigned_abs());
@@ -204,9 +204,9 @@ fn power(x: f64, num: i32, den: i32, exponent: f64) -> (f64, i32) {
         _ => {
             let (mantissa, magnitude) = scaled_down(x);
             let (ten, ten_left) = divided(magnitude, num, den);
-            let log = mantissa.log10() * exponent + ten_left;
+            let log = libm::log10(mantissa) * exponent + ten_left;
             (
-                10f64.powf(log.fract()),
+                libm::pow(10f64, log.fract()),
                 ten.saturating_add(log.trunc() as i32),
             )
         }
@@ -218,7 +218,7 @@ fn scaled_down(x: f64) -> (f64, i32) {
     if x <= LARGEST_EXACT as f64 || !x.is_finite() {
         return (x, 0);
     }
-    let magnitude = x.log10().floor() as i32;
+    let magnitude = libm::log10(x).floor() as i32;
     (x / 10f64.powi(magnitude), magnitude)
 }
 

@@ -99,7 +99,7 @@ fn method(method: Method, language: Language) -> &'static str {
 pub(super) fn last_place(comparison: &Comparison) -> i32 {
     let tolerance: f64 = comparison.claimed.tolerance;
     if tolerance > 0.0 && tolerance.is_finite() {
-        (2.0 * tolerance).log10().floor() as i32
+        libm::log10(2.0 * tolerance).floor() as i32
     } else {
         Decimal::from_f64(comparison.claimed.value)
             .place()

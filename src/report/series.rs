@@ -329,7 +329,7 @@ fn power_of_thousand(largest: f64) -> i32 {
     if (1e-3..1e4).contains(&largest) || largest <= 0.0 || !largest.is_finite() {
         return 0;
     }
-    3 * (largest.log10() / 3.0).floor() as i32
+    3 * (libm::log10(largest) / 3.0).floor() as i32
 }
 
 /// A label without the number at its end.

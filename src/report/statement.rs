@@ -264,14 +264,14 @@ impl<'a> Subject<'a> {
         let half = monte_carlo.half_width(self.conventions.digits);
         match (half, monte_carlo.estimate, monte_carlo.u) {
             (Some(half), Some(estimate), Some(u)) if half > 0.0 && u > 0.0 => {
-                self.half_of_interval(estimate, u, half)
+                self.half_interval(estimate, u, half)
             }
             _ => self.interval(monte_carlo),
         }
     }
 
     /// y and U = half the width of the Monte Carlo interval, with the k that this implies.
-    fn half_of_interval(&self, estimate: f64, u: f64, half: f64) -> String {
+    fn half_interval(&self, estimate: f64, u: f64, half: f64) -> String {
         let pair = self.conventions.rounding_rule().align(estimate, half);
         let p = probability(self.report.coverage_probability());
         let k = two_decimals(half / u);
@@ -457,7 +457,7 @@ pub(super) fn coefficient(r: f64) -> String {
     let place = if r.abs() < 0.9 || r.abs() == 1.0 {
         -2
     } else {
-        ((1.0 - r.abs()).log10().floor() as i32 - 1).clamp(-6, -3)
+        (libm::log10(1.0 - r.abs()).floor() as i32 - 1).clamp(-6, -3)
     };
     if r.is_finite() {
         at_place(r, place).print_plain(STYLE)

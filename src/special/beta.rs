@@ -9,7 +9,9 @@ pub fn ln_beta(a: f64, b: f64) -> f64 {
     let (small, large) = if a < b { (a, b) } else { (b, a) };
     let sum = small + large;
     // ln Γ(large) − ln Γ(sum) by Stirling's formula, which cancels analytically.
-    libm::lgamma(small) + small - small * sum.ln() - (large - 0.5) * (small / large).ln_1p()
+    libm::lgamma(small) + small
+        - small * libm::log(sum)
+        - (large - 0.5) * libm::log1p(small / large)
         + stirling_error(large)
         - stirling_error(sum)
 }
@@ -94,7 +96,7 @@ impl LogConcave for Point {
         let difference = -self.slope();
         let a_part = deviance(a, difference, x * (n / a));
         let b_part = deviance(b, -difference, y * (n / b));
-        0.5 * (a.ln() + (b / n).ln() - LN_TWO_PI) + stirling_error(n)
+        0.5 * (libm::log(a) + libm::log(b / n) - LN_TWO_PI) + stirling_error(n)
             - stirling_error(a)
             - stirling_error(b)
             - a_part
@@ -112,12 +114,12 @@ impl LogConcave for Point {
             (y, x, b, -delta, -slope)
         };
         if delta.abs() < 0.5 {
-            let r = small * delta.exp_m1();
+            let r = small * libm::expm1(delta);
             slope * delta - n * (small * exp_m1_minus(delta) + ln_1p_minus(r))
         } else if delta < 30.0 {
-            own * delta - n * (small * delta.exp_m1()).ln_1p()
+            own * delta - n * libm::log1p(small * libm::expm1(delta))
         } else {
-            (own - n) * delta - n * (small + large * (-delta).exp()).ln()
+            (own - n) * delta - n * libm::log(small + large * libm::exp(-delta))
         }
     }
 
@@ -167,12 +169,12 @@ pub(super) fn beta_quantile_odds(a: f64, b: f64, p: f64, side: Side) -> f64 {
 /// As above for the lower tail, p ≤ ½.
 fn lower_odds(a: f64, b: f64, p: f64) -> f64 {
     let ln_odds = start(a, b, p);
-    let odds = ln_odds.exp();
+    let odds = libm::exp(ln_odds);
     if odds < f64::MIN_POSITIVE {
         return 0.0;
     }
-    let moved = |point: &Point, delta: f64| Point::at_odds(a, b, point.odds() * delta.exp());
-    solve(Point::at_odds(a, b, odds), Side::Lower, p.ln(), moved).odds()
+    let moved = |point: &Point, delta: f64| Point::at_odds(a, b, point.odds() * libm::exp(delta));
+    solve(Point::at_odds(a, b, odds), Side::Lower, libm::log(p), moved).odds()
 }
 
 /// A first guess of the logarithm of the odds.
@@ -181,13 +183,13 @@ fn start(a: f64, b: f64, p: f64) -> f64 {
         return f64::NEG_INFINITY;
     }
     // I_x ≈ x^a/(a B) for small x.
-    let power = (p.ln() + a.ln() + ln_beta(a, b)) / a;
+    let power = (libm::log(p) + libm::log(a) + ln_beta(a, b)) / a;
     if a < 1.0 || b < 1.0 {
-        return power.min((a / b).ln() + 1.0);
+        return power.min(libm::log(a / b) + 1.0);
     }
     // The logarithm of the odds is nearly normal.
-    let normal = (a / b).ln() - normal_upper_quantile(p) * (1.0 / a + 1.0 / b).sqrt();
-    normal.max(power.min((a / b).ln()))
+    let normal = libm::log(a / b) - normal_upper_quantile(p) * (1.0 / a + 1.0 / b).sqrt();
+    normal.max(power.min(libm::log(a / b)))
 }
 
 #[cfg(test)]

@@ -40,7 +40,7 @@ pub fn inverse_gamma_regularized_upper(a: f64, q: f64) -> f64 {
 /// What Stirling's formula leaves: ln Γ(z) − [(z − ½) ln z − z + ½ ln 2π].
 pub(super) fn stirling_error(z: f64) -> f64 {
     if z < 10.0 {
-        return ln_gamma(z) - ((z - 0.5) * z.ln() - z + HALF_LN_TWO_PI);
+        return ln_gamma(z) - ((z - 0.5) * libm::log(z) - z + HALF_LN_TWO_PI);
     }
     const SERIES: [f64; 7] = [
         1.0 / 12.0,
@@ -70,9 +70,9 @@ impl LogConcave for Point {
     fn ln_density(&self) -> f64 {
         let Point { a, x } = *self;
         if a < 10.0 {
-            a * x.ln() - x - ln_gamma(a)
+            a * libm::log(x) - x - ln_gamma(a)
         } else {
-            0.5 * a.ln() - HALF_LN_TWO_PI - stirling_error(a) - deviance(a, x - a, x / a)
+            0.5 * libm::log(a) - HALF_LN_TWO_PI - stirling_error(a) - deviance(a, x - a, x / a)
         }
     }
 
@@ -124,9 +124,9 @@ fn inverse(a: f64, p: f64, side: Side) -> f64 {
     }
     let moved = |point: &Point, delta: f64| Point {
         a,
-        x: point.x * delta.exp(),
+        x: point.x * libm::exp(delta),
     };
-    solve(Point { a, x }, side, target.ln(), moved).x
+    solve(Point { a, x }, side, libm::log(target), moved).x
 }
 
 /// A first guess of the quantile.
@@ -139,10 +139,12 @@ fn start(a: f64, target: f64, side: Side) -> f64 {
     let cube_root = 1.0 - 1.0 / (9.0 * a) + z / (3.0 * a.sqrt());
     match side {
         // P ≈ x^a/Γ(a+1) for small x.
-        Side::Lower if a < 10.0 || cube_root < 0.3 => ((target.ln() + ln_gamma(a + 1.0)) / a).exp(),
+        Side::Lower if a < 10.0 || cube_root < 0.3 => {
+            libm::exp((libm::log(target) + ln_gamma(a + 1.0)) / a)
+        }
         // Q ≈ x^(a−1)·exp(−x)/Γ(a) for large x, and a body near zero otherwise.
         Side::Upper if a < 1.0 => {
-            let x = -(target.ln() + ln_gamma(a));
+            let x = -(libm::log(target) + ln_gamma(a));
             if x > 1.0 { x } else { a.max(f64::MIN_POSITIVE) }
         }
         _ => a * cube_root.max(0.1).powi(3),

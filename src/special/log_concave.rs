@@ -55,12 +55,12 @@ pub(super) struct Tail {
 impl Tail {
     /// The probability.
     pub(super) fn value(self) -> f64 {
-        (self.ln_density.exp() * self.ratio).min(1.0)
+        (libm::exp(self.ln_density) * self.ratio).min(1.0)
     }
 
     /// Its logarithm.
     fn ln(self) -> f64 {
-        self.ln_density + self.ratio.ln()
+        self.ln_density + libm::log(self.ratio)
     }
 }
 
@@ -81,7 +81,7 @@ pub(super) fn tail<D: LogConcave>(density: &D, side: Side) -> Tail {
     }
     .value();
     let ratio = if other < 0.9 {
-        (1.0 - other) * (-ln_density).exp()
+        (1.0 - other) * libm::exp(-ln_density)
     } else {
         outward(density, side)
     };
@@ -171,8 +171,8 @@ impl Level {
     /// Nodes at τ = offset + n·spacing, for a trapezoidal rule of this step.
     fn new(step: f64, spacing: f64, offset: f64) -> Level {
         let node = |tau: f64| {
-            let shrink = (-tau).exp();
-            let delta = (tau - shrink).exp();
+            let shrink = libm::exp(-tau);
+            let delta = libm::exp(tau - shrink);
             (delta, step * delta * (1.0 + shrink))
         };
         let nodes = |first: f64, spacing: f64, count: f64| {
@@ -191,7 +191,7 @@ impl Level {
         let mut sum = 0.0;
         for (node, weight) in &self.outer {
             let g = g(*node);
-            let term = weight * g.exp();
+            let term = weight * libm::exp(g);
             sum += term;
             if g < -2.0 && term <= 1e-18 * sum {
                 break;
@@ -200,7 +200,7 @@ impl Level {
         sum + self
             .inner
             .iter()
-            .map(|(node, weight)| weight * g(*node).exp())
+            .map(|(node, weight)| weight * libm::exp(g(*node)))
             .sum::<f64>()
     }
 }
@@ -219,7 +219,7 @@ static LEVELS: LazyLock<Vec<Level>> = LazyLock::new(|| {
 /// ln(1 + r) − r without cancellation.
 pub(super) fn ln_1p_minus(r: f64) -> f64 {
     if r.abs() > 0.5 {
-        return r.ln_1p() - r;
+        return libm::log1p(r) - r;
     }
     // ln(1+r) = 2 artanh(q), and 2q − r = −q·r.
     let q = r / (2.0 + r);
@@ -238,7 +238,7 @@ pub(super) fn ln_1p_minus(r: f64) -> f64 {
 /// exp(d) − 1 − d without cancellation.
 pub(super) fn exp_m1_minus(d: f64) -> f64 {
     if d.abs() > 0.5 {
-        return d.exp_m1() - d;
+        return libm::expm1(d) - d;
     }
     let mut term = 0.5 * d * d;
     let mut sum = 0.0;
@@ -259,7 +259,7 @@ pub(super) fn deviance(a: f64, difference: f64, ratio: f64) -> f64 {
     if relative.abs() < 0.5 {
         -a * ln_1p_minus(relative)
     } else {
-        difference - a * ratio.ln()
+        difference - a * libm::log(ratio)
     }
 }
 

@@ -11,7 +11,7 @@ pub fn normal_pdf(x: f64) -> f64 {
         return 0.0;
     }
     let rounding = x.mul_add(x, -square);
-    INVERSE_ROOT_TWO_PI * (-0.5 * square).exp() * (1.0 - 0.5 * rounding)
+    INVERSE_ROOT_TWO_PI * libm::exp(-0.5 * square) * (1.0 - 0.5 * rounding)
 }
 
 /// Φ(x), the probability of a value below x.
@@ -143,7 +143,7 @@ fn tail(p: f64) -> f64 {
     if p == 0.0 {
         return f64::INFINITY;
     }
-    let r = (-p.ln()).sqrt();
+    let r = (-libm::log(p)).sqrt();
     if r <= 5.0 {
         let r = r - 1.6;
         polynomial(&NEAR_NUMERATOR, r) / polynomial(&NEAR_DENOMINATOR, r)

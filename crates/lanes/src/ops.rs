@@ -204,6 +204,11 @@ pub fn mul_add(level: Level, a: &Block, b: &Block, c: &Block, out: &mut Block) {
     })
 }
 
+/// s·a + c with one rounding.
+pub fn affine(level: Level, a: &Block, s: f64, c: f64, out: &mut Block) {
+    dispatch!(level, _ => map(a, out, #[inline(always)] |a: f64| a.mul_add(s, c)))
+}
+
 /// `out` ← `out` + s·a, each lane with one rounding.
 pub fn axpy(level: Level, s: f64, a: &Block, out: &mut Block) {
     dispatch!(level, _ => {

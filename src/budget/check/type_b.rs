@@ -215,7 +215,7 @@ impl Checker<'_> {
                 .label("expected 1 to 64"),
             );
         }
-        let step = (upper - lower) / 2f64.powf(bits.value as f64);
+        let step = (upper - lower) / libm::pow(2f64, bits.value as f64);
         let how = format!(
             "a = q/2, q = {}/2^{} = {}",
             show(upper - lower),

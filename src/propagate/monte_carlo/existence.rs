@@ -9,8 +9,6 @@
 //! Two kinds of evidence: what is known of the budget ([`super::heavy`]), and Hill's estimate of α
 //! from the largest deviations on either side.
 
-use gumption_lanes::elementary::ln;
-
 use super::heavy::HeavyComponent;
 use super::interval::Ordered;
 
@@ -147,7 +145,7 @@ fn hill(sample: &Ordered, side: Side, k: usize) -> f64 {
     if threshold <= 0.0 {
         return f64::INFINITY;
     }
-    let sum: f64 = (1..=k).map(|i| ln(deviation(i) / threshold)).sum();
+    let sum: f64 = (1..=k).map(|i| libm::log(deviation(i) / threshold)).sum();
     if sum > 0.0 {
         k as f64 / sum
     } else {

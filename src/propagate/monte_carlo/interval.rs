@@ -36,7 +36,7 @@ impl Ranks {
 const PILOT: usize = 1 << 14;
 
 /// Values that one thread takes at a time.
-const PART: usize = 1 << 16;
+const PART: usize = 1 << 14;
 
 /// The median and the two tails of a sample, in order.
 #[derive(Debug)]
@@ -62,10 +62,15 @@ impl Ordered {
     /// looked for.
     fn selected(values: &[f64], depth: usize, cuts: &Cuts, threads: usize) -> Option<Self> {
         let parts = values.chunks(PART).collect();
-        let parts = parallel_map(parts, threads, || (), |(), part| Selected::of(part, cuts));
+        let parts = parallel_map(
+            parts,
+            threads,
+            || [(); 3].map(|()| Picked::new()),
+            |room, part| Selected::of(part, cuts, room),
+        );
         let below = parts.iter().map(|part| part.below).sum::<usize>();
         let joined = |of: fn(&Selected) -> &Vec<f64>| -> Vec<f64> {
-            parts.iter().flat_map(|part| of(part)).copied().collect()
+            parts.iter().flat_map(of).copied().collect()
         };
         let mut middle = joined(|part| &part.middle);
         let (low, high) = (joined(|part| &part.low), joined(|part| &part.high));
@@ -259,27 +264,53 @@ struct Selected {
     below: usize,
 }
 
-impl Selected {
-    fn of(values: &[f64], cuts: &Cuts) -> Self {
-        let mut selected = Selected {
-            low: Vec::new(),
-            middle: Vec::new(),
-            high: Vec::new(),
-            below: 0,
-        };
-        for &value in values {
-            selected.below += usize::from(value < cuts.middle[0]);
-            if value <= cuts.tails[0] {
-                selected.low.push(value);
-            }
-            if value >= cuts.tails[1] {
-                selected.high.push(value);
-            }
-            if value >= cuts.middle[0] && value <= cuts.middle[1] {
-                selected.middle.push(value);
-            }
+/// Room for what is selected from a part.
+struct Picked {
+    values: Vec<f64>,
+    count: usize,
+}
+
+impl Picked {
+    fn new() -> Self {
+        Picked {
+            values: vec![0.0; PART],
+            count: 0,
         }
-        selected
+    }
+
+    /// Writes the value and counts it or not: which it will be cannot be foreseen, so a branch
+    /// would cost more.
+    #[inline]
+    fn offer(&mut self, value: f64, wanted: bool) {
+        if let Some(place) = self.values.get_mut(self.count) {
+            *place = value;
+            self.count += usize::from(wanted);
+        }
+    }
+
+    fn take(&mut self) -> Vec<f64> {
+        let count = std::mem::take(&mut self.count);
+        self.values[..count].to_vec()
+    }
+}
+
+impl Selected {
+    /// From at most [`PART`] values.
+    fn of(values: &[f64], cuts: &Cuts, [low, middle, high]: &mut [Picked; 3]) -> Self {
+        let mut below = 0;
+        for &value in values {
+            low.offer(value, value <= cuts.tails[0]);
+            high.offer(value, value >= cuts.tails[1]);
+            let reached = value >= cuts.middle[0];
+            below += usize::from(!reached);
+            middle.offer(value, reached & (value <= cuts.middle[1]));
+        }
+        Selected {
+            low: low.take(),
+            middle: middle.take(),
+            high: high.take(),
+            below,
+        }
     }
 }
 
@@ -320,11 +351,7 @@ mod tests {
         } else {
             (pm + 0.5) as usize
         };
-        let r = if (m - q).is_multiple_of(2) {
-            (m - q) / 2
-        } else {
-            (m - q + 1) / 2
-        };
+        let r = (m - q).div_ceil(2);
         let shortest = (1..=m - q)
             .map(|r| y[r + q - 1] - y[r - 1])
             .fold(f64::INFINITY, f64::min);

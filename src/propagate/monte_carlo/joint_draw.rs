@@ -113,6 +113,13 @@ impl<'b> JointDraw<'b> {
 
     /// The deviations are summed first, so that the estimate is added with one rounding.
     fn sum(&self, input: &Input, errors: &[Block], block: &mut Block) {
+        if let [term] = input.terms.as_slice()
+            && term.coefficient != 0.0
+        {
+            let error = &errors[term.component];
+            ops::affine(self.level, error, term.coefficient, input.estimate, block);
+            return;
+        }
         ops::fill(self.level, 0.0, block);
         for term in input.terms.iter().filter(|term| term.coefficient != 0.0) {
             ops::axpy(self.level, term.coefficient, &errors[term.component], block);

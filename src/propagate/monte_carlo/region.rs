@@ -57,6 +57,9 @@ struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     fn new(columns: &'a [Vec<f64>]) -> Option<Self> {
+        if columns.len() < 2 {
+            return None;
+        }
         let trials = columns.first()?.len();
         let failed = columns.iter().flatten().any(|value| !value.is_finite());
         let complete = failed.then(|| {
@@ -64,7 +67,7 @@ impl<'a> Rows<'a> {
             (0..trials).filter(finite).collect::<Vec<_>>()
         });
         let count = complete.as_ref().map_or(trials, Vec::len);
-        (columns.len() >= 2 && count >= 2).then_some(Rows {
+        (count >= 2).then_some(Rows {
             columns,
             complete,
             count,
@@ -228,7 +231,7 @@ impl Grid {
     /// For two and three outputs. The width 3.5·M^(−1/(m+2)) standard deviations balances resolution
     /// against counts in a cell (Scott's rule).
     fn new(outputs: usize, trials: usize) -> Option<Self> {
-        let cell = 3.5 * (trials as f64).powf(-1.0 / (outputs as f64 + 2.0));
+        let cell = 3.5 * libm::pow(trials as f64, -1.0 / (outputs as f64 + 2.0));
         (2..=3).contains(&outputs).then(|| Grid {
             outputs,
             cell,

@@ -155,6 +155,8 @@ fn scalar_operands() {
         assert_eq!(out.0, a.0.map(|a| 3.0 - a));
         rdiv_scalar(level, &a, 3.0, &mut out);
         assert_eq!(out.0, a.0.map(|a| 3.0 / a));
+        affine(level, &a, 0.3, 0.7, &mut out);
+        assert_eq!(out.0, a.0.map(|a| a.mul_add(0.3, 0.7)));
         fill(level, 3.0, &mut out);
         assert_eq!(out.0, [3.0; LANES]);
     }

@@ -1,5 +1,6 @@
 //! From a file to its tables and on to budgets; the schema and the reference of keys.
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -13,6 +14,9 @@ use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
 use super::{Heading, Profile, Row};
 use crate::fault::Fault;
+
+/// After so many syntax errors the rest of the file is hardly a budget.
+const MAX_SYNTAX_FAULTS: usize = 8;
 
 /// A file that was accepted.
 #[derive(Debug, Clone)]
@@ -37,14 +41,11 @@ pub fn load(path: &Path) -> Result<Loaded, Rejection> {
 /// As [`load`].
 pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Rejection> {
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|error| {
-        let fault = Fault::new(
-            UNREADABLE_FILE,
-            0..0,
-            format!("{name} cannot be read: {error}"),
-        );
-        Rejection::new(&name, "", vec![fault])
-    })?;
+    let refuse = |fault| Rejection::new(&name, "", vec![fault]);
+    let bytes = std::fs::read(path).map_err(|error| refuse(unreadable(path, &error)))?;
+    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv")) {
+        return Err(refuse(not_a_budget(&name)));
+    }
     let text = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
@@ -59,6 +60,34 @@ pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Reje
     })?;
     let directory = path.parent().unwrap_or_else(|| Path::new(""));
     read_under(&text, &name, directory, profile)
+}
+
+/// The fault of a file that cannot be opened, in words that do not depend on the operating system.
+fn unreadable(path: &Path, error: &std::io::Error) -> Fault {
+    let name = path.display();
+    let fault = |message: String| Fault::new(UNREADABLE_FILE, 0..0, message);
+    if path.as_os_str().is_empty() {
+        return fault("the name of the file is empty".into())
+            .help("name a budget file, as in `gumption eval budget.toml`");
+    }
+    if path.is_dir() {
+        return fault(format!("{name} is a folder, not a file"))
+            .help(format!("name the budgets in it, as in `gumption eval {}`", path.join("*.toml").display()));
+    }
+    match error.kind() {
+        ErrorKind::NotFound => fault(format!("there is no file {name}"))
+            .help("check the name and the folder; `gumption new budget.toml` writes a budget to start from"),
+        ErrorKind::PermissionDenied => fault(format!("{name} may not be read"))
+            .help("ask its owner for the permission to read it"),
+        _ => fault(format!("{name} cannot be read: {error}")),
+    }
+}
+
+fn not_a_budget(name: &str) -> Fault {
+    Fault::new(UNREADABLE_FILE, 0..0, format!("{name} is a table of values, not a budget"))
+        .help(format!(
+            "a budget (*.toml) names the file where it needs it: readings = {{ file = \"{name}\", column = \"…\" }}"
+        ))
 }
 
 /// Checks the text of a budget; CSV files are looked up in `directory`.
@@ -79,11 +108,7 @@ fn read_under(
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (table, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        let faults = errors
-            .iter()
-            .map(|error| syntax_fault(error, text))
-            .collect();
-        return Err(Rejection::new(name, text, faults));
+        return Err(Rejection::new(name, text, syntax_faults(&errors, text)));
     }
     let (mut file, mut faults) = tables(&table, text);
     if let Some(profile) = profile {
@@ -113,20 +138,57 @@ fn tables(table: &Spanned<DeTable<'_>>, text: &str) -> (FileTable, Vec<Fault>) {
     (file, reader.faults)
 }
 
+/// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
+fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
+    let mut faults: Vec<Fault> = Vec::new();
+    let mut seen = Vec::new();
+    for error in errors {
+        let fault = syntax_fault(error, text);
+        let line = text[..text.floor_char_boundary(fault.span.start)].matches('\n').count();
+        if !seen.contains(&line) {
+            seen.push(line);
+            faults.push(fault);
+        }
+        if faults.len() == MAX_SYNTAX_FAULTS {
+            break;
+        }
+    }
+    faults
+}
+
 fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     let end = text.len();
     let span = error.span().unwrap_or(end..end);
-    let fault = Fault::new(
-        TOML_SYNTAX,
-        span,
-        format!("not well-formed TOML: {}", error.message()),
-    );
-    if error.message().contains("duplicate key") {
-        fault
+    let marked = text.get(span.clone()).unwrap_or_default();
+    let message = error.message();
+    let says = |words: &str| message.contains(words);
+    let fault = |message: String| Fault::new(TOML_SYNTAX, span.clone(), message);
+    if says("duplicate key") {
+        fault(format!("`{marked}` is stated a second time"))
             .label("stated before")
             .help("a key can be stated once in a table; several components stand in a list")
+    } else if says("string values must be quoted") && marked.is_empty() {
+        fault("there is nothing behind the `=`".into())
+            .label("expected a value")
+            .help("write a number, or a text in quotes; remove the line if there is nothing to say")
+    } else if says("string values must be quoted") {
+        fault(format!("`{marked}` is no number, and a text needs quotes"))
+            .label("expected a number or a text in quotes")
+            .help(format!("write \"{}\" for the text", marked.replace('"', "'")))
+    } else if says("string, expected") {
+        fault("the text is not closed".into())
+            .label("expected the closing quote")
+            .help("add the quote at the end of the text")
+    } else if says("unclosed array") || says("unclosed inline table") {
+        let bracket = if says("array") { "]" } else { "}" };
+        fault(format!("the list is not closed by `{bracket}`"))
+            .label(format!("expected `,` or `{bracket}`"))
+    } else if says("key with no value") {
+        fault(format!("`{marked}` has no `=` and no value"))
+            .label("expected `=`")
+            .help("write `key = value`; a remark stands behind `#`")
     } else {
-        fault.label("not understood here")
+        fault(format!("not well-formed TOML: {message}")).label("not understood here")
     }
 }
 

@@ -7,6 +7,9 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
 use crate::fault::Fault;
 
+/// Nobody mends more at once.
+const SHOWN: usize = 25;
+
 /// A file that was refused, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rejection {
@@ -40,16 +43,15 @@ impl Rejection {
             Renderer::plain()
         };
         let mut out = String::new();
-        for fault in &self.faults {
+        for fault in self.faults.iter().take(SHOWN) {
             out += &self.draw(fault, &renderer);
             out += "\n\n";
         }
         let count = self.faults.len();
-        out + &format!(
-            "{count} error{} in {}\n",
-            if count == 1 { "" } else { "s" },
-            self.name
-        )
+        let plural = if count == 1 { "" } else { "s" };
+        let rest = if count > SHOWN { format!("; the first {SHOWN} are shown") } else { String::new() };
+        let file = if self.name.is_empty() { "the file" } else { &self.name };
+        out + &format!("{count} error{plural} in {file}{rest}\n")
     }
 
     fn draw(&self, fault: &Fault, renderer: &Renderer) -> String {

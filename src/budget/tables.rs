@@ -3,7 +3,7 @@
 use super::distributions::DistributionEntry;
 use super::table::{Stated, table, words};
 use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
-use super::variants::{ConstantEntry, Numbers, ReadingsOf, Sources, TrialsEntry};
+use super::variants::{Amounts, ConstantEntry, Numbers, ReadingsOf, Sources, TrialsEntry};
 
 type List<T> = Vec<Stated<T>>;
 
@@ -232,10 +232,10 @@ table! {
     ComponentTable "a component" {
         /// Its name in the budget table: `calibration`.
         name: String,
-        /// Way: standard uncertainty.
-        u: Amount,
-        /// Way: half-width a of symmetric limits ±a (rectangular unless `distribution` says otherwise).
-        half_width: Amount,
+        /// Way: standard uncertainty; of a vector, one for all elements or a list.
+        u: Amounts,
+        /// Way: half-width a of symmetric limits ±a (rectangular unless `distribution` says otherwise); of a vector, one for all elements or a list.
+        half_width: Amounts,
         /// Way: lower and upper limit of the quantity itself.
         limits: List<Amount>,
         /// Way, with `minus`: upper limit above the value.
@@ -372,7 +372,7 @@ table! {
 table! {
     /// Correlation of two quantities.
     CorrelationTable "[[correlation]]" {
-        /// Two inputs, shared causes, or components such as `"V.calibration"`.
+        /// Two inputs, shared causes, or components such as `"V.calibration"`; of more names, every pair.
         between: List<String>,
         /// Correlation coefficient.
         r: f64,

@@ -111,7 +111,7 @@ impl FromToml for u64 {
                     value.span(),
                     format!("{number} is not a whole number from 0 upwards"),
                 )
-                .label("expected a whole number"),
+                .label("expected a whole number, 0 or more"),
             )
         })
     }
@@ -146,6 +146,14 @@ impl FromToml for String {
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::String(text) => Some(text.to_string()),
+            DeValue::Integer(_) | DeValue::Float(_) => {
+                let digits = reader.file.get(value.span()).unwrap_or_default().to_string();
+                reader.refuse(
+                    Fault::new(WRONG_TYPE, value.span(), format!("expected a text in quotes, found the number {digits}"))
+                        .label("expected a text in quotes")
+                        .help(format!("if the number is meant as a text, write \"{digits}\"")),
+                )
+            }
             _ => reader.wrong_type(WRONG_TYPE, value, "a text in quotes"),
         }
     }
@@ -209,7 +217,7 @@ impl FromToml for Amount {
             if number(value.get_ref()).is_some() {
                 return f64::read(value, reader).map(|number| Amount { number, unit: None });
             }
-            return reader.wrong_type(WRONG_TYPE, value, &Self::expected());
+            return refuse_amount(value, reader);
         };
         if let Some(fault) = quoted_number(value, text) {
             return reader.refuse(fault);
@@ -245,6 +253,18 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
     let gap = body[end..].len() - body[end..].trim_start().len();
     let unit = lead + end + gap..lead + body.len();
     (number.is_finite() && !unit.is_empty()).then_some((number, unit))
+}
+
+/// A value that is neither a number nor a text.
+fn refuse_amount(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Amount> {
+    let before = reader.faults.len();
+    let refused = reader.wrong_type(WRONG_TYPE, value, &Amount::expected());
+    if let (DeValue::Array(_), Some(fault)) = (value.get_ref(), reader.faults.get_mut(before)) {
+        fault.help = Some(
+            "readings of one quantity are `readings = […]`, the elements of a vector `values = […]`".into(),
+        );
+    }
+    refused
 }
 
 fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {

@@ -77,6 +77,42 @@ impl FromToml for ConstantEntry {
     }
 }
 
+/// One amount, or one for each element of a vector.
+#[derive(Debug, Clone)]
+pub enum Amounts {
+    /// For the quantity, or for every element alike.
+    One(Amount),
+    /// For the elements, in their order.
+    Each(Vec<Stated<Amount>>),
+}
+
+impl Stated<Amounts> {
+    /// The amount that holds for an element; nothing when the list is too short.
+    pub fn of_element(&self, element: usize) -> Option<Stated<Amount>> {
+        match &self.value {
+            Amounts::One(amount) => Some(self.map(|_| amount.clone())),
+            Amounts::Each(list) => list.get(element).cloned(),
+        }
+    }
+}
+
+impl FromToml for Amounts {
+    fn expected() -> String {
+        Amount::expected()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Array(_) => Vec::read(value, reader).map(Amounts::Each),
+            _ => Amount::read(value, reader).map(Amounts::One),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [Amount::schema(), Vec::<Stated<Amount>>::schema()] })
+    }
+}
+
 /// Numbers in the file itself or in a column of a CSV file.
 #[derive(Debug, Clone)]
 pub enum Numbers {

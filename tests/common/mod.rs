@@ -10,7 +10,6 @@ pub fn root() -> PathBuf {
 }
 
 /// All files with this extension below a folder of the repository, in order.
-#[allow(dead_code, reason = "not every test file lists files")]
 pub fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     collect(&root().join(folder), extension, &mut found);
@@ -19,7 +18,6 @@ pub fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
     found
 }
 
-#[allow(dead_code, reason = "as above")]
 fn collect(folder: &Path, extension: &str, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).expect("a folder of the repository") {
         let path = entry.expect("an entry of that folder").path();

@@ -6,7 +6,7 @@ use super::Checker;
 use super::draft::{Context, Core, show};
 use super::shapes::Width;
 use crate::budget::distributions::Shape;
-use crate::budget::faults::{DOF, K_AND_P, NO_COVERAGE_FACTOR, PROBABILITY};
+use crate::budget::faults::{DOF, K_AND_P, NO_COVERAGE_FACTOR, NOT_POSITIVE, PROBABILITY};
 use crate::budget::table::Stated;
 use crate::budget::tables::{CertificateTable, ComponentTable};
 use crate::fault::Fault;
@@ -61,6 +61,13 @@ impl Checker<'_> {
         dof: f64,
     ) -> Option<f64> {
         let k = match &table.k {
+            Some(k) if k.value == 0.0 => {
+                return self.refuse(
+                    Fault::new(NOT_POSITIVE, k.span.clone(), "a coverage factor of 0")
+                        .label("must be greater than zero")
+                        .help("write the k of the certificate, mostly 2; if it states a coverage probability instead, write p = 0.95"),
+                );
+            }
             Some(k) => Some(self.positive(k, "k")?),
             None => None,
         };

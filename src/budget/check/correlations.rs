@@ -29,6 +29,8 @@ pub(super) struct Statement {
     pub offset: f64,
     /// Component pairs, and the part of the correlation that falls on them.
     pub pairs: Vec<(usize, usize, f64)>,
+    /// Of how many quantities, all correlated alike, this is one pair.
+    pub whole: usize,
 }
 
 /// One side of a correlation: components with their shares of the side's standard uncertainty.
@@ -52,8 +54,8 @@ impl Checker<'_> {
             .as_ref()
             .map_or(&[][..], |list| &list.value.0)
         {
-            let statement = self.statement(stated, register);
-            statements.extend(statement);
+            let found = self.statement(stated, register);
+            statements.extend(found.unwrap_or_default());
         }
         self.twice(&statements);
         self.outside_groups(&statements, &groups, register);
@@ -66,11 +68,12 @@ impl Checker<'_> {
         groups
     }
 
+    /// One statement for two names, one for each pair of several.
     fn statement(
         &mut self,
         stated: &Stated<CorrelationTable>,
         register: &Register,
-    ) -> Option<Statement> {
+    ) -> Option<Vec<Statement>> {
         let table = &stated.value;
         let (Some(between), Some(r)) = (&table.between, &table.r) else {
             if table.refused {
@@ -91,18 +94,33 @@ impl Checker<'_> {
                 .help("write between = [\"a\", \"b\"] and r = 0.3"),
             );
         };
-        let [first, second] = between.value.as_slice() else {
+        if between.value.len() < 2 {
             return self.refuse(
                 Fault::new(
                     WRONG_TYPE,
                     between.span.clone(),
-                    format!("a correlation between {} quantities", between.value.len()),
+                    "a correlation between fewer than two quantities",
                 )
-                .label("expected two names")
-                .help("state each pair by itself, or a matrix in [[joint]]"),
+                .label("expected two names or more")
+                .help("write between = [\"a\", \"b\"]; with more names r holds for each pair of them"),
             );
-        };
-        self.pair(first, second, r, register)
+        }
+        let before = self.faults.len();
+        let mut statements = Vec::new();
+        for (index, second) in between.value.iter().enumerate() {
+            for first in &between.value[..index] {
+                let statement = self.pair(first, second, r, register);
+                // One fault of a name is enough; the other pairs have it, too.
+                if self.faults.len() > before {
+                    return None;
+                }
+                statements.push(Statement {
+                    whole: between.value.len(),
+                    ..statement?
+                });
+            }
+        }
+        Some(statements)
     }
 
     /// A statement about two names.
@@ -121,7 +139,8 @@ impl Checker<'_> {
                     r.span.clone(),
                     format!("a correlation coefficient of {}", r.value),
                 )
-                .label("expected a number from -1 to 1"),
+                .label("expected a number from -1 to 1")
+                .help("r is the covariance divided by both standard uncertainties; a covariance itself is stated in [[joint]]"),
             );
         }
         let (a, b) = (sides.0?, sides.1?);
@@ -137,13 +156,25 @@ impl Checker<'_> {
                     format!("{} is correlated with itself", first.value),
                 )
                 .label("the same quantity")
-                .related(first.span.clone(), "as this one"),
+                .related(first.span.clone(), "as this one")
+                .help("name two different quantities; for successive readings of one quantity write autocorrelated = true"),
             );
         }
         let common = register.covariance(a.place, b.place);
         let product = a.own * b.own;
         let (scale, offset) = (a.total * b.total / product, -common / product);
         let own = scale * r.value + offset;
+        if !own.is_finite() {
+            return self.refuse(
+                Fault::new(
+                    NOT_A_CORRELATION,
+                    r.span.clone(),
+                    format!("the standard uncertainties of {} and {} are too small to be correlated", first.value, second.value),
+                )
+                .label("cannot be computed")
+                .help("choose smaller units, so that the uncertainties are not below 1e-150"),
+            );
+        }
         if own.abs() > 1.0 + ROUNDING {
             return self.refuse(
                 Fault::new(
@@ -179,6 +210,7 @@ impl Checker<'_> {
             scale,
             offset,
             pairs,
+            whole: 2,
         })
     }
 

@@ -1,9 +1,10 @@
 //! Numbers from lists or from columns of CSV files.
 
+use std::io::ErrorKind;
 use std::ops::Range;
 
 use super::Checker;
-use crate::budget::faults::{CSV, MISSING_KEY, UNREADABLE_FILE};
+use crate::budget::faults::{CSV, MISSING_KEY, NOT_UTF8, UNREADABLE_FILE};
 use crate::budget::table::Stated;
 use crate::budget::tables::ColumnTable;
 use crate::budget::variants::Numbers;
@@ -36,23 +37,11 @@ impl Checker<'_> {
                 .help("write { file = \"readings.csv\", column = \"name\" }"),
             );
         };
-        let path = self.directory.join(&file.value);
-        let mut reader = match ::csv::ReaderBuilder::new()
+        let text = self.csv_text(file)?;
+        let mut reader = ::csv::ReaderBuilder::new()
             .trim(::csv::Trim::All)
-            .from_path(&path)
-        {
-            Ok(reader) => reader,
-            Err(error) => {
-                return self.refuse(
-                    Fault::new(
-                        UNREADABLE_FILE,
-                        file.span.clone(),
-                        format!("{} cannot be read: {error}", path.display()),
-                    )
-                    .label("not readable"),
-                );
-            }
-        };
+            .flexible(true)
+            .from_reader(text.as_bytes());
         let names: Vec<String> = match reader.headers() {
             Ok(names) => names
                 .iter()
@@ -62,15 +51,14 @@ impl Checker<'_> {
         };
         let Some(index) = names.iter().position(|name| *name == column.value) else {
             let near = nearest(&column.value, names.iter().map(String::as_str));
-            let help = near.map_or_else(
-                || format!("its columns are: {}", names.join(", ")),
-                |near| {
-                    format!(
-                        "did you mean \"{near}\"? Its columns are: {}",
-                        names.join(", ")
-                    )
-                },
-            );
+            let separated = names.first().filter(|only| names.len() == 1 && only.contains([';', '\t']));
+            let help = match (near, separated) {
+                (_, Some(only)) => format!(
+                    "its only column is \"{only}\": save the file with commas between the columns and decimal points"
+                ),
+                (Some(near), None) => format!("did you mean \"{near}\"? Its columns are: {}", names.join(", ")),
+                (None, None) => format!("its columns are: {}", names.join(", ")),
+            };
             return self.refuse(
                 Fault::new(
                     CSV,
@@ -106,6 +94,41 @@ impl Checker<'_> {
             }
         }
         Some(numbers)
+    }
+
+    fn csv_text(&mut self, file: &Stated<String>) -> Option<String> {
+        let path = self.directory.join(&file.value);
+        let folder = match self.directory.as_os_str().is_empty() {
+            true => "the current folder".to_string(),
+            false => format!("the folder {}", self.directory.display()),
+        };
+        let bytes = match std::fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let message = match error.kind() {
+                    _ if path.is_dir() => format!("{} is a folder, not a file", file.value),
+                    ErrorKind::NotFound => format!("there is no file {} in {folder}", file.value),
+                    ErrorKind::PermissionDenied => format!("{} may not be read", file.value),
+                    _ => format!("{} cannot be read: {error}", file.value),
+                };
+                return self.refuse(
+                    Fault::new(UNREADABLE_FILE, file.span.clone(), message)
+                        .label("expected a CSV file")
+                        .help("the path starts from the folder of the budget"),
+                );
+            }
+        };
+        match String::from_utf8(bytes) {
+            Ok(text) => Some(text),
+            Err(error) => {
+                let at = error.utf8_error().valid_up_to() + 1;
+                self.refuse(
+                    Fault::new(NOT_UTF8, file.span.clone(), format!("{} is not UTF-8 text from byte {at} on", file.value))
+                        .label("not readable")
+                        .help("save the file as CSV in UTF-8"),
+                )
+            }
+        }
     }
 
     fn csv_fault<T>(&mut self, stated: &Stated<String>, message: String) -> Option<T> {

@@ -50,7 +50,10 @@ pub(super) struct Draft {
     pub kind: Kind,
     pub certificate: Option<Certificate>,
     pub reference: Option<String>,
+    /// Place of the component as a whole.
     pub place: Range<usize>,
+    /// Place of the statement of its uncertainty.
+    pub stated: Range<usize>,
 }
 
 /// What a component says about the estimate.

@@ -183,7 +183,12 @@ pub(super) fn smallest_eigenvalue(matrix: &DMatrix<f64>) -> f64 {
 /// The fault for correlations that cannot exist together, with the nearest mend if one coefficient
 /// can be blamed.
 fn contradiction(members: &[usize], statements: &[&Statement], r: &[f64], smallest: f64) -> Fault {
-    let mends = (0..r.len()).filter_map(|index| {
+    if let Some(alike) = alike(statements, r, smallest) {
+        return alike;
+    }
+    // The search for the mend of one coefficient takes some hundred eigenvalue problems for each.
+    let tried = if members.len() * r.len() <= MOST_TRIED { r.len() } else { 0 };
+    let mends = (0..tried).filter_map(|index| {
         let mended = mend(members, statements, r, index)?;
         Some((index, mended, (mended - r[index]).abs()))
     });
@@ -214,8 +219,31 @@ fn contradiction(members: &[usize], statements: &[&Statement], r: &[f64], smalle
             "check the signs; with the others as they are, the nearest possible r({a}, {b}) is {}, not {}",
             show(mended), r[index]
         )),
+        None if tried == 0 => fault.help("check the signs, and coefficients near 1 or -1"),
         None => fault.help("check the signs; changing a single coefficient does not mend it"),
     }
+}
+
+/// Members times coefficients up to which single coefficients are tried.
+const MOST_TRIED: usize = 500;
+
+/// The fault when all coefficients are one statement about several quantities: n quantities that are
+/// correlated alike need r ≥ -1/(n - 1).
+fn alike(statements: &[&Statement], r: &[f64], smallest: f64) -> Option<Fault> {
+    let first = statements.first()?;
+    let n = first.whole;
+    if n < 3 || statements.len() != n * (n - 1) / 2 || statements.iter().any(|s| s.whole != n) {
+        return None;
+    }
+    let least = -1.0 / (n as f64 - 1.0);
+    let fault = Fault::new(
+        NOT_SEMIDEFINITE,
+        first.place.clone(),
+        format!("{n} quantities cannot have r = {} with one another", r.first()?),
+    )
+    .label(format!("smallest eigenvalue of the correlation matrix {}", show(smallest)))
+    .help(format!("r cannot be less than -1/(n - 1) = {} for n = {n} quantities", show(least)));
+    Some(fault)
 }
 
 /// The possible value of one coefficient nearest to the stated one, rounded inwards to three decimals.

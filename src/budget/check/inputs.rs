@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::draft::{Context, Draft, Location, show};
 use super::register::{InputEntry, Register};
-use super::type_a::all_equal;
+use super::type_a::{all_equal, mean_and_squares};
 use super::ways::{Way, expectation, locates};
 use super::{Checker, entries};
 use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS};
@@ -227,6 +227,15 @@ impl Checker<'_> {
             let location = self.draft(entry.table, entry.way, &context)?.location;
             found.extend(expectation(location).map(|mean| (mean, entry.place.clone())));
         }
+        if found.is_empty() {
+            // Readings that tell the scatter of a single one still tell where the quantity is.
+            for entry in list.iter().filter(|entry| entry.way == Way::Readings) {
+                let numbers = self.numbers(entry.table.readings.as_ref()?)?;
+                if !numbers.is_empty() {
+                    found.push((mean_and_squares(&numbers).0, entry.place.clone()));
+                }
+            }
+        }
         match found.as_slice() {
             [(mean, _)] => Some(*mean),
             [] => self.refuse(
@@ -322,7 +331,7 @@ impl Checker<'_> {
                 if !(lower..=upper).contains(&value) =>
             {
                 return self.refuse(
-                    Fault::new(LIMITS, draft.place.clone(), format!("the limits {lower} and {upper} do not contain the value of {name}, {value}"))
+                    Fault::new(LIMITS, draft.stated.clone(), format!("the limits {lower} and {upper} do not contain the value of {name}, {value}"))
                         .label("limits of the quantity itself")
                         .related(place, "the value")
                         .help("for limits of a deviation write `half_width`, or `plus` and `minus`"),
@@ -337,7 +346,7 @@ impl Checker<'_> {
                 return self.refuse(
                     Fault::new(TWO_ESTIMATES, place, format!("the value of {name} is {value}, the expectation of its distribution {}", show(mean)))
                         .label("another estimate than that of the distribution")
-                        .related(draft.place.clone(), format!("expectation {}", show(mean)))
+                        .related(draft.stated.clone(), format!("expectation {}", show(mean)))
                         .help("leave out `value`, or make the deviation an input of its own in the model"),
                 );
             }
@@ -407,7 +416,8 @@ impl Checker<'_> {
                         format!("two components of {owner} are called \"{}\"", draft.label),
                     )
                     .label("second one")
-                    .related(earlier.clone(), "first one"),
+                    .related(earlier.clone(), "first one")
+                    .help("give each component a name of its own"),
                 );
             }
             let same = before

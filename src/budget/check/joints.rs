@@ -282,6 +282,7 @@ impl Checker<'_> {
                     .as_ref()
                     .map(|text| text.value.clone()),
                 place: stated.span.clone(),
+                stated: stated.span.clone(),
             };
             let component = register.add(Owner::Input(*place), &name.value, &unit, draft, alone);
             register.act(*place, component, 1.0);

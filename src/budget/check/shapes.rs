@@ -1,5 +1,7 @@
 //! Distributions of a known shape whose width is a half-width or a standard uncertainty.
 
+use std::ops::Range;
+
 use super::Checker;
 use super::draft::{Context, Core, show};
 use crate::budget::distributions::{DistributionEntry, Shape};
@@ -128,7 +130,7 @@ impl Checker<'_> {
             return self.refuse(
                 Fault::new(
                     DOF,
-                    context.place.clone(),
+                    shape_place(table, context),
                     format!(
                         "the t distribution of {} has no degrees of freedom",
                         context.owner
@@ -145,7 +147,7 @@ impl Checker<'_> {
                     return self.refuse(
                         Fault::new(
                             NO_COVERAGE_FACTOR,
-                            context.place.clone(),
+                            shape_place(table, context),
                             format!(
                                 "the normal half-width of {} has no coverage probability",
                                 context.owner
@@ -181,6 +183,7 @@ impl Checker<'_> {
     ) -> Option<Core> {
         let Some(beta) = &table.beta else {
             return self.refuse(missing_parameter(
+                shape_place(table, context),
                 "beta",
                 "top width / base width, from 0 to 1",
                 context,
@@ -193,7 +196,8 @@ impl Checker<'_> {
                     beta.span.clone(),
                     format!("beta is {}", beta.value),
                 )
-                .label("top width / base width, from 0 to 1"),
+                .label("expected a number from 0 to 1")
+                .help("beta is the width of the top divided by the width of the base: 0 makes a triangle, 1 a rectangle"),
             );
         }
         // Variance a²(1 + β²)/6, JCGM 101 6.4.4.4.
@@ -216,6 +220,7 @@ impl Checker<'_> {
     ) -> Option<Core> {
         let Some(d) = &table.d else {
             return self.refuse(missing_parameter(
+                shape_place(table, context),
                 "d",
                 "the half-width of the doubt about each limit",
                 context,
@@ -272,10 +277,18 @@ fn symmetric(width: Width, divisor: f64, how: &str, make: impl Fn(f64) -> Distri
     }
 }
 
-fn missing_parameter(key: &str, meaning: &str, context: &Context<'_>) -> Fault {
+/// Where the shape is stated.
+fn shape_place(table: &ComponentTable, context: &Context<'_>) -> Range<usize> {
+    table
+        .distribution
+        .as_ref()
+        .map_or(context.place.clone(), |stated| stated.span.clone())
+}
+
+fn missing_parameter(place: Range<usize>, key: &str, meaning: &str, context: &Context<'_>) -> Fault {
     Fault::new(
         MISSING_KEY,
-        context.place.clone(),
+        place,
         format!("the distribution of {} needs `{key}`", context.owner),
     )
     .label(format!("`{key}` is missing"))

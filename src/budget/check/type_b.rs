@@ -5,10 +5,11 @@ use super::draft::{Context, Core, Location, show};
 use super::shapes::{Width, default_shape};
 use super::ways::Way;
 use crate::budget::distributions::{DistributionEntry, Shape};
-use crate::budget::faults::{LIMITS, MISSING_KEY, NOT_POSITIVE, WRONG_TYPE};
+use crate::budget::faults::{LIMITS, MISSING_KEY, NOT_POSITIVE, VECTOR, WRONG_TYPE};
 use crate::budget::table::Stated;
 use crate::budget::tables::ComponentTable;
 use crate::budget::values::Amount;
+use crate::budget::variants::Amounts;
 use crate::distribution::Distribution;
 use crate::fault::Fault;
 
@@ -23,7 +24,8 @@ impl Checker<'_> {
         let relative = table.relative.as_ref().is_some_and(|stated| stated.value);
         match way {
             Way::U => {
-                let u = self.positive_deviation(table.u.as_ref()?, "u", context, relative)?;
+                let u = self.single(table.u.as_ref()?, "u", context)?;
+                let u = self.positive_deviation(&u, "u", context, relative)?;
                 self.shaped(
                     table,
                     Width::U(u),
@@ -33,12 +35,8 @@ impl Checker<'_> {
                 )
             }
             Way::HalfWidth => {
-                let a = self.positive_deviation(
-                    table.half_width.as_ref()?,
-                    "half_width",
-                    context,
-                    relative,
-                )?;
+                let a = self.single(table.half_width.as_ref()?, "half_width", context)?;
+                let a = self.positive_deviation(&a, "half_width", context, relative)?;
                 self.shaped(
                     table,
                     Width::Half(a),
@@ -76,6 +74,18 @@ impl Checker<'_> {
         }
     }
 
+    /// The one amount of a single quantity. (Lists for vectors are taken apart before.)
+    fn single(&mut self, stated: &Stated<Amounts>, key: &str, context: &Context<'_>) -> Option<Stated<Amount>> {
+        match &stated.value {
+            Amounts::One(amount) => Some(stated.map(|_| amount.clone())),
+            Amounts::Each(_) => self.refuse(
+                Fault::new(VECTOR, stated.span.clone(), format!("`{key}` of {} is a list, but {} is a single quantity", context.owner, context.owner))
+                    .label("expected one amount")
+                    .help("several reasons for doubt are `components = [{ … }, { … }]`; the elements of a vector are `values = […]`"),
+            ),
+        }
+    }
+
     fn limits(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
         let stated = table.limits.as_ref()?;
         let [lower, upper] = self.two(stated, "limits", context)?;
@@ -86,7 +96,12 @@ impl Checker<'_> {
                     stated.span.clone(),
                     format!("the limits of {} are {lower} and {upper}", context.owner),
                 )
-                .label("lower limit first"),
+                .label("expected the lower limit first")
+                .help(if lower > upper {
+                    format!("write [{upper}, {lower}]")
+                } else {
+                    "between equal limits there is no doubt: state different ones".to_string()
+                }),
             );
         }
         let a = (upper - lower) / 2.0;
@@ -141,10 +156,12 @@ impl Checker<'_> {
             } else {
                 "minus"
             };
+            let stated = table.plus.as_ref().or(table.minus.as_ref());
+            let place = stated.map_or(context.place.clone(), |stated| stated.key.clone());
             return self.refuse(
                 Fault::new(
                     MISSING_KEY,
-                    context.place.clone(),
+                    place,
                     format!("{} lacks `{missing}`", context.owner),
                 )
                 .label(format!("`{missing}` is missing"))
@@ -184,10 +201,11 @@ impl Checker<'_> {
 
     fn quantisation(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
         let (Some(bits), Some(range)) = (&table.bits, &table.range) else {
+            let place = table.bits.as_ref().map_or(context.place.clone(), |bits| bits.key.clone());
             return self.refuse(
                 Fault::new(
                     MISSING_KEY,
-                    context.place.clone(),
+                    place,
                     format!("the quantiser of {} has no range", context.owner),
                 )
                 .label("`range` is missing")

@@ -8,9 +8,13 @@ use super::ways::{Way, locates};
 use crate::budget::Owner;
 use crate::budget::faults::VECTOR;
 use crate::budget::table::Stated;
-use crate::budget::tables::InputTable;
+use crate::budget::tables::{ComponentTable, InputTable};
+use crate::budget::variants::Amounts;
 use crate::fault::Fault;
 use crate::quantity::Unit;
+
+/// Elements of a vector. More of them would keep the Monte Carlo method busy for hours.
+const MOST_ELEMENTS: usize = 10_000;
 
 impl Checker<'_> {
     pub(super) fn vector(
@@ -42,6 +46,17 @@ impl Checker<'_> {
                 .map_or(stated.span.clone(), |values| values.span.clone());
             return self.refuse(
                 Fault::new(VECTOR, place, format!("{name} has no values")).label("an empty vector"),
+            );
+        }
+        if values.len() > MOST_ELEMENTS {
+            let place = table
+                .values
+                .as_ref()
+                .map_or(stated.span.clone(), |values| values.key.clone());
+            return self.refuse(
+                Fault::new(VECTOR, place, format!("{name} has {} values", values.len()))
+                    .label(format!("expected {MOST_ELEMENTS} at most"))
+                    .help("each element is an input of its own; repeated readings of one quantity are `readings`"),
             );
         }
         let list = self.entries_of(name, stated, unit, register)?;
@@ -114,6 +129,7 @@ impl Checker<'_> {
                 ),
             );
         }
+        self.one_for_each(name, entry.table, values.len())?;
         let relative = self.acts_in_proportion(entry, unit);
         let common = entry
             .table
@@ -133,7 +149,10 @@ impl Checker<'_> {
                 unit,
                 place: entry.place.clone(),
             };
-            let mut draft = self.draft(entry.table, entry.way, &context)?;
+            let mut draft = match of_element(entry.table, element) {
+                Some(table) => self.draft(&table, entry.way, &context)?,
+                None => self.draft(entry.table, entry.way, &context)?,
+            };
             if !matches!(draft.location, Location::None | Location::Mean(_)) {
                 return self.refuse(
                     Fault::new(
@@ -173,6 +192,23 @@ impl Checker<'_> {
         Some(())
     }
 
+    /// Checks that lists for elements are as long as the vector.
+    fn one_for_each(&mut self, name: &str, table: &ComponentTable, length: usize) -> Option<()> {
+        for (key, stated) in [("u", &table.u), ("half_width", &table.half_width)] {
+            let Some(Stated { value: Amounts::Each(list), span, .. }) = stated else {
+                continue;
+            };
+            if list.len() != length {
+                return self.refuse(
+                    Fault::new(VECTOR, span.clone(), format!("`{key}` has {} entries, {name} has {length} values", list.len()))
+                        .label(format!("expected {length} entries"))
+                        .help("state one for each element, or a single one for all"),
+                );
+            }
+        }
+        Some(())
+    }
+
     /// Whether the component is a fraction of the value alone.
     fn acts_in_proportion(&mut self, entry: &Entry<'_>, unit: &Unit) -> bool {
         let table = entry.table;
@@ -181,17 +217,32 @@ impl Checker<'_> {
             .certificate
             .as_ref()
             .and_then(|certificate| certificate.value.U.as_ref());
-        let amount = table
-            .u
+        let stated_amount = table.u.as_ref().or(table.half_width.as_ref());
+        let first = stated_amount.and_then(|amounts| amounts.of_element(0));
+        let of_dimension_one = first
             .as_ref()
-            .or(table.half_width.as_ref())
-            .or(certificate);
-        let of_dimension_one = amount
+            .or(certificate)
             .and_then(|amount| amount.value.unit.as_ref())
             .and_then(|(text, _)| self.units.parse(text).ok())
             .is_some_and(|own| own.dimension == Unit::one().dimension);
         stated || (of_dimension_one && unit.dimension != Unit::one().dimension)
     }
+}
+
+/// The component as it stands for one element, if it lists an amount for each.
+fn of_element(table: &ComponentTable, element: usize) -> Option<ComponentTable> {
+    let one = |stated: &Option<Stated<Amounts>>| {
+        let amount = stated.as_ref()?.of_element(element)?;
+        Some(amount.map(|amount| Amounts::One(amount.clone())))
+    };
+    let listed = |stated: &Option<Stated<Amounts>>| {
+        matches!(stated, Some(Stated { value: Amounts::Each(_), .. }))
+    };
+    (listed(&table.u) || listed(&table.half_width)).then(|| ComponentTable {
+        u: one(&table.u),
+        half_width: one(&table.half_width),
+        ..table.clone()
+    })
 }
 
 /// A label that no other component of the vector has.

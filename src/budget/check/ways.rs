@@ -365,6 +365,10 @@ impl Checker<'_> {
             certificate,
             reference: table.reference.as_ref().map(|text| text.value.clone()),
             place: context.place.clone(),
+            stated: stated_ways(table)
+                .into_iter()
+                .next()
+                .map_or(context.place.clone(), |(_, _, key)| key),
         })
     }
 

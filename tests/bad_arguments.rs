@@ -22,10 +22,22 @@ impl Folder {
         folder.write("readings.csv", b"V,I\n5.01,20.1\n5.02,20.2\n");
         folder.write("latin1.toml", b"title = \"Widerst\xe4nde\"\n");
         folder.write("garbage.toml", &garbage());
-        folder.write("nested.toml", GOOD.replace("V / I", &"(".repeat(100_000)).as_bytes());
-        folder.write("nested_signs.toml", GOOD.replace("V / I", &"-".repeat(100_000)).as_bytes());
-        folder.write("nested_lists.toml", format!("a = {}", "[".repeat(100_000)).as_bytes());
-        folder.write("nested_tables.toml", format!("a = {}", "{a = ".repeat(100_000)).as_bytes());
+        folder.write(
+            "nested.toml",
+            GOOD.replace("V / I", &"(".repeat(100_000)).as_bytes(),
+        );
+        folder.write(
+            "nested_signs.toml",
+            GOOD.replace("V / I", &"-".repeat(100_000)).as_bytes(),
+        );
+        folder.write(
+            "nested_lists.toml",
+            format!("a = {}", "[".repeat(100_000)).as_bytes(),
+        );
+        folder.write(
+            "nested_tables.toml",
+            format!("a = {}", "{a = ".repeat(100_000)).as_bytes(),
+        );
         let million = vec!["1"; 1_000_000].join(", ");
         folder.write(
             "million_elements.toml",
@@ -35,11 +47,16 @@ impl Folder {
         );
         folder.write(
             "million_arguments.toml",
-            GOOD.replace("V / I", &format!("sum([{million}]) * V / I * X")).as_bytes(),
+            GOOD.replace("V / I", &format!("sum([{million}]) * V / I * X"))
+                .as_bytes(),
         );
         folder.write(
             "million_terms.toml",
-            GOOD.replace("V / I", &format!("V / I + {} 1 'ohm'", "1 'ohm' + ".repeat(1_000_000))).as_bytes(),
+            GOOD.replace(
+                "V / I",
+                &format!("V / I + {} 1 'ohm'", "1 'ohm' + ".repeat(1_000_000)),
+            )
+            .as_bytes(),
         );
         folder.write("binary.toml", &[0; 4096]);
         folder
@@ -60,14 +77,21 @@ impl Folder {
             .stdin(Stdio::null())
             .output()
             .expect("the program runs");
-        assert!(start.elapsed() < PATIENCE, "{arguments:?} took {:?}", start.elapsed());
+        assert!(
+            start.elapsed() < PATIENCE,
+            "{arguments:?} took {:?}",
+            start.elapsed()
+        );
         let shown = format!(
             "{}{}",
             String::from_utf8_lossy(&output.stdout),
             String::from_utf8_lossy(&output.stderr)
         );
         // The name of the program is that of its file.
-        (output.status.code().unwrap_or(-1), shown.replace("gumption.exe", "gumption"))
+        (
+            output.status.code().unwrap_or(-1),
+            shown.replace("gumption.exe", "gumption"),
+        )
     }
 }
 
@@ -99,9 +123,15 @@ fn garbage() -> Vec<u8> {
     let mut state = 1_u64;
     let mut noise = vec![0; 10_000_000];
     for byte in &mut noise {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         let printable = 32 + ((state >> 33) % 95) as u8;
-        *byte = if state >> 33 & 63 == 0 { b'\n' } else { printable };
+        *byte = if state >> 33 & 63 == 0 {
+            b'\n'
+        } else {
+            printable
+        };
     }
     noise
 }
@@ -118,14 +148,26 @@ const MISTAKES: &[(&str, &[&str])] = &[
     ("unknown_flag", &["eval", "good.toml", "--sed", "3"]),
     ("trials_zero", &["eval", "good.toml", "--trials", "0"]),
     ("trials_word", &["eval", "good.toml", "--trials", "abc"]),
-    ("trials_fraction", &["eval", "good.toml", "--trials", "1000.5"]),
-    ("trials_without_monte_carlo", &["eval", "good.toml", "--no-mc", "--trials", "10000"]),
+    (
+        "trials_fraction",
+        &["eval", "good.toml", "--trials", "1000.5"],
+    ),
+    (
+        "trials_without_monte_carlo",
+        &["eval", "good.toml", "--no-mc", "--trials", "10000"],
+    ),
     ("seed_negative", &["eval", "good.toml", "--seed", "-1"]),
     ("threads_zero", &["eval", "good.toml", "--threads", "0"]),
     ("width_word", &["eval", "good.toml", "--width", "wide"]),
     ("language", &["eval", "good.toml", "--lang", "fr"]),
-    ("two_formats", &["eval", "good.toml", "--json", "--markdown"]),
-    ("output_into_missing_folder", &["eval", "good.toml", "--no-mc", "-o", "nowhere/report.txt"]),
+    (
+        "two_formats",
+        &["eval", "good.toml", "--json", "--markdown"],
+    ),
+    (
+        "output_into_missing_folder",
+        &["eval", "good.toml", "--no-mc", "-o", "nowhere/report.txt"],
+    ),
     ("explain_unknown", &["explain", "trianglar"]),
     ("explain_unknown_code", &["explain", "B9999"]),
     ("explain_empty", &["explain", ""]),
@@ -142,7 +184,18 @@ const MISTAKES: &[(&str, &[&str])] = &[
     ("million_elements", &["eval", "million_elements.toml"]),
     ("million_arguments", &["eval", "million_arguments.toml"]),
     ("million_terms", &["eval", "million_terms.toml"]),
-    ("one_good_one_bad", &["eval", "--no-mc", "--json", "-o", "out.json", "good.toml", "god.toml"]),
+    (
+        "one_good_one_bad",
+        &[
+            "eval",
+            "--no-mc",
+            "--json",
+            "-o",
+            "out.json",
+            "good.toml",
+            "god.toml",
+        ],
+    ),
 ];
 
 #[test]
@@ -158,12 +211,18 @@ fn every_mistake_on_the_command_line_is_refused_with_its_message() {
         let shown = format!("$ gumption {}\n{shown}", arguments.join(" "));
         stale.extend(common::stale(&place(name), &shown));
     }
-    assert!(wrong.is_empty(), "not refused as it should be:\n  {}", wrong.join("\n  "));
+    assert!(
+        wrong.is_empty(),
+        "not refused as it should be:\n  {}",
+        wrong.join("\n  ")
+    );
     common::assert_fresh(&stale);
 }
 
 fn place(name: &str) -> PathBuf {
-    common::root().join(Path::new("tests/bad_arguments")).join(format!("{name}.txt"))
+    common::root()
+        .join(Path::new("tests/bad_arguments"))
+        .join(format!("{name}.txt"))
 }
 
 #[test]

@@ -43,7 +43,10 @@ pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Reje
     let name = path.display().to_string();
     let refuse = |fault| Rejection::new(&name, "", vec![fault]);
     let bytes = std::fs::read(path).map_err(|error| refuse(unreadable(path, &error)))?;
-    if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv")) {
+    if path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+    {
         return Err(refuse(not_a_budget(&name)));
     }
     let text = String::from_utf8(bytes).map_err(|error| {
@@ -71,8 +74,10 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Fault {
             .help("name a budget file, as in `gumption eval budget.toml`");
     }
     if path.is_dir() {
-        return fault(format!("{name} is a folder, not a file"))
-            .help(format!("name the budgets in it, as in `gumption eval {}`", path.join("*.toml").display()));
+        return fault(format!("{name} is a folder, not a file")).help(format!(
+            "name the budgets in it, as in `gumption eval {}`",
+            path.join("*.toml").display()
+        ));
     }
     match error.kind() {
         ErrorKind::NotFound => fault(format!("there is no file {name}"))
@@ -144,7 +149,9 @@ fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
     let mut seen = Vec::new();
     for error in errors {
         let fault = syntax_fault(error, text);
-        let line = text[..text.floor_char_boundary(fault.span.start)].matches('\n').count();
+        let line = text[..text.floor_char_boundary(fault.span.start)]
+            .matches('\n')
+            .count();
         if !seen.contains(&line) {
             seen.push(line);
             faults.push(fault);
@@ -174,7 +181,10 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     } else if says("string values must be quoted") {
         fault(format!("`{marked}` is no number, and a text needs quotes"))
             .label("expected a number or a text in quotes")
-            .help(format!("write \"{}\" for the text", marked.replace('"', "'")))
+            .help(format!(
+                "write \"{}\" for the text",
+                marked.replace('"', "'")
+            ))
     } else if says("string, expected") {
         fault("the text is not closed".into())
             .label("expected the closing quote")

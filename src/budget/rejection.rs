@@ -49,8 +49,16 @@ impl Rejection {
         }
         let count = self.faults.len();
         let plural = if count == 1 { "" } else { "s" };
-        let rest = if count > SHOWN { format!("; the first {SHOWN} are shown") } else { String::new() };
-        let file = if self.name.is_empty() { "the file" } else { &self.name };
+        let rest = if count > SHOWN {
+            format!("; the first {SHOWN} are shown")
+        } else {
+            String::new()
+        };
+        let file = if self.name.is_empty() {
+            "the file"
+        } else {
+            &self.name
+        };
         out + &format!("{count} error{plural} in {file}{rest}\n")
     }
 

@@ -147,11 +147,21 @@ impl FromToml for String {
         match value.get_ref() {
             DeValue::String(text) => Some(text.to_string()),
             DeValue::Integer(_) | DeValue::Float(_) => {
-                let digits = reader.file.get(value.span()).unwrap_or_default().to_string();
+                let digits = reader
+                    .file
+                    .get(value.span())
+                    .unwrap_or_default()
+                    .to_string();
                 reader.refuse(
-                    Fault::new(WRONG_TYPE, value.span(), format!("expected a text in quotes, found the number {digits}"))
-                        .label("expected a text in quotes")
-                        .help(format!("if the number is meant as a text, write \"{digits}\"")),
+                    Fault::new(
+                        WRONG_TYPE,
+                        value.span(),
+                        format!("expected a text in quotes, found the number {digits}"),
+                    )
+                    .label("expected a text in quotes")
+                    .help(format!(
+                        "if the number is meant as a text, write \"{digits}\""
+                    )),
                 )
             }
             _ => reader.wrong_type(WRONG_TYPE, value, "a text in quotes"),

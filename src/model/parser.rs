@@ -17,9 +17,30 @@ pub struct Reading {
     pub faulty: Vec<String>,
 }
 
+/// Bytes of a formula: room for a sum over ten thousand inputs.
+const LONGEST: usize = 200_000;
+
 /// The statements of a text; faults go to `faults`. `is_unit` tells whether a
 /// name would do as a unit, for better help.
 pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>) -> Reading {
+    if text.len() > LONGEST {
+        let start = 0..text.chars().next().map_or(0, char::len_utf8);
+        faults.push(
+            Fault::new(
+                faults::TOO_LARGE,
+                start,
+                format!("the formula has {} characters", text.chars().count()),
+            )
+            .label(format!("expected {LONGEST} at most"))
+            .help(
+                "put the values into a vector input (`values = [...]`) and write sum(x), mean(x) …",
+            ),
+        );
+        return Reading {
+            statements: Vec::new(),
+            faulty: Vec::new(),
+        };
+    }
     let tokens = tokens(text, faults);
     let mut parser = Parser {
         text,

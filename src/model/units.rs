@@ -252,7 +252,7 @@ impl Lowering<'_> {
             )
             .label(format!("a point on the {symbol} scale"))
             .help(format!(
-                "write the difference from a reference, `{text} - 20 '{symbol}'` (in {difference}), write `kelvin({text})`, or give the quantity in K"
+                "a difference or a correction is stated in {difference}: `unit = \"{difference}\"`; of a temperature take the difference from a reference, `{text} - 20 '{symbol}'`, or write `kelvin({text})`"
             )),
         );
     }

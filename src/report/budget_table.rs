@@ -323,7 +323,10 @@ fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, String)> {
     let k = significant(coverage.k, TABLE_DIGITS);
     let basis = super::comparison::basis_of_k(coverage, l);
     let fixed = coverage.basis == CoverageBasis::Fixed;
-    let p = if fixed && !report.budget.conventions.state_probability {
+    // A fixed k has the profile's probability only where the distribution of the result grants it.
+    let conventions = &report.budget.conventions;
+    let granted = (coverage.probability - conventions.coverage_probability).abs() < 0.01;
+    let p = if fixed && !(conventions.state_probability && granted) {
         l.pick("no probability stated", "不注明包含概率")
             .to_string()
     } else {

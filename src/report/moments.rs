@@ -59,6 +59,10 @@ pub(super) fn in_english(reason: &MissingMoments) -> String {
                 exponent(*index)
             )
         }
+        MissingMoments::FewTrials { relative_error } => format!(
+            "A handful of far trials decides the standard deviation of the Monte Carlo result (its own relative standard error is {} %), so that another seed would give another u. {GIVEN} Check whether a divisor comes close to zero, or an input has very few degrees of freedom.",
+            percent(*relative_error)
+        ),
     }
 }
 
@@ -111,12 +115,21 @@ pub(super) fn in_chinese(reason: &MissingMoments) -> String {
                 exponent(*index)
             )
         }
+        MissingMoments::FewTrials { relative_error } => format!(
+            "蒙特卡洛结果的标准差由少数远离中心的试验决定（其自身的相对标准误差为 {} %），更换种子将得到不同的 u，{GIVEN}请检查除数是否可能接近零，或输入量的自由度是否过小。",
+            percent(*relative_error)
+        ),
     }
 }
 
 /// A tail index is known to one decimal at best.
 fn exponent(index: f64) -> String {
     print(&super::number::at_place(index, -1))
+}
+
+/// A fraction in percent, to the nearest whole number.
+fn percent(fraction: f64) -> String {
+    format!("{:.0}", 100.0 * fraction)
 }
 
 #[cfg(test)]

@@ -102,7 +102,9 @@ impl Checker<'_> {
                     "a correlation between fewer than two quantities",
                 )
                 .label("expected two names or more")
-                .help("write between = [\"a\", \"b\"]; with more names r holds for each pair of them"),
+                .help(
+                    "write between = [\"a\", \"b\"]; with more names r holds for each pair of them",
+                ),
             );
         }
         let before = self.faults.len();
@@ -169,7 +171,10 @@ impl Checker<'_> {
                 Fault::new(
                     NOT_A_CORRELATION,
                     r.span.clone(),
-                    format!("the standard uncertainties of {} and {} are too small to be correlated", first.value, second.value),
+                    format!(
+                        "the standard uncertainties of {} and {} are too small to be correlated",
+                        first.value, second.value
+                    ),
                 )
                 .label("cannot be computed")
                 .help("choose smaller units, so that the uncertainties are not below 1e-150"),

@@ -51,12 +51,17 @@ impl Checker<'_> {
         };
         let Some(index) = names.iter().position(|name| *name == column.value) else {
             let near = nearest(&column.value, names.iter().map(String::as_str));
-            let separated = names.first().filter(|only| names.len() == 1 && only.contains([';', '\t']));
+            let separated = names
+                .first()
+                .filter(|only| names.len() == 1 && only.contains([';', '\t']));
             let help = match (near, separated) {
                 (_, Some(only)) => format!(
                     "its only column is \"{only}\": save the file with commas between the columns and decimal points"
                 ),
-                (Some(near), None) => format!("did you mean \"{near}\"? Its columns are: {}", names.join(", ")),
+                (Some(near), None) => format!(
+                    "did you mean \"{near}\"? Its columns are: {}",
+                    names.join(", ")
+                ),
                 (None, None) => format!("its columns are: {}", names.join(", ")),
             };
             return self.refuse(
@@ -123,9 +128,13 @@ impl Checker<'_> {
             Err(error) => {
                 let at = error.utf8_error().valid_up_to() + 1;
                 self.refuse(
-                    Fault::new(NOT_UTF8, file.span.clone(), format!("{} is not UTF-8 text from byte {at} on", file.value))
-                        .label("not readable")
-                        .help("save the file as CSV in UTF-8"),
+                    Fault::new(
+                        NOT_UTF8,
+                        file.span.clone(),
+                        format!("{} is not UTF-8 text from byte {at} on", file.value),
+                    )
+                    .label("not readable")
+                    .help("save the file as CSV in UTF-8"),
                 )
             }
         }

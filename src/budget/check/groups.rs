@@ -187,7 +187,11 @@ fn contradiction(members: &[usize], statements: &[&Statement], r: &[f64], smalle
         return alike;
     }
     // The search for the mend of one coefficient takes some hundred eigenvalue problems for each.
-    let tried = if members.len() * r.len() <= MOST_TRIED { r.len() } else { 0 };
+    let tried = if members.len() * r.len() <= MOST_TRIED {
+        r.len()
+    } else {
+        0
+    };
     let mends = (0..tried).filter_map(|index| {
         let mended = mend(members, statements, r, index)?;
         Some((index, mended, (mended - r[index]).abs()))
@@ -239,10 +243,19 @@ fn alike(statements: &[&Statement], r: &[f64], smallest: f64) -> Option<Fault> {
     let fault = Fault::new(
         NOT_SEMIDEFINITE,
         first.place.clone(),
-        format!("{n} quantities cannot have r = {} with one another", r.first()?),
+        format!(
+            "{n} quantities cannot have r = {} with one another",
+            r.first()?
+        ),
     )
-    .label(format!("smallest eigenvalue of the correlation matrix {}", show(smallest)))
-    .help(format!("r cannot be less than -1/(n - 1) = {} for n = {n} quantities", show(least)));
+    .label(format!(
+        "smallest eigenvalue of the correlation matrix {}",
+        show(smallest)
+    ))
+    .help(format!(
+        "r cannot be less than -1/(n - 1) = {} for n = {n} quantities",
+        show(least)
+    ));
     Some(fault)
 }
 

@@ -285,7 +285,12 @@ fn shape_place(table: &ComponentTable, context: &Context<'_>) -> Range<usize> {
         .map_or(context.place.clone(), |stated| stated.span.clone())
 }
 
-fn missing_parameter(place: Range<usize>, key: &str, meaning: &str, context: &Context<'_>) -> Fault {
+fn missing_parameter(
+    place: Range<usize>,
+    key: &str,
+    meaning: &str,
+    context: &Context<'_>,
+) -> Fault {
     Fault::new(
         MISSING_KEY,
         place,

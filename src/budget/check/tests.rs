@@ -80,7 +80,10 @@ fn type_a_of_a_mean_a_single_reading_and_several() {
         1.25f64.sqrt(),
     );
     let single = budget(&one("readings = [1, 2, 6]\nof = \"single\""));
-    assert_eq!((single.inputs[0].estimate, single.components[0].u), (3.0, 7f64.sqrt()));
+    assert_eq!(
+        (single.inputs[0].estimate, single.components[0].u),
+        (3.0, 7f64.sqrt())
+    );
 }
 
 #[test]

@@ -75,7 +75,12 @@ impl Checker<'_> {
     }
 
     /// The one amount of a single quantity. (Lists for vectors are taken apart before.)
-    fn single(&mut self, stated: &Stated<Amounts>, key: &str, context: &Context<'_>) -> Option<Stated<Amount>> {
+    fn single(
+        &mut self,
+        stated: &Stated<Amounts>,
+        key: &str,
+        context: &Context<'_>,
+    ) -> Option<Stated<Amount>> {
         match &stated.value {
             Amounts::One(amount) => Some(stated.map(|_| amount.clone())),
             Amounts::Each(_) => self.refuse(
@@ -201,7 +206,10 @@ impl Checker<'_> {
 
     fn quantisation(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
         let (Some(bits), Some(range)) = (&table.bits, &table.range) else {
-            let place = table.bits.as_ref().map_or(context.place.clone(), |bits| bits.key.clone());
+            let place = table
+                .bits
+                .as_ref()
+                .map_or(context.place.clone(), |bits| bits.key.clone());
             return self.refuse(
                 Fault::new(
                     MISSING_KEY,

@@ -195,14 +195,26 @@ impl Checker<'_> {
     /// Checks that lists for elements are as long as the vector.
     fn one_for_each(&mut self, name: &str, table: &ComponentTable, length: usize) -> Option<()> {
         for (key, stated) in [("u", &table.u), ("half_width", &table.half_width)] {
-            let Some(Stated { value: Amounts::Each(list), span, .. }) = stated else {
+            let Some(Stated {
+                value: Amounts::Each(list),
+                span,
+                ..
+            }) = stated
+            else {
                 continue;
             };
             if list.len() != length {
                 return self.refuse(
-                    Fault::new(VECTOR, span.clone(), format!("`{key}` has {} entries, {name} has {length} values", list.len()))
-                        .label(format!("expected {length} entries"))
-                        .help("state one for each element, or a single one for all"),
+                    Fault::new(
+                        VECTOR,
+                        span.clone(),
+                        format!(
+                            "`{key}` has {} entries, {name} has {length} values",
+                            list.len()
+                        ),
+                    )
+                    .label(format!("expected {length} entries"))
+                    .help("state one for each element, or a single one for all"),
                 );
             }
         }
@@ -236,7 +248,13 @@ fn of_element(table: &ComponentTable, element: usize) -> Option<ComponentTable> 
         Some(amount.map(|amount| Amounts::One(amount.clone())))
     };
     let listed = |stated: &Option<Stated<Amounts>>| {
-        matches!(stated, Some(Stated { value: Amounts::Each(_), .. }))
+        matches!(
+            stated,
+            Some(Stated {
+                value: Amounts::Each(_),
+                ..
+            })
+        )
     };
     (listed(&table.u) || listed(&table.half_width)).then(|| ComponentTable {
         u: one(&table.u),

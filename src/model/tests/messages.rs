@@ -48,7 +48,7 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("c = d; d = a; c", "", "M0208", "d", "above this line"),
     ("d = a - d * n", "", "M0208", "d", "solve(equation, d, start)"),
     ("f(x) = f(x - 1); f(a)", "", "M0208", "f", "cannot call themselves"),
-    ("sum(v + w)", "", "M0301", "v + w", "equal lengths"),
+    ("sum(v + w)", "", "M0301", "w", "equal lengths"),
     ("mean(a)", "", "M0302", "a", "[a, …]"),
     ("if(v > 0, a, v)[1] + [v[1]][1] + a[1]", "", "M0302", "a", "remove the index"),
     ("v[0]", "", "M0303", "0", "counted from 1"),
@@ -203,7 +203,8 @@ fn limits_are_faults_not_crashes() {
 #[test]
 fn every_code_is_explained_and_tested() {
     let mut tested: Vec<&str> = CASES.iter().map(|c| c.2).collect();
-    tested.extend(["M0108", "M0209", "M0406", "M0501"]);
+    // M0503 needs estimates: the gallery of mistakes has it (division_by_zero).
+    tested.extend(["M0108", "M0209", "M0406", "M0501", "M0503"]);
     for code in CODES {
         assert!(tested.contains(&code.id), "{} is not tested", code.id);
         assert!(

@@ -55,7 +55,16 @@ pub enum MissingMoments {
         /// What follows for the moments.
         consequence: Consequence,
     },
+    /// A handful of far trials decides the standard deviation.
+    FewTrials {
+        /// Standard error of u by the fourth moment of the trials, as a fraction of u.
+        relative_error: f64,
+    },
 }
+
+/// A standard deviation that is uncertain by more than this fraction is no result. It is about
+/// 0.0007 for 10⁶ normal trials, and tends to ½ when one trial outweighs all the others.
+const MOST_RELATIVE_ERROR: f64 = 0.1;
 
 /// What a heavy tail does to the first two moments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -183,6 +192,17 @@ impl Verdict {
         }
     }
 
+    /// The same after a look at the standard error of u, relative to u: single far trials, which the
+    /// tail's exponent does not show, make u a matter of the seed.
+    pub(super) fn with_error_of_u(self, relative_error: f64) -> Verdict {
+        match self {
+            Verdict::Present if relative_error > MOST_RELATIVE_ERROR => {
+                Verdict::NoDeviation(MissingMoments::FewTrials { relative_error })
+            }
+            other => other,
+        }
+    }
+
     /// Whether an average may be given.
     pub(super) fn has_mean(&self) -> bool {
         !matches!(self, Verdict::NoMean(_))
@@ -233,6 +253,19 @@ mod tests {
         let values: Vec<f64> = (0..TRIALS).map(|_| draw(&mut stream)).collect();
         let ordered = Ordered::new(&values, TRIALS / 20, 1);
         Verdict::new(None, &Tail::heavier(&ordered))
+    }
+
+    #[test]
+    fn a_standard_deviation_that_one_trial_decides_is_not_given() {
+        let light = Tail {
+            side: Side::Upper,
+            index: f64::INFINITY,
+            at_most: f64::INFINITY,
+        };
+        let judge = |error| Verdict::new(None, &light).with_error_of_u(error);
+        assert!(judge(0.0007).has_deviation());
+        assert!(!judge(0.5).has_deviation());
+        assert!(judge(0.5).has_mean());
     }
 
     #[test]

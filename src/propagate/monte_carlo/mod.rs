@@ -198,7 +198,7 @@ impl Question<'_> {
         let depth = ranks.last.max(Tail::reach(values.len()) + 2);
         let ordered = Ordered::new(&values, depth, self.threads);
         let tail = Tail::heavier(&ordered);
-        let verdict = Verdict::new(heavy, &tail);
+        let verdict = Verdict::new(heavy, &tail).with_error_of_u(moments.sd_error() / moments.sd());
         let (has_mean, has_deviation) = (verdict.has_mean(), verdict.has_deviation());
         let symmetric = ordered.symmetric(ranks);
         let given = |given: bool, value: f64| given.then_some(value);

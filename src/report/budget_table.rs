@@ -180,10 +180,11 @@ fn component_row(
 ) {
     let component = &report.budget.components[term.component];
     let u = term.coefficient.abs() * component.u;
-    let share: Cell = match component.owner {
-        Owner::Input(_) => share(&gum.components[term.component], gum).into(),
-        // The share of a source is in its own row: it acts through several inputs at once.
-        Owner::Source(_) => NONE.into(),
+    // The share of a shared component is in its own row: it acts through several inputs at once.
+    let share: Cell = if shared_components(report).contains(&term.component) {
+        NONE.into()
+    } else {
+        share(&gum.components[term.component], gum).into()
     };
     table.push(vec![
         Cell::Part(component.label.clone()),
@@ -243,10 +244,15 @@ fn share(line: &Contribution, gum: &Gum) -> String {
     percent(if residue { 0.0 } else { line.share })
 }
 
+/// Sources, and components that several elements of a vector have in common; ascending.
 fn shared_components(report: &Report<'_>) -> Vec<usize> {
-    let components = report.budget.components.iter().enumerate();
+    let mut inputs = vec![0_usize; report.budget.components.len()];
+    for term in report.budget.inputs.iter().flat_map(|input| &input.terms) {
+        inputs[term.component] += 1;
+    }
+    let components = report.budget.components.iter().zip(inputs).enumerate();
     components
-        .filter(|(_, c)| matches!(c.owner, Owner::Source(_)))
+        .filter(|(_, (c, inputs))| *inputs > 1 || matches!(c.owner, Owner::Source(_)))
         .map(|(t, _)| t)
         .collect()
 }

@@ -75,13 +75,15 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             unseen_in_english(report, measurand, (inputs, *shift, *u_effect, *matters))
         }
         FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
-            "The model is noticeably nonlinear over the uncertainties of its inputs: second-order terms {} and change u from {} to {}. Do not use the first-order figures alone.",
+            "The model is noticeably nonlinear over the uncertainties of its inputs: second-order terms {} and {}. Do not use the first-order figures alone.",
             match is_residue(*shift, *u_second) {
                 true => "leave the estimate as it is".to_string(),
                 false => format!("move the estimate by {}", amount(report, measurand, significant(*shift, 2))),
             },
-            significant(*u_first, 3),
-            amount(report, measurand, significant(*u_second, 3)),
+            match (significant(*u_first, 3), significant(*u_second, 3)) {
+                (first, second) if first == second => "leave u as it is".to_string(),
+                (first, second) => format!("change u from {first} to {}", amount(report, measurand, second)),
+            },
         ),
         FindingKind::NotValidated => not_validated_in_english(report, measurand),
         FindingKind::NeedsMonteCarlo => "First order is doubtful for this budget and Monte Carlo was not run, so nothing checks the result. Run the evaluation with Monte Carlo before using it.".to_string(),
@@ -96,12 +98,12 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             grouped(*trials),
         ),
         FindingKind::FreedomRefused { members, lower_bound } => format!(
-            "The effective degrees of freedom are not defined, because {} are correlated and have different finite degrees of freedom: the Welch–Satterthwaite formula is for independent terms. k is taken for the smallest of them, ν = {}, which makes U too large rather than too small. State a common `dof`, or replace the correlation by a shared source.",
+            "The effective degrees of freedom are not defined, because {} are correlated and have different finite degrees of freedom: the Welch–Satterthwaite formula is for independent terms. k is taken for the smallest of them, ν = {}, which as a rule makes U too large rather than too small. State a common `dof`, or replace the correlation by a shared source.",
             Language::English.list(members),
             freedom(*lower_bound),
         ),
         FindingKind::FewDegreesOfFreedom { dof } => format!(
-            "Only {} effective degrees of freedom: u itself is uncertain by about {} %, and k is large for this reason. More readings of the dominant input would lower U.",
+            "Only {} effective degrees of freedom: u itself is uncertain by about {} %, for which a k from the t-distribution allows. More readings of the dominant input would lower U.",
             freedom(*dof),
             significant(100.0 / (2.0 * dof).sqrt(), 2),
         ),
@@ -121,13 +123,15 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             unseen_in_chinese(report, measurand, (inputs, *shift, *u_effect, *matters))
         }
         FindingKind::SecondOrderMatters { shift, u_first, u_second } => format!(
-            "在输入量的不确定度范围内，测量模型的非线性明显：二阶项{}，标准不确定度由 {} 变为 {}。不应单独使用一阶结果。",
+            "在输入量的不确定度范围内，测量模型的非线性明显：二阶项{}，{}。不应单独使用一阶结果。",
             match is_residue(*shift, *u_second) {
                 true => "不改变估计值".to_string(),
                 false => format!("使估计值移动 {}", amount(report, measurand, significant(*shift, 2))),
             },
-            significant(*u_first, 3),
-            amount(report, measurand, significant(*u_second, 3)),
+            match (significant(*u_first, 3), significant(*u_second, 3)) {
+                (first, second) if first == second => "标准不确定度不变".to_string(),
+                (first, second) => format!("标准不确定度由 {first} 变为 {}", amount(report, measurand, second)),
+            },
         ),
         FindingKind::NotValidated => not_validated_in_chinese(report, measurand),
         FindingKind::NeedsMonteCarlo => "一阶近似对本评定是否适用存疑，而蒙特卡洛法未运行，结果没有得到验证。使用前应运行蒙特卡洛法。".to_string(),
@@ -147,7 +151,7 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             freedom(*lower_bound),
         ),
         FindingKind::FewDegreesOfFreedom { dof } => format!(
-            "有效自由度仅为 {}：标准不确定度本身的相对不确定度约为 {} %，包含因子因此较大。增加主要输入量的重复测量次数可减小 U。",
+            "有效自由度仅为 {}：标准不确定度本身的相对不确定度约为 {} %，按 t 分布取包含因子时已考虑这一点。增加主要输入量的重复测量次数可减小 U。",
             freedom(*dof),
             significant(100.0 / (2.0 * dof).sqrt(), 2),
         ),

@@ -133,8 +133,24 @@ impl Checker<'_> {
     ) -> Option<Vec<Entry<'f>>> {
         let table = &stated.value;
         let bare = table.components.is_none() && table.component.present.is_empty();
-        if bare && register.by_matrix.iter().any(|by_matrix| by_matrix == name) {
-            return Some(Vec::new());
+        if register.by_matrix.iter().any(|by_matrix| by_matrix == name) {
+            if bare {
+                return Some(Vec::new());
+            }
+            // A list of components adds other reasons for doubt; a bare u states the same one again.
+            if let Some((key, span)) = table.component.present.first() {
+                return self.refuse(
+                    Fault::new(
+                        TWO_WAYS,
+                        span.clone(),
+                        format!("the uncertainty of {name} is stated twice, by `{key}` and by the `covariance` of a [[joint]]"),
+                    )
+                    .label("the covariance matrix states it already")
+                    .help(format!(
+                        "leave out `{key}`; if it is another reason for doubt, write components = [{{ name = \"…\", {key} = … }}]"
+                    )),
+                );
+            }
         }
         // The list itself was refused; what is in it is unknown.
         if bare && table.refused && table.present.iter().any(|(key, _)| *key == "components") {

@@ -51,6 +51,8 @@ struct Checker<'a> {
     date: Option<String>,
     faults: Vec<Fault>,
     remarks: Vec<Remark>,
+    /// Every result by name, with the entry of the file it belongs to: a vector has one per element.
+    results: Vec<(String, usize)>,
     /// Whether names that formulas use may be declared in a part of the file that was refused.
     hidden_names: bool,
 }
@@ -132,6 +134,7 @@ fn budget(
         date: heading.date.clone(),
         faults,
         remarks: Vec::new(),
+        results: Vec::new(),
         hidden_names: names_hidden(file),
     };
     let budget = checker.budget(file, resolution, heading);
@@ -159,6 +162,7 @@ impl Checker<'_> {
         self.unused_sources(shared(file), &register);
         let groups = self.groups(file, &mut register);
         let model = self.model(file, &constants, &register);
+        self.results = formulas::results(file, model.as_ref());
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -167,7 +171,7 @@ impl Checker<'_> {
             model: model?,
             inputs: register.inputs,
             constants,
-            measurands: formulas::measurands(file),
+            measurands: formulas::measurands(file, &self.results),
             components: register.components,
             groups,
             claims,

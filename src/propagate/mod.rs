@@ -25,6 +25,7 @@ pub use monte_carlo::{Consequence, MissingMoments, Side};
 use nalgebra::DMatrix;
 
 use crate::budget::{Adaptive, Budget, MonteCarloSettings, NamedFigure};
+use crate::model::Notice;
 use gum::Linear;
 use monte_carlo::{GumForMc, McOutcome};
 use second_order::{Outcome, Terms};
@@ -364,13 +365,29 @@ pub enum FindingKind {
     },
     /// The model has a kink or a step at the estimates (abs, min, max, if, round …).
     Irregular {
-        /// The operation, in words.
-        what: String,
+        /// The operation.
+        what: Notice,
     },
     /// The divisor or the argument of a function is within a few u of a pole or of its domain's end.
     NearSingular {
-        /// The operation, in words.
-        what: String,
+        /// The operation.
+        what: Notice,
+    },
+    /// The distribution of a phase reaches the jump between -π and π.
+    PhaseWraps {
+        /// The operation.
+        what: Notice,
+    },
+    /// A rounding step is larger than the standard uncertainty of what is rounded, and Monte Carlo was
+    /// not run.
+    CoarseStep {
+        /// The operation.
+        what: Notice,
+    },
+    /// The argument of a table lies beyond its ends.
+    Extrapolated {
+        /// The operation.
+        what: Notice,
     },
     /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
     Asymmetric,

@@ -55,6 +55,8 @@ struct Checker<'a> {
     figures: Vec<NamedFigure>,
     /// Names of figures that only the evaluation will give.
     awaited_figures: Vec<String>,
+    /// Every result by name, with the entry of the file it belongs to: a vector has one per element.
+    results: Vec<(String, usize)>,
     /// Whether names that formulas use may be declared in a part of the file that was refused.
     hidden_names: bool,
 }
@@ -138,6 +140,7 @@ fn budget(
         remarks: Vec::new(),
         figures: Vec::new(),
         awaited_figures: Vec::new(),
+        results: Vec::new(),
         hidden_names: names_hidden(file),
     };
     let budget = checker.budget(file, resolution, heading);
@@ -165,6 +168,7 @@ impl Checker<'_> {
         self.unused_sources(shared(file), &register);
         let groups = self.groups(file, &mut register);
         let model = self.model(file, &constants, &register);
+        self.results = formulas::results(file, model.as_ref());
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -173,7 +177,7 @@ impl Checker<'_> {
             model: model?,
             inputs: register.inputs,
             constants,
-            measurands: formulas::measurands(file),
+            measurands: formulas::measurands(file, &self.results),
             components: register.components,
             groups,
             claims,

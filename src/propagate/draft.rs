@@ -163,6 +163,9 @@ impl Draft {
                 .collect(),
             components: self.components,
             groups: self.groups,
+            following: Vec::new(),
+            conformity: Vec::new(),
+            detection: Vec::new(),
             claims: Vec::new(),
             remarks: Vec::new(),
         }

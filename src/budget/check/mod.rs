@@ -6,10 +6,12 @@
 mod amounts;
 mod certificates;
 mod claims;
+mod conformity;
 mod constants;
 mod conventions;
 mod correlations;
 mod csv;
+mod detection;
 mod draft;
 mod formulas;
 mod given;
@@ -159,6 +161,8 @@ impl Checker<'_> {
         self.unused_sources(shared(file), &register);
         let groups = self.groups(file, &mut register);
         let model = self.model(file, &constants, &register);
+        let conformity = self.conformity(file, &register);
+        let detection = self.detection(file, &register);
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -170,6 +174,9 @@ impl Checker<'_> {
             measurands: formulas::measurands(file),
             components: register.components,
             groups,
+            following: register.following,
+            conformity,
+            detection,
             claims,
             remarks: std::mem::take(&mut self.remarks),
         })

@@ -45,6 +45,25 @@ pub struct Conformity {
     pub planning: bool,
 }
 
+impl Conformity {
+    /// What its figures are called.
+    pub const FIGURES: [&str; 13] = [
+        "p_c",
+        "p_c_measurement",
+        "p_c_monte_carlo",
+        "acceptance_lower",
+        "acceptance_upper",
+        "C_m",
+        "TUR",
+        "p_in_tolerance",
+        "p_accepted",
+        "R_C",
+        "R_P",
+        "cpfa",
+        "cpfr",
+    ];
+}
+
 /// From a measured value to acceptance or rejection.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DecisionRule {
@@ -93,6 +112,25 @@ pub struct Detection {
     pub coverage_probability: f64,
     /// A guideline value with which the detection limit is compared.
     pub guideline: Option<f64>,
+}
+
+impl Detection {
+    /// What its figures are called.
+    pub const FIGURES: [&str; 13] = [
+        "u_of_zero",
+        "decision_threshold",
+        "detection_limit",
+        "decision_threshold_monte_carlo",
+        "detection_limit_monte_carlo",
+        "best_estimate",
+        "u_best",
+        "interval_lower",
+        "interval_upper",
+        "shortest_lower",
+        "shortest_upper",
+        "recognised",
+        "suitable",
+    ];
 }
 
 /// A component whose effect on an input follows the input's estimate.

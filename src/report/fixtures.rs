@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use crate::budget::{
-    Budget, Certificate, Claim, ClaimedFigure, ClaimedMethod, Component, CoverageRule,
+    Budget, Certificate, Claim, ClaimedFigure, ClaimedMethod, Component, Confidence, CoverageRule,
     Evaluation as Kind, Figure, Group, Heading, Input, Law, Measurand, MonteCarloSettings, Owner,
     PROFILES, Remark, Term, Trials,
 };
@@ -165,6 +165,7 @@ impl Bench {
             conformity: Vec::new(),
             detection: Vec::new(),
             claims: Vec::new(),
+            figures: Vec::new(),
             remarks: Vec::new(),
         }
     }
@@ -306,6 +307,7 @@ fn alone(gum: Gum) -> Evaluation {
         conformity: Vec::new(),
         detection: Vec::new(),
         findings: Vec::new(),
+        figures: Vec::new(),
     }
 }
 
@@ -372,6 +374,8 @@ pub(super) fn resistor() -> Case {
             figure(Figure::Lower, 9.998, 0.0005),
             figure(Figure::Upper, 10.001, 0.0005),
         ],
+        confidence: Confidence::High,
+        digits: None,
         reference: Some("Certificate 17".to_string()),
         note: None,
     });

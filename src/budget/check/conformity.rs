@@ -45,6 +45,8 @@ impl Checker<'_> {
                     .help("give each a name of its own: name = \"…\""),
                 );
             }
+            let names = Conformity::FIGURES.map(|figure| format!("{}.{figure}", conformity.name));
+            self.awaited_figures.extend(names);
             found.push(conformity);
         }
         found

@@ -31,6 +31,10 @@ impl Checker<'_> {
                     .help("leave out one [[detection]]"),
                 );
             }
+            if let Some((name, _)) = entries(&file.measurand).get(detection.measurand) {
+                let names = Detection::FIGURES.map(|figure| format!("{name}.{figure}"));
+                self.awaited_figures.extend(names);
+            }
             found.push(detection);
         }
         found

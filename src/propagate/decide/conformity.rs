@@ -78,7 +78,7 @@ pub struct GlobalRisk {
 }
 
 /// All assessments of a budget, in its order.
-pub(in crate::propagate) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityResult> {
+pub(super) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityResult> {
     let assessments = &evidence.budget.conformity;
     let asked: Vec<(usize, Interval)> = assessments
         .iter()
@@ -94,14 +94,14 @@ pub(in crate::propagate) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityRes
         })
         .unwrap_or_default()
         .into_iter();
-    let results = assessments.iter().filter_map(|conformity| {
+    let results = assessments.iter().map(|conformity| {
         let fraction = if conformity.planning {
             None
         } else {
             fractions.next().flatten()
         };
-        let result = evidence.results.get(conformity.measurand)?;
-        Some(assessment(evidence.budget, conformity, result, fraction))
+        let result = &evidence.results[conformity.measurand];
+        assessment(evidence.budget, conformity, result, fraction)
     });
     results.collect()
 }

@@ -29,6 +29,14 @@ impl DetectionResult {
         self.limits
             .map(|limits| self.estimate > limits.decision_threshold)
     }
+
+    /// Whether the procedure suits its purpose: its detection limit does not exceed the guideline value. Nothing
+    /// where there is none.
+    pub fn suitable(&self, asked: &Detection) -> Option<bool> {
+        let guideline = asked.guideline?;
+        let limit = self.limits?.detection_limit.value();
+        Some(limit.is_some_and(|limit| limit <= guideline))
+    }
 }
 
 /// Decision threshold and detection limit.
@@ -81,10 +89,10 @@ pub struct BestEstimate {
 }
 
 /// Characteristic limits of every measurand that a budget asks for, in its order.
-pub(in crate::propagate) fn characteristic_limits(evidence: &Evidence<'_>) -> Vec<DetectionResult> {
+pub(super) fn characteristic_limits(evidence: &Evidence<'_>) -> Vec<DetectionResult> {
     let budget = evidence.budget;
-    let found = budget.detection.iter().filter_map(|detection| {
-        let gum = &evidence.results.get(detection.measurand)?.gum;
+    let found = budget.detection.iter().map(|detection| {
+        let gum = &evidence.results[detection.measurand].gum;
         let response = Response {
             budget,
             measurand: detection.measurand,
@@ -103,13 +111,13 @@ pub(in crate::propagate) fn characteristic_limits(evidence: &Evidence<'_>) -> Ve
             };
             trials.limits(&limits)
         });
-        Some(DetectionResult {
+        DetectionResult {
             estimate: gum.estimate,
             u: gum.u,
             limits,
             from_trials,
             best: best_estimate(gum.estimate, gum.u, detection.coverage_probability),
-        })
+        }
     });
     found.collect()
 }

@@ -8,9 +8,11 @@
 //! | [`limits`] | acceptance limits from a decision rule |
 //! | [`conformity`] | verdict, conformance probability, risks |
 //! | [`detection`] | decision threshold, detection limit, best estimate |
+//! | [`figures`] | all of them by name |
 
 mod conformity;
 mod detection;
+mod figures;
 mod kernel;
 mod limits;
 mod mixture;
@@ -18,9 +20,6 @@ mod response;
 
 pub use conformity::{Conformance, ConformityResult, GlobalRisk, Verdict};
 pub use detection::{BestEstimate, CharacteristicLimits, DetectionLimit, DetectionResult};
-
-pub(super) use conformity::assess;
-pub(super) use detection::characteristic_limits;
 
 use super::{MeasurandResult, Run};
 use crate::budget::Budget;
@@ -32,4 +31,18 @@ pub(super) struct Evidence<'a> {
     /// The Monte Carlo run, where there was one.
     pub run: Option<&'a Run>,
     pub threads: usize,
+}
+
+/// What was decided.
+pub(super) struct Decisions {
+    pub conformity: Vec<ConformityResult>,
+    pub detection: Vec<DetectionResult>,
+}
+
+/// Every decision that a budget asks for, in its order.
+pub(super) fn decisions(evidence: &Evidence<'_>) -> Decisions {
+    Decisions {
+        conformity: conformity::assess(evidence),
+        detection: detection::characteristic_limits(evidence),
+    }
 }

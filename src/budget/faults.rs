@@ -190,6 +190,22 @@ CONVENTIONS "B0405" "conventions contradict one another"
 TRIALS "B0406" "the settings of the Monte Carlo method do not fit"
 "`trials` is a whole number of at least 1000, or \"adaptive\"; `procedure`, `digits` and `max_trials` belong to \
 \"adaptive\"."
+
+TOLERANCE "B0501" "a tolerance is not usable"
+"`[conformity]` states a lower or an upper tolerance limit, or both with the lower one first; acceptance limits are as \
+many. Two assessments of one measurand have a `name` each."
+
+DECISION_RULE "B0502" "a decision rule is missing or contradicts itself"
+"A statement of conformity needs the rule by which uncertainty was taken into account (ISO/IEC 17025 7.8.6): `rule`, or \
+`acceptance` limits, or the probabilities from which they follow. A guard band is an amount or a multiple of U."
+
+PROCESS "B0503" "the knowledge of the process is not usable"
+"`process` states a distribution with its parameters, located where the items are, or `in_tolerance_probability`, which \
+needs both tolerance limits."
+
+DETECTION "B0504" "characteristic limits cannot be found from this"
+"`[detection]` names in `gross` the input that carries the value of the measurand, such as the gross counts; `alpha` and \
+`beta` are probabilities below one half."
 }
 
 #[cfg(test)]

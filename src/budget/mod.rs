@@ -10,6 +10,7 @@
 
 mod check;
 mod claim;
+mod decision;
 mod distributions;
 pub mod faults;
 mod parametric;
@@ -25,6 +26,9 @@ mod variants;
 use nalgebra::DMatrix;
 
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
+pub use decision::{
+    Conformity, DecisionRule, Detection, Following, Follows, Guard, Interval,
+};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_under, read, schema, template};
 pub use rejection::Rejection;
@@ -83,6 +87,12 @@ pub struct Budget {
     pub components: Vec<Component>,
     /// Correlated components; a component is in at most one group.
     pub groups: Vec<Group>,
+    /// Components whose effect follows the estimate of an input.
+    pub following: Vec<Following>,
+    /// Conformity assessments.
+    pub conformity: Vec<Conformity>,
+    /// Characteristic limits.
+    pub detection: Vec<Detection>,
     /// What certificates say.
     pub claims: Vec<Claim>,
     /// What the analyses of the file's data found (fits, analyses of variance), known before any evaluation.

@@ -5,6 +5,7 @@
 mod claims;
 mod covariance;
 mod coverage;
+mod decide;
 #[cfg(test)]
 mod draft;
 mod findings;
@@ -19,6 +20,10 @@ mod tests;
 mod validation;
 
 pub use claims::{Comparison, Method, compare_claims};
+pub use decide::{
+    BestEstimate, CharacteristicLimits, Conformance, ConformityResult, DetectionLimit,
+    DetectionResult, GlobalRisk, Verdict,
+};
 pub use findings::is_residue;
 pub use monte_carlo::{Consequence, MissingMoments, Side};
 
@@ -41,6 +46,10 @@ pub struct Evaluation {
     pub run: Option<Run>,
     /// What the reader must know before using the numbers.
     pub findings: Vec<Finding>,
+    /// Conformity assessments, in the order of the budget.
+    pub conformity: Vec<ConformityResult>,
+    /// Characteristic limits, in the order of the budget.
+    pub detection: Vec<DetectionResult>,
     /// Figures of all analyses by name: those of the budget's data, then those of the evaluation.
     pub figures: Vec<NamedFigure>,
 }
@@ -473,12 +482,23 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         monte_carlo: monte_carlo.as_ref(),
     };
     let findings = evidence.findings();
+    let run = monte_carlo.map(|McOutcome { run, .. }| run);
+    let decisions = decide::decisions(&decide::Evidence {
+        budget,
+        results: &results,
+        run: run.as_ref(),
+        threads: options.threads,
+    });
+    let mut figures = budget.figures.clone();
+    figures.extend(decisions.figures(budget));
     Ok(Evaluation {
         results,
         joint,
-        run: monte_carlo.map(|McOutcome { run, .. }| run),
+        run,
         findings,
-        figures: budget.figures.clone(),
+        conformity: decisions.conformity,
+        detection: decisions.detection,
+        figures,
     })
 }
 

@@ -161,6 +161,9 @@ impl Bench {
                 .collect(),
             components: self.components,
             groups: Vec::new(),
+            following: Vec::new(),
+            conformity: Vec::new(),
+            detection: Vec::new(),
             claims: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
@@ -301,6 +304,8 @@ fn alone(gum: Gum) -> Evaluation {
         results: vec![result],
         joint: None,
         run: None,
+        conformity: Vec::new(),
+        detection: Vec::new(),
         findings: Vec::new(),
         figures: Vec::new(),
     }

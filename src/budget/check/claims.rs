@@ -473,7 +473,7 @@ impl Checker<'_> {
     }
 
     /// Which measurand a claim is about.
-    fn claimed(
+    pub(super) fn claimed(
         &mut self,
         stated: &Option<Stated<String>>,
         place: &std::ops::Range<usize>,

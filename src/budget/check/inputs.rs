@@ -11,14 +11,18 @@ use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_
 use crate::budget::table::Stated;
 use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
-use crate::budget::{Input, Owner};
+use crate::budget::{Follows, Input, Owner};
 use crate::fault::Fault;
 use crate::quantity::Unit;
 
 /// A reason for doubt of one input.
 pub(super) enum Piece {
     Own(Box<Draft>, Option<Vec<f64>>),
-    Shared { component: usize, coefficient: f64 },
+    Shared {
+        component: usize,
+        coefficient: f64,
+        follows: Option<Follows>,
+    },
 }
 
 /// A component of the file, and the way it is stated.
@@ -304,7 +308,7 @@ impl Checker<'_> {
             );
             return Some(Vec::new());
         }
-        let draft = self.draft(entry.table, entry.way, context)?;
+        let draft = self.draft_following(entry.table, entry.way, context)?;
         let readings = match &entry.table.readings {
             Some(readings) if entry.table.pooled.is_none() => self.numbers(readings),
             _ => None,
@@ -397,7 +401,11 @@ impl Checker<'_> {
                 Piece::Shared {
                     component,
                     coefficient,
-                } => register.act(place, component, coefficient),
+                    follows,
+                } => {
+                    register.follow(place, component, coefficient, follows);
+                    register.act(place, component, coefficient);
+                }
             }
         }
         self.label_uniquely(name, &mut drafts);
@@ -406,7 +414,9 @@ impl Checker<'_> {
                 .iter()
                 .find(|(place, _)| *place == draft.place)
                 .and_then(|(_, n)| n.clone());
+            let follows = draft.follows;
             let component = register.add(Owner::Input(place), name, unit, draft, alone);
+            register.follow(place, component, 1.0, follows);
             register.act(place, component, 1.0);
             if let Some(numbers) = numbers {
                 register.readings.insert(component, numbers);

@@ -6,10 +6,12 @@
 mod amounts;
 mod certificates;
 mod claims;
+mod conformity;
 mod constants;
 mod conventions;
 mod correlations;
 mod csv;
+mod detection;
 mod draft;
 mod formulas;
 mod given;
@@ -169,6 +171,8 @@ impl Checker<'_> {
         let groups = self.groups(file, &mut register);
         let model = self.model(file, &constants, &register);
         self.results = formulas::results(file, model.as_ref());
+        let conformity = self.conformity(file, &register);
+        let detection = self.detection(file, &register);
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -180,6 +184,9 @@ impl Checker<'_> {
             measurands: formulas::measurands(file, &self.results),
             components: register.components,
             groups,
+            following: register.following,
+            conformity,
+            detection,
             claims,
             figures: std::mem::take(&mut self.figures),
             remarks: std::mem::take(&mut self.remarks),

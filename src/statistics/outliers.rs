@@ -269,9 +269,8 @@ mod tests {
     }
 
     #[test]
-    fn three_readings_have_a_closed_form() {
-        // r10 of three readings: P(R > r) for one end is 3/π·(π/3 - atan((2r - 1)/√3)·…): at r = ½ the
-        // smallest gap is as likely on either side, so the probability is one half.
+    fn either_gap_of_three_readings_is_as_likely_the_larger() {
+        // The middle one of three readings is as likely nearer to the largest as to the smallest.
         close(Dixon::new(3).exceeds(0.5), 0.5, 1e-9);
         close(Dixon::new(3).exceeds(0.0), 1.0, 1e-9);
     }

@@ -450,7 +450,7 @@ impl Checker<'_> {
                 .help(format!("add measurand = \"{}\" (of {})", names[0], names.join(", "))),
             );
         }
-        self.claimed(stated, place, file)
+        self.claimed(stated, place)
     }
 }
 

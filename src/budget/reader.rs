@@ -11,6 +11,7 @@ use super::check::{self, Origin};
 use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE};
 use super::files::Files;
 use super::rejection::Rejection;
+use super::shelf::Shelf;
 use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
 use super::{Heading, Profile, Row};
@@ -54,11 +55,22 @@ pub fn load_from(
     path: &Path,
     profile: Option<&Profile>,
 ) -> Result<Loaded, Rejection> {
+    let bytes = files.read(path).map_err(|error| {
+        let fault = unreadable(files, path, &error);
+        Rejection::new(&path.display().to_string(), "", vec![fault])
+    })?;
+    load_bytes(&Shelf::new(files), path, bytes, profile)
+}
+
+/// Reads and checks a budget file of this content.
+pub(super) fn load_bytes(
+    shelf: &Shelf<'_>,
+    path: &Path,
+    bytes: Vec<u8>,
+    profile: Option<&Profile>,
+) -> Result<Loaded, Rejection> {
     let name = path.display().to_string();
     let refuse = |fault| Rejection::new(&name, "", vec![fault]);
-    let bytes = files
-        .read(path)
-        .map_err(|error| refuse(unreadable(files, path, &error)))?;
     if path
         .extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
@@ -77,8 +89,11 @@ pub fn load_from(
         .help("save the file as UTF-8");
         Rejection::new(&name, &valid, vec![fault])
     })?;
-    let directory = path.parent().unwrap_or_else(|| Path::new(""));
-    let origin = Origin { files, directory };
+    let origin = Origin {
+        shelf,
+        directory: path.parent().unwrap_or_else(|| Path::new("")),
+        file: &shelf.files.identity(path),
+    };
     read_under(&text, &name, origin, profile)
 }
 
@@ -117,9 +132,11 @@ fn not_a_budget(name: &str) -> Fault {
 /// # Errors
 /// The text has faults: all of them.
 pub fn read(text: &str, name: &str, directory: &Path) -> Result<Loaded, Rejection> {
+    let shelf = Shelf::new(Files::Disk);
     let origin = Origin {
-        files: Files::Disk,
+        shelf: &shelf,
         directory,
+        file: &shelf.files.identity(&directory.join(name)),
     };
     read_under(text, name, origin, None)
 }
@@ -144,14 +161,19 @@ fn read_under(
             key: 0..0,
         });
     }
-    match check::rows(&file, text, origin) {
-        Ok((heading, rows)) if faults.is_empty() => Ok(Loaded { heading, rows }),
-        Ok(_) => Err(Rejection::new(name, text, faults)),
-        Err(found) => {
-            faults.extend(found);
-            Err(Rejection::new(name, text, faults))
-        }
+    let checked = origin
+        .shelf
+        .within(origin.file, || check::rows(&file, text, origin));
+    match checked {
+        Ok((heading, rows)) if faults.is_empty() => return Ok(Loaded { heading, rows }),
+        Ok(_) => {}
+        Err(found) => faults.extend(found),
     }
+    let mut rejection = Rejection::new(name, text, faults);
+    if origin.shelf.is_outermost() {
+        rejection.others = origin.shelf.take_rejections();
+    }
+    Err(rejection)
 }
 
 /// Reads the tables of a file.

@@ -165,6 +165,7 @@ impl Draft {
             groups: self.groups,
             claims: Vec::new(),
             remarks: Vec::new(),
+            chain: Default::default(),
         }
     }
 }

@@ -163,6 +163,7 @@ impl Bench {
             groups: Vec::new(),
             claims: Vec::new(),
             remarks: Vec::new(),
+            chain: Default::default(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::distributions::DistributionEntry;
 use super::table::{Stated, table, words};
 use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
-use super::variants::{Amounts, ConstantEntry, Numbers, ReadingsOf, Sources, TrialsEntry};
+use super::variants::{Amounts, ConstantEntry, Numbers, ReadingsOf, RowLabel, Sources, TrialsEntry};
 
 type List<T> = Vec<Stated<T>>;
 
@@ -212,9 +212,25 @@ table! {
         description: String,
         /// Heading under which the budget table sums it up.
         group: String,
+        /// Result of another budget, or a saved result, in place of a value and its uncertainty.
+        from: FromTable,
         /// Several reasons to doubt the input; with a single one its keys may stand in the input itself.
         components: List<ComponentTable>,
         with component: ComponentTable
+    }
+}
+
+table! {
+    /// A result of another file, with everything that makes it uncertain.
+    FromTable "`from`" {
+        /// Path of another budget, from the folder of this one; its formulas and components become part of this budget.
+        budget: String,
+        /// Path of a file that `gumption eval --save` wrote; the result is taken over in linear form.
+        result: String,
+        /// Which of its measurands; may be left out where it has only one.
+        measurand: String,
+        /// Which row of its series, by label or by number.
+        row: RowLabel,
     }
 }
 

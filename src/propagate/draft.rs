@@ -169,6 +169,7 @@ impl Draft {
             claims: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
+            chain: Default::default(),
         }
     }
 }

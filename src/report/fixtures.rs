@@ -167,6 +167,7 @@ impl Bench {
             claims: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
+            chain: Default::default(),
         }
     }
 }

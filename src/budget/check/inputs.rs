@@ -42,6 +42,10 @@ impl Checker<'_> {
     ) {
         for (name, stated) in entries(&file.input) {
             let table = &stated.value;
+            if let Some(from) = &table.from {
+                self.taken(name, stated, from, register);
+                continue;
+            }
             // A misspelt or unreadable `unit` must not be judged as dimension one.
             let hidden = table.unknown || table.present.iter().any(|(key, _)| *key == "unit");
             let unit = match &table.unit {
@@ -77,6 +81,7 @@ impl Checker<'_> {
                 places: start..start + count,
                 vector: table.values.is_some(),
                 unit,
+                formula: None,
             });
         }
     }
@@ -468,7 +473,8 @@ pub(super) fn element_name(name: &str, element: usize) -> String {
     format!("{name}[{}]", element + 1)
 }
 
-fn blank(name: &str, table: &InputTable, unit: Option<&Unit>, element: Option<usize>) -> Input {
+/// An input of which nothing is known yet but its words.
+pub(super) fn blank(name: &str, table: &InputTable, unit: Option<&Unit>, element: Option<usize>) -> Input {
     Input {
         name: element.map_or_else(|| name.to_string(), |element| element_name(name, element)),
         description: table.description.as_ref().map(|text| text.value.clone()),

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::draft::Draft;
+use super::results::{Formula, Taken};
 use crate::budget::{Component, Following, Follows, Input, Owner, Term};
 use crate::distribution::Distribution;
 use crate::quantity::Unit;
@@ -19,6 +20,8 @@ pub(super) struct InputEntry {
     pub vector: bool,
     /// Nothing when the unit was refused.
     pub unit: Option<Unit>,
+    /// What stands behind the result of another budget.
+    pub formula: Option<Formula>,
 }
 
 /// One `[source.S]`.
@@ -37,6 +40,8 @@ pub(super) struct Register {
     pub components: Vec<Component>,
     pub entries: Vec<InputEntry>,
     pub sources: Vec<SourceEntry>,
+    /// Results of other files.
+    pub taken: Vec<Taken>,
     /// Readings behind a Type A component.
     pub readings: HashMap<usize, Vec<f64>>,
     /// Inputs whose uncertainty a covariance matrix states.

@@ -16,6 +16,7 @@ mod parametric;
 mod profile;
 mod reader;
 mod rejection;
+mod series;
 mod strings;
 mod table;
 mod tables;

@@ -19,7 +19,6 @@ mod joints;
 mod names;
 mod register;
 mod resolution;
-mod series;
 mod shapes;
 mod sources;
 mod specification;
@@ -74,18 +73,26 @@ impl Checker<'_> {
     }
 }
 
+/// One evaluation: the file itself, or with the values of a row of its series in place.
+pub(super) struct Variant {
+    pub label: Option<String>,
+    pub file: FileTable,
+}
+
 /// The budgets of a file: one, or one for each row of its series.
 ///
 /// # Errors
 /// All faults, in no particular order.
 pub(super) fn rows(
-    file: &FileTable,
+    variants: Vec<Variant>,
     text: &str,
     directory: &Path,
 ) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
     let mut faults = Vec::new();
-    let heading = heading(file);
-    let variants = series::variants(file, &mut faults);
+    let heading = variants
+        .first()
+        .map(|variant| heading(&variant.file))
+        .unwrap_or_default();
     let mut rows = Vec::new();
     for variant in variants {
         match budget(&variant.file, text, directory, &heading) {

@@ -12,6 +12,7 @@ mod check;
 mod claim;
 mod distributions;
 pub mod faults;
+mod files;
 mod parametric;
 mod profile;
 mod reader;
@@ -26,8 +27,9 @@ mod variants;
 use nalgebra::DMatrix;
 
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
+pub use files::Files;
 pub use profile::{PROFILES, Profile, profile_named};
-pub use reader::{Loaded, keys, load, load_under, read, schema, template};
+pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use rejection::Rejection;
 pub use table::KeyRow;
 

@@ -6,8 +6,9 @@ use std::path::Path;
 use serde_json::{Value, json};
 use toml::de::DeTable;
 
-use super::check::{self, Variant};
+use super::check::{self, Origin, Variant};
 use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE};
+use super::files::Files;
 use super::rejection::Rejection;
 use super::series;
 use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
@@ -40,9 +41,24 @@ pub fn load(path: &Path) -> Result<Loaded, Rejection> {
 /// # Errors
 /// As [`load`].
 pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Rejection> {
+    load_from(Files::Disk, path, profile)
+}
+
+/// Reads and checks a budget file, and the files that it names, from a disk or a library of files;
+/// under another profile than the one that it names, if one is given.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_from(
+    files: Files<'_>,
+    path: &Path,
+    profile: Option<&Profile>,
+) -> Result<Loaded, Rejection> {
     let name = path.display().to_string();
     let refuse = |fault| Rejection::new(&name, "", vec![fault]);
-    let bytes = std::fs::read(path).map_err(|error| refuse(unreadable(path, &error)))?;
+    let bytes = files
+        .read(path)
+        .map_err(|error| refuse(unreadable(files, path, &error)))?;
     if path
         .extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
@@ -62,18 +78,19 @@ pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Reje
         Rejection::new(&name, &valid, vec![fault])
     })?;
     let directory = path.parent().unwrap_or_else(|| Path::new(""));
-    read_under(&text, &name, directory, profile)
+    let origin = Origin { files, directory };
+    read_under(&text, &name, origin, profile)
 }
 
 /// The fault of a file that cannot be opened, in words that do not depend on the operating system.
-fn unreadable(path: &Path, error: &std::io::Error) -> Fault {
+fn unreadable(files: Files<'_>, path: &Path, error: &std::io::Error) -> Fault {
     let name = path.display();
     let fault = |message: String| Fault::new(UNREADABLE_FILE, 0..0, message);
     if path.as_os_str().is_empty() {
         return fault("the name of the file is empty".into())
             .help("name a budget file, as in `gumption eval budget.toml`");
     }
-    if path.is_dir() {
+    if files.is_folder(path) {
         return fault(format!("{name} is a folder, not a file")).help(format!(
             "name the budgets in it, as in `gumption eval {}`",
             path.join("*.toml").display()
@@ -100,13 +117,17 @@ fn not_a_budget(name: &str) -> Fault {
 /// # Errors
 /// The text has faults: all of them.
 pub fn read(text: &str, name: &str, directory: &Path) -> Result<Loaded, Rejection> {
-    read_under(text, name, directory, None)
+    let origin = Origin {
+        files: Files::Disk,
+        directory,
+    };
+    read_under(text, name, origin, None)
 }
 
 fn read_under(
     text: &str,
     name: &str,
-    directory: &Path,
+    origin: Origin<'_>,
     profile: Option<&Profile>,
 ) -> Result<Loaded, Rejection> {
     // Editors on Windows put a byte order mark in front; places are counted behind it.
@@ -116,7 +137,7 @@ fn read_under(
         return Err(Rejection::new(name, text, syntax_faults(&errors, text)));
     }
     let (variants, mut faults) = variants(table.get_ref(), text, profile);
-    match check::rows(variants, text, directory) {
+    match check::rows(variants, text, origin) {
         Ok((heading, rows)) if faults.is_empty() => Ok(Loaded { heading, rows }),
         Ok(_) => Err(Rejection::new(name, text, faults)),
         Err(found) => {

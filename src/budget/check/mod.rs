@@ -31,6 +31,7 @@ mod ways;
 
 use std::path::Path;
 
+use super::files::Files;
 use super::table::Stated;
 use super::tables::FileTable;
 use super::values::Named;
@@ -38,12 +39,29 @@ use super::{Budget, Conventions, Heading, Remark, Row, TScale};
 use crate::fault::Fault;
 use crate::quantity::UnitTable;
 
+/// Where a budget comes from, and with it the files that it names.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Origin<'a> {
+    pub files: Files<'a>,
+    /// Folder of the budget, from which paths in it start.
+    pub directory: &'a Path,
+}
+
+impl Origin<'_> {
+    /// The folder in words.
+    fn folder(&self) -> String {
+        match self.directory.as_os_str().is_empty() {
+            true => "the current folder".to_string(),
+            false => format!("the folder {}", self.directory.display()),
+        }
+    }
+}
+
 /// What all checks share.
 struct Checker<'a> {
     /// The whole file.
     text: &'a str,
-    /// Where CSV files are looked up.
-    directory: &'a Path,
+    origin: Origin<'a>,
     units: UnitTable,
     conventions: Conventions,
     /// Date of the measurement.
@@ -86,7 +104,7 @@ pub(super) struct Variant {
 pub(super) fn rows(
     variants: Vec<Variant>,
     text: &str,
-    directory: &Path,
+    origin: Origin<'_>,
 ) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
     let mut faults = Vec::new();
     let heading = variants
@@ -95,7 +113,7 @@ pub(super) fn rows(
         .unwrap_or_default();
     let mut rows = Vec::new();
     for variant in variants {
-        match budget(&variant.file, text, directory, &heading) {
+        match budget(&variant.file, text, origin, &heading) {
             Ok(budget) => rows.push(Row {
                 label: variant.label,
                 budget,
@@ -127,13 +145,13 @@ fn heading(file: &FileTable) -> Heading {
 fn budget(
     file: &FileTable,
     text: &str,
-    directory: &Path,
+    origin: Origin<'_>,
     heading: &Heading,
 ) -> Result<Budget, Vec<Fault>> {
     let (conventions, resolution, faults) = conventions::conventions(file);
     let mut checker = Checker {
         text,
-        directory,
+        origin,
         units: UnitTable::default(),
         conventions,
         date: heading.date.clone(),

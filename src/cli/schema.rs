@@ -17,12 +17,15 @@ enum Which {
     Budget,
     /// The output of `gumption eval --json`
     Evaluation,
+    /// The output of `gumption verify --json`
+    Verification,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
     let schema = match args.which {
         Which::Budget => budget::schema(),
         Which::Evaluation => report::schema(),
+        Which::Verification => report::verification_schema(),
     };
     output::print(&format!("{schema:#}\n"))
 }

@@ -214,7 +214,8 @@ mod tests {
     use super::*;
     use crate::propagate::MonteCarloChoice;
 
-    const SUM: &str = "title = \"Sum\"\n[measurand.Y]\nmodel = \"X\"\n[input.X]\nvalue = 1\nu = 0.1\n";
+    const SUM: &str =
+        "title = \"Sum\"\n[measurand.Y]\nmodel = \"X\"\n[input.X]\nvalue = 1\nu = 0.1\n";
 
     fn verified(claims: &str) -> Option<Example> {
         let text = format!("{SUM}{claims}");
@@ -252,7 +253,9 @@ mod tests {
         assert!(verified("").is_none());
         assert_eq!(verdict("[claim]\nvalu = 1\n"), Verdict::Failed);
         assert_eq!(
-            verdict("[claim]\nvalue = 1\n[series]\ncolumns = [\"X\", \"claim.value\"]\nrows = [[1, 1], [2, 1]]\n"),
+            verdict(
+                "[claim]\nvalue = 1\n[series]\ncolumns = [\"X\", \"claim.value\"]\nrows = [[1, 1], [2, 1]]\n"
+            ),
             Verdict::Failed
         );
     }

@@ -35,7 +35,7 @@ use super::files::Files;
 use super::table::Stated;
 use super::tables::FileTable;
 use super::values::Named;
-use super::{Budget, Conventions, Heading, Remark, Row, TScale};
+use super::{Budget, Conventions, Heading, NamedFigure, Remark, Row, TScale};
 use crate::fault::Fault;
 use crate::quantity::UnitTable;
 
@@ -68,6 +68,10 @@ struct Checker<'a> {
     date: Option<String>,
     faults: Vec<Fault>,
     remarks: Vec<Remark>,
+    /// Figures of the analyses of the file's data.
+    figures: Vec<NamedFigure>,
+    /// Names of figures that only the evaluation will give.
+    awaited_figures: Vec<String>,
     /// Whether names that formulas use may be declared in a part of the file that was refused.
     hidden_names: bool,
 }
@@ -157,6 +161,8 @@ fn budget(
         date: heading.date.clone(),
         faults,
         remarks: Vec::new(),
+        figures: Vec::new(),
+        awaited_figures: Vec::new(),
         hidden_names: names_hidden(file),
     };
     let budget = checker.budget(file, resolution, heading);
@@ -196,6 +202,7 @@ impl Checker<'_> {
             components: register.components,
             groups,
             claims,
+            figures: std::mem::take(&mut self.figures),
             remarks: std::mem::take(&mut self.remarks),
         })
     }

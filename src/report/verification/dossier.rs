@@ -56,9 +56,8 @@ fn identification(verification: &Verification, l: Language) -> Vec<(String, Stri
             .to_string(),
         list => list.join(", "),
     };
-    let field = |english: &str, chinese: &str, text: String| {
-        (l.pick(english, chinese).to_string(), text)
-    };
+    let field =
+        |english: &str, chinese: &str, text: String| (l.pick(english, chinese).to_string(), text);
     vec![
         field(
             "Program",

@@ -168,7 +168,10 @@ pub(super) fn name(report: &Report<'_>, comparison: &Comparison) -> String {
     let own = !matches!(
         what,
         Figure::Named(_)
-            | Figure::Input(_, Part::Estimate | Part::StandardUncertainty | Part::DegreesOfFreedom)
+            | Figure::Input(
+                _,
+                Part::Estimate | Part::StandardUncertainty | Part::DegreesOfFreedom
+            )
     );
     match measurand(report, comparison) {
         Some(name) if own && report.evaluation.results.len() > 1 => format!("{name}, {label}"),
@@ -276,8 +279,8 @@ fn tolerance(comparison: &Comparison, asked: Option<u8>, l: Language) -> String 
     if matches!(comparison.claimed.what, Figure::Validated(_)) {
         return String::new();
     }
-    let rounded = Decimal::from_f64(comparison.claimed.tolerance)
-        .round_to_significant(2, Rounding::HalfEven);
+    let rounded =
+        Decimal::from_f64(comparison.claimed.tolerance).round_to_significant(2, Rounding::HalfEven);
     exact(rounded.to_f64())
 }
 

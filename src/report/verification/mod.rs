@@ -8,7 +8,6 @@ mod words;
 use crate::verify::{Verdict, Verification};
 
 use super::language::Language;
-use super::markdown;
 use super::text::{Page, draw};
 
 pub use json::{FORMAT, json, schema};
@@ -23,12 +22,7 @@ pub enum Detail {
 }
 
 /// Every example with its figures, then how many there were; the last line is `N passed, M failed`.
-pub fn text(
-    verification: &Verification,
-    language: Language,
-    detail: Detail,
-    page: Page,
-) -> String {
+pub fn text(verification: &Verification, language: Language, detail: Detail, page: Page) -> String {
     let mut blocks = Vec::new();
     for (index, one) in verification.examples.iter().enumerate() {
         if detail == Detail::All || one.verdict() == Verdict::Failed {
@@ -49,7 +43,7 @@ pub fn text(
 
 /// The dossier that goes into the file of a laboratory, as Markdown.
 pub fn markdown(verification: &Verification, language: Language) -> String {
-    markdown::draw(&dossier::blocks(verification, language))
+    super::markdown::draw(&dossier::blocks(verification, language))
 }
 
 #[cfg(test)]
@@ -120,7 +114,11 @@ rows = [["one volt", 1, 10.0], ["two volt", 2, 20.1]]
         let text = text(&verification(), Language::English, Detail::All, page);
         let lines: Vec<&str> = text.lines().rev().take(2).collect();
         assert_eq!(lines[0], "0 passed, 2 failed");
-        assert!(lines[1].starts_with("6 figures compared, 2 of them differ"), "{}", lines[1]);
+        assert!(
+            lines[1].starts_with("6 figures compared, 2 of them differ"),
+            "{}",
+            lines[1]
+        );
         insta::assert_snapshot!(text);
     }
 
@@ -155,6 +153,10 @@ rows = [["one volt", 1, 10.0], ["two volt", 2, 20.1]]
         assert_eq!(figure["obtained"], 20.0);
         assert_eq!(figure["agrees"], false);
         assert_eq!(value["examples"][1]["verdict"], "failed");
-        assert!(value["examples"][1]["problem"].as_str().is_some_and(|p| p.contains("valu")));
+        assert!(
+            value["examples"][1]["problem"]
+                .as_str()
+                .is_some_and(|p| p.contains("valu"))
+        );
     }
 }

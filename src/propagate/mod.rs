@@ -16,6 +16,7 @@ mod second_order;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod validation;
 
 pub use claims::{Comparison, Method, compare_claims};
@@ -456,12 +457,15 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         monte_carlo: monte_carlo.as_ref(),
     };
     let findings = evidence.findings();
+    let run = monte_carlo.map(|McOutcome { run, .. }| run);
+    let mut figures = budget.figures.clone();
+    figures.extend(tolerance::figures(budget, &results, run.as_ref()));
     Ok(Evaluation {
         results,
         joint,
-        run: monte_carlo.map(|McOutcome { run, .. }| run),
+        run,
         findings,
-        figures: budget.figures.clone(),
+        figures,
     })
 }
 

@@ -35,7 +35,9 @@ use super::files::Files;
 use super::table::Stated;
 use super::tables::FileTable;
 use super::values::Named;
-use super::{Budget, Conventions, Heading, NamedFigure, Remark, Row, TScale};
+use super::{
+    Budget, Conventions, Heading, MonteCarloSettings, NamedFigure, Remark, Row, TScale, Trials,
+};
 use crate::fault::Fault;
 use crate::quantity::UnitTable;
 
@@ -190,6 +192,7 @@ impl Checker<'_> {
         self.unused_sources(shared(file), &register);
         let groups = self.groups(file, &mut register);
         let model = self.model(file, &constants, &register);
+        self.await_tolerances(file, &monte_carlo);
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -205,6 +208,20 @@ impl Checker<'_> {
             figures: std::mem::take(&mut self.figures),
             remarks: std::mem::take(&mut self.remarks),
         })
+    }
+}
+
+impl Checker<'_> {
+    /// Names the figures of JCGM 101, 7.9 that an evaluation will give.
+    fn await_tolerances(&mut self, file: &FileTable, monte_carlo: &MonteCarloSettings) {
+        for (name, _) in entries(&file.measurand) {
+            let tolerances = [1, 2].map(|digits| NamedFigure::tolerance(name, digits));
+            self.awaited_figures.extend(tolerances);
+        }
+        if matches!(monte_carlo.trials, Trials::Adaptive { .. }) {
+            let batches = [NamedFigure::LEAST_BATCH, NamedFigure::BATCH];
+            self.awaited_figures.extend(batches.map(String::from));
+        }
     }
 }
 

@@ -116,7 +116,7 @@ fn table(rows: &[Row], l: Language) -> Table {
         (l.word(Word::Row), ColumnKind::Names),
         (l.pick("figure", "量"), ColumnKind::Wrapped),
         (l.pick("method", "方法"), ColumnKind::Wrapped),
-        (l.word(Word::Unit), ColumnKind::Words),
+        (l.word(Word::Unit), ColumnKind::Names),
         (l.pick("published", "发表值"), ColumnKind::Numbers),
         (l.word(Word::Obtained), ColumnKind::Numbers),
         (l.pick("difference", "差值"), ColumnKind::Numbers),

@@ -20,6 +20,7 @@ mod profile;
 mod reader;
 mod rejection;
 pub(crate) mod saved;
+mod series;
 mod shelf;
 mod strings;
 mod table;
@@ -30,9 +31,7 @@ mod variants;
 use nalgebra::DMatrix;
 
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
-pub use decision::{
-    Conformity, DecisionRule, Detection, Following, Follows, Guard, Interval,
-};
+pub use decision::{Conformity, DecisionRule, Detection, Following, Follows, Guard, Interval};
 pub use files::Files;
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};

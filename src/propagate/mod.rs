@@ -17,6 +17,7 @@ mod second_order;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod validation;
 
 pub use claims::{Comparison, Method, compare_claims};
@@ -491,6 +492,7 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
     });
     let mut figures = budget.figures.clone();
     figures.extend(decisions.figures(budget));
+    figures.extend(tolerance::figures(budget, &results, run.as_ref()));
     Ok(Evaluation {
         results,
         joint,

@@ -23,7 +23,6 @@ mod names;
 mod register;
 mod resolution;
 mod results;
-mod series;
 mod shapes;
 mod sources;
 mod specification;
@@ -40,7 +39,10 @@ use super::shelf::Shelf;
 use super::table::Stated;
 use super::tables::FileTable;
 use super::values::Named;
-use super::{Budget, Component, Conventions, Heading, NamedFigure, Owner, Remark, Row, TScale};
+use super::{
+    Budget, Component, Conventions, Heading, MonteCarloSettings, NamedFigure, Owner, Remark, Row,
+    TScale, Trials,
+};
 use crate::fault::Fault;
 use crate::quantity::UnitTable;
 
@@ -105,21 +107,29 @@ impl Checker<'_> {
     }
 }
 
+/// One evaluation: the file itself, or with the values of a row of its series in place.
+pub(super) struct Variant {
+    pub label: Option<String>,
+    pub file: FileTable,
+}
+
 /// The budgets of a file: one, or one for each row of its series.
 ///
 /// # Errors
 /// All faults, in no particular order.
 pub(super) fn rows(
-    file: &FileTable,
+    variants: Vec<Variant>,
     text: &str,
     origin: Origin<'_>,
 ) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
     let mut faults = Vec::new();
-    let heading = heading(file);
-    let variants = series::variants(file, &mut faults);
+    let heading = variants
+        .first()
+        .map(|variant| heading(&variant.file))
+        .unwrap_or_default();
     let mut rows = Vec::new();
     for (index, variant) in variants.into_iter().enumerate() {
-        let row = file.series.as_ref().map(|_| {
+        let row = variant.file.series.as_ref().map(|_| {
             let number = || (index + 1).to_string();
             variant.label.clone().unwrap_or_else(number)
         });
@@ -156,7 +166,10 @@ fn share_sources(rows: &mut [Row], file: &Path) {
         })
         .cloned()
         .collect();
-    let names: Vec<&str> = shared.iter().map(|component| component.name.as_str()).collect();
+    let names: Vec<&str> = shared
+        .iter()
+        .map(|component| component.name.as_str())
+        .collect();
     for row in std::iter::once(first).chain(rest) {
         row.budget.chain.share(file, &names);
     }
@@ -226,6 +239,7 @@ impl Checker<'_> {
         self.results = formulas::results(file, model.as_ref());
         let conformity = self.conformity(file, &register);
         let detection = self.detection(file, &register);
+        self.await_tolerances(file, &monte_carlo);
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -245,6 +259,20 @@ impl Checker<'_> {
             remarks: std::mem::take(&mut self.remarks),
             chain,
         })
+    }
+}
+
+impl Checker<'_> {
+    /// Names the figures of JCGM 101, 7.9 that an evaluation will give.
+    fn await_tolerances(&mut self, file: &FileTable, monte_carlo: &MonteCarloSettings) {
+        for (name, _) in entries(&file.measurand) {
+            let tolerances = [1, 2].map(|digits| NamedFigure::tolerance(name, digits));
+            self.awaited_figures.extend(tolerances);
+        }
+        if matches!(monte_carlo.trials, Trials::Adaptive { .. }) {
+            let batches = [NamedFigure::LEAST_BATCH, NamedFigure::BATCH];
+            self.awaited_figures.extend(batches.map(String::from));
+        }
     }
 }
 

@@ -150,18 +150,24 @@ impl Checker<'_> {
             None => theirs.clone(),
             Some(text) => {
                 let unit = self.unit(&table.unit)?;
-                let fits = theirs.dimension == unit.dimension
-                    && theirs.is_point() == unit.is_point();
+                let fits =
+                    theirs.dimension == unit.dimension && theirs.is_point() == unit.is_point();
                 if !fits {
                     return self.refuse(
                         Fault::new(
                             UNIT_CLASH,
                             text.span.clone(),
-                            format!("the result in {file} is in {}, {name} in {}", theirs.symbol, unit.symbol),
+                            format!(
+                                "the result in {file} is in {}, {name} in {}",
+                                theirs.symbol, unit.symbol
+                            ),
                         )
                         .label("units do not fit")
                         .related(from.span.clone(), format!("a result in {}", theirs.symbol))
-                        .help(format!("write unit = \"{}\", or leave the unit out", theirs.symbol)),
+                        .help(format!(
+                            "write unit = \"{}\", or leave the unit out",
+                            theirs.symbol
+                        )),
                     );
                 }
                 unit
@@ -171,12 +177,7 @@ impl Checker<'_> {
     }
 
     /// Whether the input states nothing that the other file states already.
-    fn nothing_beside(
-        &mut self,
-        name: &str,
-        table: &InputTable,
-        from: &Stated<FromTable>,
-    ) -> bool {
+    fn nothing_beside(&mut self, name: &str, table: &InputTable, from: &Stated<FromTable>) -> bool {
         let own = table.present.iter();
         let beside = own
             .filter(|(key, _)| !["unit", "description", "group", "from"].contains(key))
@@ -193,14 +194,19 @@ impl Checker<'_> {
             )
             .label("stated there already")
             .related(from.key.clone(), "the other file")
-            .help("remove it; a further reason for doubt is an input of its own that the model adds"),
+            .help(
+                "remove it; a further reason for doubt is an input of its own that the model adds",
+            ),
         );
         false
     }
 
     fn from_budget(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
         let path = self.origin.directory.join(&file.value);
-        if path.extension().is_some_and(|extension| extension == "json") {
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "json")
+        {
             return self.refuse(
                 Fault::new(
                     FROM,
@@ -208,7 +214,10 @@ impl Checker<'_> {
                     format!("{} is no budget by its name", file.value),
                 )
                 .label("expected a budget (*.toml)")
-                .help(format!("for a saved result write result = \"{}\"", file.value)),
+                .help(format!(
+                    "for a saved result write result = \"{}\"",
+                    file.value
+                )),
             );
         }
         let loaded = match self.origin.shelf.budget(&path) {
@@ -277,11 +286,14 @@ impl Checker<'_> {
         };
         let rows = different(candidates.iter().filter_map(|c| c.row).collect());
         let measurands = different(candidates.iter().map(|c| c.measurand).collect());
-        let row = from.value.row.as_ref().map(|row| row.map(|row| row.0.clone()));
+        let row = from
+            .value
+            .row
+            .as_ref()
+            .map(|row| row.map(|row| row.0.clone()));
         let row = self.one(file, from, "row", "row", row.as_ref(), &rows)?;
         let measurand = from.value.measurand.as_ref();
-        let measurand =
-            self.one(file, from, "measurand", "measurand", measurand, &measurands)?;
+        let measurand = self.one(file, from, "measurand", "measurand", measurand, &measurands)?;
         candidates
             .iter()
             .position(|c| c.row == row.as_deref() && Some(c.measurand) == measurand.as_deref())
@@ -323,10 +335,7 @@ impl Checker<'_> {
                     format!("{file} has {} {word}s", names.len()),
                 )
                 .label(format!("which {word}?"))
-                .help(format!(
-                    "add {key} = \"…\", one of: {}",
-                    shortened(names)
-                )),
+                .help(format!("add {key} = \"…\", one of: {}", shortened(names))),
             ),
         }
     }
@@ -354,13 +363,16 @@ impl Checker<'_> {
                 .label(format!("a circle: {}", names.join(" uses ")))
                 .help("a result cannot depend on itself: put what both need into a third file")
             }
-            Missing::Unfit(why) => fault(SAVED_RESULT, format!("{name} holds no saved results: {why}"))
-                .label("expected a file that `gumption eval --save` wrote")
-                .help(if name.ends_with(".toml") {
-                    format!("for another budget write budget = \"{name}\"")
-                } else {
-                    format!("write it with: gumption eval BUDGET --save {name}")
-                }),
+            Missing::Unfit(why) => fault(
+                SAVED_RESULT,
+                format!("{name} holds no saved results: {why}"),
+            )
+            .label("expected a file that `gumption eval --save` wrote")
+            .help(if name.ends_with(".toml") {
+                format!("for another budget write budget = \"{name}\"")
+            } else {
+                format!("write it with: gumption eval BUDGET --save {name}")
+            }),
             Missing::Folder => fault(UNREADABLE_FILE, format!("{name} is a folder, not a file"))
                 .label("expected a file"),
             Missing::Unreadable(error) => {

@@ -8,6 +8,7 @@
 //!
 //! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
 
+mod analysis;
 mod check;
 mod claim;
 mod distributions;
@@ -24,6 +25,7 @@ mod variants;
 
 use nalgebra::DMatrix;
 
+pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_under, read, schema, template};
@@ -85,6 +87,8 @@ pub struct Budget {
     pub groups: Vec<Group>,
     /// What certificates say.
     pub claims: Vec<Claim>,
+    /// Analyses of readings, for the report; their figures are among `figures`.
+    pub analyses: Vec<Analysis>,
     /// What the analyses of the file's data found (fits, analyses of variance), known before any evaluation.
     pub figures: Vec<NamedFigure>,
     /// What a reader must know that is not an error (certificate past due, estimate moved to the

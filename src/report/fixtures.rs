@@ -162,6 +162,7 @@ impl Bench {
             components: self.components,
             groups: Vec::new(),
             claims: Vec::new(),
+            analyses: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
         }

@@ -4,6 +4,7 @@
 //! once. What depends on a refused part is left out silently: it would only repeat the first fault.
 
 mod amounts;
+mod anova;
 mod certificates;
 mod claims;
 mod constants;
@@ -165,6 +166,8 @@ impl Checker<'_> {
         self.unused_sources(shared(file), &register);
         let groups = self.groups(file, &mut register);
         let model = self.model(file, &constants, &register);
+        let found = register.analyses.iter().flat_map(|one| one.figures());
+        self.figures.extend(found);
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -177,6 +180,7 @@ impl Checker<'_> {
             components: register.components,
             groups,
             claims,
+            analyses: register.analyses,
             figures: std::mem::take(&mut self.figures),
             remarks: std::mem::take(&mut self.remarks),
         })

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::draft::Draft;
-use crate::budget::{Component, Input, Owner, Term};
+use crate::budget::{Analysis, Component, Input, Owner, Term};
 use crate::distribution::Distribution;
 use crate::quantity::Unit;
 
@@ -39,6 +39,10 @@ pub(super) struct Register {
     pub sources: Vec<SourceEntry>,
     /// Readings behind a Type A component.
     pub readings: HashMap<usize, Vec<f64>>,
+    /// Analyses of readings.
+    pub analyses: Vec<Analysis>,
+    /// Elements of vectors that share one standard deviation of finite ν.
+    pub families: Vec<Vec<usize>>,
     /// Inputs whose uncertainty a covariance matrix states.
     pub by_matrix: Vec<String>,
     /// Whether something was refused, so that correlations of it cannot be checked.
@@ -60,6 +64,12 @@ impl Register {
         } else {
             format!("{owner_name}.{}", draft.label)
         };
+        let analysed = draft.findings.into_iter().map(|found| Analysis {
+            name: name.clone(),
+            unit: unit.clone(),
+            found,
+        });
+        self.analyses.extend(analysed);
         self.components.push(Component {
             name,
             label: draft.label,

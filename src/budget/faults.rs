@@ -143,6 +143,16 @@ SERIAL "B0218" "readings cannot be corrected for autocorrelation"
 "The correction estimates the autocorrelation from the readings themselves and needs at least ten of them, which \
 must not drift so much that less than two independent ones remain."
 
+GROUPS "B0219" "groups of readings are not usable"
+"An analysis of variance compares groups: two or more of them, one of which at least has two readings that \
+differ. In nested groups one group at least has two subgroups. A difference between groups is not seen in a \
+single group; state its readings as `readings`."
+
+OUTLIER_TEST "B0220" "a test for outliers cannot say anything"
+"Dixon's test is for 3 to 30 readings, that of Grubbs for 3 or more. Four mean deviations need 4 readings, and three \
+standard deviations need 11: with fewer no reading can be so far from the mean. `significance` is for the tests of Grubbs \
+and Dixon."
+
 UNKNOWN_NAME "B0301" "a name is not known"
 "A correlation, a joint input, a claim or a series refers to an input, source or component that the file does not have."
 

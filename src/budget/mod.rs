@@ -8,6 +8,7 @@
 //!
 //! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
 
+mod analysis;
 pub mod chain;
 mod check;
 mod claim;
@@ -30,6 +31,7 @@ mod variants;
 
 use nalgebra::DMatrix;
 
+pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use decision::{Conformity, DecisionRule, Detection, Following, Follows, Guard, Interval};
 pub use files::Files;
@@ -100,6 +102,8 @@ pub struct Budget {
     pub detection: Vec<Detection>,
     /// What certificates say.
     pub claims: Vec<Claim>,
+    /// Analyses of readings, for the report; their figures are among `figures`.
+    pub analyses: Vec<Analysis>,
     /// What the analyses of the file's data found (fits, analyses of variance), known before any evaluation.
     pub figures: Vec<NamedFigure>,
     /// What a reader must know that is not an error (certificate past due, estimate moved to the

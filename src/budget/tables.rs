@@ -4,7 +4,7 @@ use super::distributions::DistributionEntry;
 use super::table::{Stated, table, words};
 use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
 use super::variants::{
-    Amounts, ConstantEntry, Numbers, ReadingsOf, RowLabel, Sources, TrialsEntry,
+    Amounts, ConstantEntry, Groups, Numbers, ReadingsOf, RowLabel, Sources, TrialsEntry,
 };
 
 type List<T> = Vec<Stated<T>>;
@@ -266,8 +266,20 @@ table! {
         minus: Amount,
         /// Way: expanded uncertainty from a certificate; without `U`, the certificate behind another way.
         certificate: CertificateTable,
-        /// Way: repeated readings, in the unit of the input, as a list or from a CSV file.
+        /// Whether a stated u was evaluated from readings (Type A) or otherwise.
+        kind as "type": TypeWord,
+        /// Way: repeated readings, in the unit of the input, as a list or from a CSV file; of a vector, one list for each element.
         readings: Numbers,
+        /// Way: readings in groups (days, laboratories), one list for each; in subgroups of groups, lists of lists; or from a CSV file.
+        groups: Groups,
+        /// Way: means, standard deviations and numbers of readings of groups.
+        group_summary: GroupSummaryTable,
+        /// With `groups`: what is done with a difference between them.
+        between: BetweenWord,
+        /// Level of significance of the F test of `groups` or of the `outlier_test` (default 0.05).
+        significance: f64,
+        /// With `readings`: tests the most outlying one; reported, never removed.
+        outlier_test: OutlierWord,
         /// Way: accuracy specification of an instrument.
         specification: SpecificationTable,
         /// Way: resolution q of an indication; half-width q/2.
@@ -316,6 +328,66 @@ table! {
         gum_u: Amount,
         /// Where the number comes from.
         reference: String,
+    }
+}
+
+words! {
+    /// How a standard uncertainty was evaluated.
+    TypeWord {
+        /// By a statistical analysis of readings.
+        A "A",
+        /// By other means.
+        B "B",
+    }
+}
+
+words! {
+    /// What is done with a difference between groups of readings.
+    BetweenWord {
+        /// Its variance is part of u.
+        Include "include",
+        /// As "include" if an F test finds the difference, else as "none".
+        Test "test",
+        /// All readings are taken for one population.
+        None "none",
+    }
+}
+
+words! {
+    /// Tests for outliers.
+    OutlierWord {
+        /// Grubbs: largest deviation in units of s.
+        Grubbs "grubbs",
+        /// Dixon: gap beside the outermost reading over the range.
+        Dixon "dixon",
+        /// Four mean deviations of the other readings.
+        FourD "4d",
+        /// Three standard deviations.
+        ThreeS "3s",
+    }
+}
+
+table! {
+    /// What is known of groups of readings.
+    GroupSummaryTable "group_summary" {
+        /// Mean of each group.
+        means: List<Amount>,
+        /// Experimental standard deviation of each group.
+        s: List<Amount>,
+        /// Number of readings of each group, or one number for all.
+        n: OneOrMany<u64>,
+    }
+}
+
+table! {
+    /// A column of a CSV file whose rows belong to groups.
+    GroupColumnTable "a CSV column in groups" {
+        /// Path of the file.
+        file: String,
+        /// Name of the column with the readings.
+        column: String,
+        /// Name of the column that tells the group; two names for groups and subgroups.
+        group: OneOrMany<String>,
     }
 }
 
@@ -378,6 +450,8 @@ table! {
         s: Amount,
         /// Its degrees of freedom.
         dof: Dof,
+        /// In place of both: earlier series of readings, one list for each.
+        readings: List<List<f64>>,
     }
 }
 

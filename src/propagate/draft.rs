@@ -167,6 +167,7 @@ impl Draft {
             conformity: Vec::new(),
             detection: Vec::new(),
             claims: Vec::new(),
+            analyses: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
             chain: Default::default(),

@@ -165,6 +165,7 @@ impl Bench {
             conformity: Vec::new(),
             detection: Vec::new(),
             claims: Vec::new(),
+            analyses: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
             chain: Default::default(),

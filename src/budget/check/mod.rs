@@ -4,6 +4,7 @@
 //! once. What depends on a refused part is left out silently: it would only repeat the first fault.
 
 mod amounts;
+mod anova;
 mod certificates;
 mod chain;
 mod claims;
@@ -240,6 +241,8 @@ impl Checker<'_> {
         let conformity = self.conformity(file, &register);
         let detection = self.detection(file, &register);
         self.await_tolerances(file, &monte_carlo);
+        let found = register.analyses.iter().flat_map(|one| one.figures());
+        self.figures.extend(found);
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -255,6 +258,7 @@ impl Checker<'_> {
             conformity,
             detection,
             claims,
+            analyses: register.analyses,
             figures: std::mem::take(&mut self.figures),
             remarks: std::mem::take(&mut self.remarks),
             chain,

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::draft::Draft;
 use super::results::{Formula, Taken};
-use crate::budget::{Component, Following, Follows, Input, Owner, Term};
+use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
 use crate::distribution::Distribution;
 use crate::quantity::Unit;
 
@@ -44,6 +44,10 @@ pub(super) struct Register {
     pub taken: Vec<Taken>,
     /// Readings behind a Type A component.
     pub readings: HashMap<usize, Vec<f64>>,
+    /// Analyses of readings.
+    pub analyses: Vec<Analysis>,
+    /// Elements of vectors that share one standard deviation of finite ν.
+    pub families: Vec<Vec<usize>>,
     /// Inputs whose uncertainty a covariance matrix states.
     pub by_matrix: Vec<String>,
     /// Components whose effect follows the estimate of an input.
@@ -67,6 +71,12 @@ impl Register {
         } else {
             format!("{owner_name}.{}", draft.label)
         };
+        let analysed = draft.findings.into_iter().map(|found| Analysis {
+            name: name.clone(),
+            unit: unit.clone(),
+            found,
+        });
+        self.analyses.extend(analysed);
         self.components.push(Component {
             name,
             label: draft.label,

@@ -364,6 +364,7 @@ impl<'r> Check<'r> {
                     },
                     source: index,
                     unit: outcome.unit.clone(),
+                    scaled_twice: outcome.scaled_twice,
                     equation: equation.clone(),
                 });
             }

@@ -391,6 +391,7 @@ impl<'r> Check<'r> {
                     },
                     source: index,
                     unit: outcome.unit.clone(),
+                    scaled_twice: outcome.scaled_twice,
                     equation: equation.clone(),
                 });
             }

@@ -140,6 +140,9 @@ pub struct Output {
     pub source: usize,
     /// Unit of its value.
     pub unit: Unit,
+    /// Whether the formula gives a pure number, which the unit (%, ppm …) multiplies, and holds that very
+    /// factor as well: `100 * (a - b) / b` with the unit %.
+    pub scaled_twice: bool,
     /// The defining statements in printed form, one per line (`R = V / I * cos(phi)`).
     pub equation: String,
 }

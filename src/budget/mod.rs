@@ -12,6 +12,7 @@ mod check;
 mod claim;
 mod distributions;
 pub mod faults;
+mod fit;
 mod parametric;
 mod profile;
 mod reader;
@@ -25,6 +26,9 @@ mod variants;
 use nalgebra::DMatrix;
 
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
+pub use fit::{
+    Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict,
+};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_under, read, schema, template};
 pub use rejection::Rejection;
@@ -83,6 +87,8 @@ pub struct Budget {
     pub components: Vec<Component>,
     /// Correlated components; a component is in at most one group.
     pub groups: Vec<Group>,
+    /// Curves fitted by least squares, whose parameters are inputs.
+    pub fits: Vec<Fit>,
     /// What certificates say.
     pub claims: Vec<Claim>,
     /// What a reader must know that is not an error (certificate past due, estimate moved to the

@@ -25,6 +25,7 @@ impl Draft {
             inputs: Vec::new(),
             components: Vec::new(),
             groups: Vec::new(),
+            fits: Vec::new(),
         }
     }
 

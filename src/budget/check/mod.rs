@@ -11,6 +11,7 @@ mod conventions;
 mod correlations;
 mod csv;
 mod draft;
+mod fits;
 mod formulas;
 mod given;
 mod groups;
@@ -37,7 +38,7 @@ use super::tables::FileTable;
 use super::values::Named;
 use super::{Budget, Conventions, Heading, Remark, Row, TScale};
 use crate::fault::Fault;
-use crate::quantity::UnitTable;
+use crate::quantity::{Unit, UnitTable};
 
 /// What all checks share.
 struct Checker<'a> {
@@ -51,6 +52,10 @@ struct Checker<'a> {
     date: Option<String>,
     faults: Vec<Fault>,
     remarks: Vec<Remark>,
+    /// What the fits of the file say about the scatter of their responses.
+    scatters: Vec<fits::Scatter>,
+    /// Parameters of fits with their units.
+    parameters: Vec<(String, Option<Unit>)>,
     /// Whether names that formulas use may be declared in a part of the file that was refused.
     hidden_names: bool,
 }
@@ -132,6 +137,8 @@ fn budget(
         date: heading.date.clone(),
         faults,
         remarks: Vec::new(),
+        scatters: Vec::new(),
+        parameters: Vec::new(),
         hidden_names: names_hidden(file),
     };
     let budget = checker.budget(file, resolution, heading);
@@ -155,9 +162,11 @@ impl Checker<'_> {
         let mut register = register::Register::default();
         self.joint_estimates(file, &mut register);
         self.sources(shared(file), &mut register);
+        let fitted = self.fits(file, &constants, &mut register);
+        let file = &self.reporting_fits(file);
         self.inputs(file, resolution, &mut register);
         self.unused_sources(shared(file), &register);
-        let groups = self.groups(file, &mut register);
+        let groups = self.groups(file, &fitted, &mut register);
         let model = self.model(file, &constants, &register);
         let claims = self.claims(file, &register);
         Some(Budget {
@@ -170,6 +179,7 @@ impl Checker<'_> {
             measurands: formulas::measurands(file),
             components: register.components,
             groups,
+            fits: fitted.into_iter().map(|found| found.fit).collect(),
             claims,
             remarks: std::mem::take(&mut self.remarks),
         })
@@ -191,6 +201,7 @@ fn names_hidden(file: &FileTable) -> bool {
             "constant",
             file.constant.as_ref().map(|named| named.value.refused),
         )
+        || refused("fit", file.fit.as_ref().map(|named| named.value.refused))
         || refused("model", file.model.as_ref().map(|_| false))
 }
 

@@ -84,7 +84,7 @@ impl Checker<'_> {
         }
         let measurand = self.claimed(&table.measurand, &stated.span, file)?;
         let (name, entry) = entries(&file.measurand).get(measurand)?;
-        let unit = self.unit(&entry.value.unit)?;
+        let unit = self.measurand_unit(name, &entry.value.unit)?;
         let mut reading = Reading {
             table,
             name,

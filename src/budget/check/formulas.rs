@@ -60,10 +60,7 @@ impl Checker<'_> {
         }
         let units: Vec<_> = stated
             .iter()
-            .map(|(name, entry)| match (&entry.value.unit, self.parameter_unit(name)) {
-                (None, Some(unit)) => Some(unit.clone()),
-                (stated, _) => self.unit(stated),
-            })
+            .map(|(name, entry)| self.measurand_unit(name, &entry.value.unit))
             .collect();
         let unread = register.entries.iter().any(|entry| entry.unit.is_none())
             || units.iter().any(Option::is_none)

@@ -318,6 +318,18 @@ impl Checker<'_> {
         file
     }
 
+    /// The unit of a measurand: as stated, or that of the parameter which it reports.
+    pub(super) fn measurand_unit(
+        &mut self,
+        name: &str,
+        stated: &Option<Stated<String>>,
+    ) -> Option<Unit> {
+        match (stated, self.parameter_unit(name)) {
+            (None, Some(unit)) => Some(unit.clone()),
+            _ => self.unit(stated),
+        }
+    }
+
     /// The unit of a parameter of a fit that is reported as it is.
     pub(super) fn parameter_unit(&self, name: &str) -> Option<&Unit> {
         let (_, unit) = self.parameters.iter().find(|(own, _)| own == name)?;

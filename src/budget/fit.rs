@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::claim::NamedFigure;
 use crate::least_squares::Observed;
 use crate::quantity::Unit;
 
@@ -170,43 +171,57 @@ impl Fit {
         })
     }
 
-    /// The figures of the fit by name, as claims compare them: `residual_sd`, `cov(a, b)` …
-    pub fn figures(&self) -> Vec<(String, f64)> {
-        let mut figures = vec![
-            ("points".to_string(), self.points() as f64),
-            ("dof".to_string(), self.dof as f64),
-            ("rss".to_string(), self.rss()),
-            ("chi_squared".to_string(), self.chi_squared),
-            ("r_squared".to_string(), self.r_squared),
-            ("condition".to_string(), self.condition),
-        ];
+    /// The figures of the fit by name, as claims compare them: `line.residual_sd`, `line.cov(a, b)` …
+    pub fn figures(&self) -> Vec<NamedFigure> {
+        let one = Unit::one();
+        let response = self.response().unit.difference();
+        let squared = response.product(&response);
+        let (of_residual, of_sum) = if self.weighted {
+            (&one, &one)
+        } else {
+            (&response, &squared)
+        };
+        let mut figures = Vec::new();
+        let mut push = |figure: String, value: f64, unit: &Unit| {
+            figures.push(NamedFigure {
+                name: format!("{}.{figure}", self.name),
+                value,
+                unit: unit.clone(),
+            });
+        };
+        push("points".into(), self.points() as f64, &one);
+        push("dof".into(), self.dof as f64, &one);
+        push("rss".into(), self.rss(), &squared);
+        push("chi_squared".into(), self.chi_squared, of_sum);
+        push("r_squared".into(), self.r_squared, &one);
+        push("condition".into(), self.condition, &one);
         let optional = [
-            ("residual_sd", self.residual_sd),
-            ("chi_squared_per_dof", self.chi_squared_per_dof()),
-            (
-                "largest_residual",
-                self.farthest().map(|(_, residual)| residual),
-            ),
+            ("residual_sd", self.residual_sd, of_residual),
+            ("chi_squared_per_dof", self.chi_squared_per_dof(), of_sum),
+            ("largest_residual", self.farthest().map(|(_, r)| r), &one),
         ];
-        for (name, value) in optional {
-            figures.extend(value.map(|value| (name.to_string(), value)));
+        for (name, value, unit) in optional {
+            if let Some(value) = value {
+                push(name.into(), value, unit);
+            }
         }
         if let Some(test) = &self.lack_of_fit {
             let statistic = match test.test {
                 LackOfFitTest::ChiSquared => "chi_squared",
                 LackOfFitTest::Replicates => "F",
             };
-            figures.push((format!("lack_of_fit.{statistic}"), test.statistic));
-            figures.push(("lack_of_fit.p".to_string(), test.p));
+            push(format!("lack_of_fit.{statistic}"), test.statistic, &one);
+            push("lack_of_fit.p".into(), test.p, &one);
         }
         for (i, a) in self.parameters.iter().enumerate() {
-            figures.push((a.name.clone(), a.estimate));
-            figures.push((format!("u({})", a.name), a.u));
+            push(a.name.clone(), a.estimate, &a.unit);
+            push(format!("u({})", a.name), a.u, &a.unit.difference());
             for (j, b) in self.parameters.iter().enumerate() {
                 if i != j {
                     let pair = format!("({}, {})", a.name, b.name);
-                    figures.push((format!("cov{pair}"), self.covariance[(i, j)]));
-                    figures.push((format!("r{pair}"), self.correlation[(i, j)]));
+                    let unit = a.unit.product(&b.unit);
+                    push(format!("cov{pair}"), self.covariance[(i, j)], &unit);
+                    push(format!("r{pair}"), self.correlation[(i, j)], &one);
                 }
             }
         }

@@ -25,7 +25,7 @@ mod variants;
 
 use nalgebra::DMatrix;
 
-pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
+pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use fit::{
     Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict,
 };
@@ -91,6 +91,8 @@ pub struct Budget {
     pub fits: Vec<Fit>,
     /// What certificates say.
     pub claims: Vec<Claim>,
+    /// What the analyses of the file's data found (fits, analyses of variance), known before any evaluation.
+    pub figures: Vec<NamedFigure>,
     /// What a reader must know that is not an error (certificate past due, estimate moved to the
     /// expectation of an asymmetric distribution, resolution absorbed by repeatability …).
     pub remarks: Vec<Remark>,

@@ -505,6 +505,12 @@ table! {
         validated: VerdictTable,
         /// Stated figures of inputs (`V`) and components (`V.calibration`), by name.
         inputs: Named<InputClaimTable>,
+        /// Stated figures of analyses, by name: `"line.residual_sd" = 0.0035`.
+        figures: Named<f64>,
+        /// Correct significant digits that every figure of the claim must have, in place of tolerances.
+        digits: u64,
+        /// How well the stated figures are known; with "low" they are shown and decide nothing.
+        confidence: ConfidenceWord,
         /// Largest differences that still agree, where half a unit of the last stated digit is too little.
         tolerance: ToleranceTable,
         /// Who says so.
@@ -523,6 +529,18 @@ words! {
         SecondOrder "second-order",
         /// Propagation of distributions.
         MonteCarlo "Monte Carlo",
+    }
+}
+
+words! {
+    /// How well the figures of a claim are known.
+    ConfidenceWord {
+        /// Inputs and figures stand in a source that was read.
+        High "high",
+        /// Recalled, or quoted by a third party.
+        Medium "medium",
+        /// Recalled in part.
+        Low "low",
     }
 }
 
@@ -593,6 +611,8 @@ table! {
         contribution: f64,
         /// Of sensitivity coefficients of inputs.
         sensitivity: f64,
+        /// Of figures of analyses.
+        figures: f64,
     }
 }
 

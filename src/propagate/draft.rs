@@ -25,7 +25,6 @@ impl Draft {
             inputs: Vec::new(),
             components: Vec::new(),
             groups: Vec::new(),
-            fits: Vec::new(),
         }
     }
 
@@ -165,6 +164,8 @@ impl Draft {
             components: self.components,
             groups: self.groups,
             claims: Vec::new(),
+            fits: Vec::new(),
+            figures: Vec::new(),
             remarks: Vec::new(),
         }
     }

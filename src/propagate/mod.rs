@@ -24,7 +24,7 @@ pub use monte_carlo::{Consequence, MissingMoments, Side};
 
 use nalgebra::DMatrix;
 
-use crate::budget::{Adaptive, Budget, MonteCarloSettings};
+use crate::budget::{Adaptive, Budget, MonteCarloSettings, NamedFigure};
 use gum::Linear;
 use monte_carlo::{GumForMc, McOutcome};
 use second_order::{Outcome, Terms};
@@ -40,6 +40,8 @@ pub struct Evaluation {
     pub run: Option<Run>,
     /// What the reader must know before using the numbers.
     pub findings: Vec<Finding>,
+    /// Figures of all analyses by name: those of the budget's data, then those of the evaluation.
+    pub figures: Vec<NamedFigure>,
 }
 
 /// Both methods for one measurand.
@@ -459,6 +461,7 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         joint,
         run: monte_carlo.map(|McOutcome { run, .. }| run),
         findings,
+        figures: budget.figures.clone(),
     })
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use crate::budget::{
-    Budget, Certificate, Claim, ClaimedFigure, ClaimedMethod, Component, CoverageRule,
+    Budget, Certificate, Claim, ClaimedFigure, ClaimedMethod, Component, Confidence, CoverageRule,
     Evaluation as Kind, Figure, Group, Heading, Input, Law, Measurand, MonteCarloSettings, Owner,
     PROFILES, Remark, Term, Trials,
 };
@@ -163,6 +163,7 @@ impl Bench {
             groups: Vec::new(),
             fits: Vec::new(),
             claims: Vec::new(),
+            figures: Vec::new(),
             remarks: Vec::new(),
         }
     }
@@ -302,6 +303,7 @@ fn alone(gum: Gum) -> Evaluation {
         joint: None,
         run: None,
         findings: Vec::new(),
+        figures: Vec::new(),
     }
 }
 
@@ -368,6 +370,8 @@ pub(super) fn resistor() -> Case {
             figure(Figure::Lower, 9.998, 0.0005),
             figure(Figure::Upper, 10.001, 0.0005),
         ],
+        confidence: Confidence::High,
+        digits: None,
         reference: Some("Certificate 17".to_string()),
         note: None,
     });

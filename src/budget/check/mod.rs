@@ -36,7 +36,7 @@ use std::path::Path;
 use super::table::Stated;
 use super::tables::FileTable;
 use super::values::Named;
-use super::{Budget, Conventions, Heading, Remark, Row, TScale};
+use super::{Budget, Conventions, Heading, NamedFigure, Remark, Row, TScale};
 use crate::fault::Fault;
 use crate::quantity::{Unit, UnitTable};
 
@@ -56,6 +56,10 @@ struct Checker<'a> {
     scatters: Vec<fits::Scatter>,
     /// Parameters of fits with their units.
     parameters: Vec<(String, Option<Unit>)>,
+    /// Figures of the analyses of the file's data.
+    figures: Vec<NamedFigure>,
+    /// Names of figures that only the evaluation will give.
+    awaited_figures: Vec<String>,
     /// Whether names that formulas use may be declared in a part of the file that was refused.
     hidden_names: bool,
 }
@@ -139,6 +143,8 @@ fn budget(
         remarks: Vec::new(),
         scatters: Vec::new(),
         parameters: Vec::new(),
+        figures: Vec::new(),
+        awaited_figures: Vec::new(),
         hidden_names: names_hidden(file),
     };
     let budget = checker.budget(file, resolution, heading);
@@ -181,6 +187,7 @@ impl Checker<'_> {
             groups,
             fits: fitted.into_iter().map(|found| found.fit).collect(),
             claims,
+            figures: std::mem::take(&mut self.figures),
             remarks: std::mem::take(&mut self.remarks),
         })
     }

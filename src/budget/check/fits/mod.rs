@@ -57,6 +57,7 @@ impl Checker<'_> {
         let mut fitted = Vec::new();
         for (name, stated) in entries(&file.fit) {
             self.check_name(name, &stated.key, "fit");
+            // Claims may name figures of a fit that was refused.
             let found = self.fit(name, stated, constants, file, register, &mut taken);
             self.scatters.push(Scatter::of(name, found.as_ref()));
             register.incomplete |= found.is_none();
@@ -98,6 +99,7 @@ impl Checker<'_> {
         let columns: Vec<_> = order.iter().map(|index| &columns[*index]).collect();
         let solved = self.fit_solution(name, stated, &formula, &columns, &errors?)?;
         let fit = solved.into_fit(name, stated, &formula, &columns, start, register);
+        self.figures.extend(fit.figures());
         Some(self.enter_fit(fit, stated, register))
     }
 

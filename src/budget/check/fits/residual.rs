@@ -38,6 +38,14 @@ impl Scatter {
         }
     }
 
+    /// Whether a figure of this name is missing because the fit was refused.
+    pub(in crate::budget::check) fn withholds(&self, figure: &str) -> bool {
+        self.refused
+            && figure
+                .strip_prefix(&self.fit)
+                .is_some_and(|rest| rest.starts_with('.'))
+    }
+
     pub(super) fn is(&self, name: &str) -> bool {
         self.fit == name
     }

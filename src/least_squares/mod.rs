@@ -32,9 +32,12 @@
 //! it is multiplied by χ²/ν.
 
 mod dd;
+mod factor;
+mod linear;
 mod polynomial;
 mod problem;
 mod solution;
+mod whiten;
 
 pub use dd::Dd;
 pub use polynomial::Polynomial;
@@ -48,6 +51,9 @@ pub use solution::{Failure, Observed, Solution};
 /// A [`Failure`] says what is wrong with the problem, or that no minimum was found.
 pub fn solve(problem: &Problem) -> Result<Solution, Failure> {
     problem.check()?;
+    if problem.response.is_linear() && problem.errors.predictors_are_exact() {
+        return linear::solve(problem);
+    }
     Err(Failure::NoConvergence {
         iterations: 0,
         parameters: problem.start.clone().unwrap_or_default(),

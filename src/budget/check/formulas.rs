@@ -230,6 +230,10 @@ impl Checker<'_> {
             if parameters.contains(&index) {
                 continue;
             }
+            let constant = entries(&file.constant).get(index);
+            if constant.is_some_and(|(name, _)| self.used_by_fits.contains(name)) {
+                continue;
+            }
             let place = self.symbol_place(index, file, constants, register);
             let (kind, name) = if index < constants {
                 (

@@ -56,6 +56,8 @@ struct Checker<'a> {
     scatters: Vec<fits::Scatter>,
     /// Parameters of fits with their units.
     parameters: Vec<(String, Option<Unit>)>,
+    /// Names that the formulas of fits use.
+    used_by_fits: Vec<String>,
     /// Figures of the analyses of the file's data.
     figures: Vec<NamedFigure>,
     /// Names of figures that only the evaluation will give.
@@ -143,6 +145,7 @@ fn budget(
         remarks: Vec::new(),
         scatters: Vec::new(),
         parameters: Vec::new(),
+        used_by_fits: Vec::new(),
         figures: Vec::new(),
         awaited_figures: Vec::new(),
         hidden_names: names_hidden(file),

@@ -189,6 +189,8 @@ impl Checker<'_> {
                 return Err(Vec::new());
             }
         };
+        let needs = outline.needs.iter().map(|(name, _)| name.clone());
+        self.used_by_fits.extend(needs);
         let in_text = |checker: &Self, span: &Range<usize>| {
             checker
                 .in_formula(Fault::new(FIT, span.clone(), ""), Some(text))

@@ -85,11 +85,17 @@ pub(super) struct Qr<T> {
 
 /// A power of two that brings the length of a column near one; one for a column of zeros.
 fn scale_of<T: Scalar>(column: &[T]) -> f64 {
-    let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.value().abs()));
+    let largest = column
+        .iter()
+        .fold(0.0, |largest: f64, x| largest.max(x.value().abs()));
     if largest == 0.0 || !largest.is_finite() {
         return 1.0;
     }
-    let length = column.iter().map(|x| (x.value() / largest).powi(2)).sum::<f64>().sqrt();
+    let length = column
+        .iter()
+        .map(|x| (x.value() / largest).powi(2))
+        .sum::<f64>()
+        .sqrt();
     // Exponents by bits: neither logarithm nor overflow.
     let exponent = |x: f64| ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023;
     let exponent = (exponent(largest) + exponent(length)).clamp(-1000, 1000);
@@ -116,7 +122,11 @@ impl<T: Scalar> Qr<T> {
             scales,
             rank: count,
         };
-        let lengths: Vec<f64> = qr.columns.iter().map(|c| square(c).value().sqrt()).collect();
+        let lengths: Vec<f64> = qr
+            .columns
+            .iter()
+            .map(|c| square(c).value().sqrt())
+            .collect();
         for step in 0..count {
             qr.pivot(step);
             qr.eliminate(step);
@@ -131,7 +141,11 @@ impl<T: Scalar> Qr<T> {
     /// Brings the column with the longest rest to the front.
     fn pivot(&mut self, step: usize) {
         let rest = |column: &Vec<T>| {
-            column.iter().skip(step).map(|x| x.value() * x.value()).sum::<f64>()
+            column
+                .iter()
+                .skip(step)
+                .map(|x| x.value() * x.value())
+                .sum::<f64>()
         };
         let (mut best, mut longest) = (step, rest(&self.columns[step]));
         for candidate in step + 1..self.columns.len() {
@@ -209,7 +223,11 @@ impl<T: Scalar> Qr<T> {
     }
 
     fn r(&self, row: usize, column: usize) -> T {
-        if row == column { self.diagonal[row] } else { self.columns[column][row] }
+        if row == column {
+            self.diagonal[row]
+        } else {
+            self.columns[column][row]
+        }
     }
 
     /// The b that solves A b = Q c, of which the first elements are given: the least-squares

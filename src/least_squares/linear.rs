@@ -22,7 +22,10 @@ const ROUNDING_OF_EXACT: f64 = 1e-26;
 
 /// Estimates, covariance and derivatives of a checked problem.
 pub(super) fn solve(problem: &Problem) -> Result<Solution, Failure> {
-    let (n, p) = (problem.points() as f64, problem.response.parameters() as f64);
+    let (n, p) = (
+        problem.points() as f64,
+        problem.response.parameters() as f64,
+    );
     let whitening = match problem.errors.y {
         Spread::Matrix(_) => n * n * (n / 6.0 + p),
         _ => 0.0,
@@ -57,7 +60,9 @@ impl<'a, T: Scalar> Fit<'a, T> {
         }
         let qr = Qr::new(whitened, tolerance);
         if !qr.is_full() {
-            return Err(Failure::Indistinct { parameters: qr.dependent() });
+            return Err(Failure::Indistinct {
+                parameters: qr.dependent(),
+            });
         }
         let mut projected = observed.clone();
         whitener.whiten(&mut projected);
@@ -72,7 +77,14 @@ impl<'a, T: Scalar> Fit<'a, T> {
         debug_assert_eq!(residuals.len(), n);
         let mut whitened = residuals.clone();
         whitener.whiten(&mut whitened);
-        Ok(Fit { problem, whitener, qr, parameters, residuals, whitened })
+        Ok(Fit {
+            problem,
+            whitener,
+            qr,
+            parameters,
+            residuals,
+            whitened,
+        })
     }
 
     fn solution(self) -> Result<Solution, Failure> {
@@ -87,7 +99,11 @@ impl<'a, T: Scalar> Fit<'a, T> {
         };
         let by_y = self.by_y();
         let residuals: Vec<f64> = self.residuals.iter().map(|r| r.value()).collect();
-        let fitted = residuals.iter().zip(&self.problem.y).map(|(r, y)| y - r).collect();
+        let fitted = residuals
+            .iter()
+            .zip(&self.problem.y)
+            .map(|(r, y)| y - r)
+            .collect();
         Ok(Solution {
             covariance: self.qr.inverse_normal() * factor,
             dof,
@@ -140,7 +156,9 @@ impl<'a, T: Scalar> Fit<'a, T> {
         let mut mixed = DMatrix::zeros(p, m);
         for point in 0..n {
             let x: Vec<f64> = problem.x.row(point).iter().copied().collect();
-            problem.response.at(&x, &vec![0.0; p], &mut ignored, &mut offset);
+            problem
+                .response
+                .at(&x, &vec![0.0; p], &mut ignored, &mut offset);
             for j in 0..p {
                 let mut unit = vec![0.0; p];
                 unit[j] = 1.0;
@@ -149,7 +167,9 @@ impl<'a, T: Scalar> Fit<'a, T> {
                     mixed[(j, k)] = slope[k] - offset[k];
                 }
             }
-            problem.response.at(&x, parameters, &mut ignored, &mut slope);
+            problem
+                .response
+                .at(&x, parameters, &mut ignored, &mut slope);
             let bent = &normal * &mixed * multipliers[point].value();
             for k in 0..m {
                 for j in 0..p {
@@ -171,7 +191,11 @@ impl<'a, T: Scalar> Fit<'a, T> {
         let outside = square(&rotated[p..]).value();
         let total = if outside <= 1e-16 * square(&ones).value() {
             let mean = dot(&ones, &y) / square(&ones);
-            let deviations: Vec<T> = y.iter().zip(&ones).map(|(y, one)| *y - mean * *one).collect();
+            let deviations: Vec<T> = y
+                .iter()
+                .zip(&ones)
+                .map(|(y, one)| *y - mean * *one)
+                .collect();
             square(&deviations)
         } else {
             square(&y)
@@ -182,7 +206,10 @@ impl<'a, T: Scalar> Fit<'a, T> {
 
 /// Numbers as they were written.
 fn decimals<'a, T: Scalar>(values: impl IntoIterator<Item = &'a f64>) -> Vec<T> {
-    values.into_iter().map(|value| T::of(Dd::from_decimal(*value))).collect()
+    values
+        .into_iter()
+        .map(|value| T::of(Dd::from_decimal(*value)))
+        .collect()
 }
 
 /// Columns of the design, and y without what no parameter multiplies.
@@ -204,4 +231,3 @@ fn design<T: Scalar>(problem: &Problem) -> Result<(Vec<Vec<T>>, Vec<T>), Failure
     }
     Ok((columns, observed))
 }
-

@@ -32,14 +32,19 @@
 //! it is multiplied by χ²/ν.
 
 mod dd;
+mod derivatives;
+mod errors_in_variables;
 mod factor;
+mod lack_of_fit;
 mod linear;
+mod nonlinear;
 mod polynomial;
 mod problem;
 mod solution;
 mod whiten;
 
 pub use dd::Dd;
+pub use lack_of_fit::{LackOfFit, Replicates, lack_of_fit, replicates};
 pub use polynomial::Polynomial;
 pub use problem::{Errors, Problem, Response, Scale, Spread};
 pub use solution::{Failure, Observed, Solution};
@@ -51,11 +56,12 @@ pub use solution::{Failure, Observed, Solution};
 /// A [`Failure`] says what is wrong with the problem, or that no minimum was found.
 pub fn solve(problem: &Problem) -> Result<Solution, Failure> {
     problem.check()?;
-    if problem.response.is_linear() && problem.errors.predictors_are_exact() {
-        return linear::solve(problem);
+    match (
+        problem.response.is_linear(),
+        problem.errors.predictors_are_exact(),
+    ) {
+        (true, true) => linear::solve(problem),
+        (false, true) => nonlinear::solve(problem),
+        (_, false) => errors_in_variables::solve(problem),
     }
-    Err(Failure::NoConvergence {
-        iterations: 0,
-        parameters: problem.start.clone().unwrap_or_default(),
-    })
 }

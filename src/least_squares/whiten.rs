@@ -23,9 +23,11 @@ impl<T: Scalar> Whitener<T> {
             Spread::Each(u) => {
                 Whitener::Each(u.iter().map(|u| T::from(1.0) / T::from(*u)).collect())
             }
-            Spread::Matrix(v) => Whitener::Correlated(
-                Cholesky::new(v).ok_or(Failure::Covariance { observed: Observed::Y })?,
-            ),
+            Spread::Matrix(v) => {
+                Whitener::Correlated(Cholesky::new(v).ok_or(Failure::Covariance {
+                    observed: Observed::Y,
+                })?)
+            }
         })
     }
 

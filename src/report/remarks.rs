@@ -2,6 +2,7 @@
 
 use crate::propagate::{Basis, EvaluationError, FindingKind, is_residue};
 
+use super::fits::test_figures;
 use super::language::Language;
 use super::number::{aligned, freedom, grouped, probability, significant};
 use super::{Report, moments};
@@ -53,6 +54,9 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::FewDegreesOfFreedom { .. } => "few_degrees_of_freedom",
         FindingKind::Irregular { .. } => "irregular",
         FindingKind::NearSingular { .. } => "near_singular",
+        FindingKind::LackOfFit { .. } => "lack_of_fit",
+        FindingKind::ResidualsTooSmall { .. } => "residuals_too_small",
+        FindingKind::ExactFit { .. } => "exact_fit",
         FindingKind::Asymmetric => "asymmetric",
     }
 }
@@ -113,6 +117,17 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         FindingKind::NearSingular { what } => format!(
             "The model comes close to a point where it has no value: {what}. The output may have very long tails, and neither u nor k then describes it well. Look at the coverage interval, and check the uncertainty of that quantity."
         ),
+        FindingKind::LackOfFit { fit, test } => format!(
+            "The curve of the fit {fit} does not describe its data ({}): deviations as large come about in fewer than one of twenty cases if curve and uncertainties are right. The uncertainties of its parameters do not cover that. Look at the residuals for a pattern or a single wrong point; try another formula, or state larger uncertainties of the data.",
+            test_figures(Language::English, test),
+        ),
+        FindingKind::ResidualsTooSmall { fit, test } => format!(
+            "The data of the fit {fit} lie closer to the curve than their stated uncertainties let expect ({}). Perhaps these are too large, or contain a part that all points have in common: state that as a component with common = true.",
+            test_figures(Language::English, test),
+        ),
+        FindingKind::ExactFit { fit } => format!(
+            "The curve of the fit {fit} passes through all its points, so that the residuals tell no uncertainty of its parameters: they enter as exact. State the uncertainties of the data."
+        ),
         FindingKind::Asymmetric => "The distribution of the output is asymmetric, so that the probabilistically symmetric and the shortest coverage interval differ. Do not write the result as estimate ± U; state the interval.".to_string(),
     }
 }
@@ -158,6 +173,17 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         FindingKind::Irregular { what } => format!("测量模型在估计值处不光滑（{what}）。此处的导数意义不大，GUM 法的结果可能不正确，应以蒙特卡洛法为准。"),
         FindingKind::NearSingular { what } => format!(
             "测量模型接近无定义的点（{what}，即距该点的标准不确定度倍数）。输出量的分布可能有很长的尾部，标准不确定度和包含因子不能很好地描述它。请看包含区间，并核对该量的不确定度。"
+        ),
+        FindingKind::LackOfFit { fit, test } => format!(
+            "拟合 {fit} 的曲线与数据不符（{}）：若曲线和不确定度正确，出现如此大偏差的机会不到二十分之一。参数的不确定度不包含这一影响。请检查残差是否有规律或个别点有误，改用其他公式，或给出更大的数据不确定度。",
+            test_figures(Language::Chinese, test),
+        ),
+        FindingKind::ResidualsTooSmall { fit, test } => format!(
+            "拟合 {fit} 的数据比所给不确定度的预期更接近曲线（{}）。不确定度可能偏大，或含有各点共有的部分：请将该部分写成 common = true 的分量。",
+            test_figures(Language::Chinese, test),
+        ),
+        FindingKind::ExactFit { fit } => format!(
+            "拟合 {fit} 的曲线通过所有数据点，残差不能给出参数的不确定度，参数按精确值处理。请给出数据的不确定度。"
         ),
         FindingKind::Asymmetric => "输出量的分布不对称，概率对称包含区间与最短包含区间不同。不要写成估计值 ± U 的形式，应给出包含区间。".to_string(),
     }

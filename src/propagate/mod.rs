@@ -30,7 +30,7 @@ pub use monte_carlo::{Consequence, MissingMoments, Side};
 
 use nalgebra::DMatrix;
 
-use crate::budget::{Adaptive, Budget, MonteCarloSettings, NamedFigure};
+use crate::budget::{Adaptive, Budget, LackOfFit, MonteCarloSettings, NamedFigure};
 use crate::model::Notice;
 use gum::Linear;
 use monte_carlo::{GumForMc, McOutcome};
@@ -398,6 +398,25 @@ pub enum FindingKind {
     Extrapolated {
         /// The operation.
         what: Notice,
+    },
+    /// The data contradict the curve of a fit.
+    LackOfFit {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// The residuals of a fit are smaller than the stated uncertainties of its data let expect.
+    ResidualsTooSmall {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// A fit passes through all its points, so that its residuals tell no uncertainty.
+    ExactFit {
+        /// Name of the fit.
+        fit: String,
     },
     /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
     Asymmetric,

@@ -164,6 +164,7 @@ impl Bench {
             following: Vec::new(),
             conformity: Vec::new(),
             detection: Vec::new(),
+            fits: Vec::new(),
             claims: Vec::new(),
             analyses: Vec::new(),
             figures: Vec::new(),

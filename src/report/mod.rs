@@ -8,6 +8,8 @@ mod claim;
 mod comparison;
 mod compose;
 mod document;
+mod fits;
+mod fits_json;
 mod joint;
 mod json;
 mod language;

@@ -56,7 +56,7 @@ impl Describe for Number {
     }
 }
 
-fn number(x: f64) -> Number {
+pub(super) fn number(x: f64) -> Number {
     Number(x)
 }
 

@@ -6,7 +6,7 @@ use super::Checker;
 use crate::budget::faults::{DOF, NOT_POSITIVE};
 use crate::budget::table::Stated;
 use crate::budget::tables::ComponentTable;
-use crate::budget::{Certificate, Evaluation, Finding, TScale};
+use crate::budget::{Certificate, Evaluation, Finding, Follows, TScale};
 use crate::distribution::Distribution;
 use crate::fault::Fault;
 use crate::quantity::Unit;
@@ -50,6 +50,8 @@ pub(super) struct Draft {
     /// What its readings say.
     pub findings: Vec<Finding>,
     pub kind: Kind,
+    /// How its uncertainty follows the estimate.
+    pub follows: Option<Follows>,
     pub certificate: Option<Certificate>,
     pub reference: Option<String>,
     /// Place of the component as a whole.

@@ -1,6 +1,7 @@
 //! Measurands, and the way into the model language.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::register::Register;
 use super::{Checker, entries};
@@ -26,15 +27,37 @@ impl MeasurandTable {
 }
 
 /// The words about the measurands.
-pub(super) fn measurands(file: &FileTable) -> Vec<Measurand> {
-    let word = |stated: &Option<Stated<String>>| stated.as_ref().map(|text| text.value.clone());
-    entries(&file.measurand)
+pub(super) fn measurands(file: &FileTable, results: &[(String, usize)]) -> Vec<Measurand> {
+    let stated = entries(&file.measurand);
+    let description = |source: usize| {
+        let (_, entry) = stated.get(source)?;
+        let text = entry.value.description.as_ref()?;
+        Some(text.value.clone())
+    };
+    results
         .iter()
-        .map(|(name, entry)| Measurand {
+        .map(|(name, source)| Measurand {
             name: name.clone(),
-            description: word(&entry.value.description),
+            description: description(*source),
         })
         .collect()
+}
+
+/// The results by name, with the entry of the file that each belongs to. As long as there is no model,
+/// nobody knows which measurands are vectors.
+pub(super) fn results(file: &FileTable, model: Option<&Model>) -> Vec<(String, usize)> {
+    match model {
+        Some(model) => model
+            .outputs()
+            .iter()
+            .map(|output| (output.name.clone(), output.source))
+            .collect(),
+        None => entries(&file.measurand)
+            .iter()
+            .enumerate()
+            .map(|(index, (name, _))| (name.clone(), index))
+            .collect(),
+    }
 }
 
 impl Checker<'_> {
@@ -267,9 +290,14 @@ fn symbols(constants: &[Constant], register: &Register) -> Vec<Symbol> {
         Some(Symbol {
             name: entry.name.clone(),
             unit: entry.unit.clone()?,
-            role: match entry.vector {
-                true => Role::InputVector(entry.places.clone()),
-                false => Role::Input(entry.places.start),
+            role: match (&entry.formula, entry.vector) {
+                (Some(formula), _) => Role::Result {
+                    model: Arc::clone(&formula.model),
+                    output: formula.output,
+                    places: formula.places.clone(),
+                },
+                (None, true) => Role::InputVector(entry.places.clone()),
+                (None, false) => Role::Input(entry.places.start),
             },
         })
     });

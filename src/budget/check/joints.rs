@@ -276,6 +276,7 @@ impl Checker<'_> {
                 location: Location::None,
                 findings: Vec::new(),
                 kind: Kind::Other,
+                follows: None,
                 certificate: None,
                 reference: stated
                     .value

@@ -21,7 +21,7 @@ use crate::quantity::Rounding;
 use super::fits_json::{self, FitJson};
 use super::language::Language;
 use super::schema::{Describe, record};
-use super::{Report, claim, remarks, statement};
+use super::{Report, analyses, claim, remarks, statement};
 
 /// Name and version of the format; the number changes when a field changes its meaning or goes.
 pub const FORMAT: &str = "gumption-evaluation/1";
@@ -92,6 +92,8 @@ record! {
         components: Vec<ComponentJson<'a>>,
         /// Correlated components.
         correlated: Vec<GroupJson>,
+        /// Analyses of readings; their numbers are among `figures`, under their names.
+        analyses: Vec<AnalysisJson<'a>>,
         /// Exactly known quantities.
         constants: Vec<ConstantJson<'a>>,
         /// Least-squares fits whose parameters are inputs.
@@ -296,6 +298,18 @@ record! {
         d_high: Number,
         /// Whether both differences are within δ.
         validated: bool,
+    }
+}
+
+record! {
+    /// An analysis of the readings behind a component.
+    AnalysisJson<'a> {
+        /// Name of the component, with which the names of its figures begin.
+        component: &'a str,
+        /// What it is: readings, anova, nested-anova, outlier-grubbs, outlier-dixon, outlier-4d, outlier-3s.
+        kind: &'a str,
+        /// What was done with the differences between groups, and between subgroups (included, negative, not-significant, ignored), or whether an outlier was found (outlier, none).
+        verdicts: Vec<&'a str>,
     }
 }
 
@@ -611,6 +625,18 @@ impl<'a> Document<'a> {
                     }
                     .to_string(),
                     degrees_of_freedom: g.dof.map(Number),
+                })
+                .collect(),
+            analyses: budget
+                .analyses
+                .iter()
+                .map(|analysis| {
+                    let (kind, verdicts) = analyses::codes(&analysis.found);
+                    AnalysisJson {
+                        component: &analysis.name,
+                        kind,
+                        verdicts,
+                    }
                 })
                 .collect(),
             constants: budget

@@ -144,7 +144,10 @@ impl Chain {
         self.components.iter_mut().for_each(share);
         for ensemble in &mut self.ensembles {
             let members = &mut Arc::make_mut(ensemble).members;
-            members.iter_mut().map(|member| &mut member.identity).for_each(share);
+            members
+                .iter_mut()
+                .map(|member| &mut member.identity)
+                .for_each(share);
         }
     }
 }

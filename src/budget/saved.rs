@@ -173,7 +173,8 @@ impl SavedResults {
             }
             None => return Err(format!("it does not say that it is {RESULT_FORMAT}")),
         }
-        let document: Document = serde_json::from_value(value).map_err(|error| error.to_string())?;
+        let document: Document =
+            serde_json::from_value(value).map_err(|error| error.to_string())?;
         document.resolved(place)
     }
 }
@@ -348,8 +349,7 @@ impl GroupEntry {
 pub fn result_schema() -> Value {
     let text = |about: &str| json!({ "type": "string", "description": about });
     let number = |about: &str| json!({ "type": "number", "description": about });
-    let optional =
-        |about: &str| json!({ "anyOf": [{ "type": "string" }, { "type": "null" }], "description": about });
+    let optional = |about: &str| json!({ "anyOf": [{ "type": "string" }, { "type": "null" }], "description": about });
     let index = |about: &str| json!({ "type": "integer", "minimum": 0, "description": about });
     let extended = |about: &str| json!({ "anyOf": [{ "type": "number" }, { "const": "inf" }], "description": about });
     let object = |about: &str, properties: Value| {

@@ -3,7 +3,9 @@
 use super::distributions::DistributionEntry;
 use super::table::{Stated, table, words};
 use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
-use super::variants::{Amounts, ConstantEntry, Numbers, ReadingsOf, RowLabel, Sources, TrialsEntry};
+use super::variants::{
+    Amounts, ConstantEntry, Numbers, ReadingsOf, RowLabel, Sources, TrialsEntry,
+};
 
 type List<T> = Vec<Stated<T>>;
 

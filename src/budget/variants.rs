@@ -48,8 +48,12 @@ impl FromToml for RowLabel {
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
-            DeValue::Integer(_) => u64::read(value, reader).map(|number| RowLabel(number.to_string())),
-            DeValue::Float(_) => f64::read(value, reader).map(|number| RowLabel(number.to_string())),
+            DeValue::Integer(_) => {
+                u64::read(value, reader).map(|number| RowLabel(number.to_string()))
+            }
+            DeValue::Float(_) => {
+                f64::read(value, reader).map(|number| RowLabel(number.to_string()))
+            }
             _ => String::read(value, reader).map(RowLabel),
         }
     }

@@ -250,7 +250,10 @@ mod tests {
     fn the_way_to_a_file() {
         let way = |file: &str, folder: &str| relative(Path::new(file), Path::new(folder));
         assert_eq!(way("/lab/mass/a.toml", "/lab/mass"), "a.toml");
-        assert_eq!(way("/lab/mass/a.toml", "/lab/results/2026"), "../../mass/a.toml");
+        assert_eq!(
+            way("/lab/mass/a.toml", "/lab/results/2026"),
+            "../../mass/a.toml"
+        );
         assert_eq!(way("mass/a.toml", "mass"), "a.toml");
     }
 }

@@ -8,9 +8,7 @@ use std::sync::Arc;
 use super::Checker;
 use super::register::Register;
 use super::results::{Formula, Result, Taken};
-use crate::budget::chain::{
-    Chain, Ensemble, Identity, Member, Part, TakenResult, prefixes,
-};
+use crate::budget::chain::{Chain, Ensemble, Identity, Member, Part, TakenResult, prefixes};
 use crate::budget::faults::SAVED_STALE;
 use crate::budget::saved::SavedResults;
 use crate::budget::tables::FileTable;
@@ -57,21 +55,17 @@ impl Checker<'_> {
         } = merge;
         rename(&part, own, &mut chain, register);
         let brought = chain.ensembles.iter().skip(before);
-        groups.extend(brought.filter_map(|ensemble| {
-            ensemble.reduced(|identity| components.get(identity).copied())
-        }));
+        groups.extend(
+            brought.filter_map(|ensemble| {
+                ensemble.reduced(|identity| components.get(identity).copied())
+            }),
+        );
         self.remarks_of(&part, &taken, &mut chain, register);
         chain
     }
 
     /// The remarks of all files, and those about the results that are used.
-    fn remarks_of(
-        &mut self,
-        part: &Part,
-        taken: &[Taken],
-        chain: &mut Chain,
-        register: &Register,
-    ) {
+    fn remarks_of(&mut self, part: &Part, taken: &[Taken], chain: &mut Chain, register: &Register) {
         for one in taken {
             let name = register.entries[one.entry].name.clone();
             let file = &one.file;
@@ -112,8 +106,7 @@ impl Checker<'_> {
 
     /// Says so where another file takes u of a t distribution for something else.
     fn other_t_scale(&mut self, budget: &Budget, file: &str) {
-        let student =
-            |c: &Component| matches!(c.distribution, Distribution::StudentT { .. });
+        let student = |c: &Component| matches!(c.distribution, Distribution::StudentT { .. });
         if budget.conventions.t_scale == self.conventions.t_scale
             || !budget.components.iter().any(student)
         {
@@ -368,7 +361,12 @@ impl<'a> Merge<'a> {
 }
 
 /// Gives everything from other files the names that it has in this budget.
-fn rename(own: &Part, (inputs, components): (usize, usize), chain: &mut Chain, register: &mut Register) {
+fn rename(
+    own: &Part,
+    (inputs, components): (usize, usize),
+    chain: &mut Chain,
+    register: &mut Register,
+) {
     let mut parts: Vec<Part> = Vec::new();
     for identity in chain.inputs.iter().chain(&chain.components) {
         if identity.part != *own && !parts.contains(&identity.part) {
@@ -378,7 +376,8 @@ fn rename(own: &Part, (inputs, components): (usize, usize), chain: &mut Chain, r
     let prefixes = prefixes(&parts);
     let prefix = |identity: &Identity| {
         let at = parts.iter().position(|part| *part == identity.part);
-        at.and_then(|at| prefixes.get(at)).map_or("", String::as_str)
+        at.and_then(|at| prefixes.get(at))
+            .map_or("", String::as_str)
     };
     let added = register.inputs.iter_mut().zip(&chain.inputs).skip(inputs);
     for (input, identity) in added {

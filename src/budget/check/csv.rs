@@ -108,7 +108,9 @@ impl Checker<'_> {
             Ok(bytes) => bytes,
             Err(error) => {
                 let message = match error.kind() {
-                    _ if self.origin.shelf.files.is_folder(&path) => format!("{} is a folder, not a file", file.value),
+                    _ if self.origin.shelf.files.is_folder(&path) => {
+                        format!("{} is a folder, not a file", file.value)
+                    }
                     ErrorKind::NotFound => format!("there is no file {} in {folder}", file.value),
                     ErrorKind::PermissionDenied => format!("{} may not be read", file.value),
                     _ => format!("{} cannot be read: {error}", file.value),

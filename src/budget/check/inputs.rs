@@ -464,7 +464,12 @@ pub(super) fn element_name(name: &str, element: usize) -> String {
 }
 
 /// An input of which nothing is known yet but its words.
-pub(super) fn blank(name: &str, table: &InputTable, unit: Option<&Unit>, element: Option<usize>) -> Input {
+pub(super) fn blank(
+    name: &str,
+    table: &InputTable,
+    unit: Option<&Unit>,
+    element: Option<usize>,
+) -> Input {
     Input {
         name: element.map_or_else(|| name.to_string(), |element| element_name(name, element)),
         description: table.description.as_ref().map(|text| text.value.clone()),

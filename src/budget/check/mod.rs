@@ -148,7 +148,10 @@ fn share_sources(rows: &mut [Row], file: &Path) {
         })
         .cloned()
         .collect();
-    let names: Vec<&str> = shared.iter().map(|component| component.name.as_str()).collect();
+    let names: Vec<&str> = shared
+        .iter()
+        .map(|component| component.name.as_str())
+        .collect();
     for row in std::iter::once(first).chain(rest) {
         row.budget.chain.share(file, &names);
     }

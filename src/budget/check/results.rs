@@ -33,6 +33,20 @@ pub(super) struct Taken {
     pub place: Range<usize>,
 }
 
+impl Taken {
+    /// The fault of a correlation that is stated for such an input.
+    pub(super) fn not_to_be_correlated(&self, name: &Stated<String>) -> Fault {
+        Fault::new(
+            FROM,
+            name.span.clone(),
+            format!("{} is a result of {}, and no correlation of it can be stated", name.value, self.file),
+        )
+        .label("what it has in common with others follows from its components")
+        .related(self.place.clone(), "the other file")
+        .help("use a common budget or a common [source] in the other files; for a bare coefficient state the result as an input with `value` and `u`")
+    }
+}
+
 /// A result of another file.
 #[derive(Debug, Clone)]
 pub(super) enum Result {
@@ -150,18 +164,24 @@ impl Checker<'_> {
             None => theirs.clone(),
             Some(text) => {
                 let unit = self.unit(&table.unit)?;
-                let fits = theirs.dimension == unit.dimension
-                    && theirs.is_point() == unit.is_point();
+                let fits =
+                    theirs.dimension == unit.dimension && theirs.is_point() == unit.is_point();
                 if !fits {
                     return self.refuse(
                         Fault::new(
                             UNIT_CLASH,
                             text.span.clone(),
-                            format!("the result in {file} is in {}, {name} in {}", theirs.symbol, unit.symbol),
+                            format!(
+                                "the result in {file} is in {}, {name} in {}",
+                                theirs.symbol, unit.symbol
+                            ),
                         )
                         .label("units do not fit")
                         .related(from.span.clone(), format!("a result in {}", theirs.symbol))
-                        .help(format!("write unit = \"{}\", or leave the unit out", theirs.symbol)),
+                        .help(format!(
+                            "write unit = \"{}\", or leave the unit out",
+                            theirs.symbol
+                        )),
                     );
                 }
                 unit
@@ -171,12 +191,7 @@ impl Checker<'_> {
     }
 
     /// Whether the input states nothing that the other file states already.
-    fn nothing_beside(
-        &mut self,
-        name: &str,
-        table: &InputTable,
-        from: &Stated<FromTable>,
-    ) -> bool {
+    fn nothing_beside(&mut self, name: &str, table: &InputTable, from: &Stated<FromTable>) -> bool {
         let own = table.present.iter();
         let beside = own
             .filter(|(key, _)| !["unit", "description", "group", "from"].contains(key))
@@ -193,14 +208,19 @@ impl Checker<'_> {
             )
             .label("stated there already")
             .related(from.key.clone(), "the other file")
-            .help("remove it; a further reason for doubt is an input of its own that the model adds"),
+            .help(
+                "remove it; a further reason for doubt is an input of its own that the model adds",
+            ),
         );
         false
     }
 
     fn from_budget(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
         let path = self.origin.directory.join(&file.value);
-        if path.extension().is_some_and(|extension| extension == "json") {
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "json")
+        {
             return self.refuse(
                 Fault::new(
                     FROM,
@@ -208,7 +228,10 @@ impl Checker<'_> {
                     format!("{} is no budget by its name", file.value),
                 )
                 .label("expected a budget (*.toml)")
-                .help(format!("for a saved result write result = \"{}\"", file.value)),
+                .help(format!(
+                    "for a saved result write result = \"{}\"",
+                    file.value
+                )),
             );
         }
         let loaded = match self.origin.shelf.budget(&path) {
@@ -277,11 +300,14 @@ impl Checker<'_> {
         };
         let rows = different(candidates.iter().filter_map(|c| c.row).collect());
         let measurands = different(candidates.iter().map(|c| c.measurand).collect());
-        let row = from.value.row.as_ref().map(|row| row.map(|row| row.0.clone()));
+        let row = from
+            .value
+            .row
+            .as_ref()
+            .map(|row| row.map(|row| row.0.clone()));
         let row = self.one(file, from, "row", "row", row.as_ref(), &rows)?;
         let measurand = from.value.measurand.as_ref();
-        let measurand =
-            self.one(file, from, "measurand", "measurand", measurand, &measurands)?;
+        let measurand = self.one(file, from, "measurand", "measurand", measurand, &measurands)?;
         candidates
             .iter()
             .position(|c| c.row == row.as_deref() && Some(c.measurand) == measurand.as_deref())
@@ -323,10 +349,7 @@ impl Checker<'_> {
                     format!("{file} has {} {word}s", names.len()),
                 )
                 .label(format!("which {word}?"))
-                .help(format!(
-                    "add {key} = \"…\", one of: {}",
-                    shortened(names)
-                )),
+                .help(format!("add {key} = \"…\", one of: {}", shortened(names))),
             ),
         }
     }
@@ -344,23 +367,35 @@ impl Checker<'_> {
                     .chain(files.first())
                     .map(|file| file.file_name().unwrap_or_default().display().to_string())
                     .collect();
-                if names.len() == 2 {
-                    names.truncate(1);
-                }
-                fault(
-                    FROM_CIRCLE,
-                    format!("{name} needs the result of this file itself"),
-                )
-                .label(format!("a circle: {}", names.join(" uses ")))
-                .help("a result cannot depend on itself: put what both need into a third file")
-            }
-            Missing::Unfit(why) => fault(SAVED_RESULT, format!("{name} holds no saved results: {why}"))
-                .label("expected a file that `gumption eval --save` wrote")
-                .help(if name.ends_with(".toml") {
-                    format!("for another budget write budget = \"{name}\"")
+                let (message, label) = if names.len() == 2 {
+                    (
+                        "a budget uses its own result".into(),
+                        "this file itself".into(),
+                    )
                 } else {
-                    format!("write it with: gumption eval BUDGET --save {name}")
-                }),
+                    names.dedup();
+                    let circle = format!("a circle: {}", names.join(" uses "));
+                    (
+                        format!("{name} needs the result of this file itself"),
+                        circle,
+                    )
+                };
+                fault(FROM_CIRCLE, message)
+                    .label(label)
+                    .help("a result cannot depend on itself: put what both need into a third file")
+            }
+            Missing::Unfit(_) if name.ends_with(".toml") => fault(
+                SAVED_RESULT,
+                format!("{name} is a budget, not a file of saved results"),
+            )
+            .label("expected a file that `gumption eval --save` wrote")
+            .help(format!("for another budget write budget = \"{name}\"")),
+            Missing::Unfit(why) => fault(
+                SAVED_RESULT,
+                format!("{name} holds no saved results: {why}"),
+            )
+            .label("expected a file that `gumption eval --save` wrote")
+            .help(format!("write it with: gumption eval BUDGET --save {name}")),
             Missing::Folder => fault(UNREADABLE_FILE, format!("{name} is a folder, not a file"))
                 .label("expected a file"),
             Missing::Unreadable(error) => {

@@ -143,6 +143,16 @@ SERIAL "B0218" "readings cannot be corrected for autocorrelation"
 "The correction estimates the autocorrelation from the readings themselves and needs at least ten of them, which \
 must not drift so much that less than two independent ones remain."
 
+GROUPS "B0219" "groups of readings are not usable"
+"An analysis of variance compares groups: two or more of them, one of which at least has two readings that \
+differ. In nested groups one group at least has two subgroups. A difference between groups is not seen in a \
+single group; state its readings as `readings`."
+
+OUTLIER_TEST "B0220" "a test for outliers cannot say anything"
+"Dixon's test is for 3 to 30 readings, that of Grubbs for 3 or more. Four mean deviations need 4 readings, and three \
+standard deviations need 11: with fewer no reading can be so far from the mean. `significance` is for the tests of Grubbs \
+and Dixon."
+
 UNKNOWN_NAME "B0301" "a name is not known"
 "A correlation, a joint input, a claim or a series refers to an input, source or component that the file does not have."
 
@@ -190,6 +200,22 @@ CONVENTIONS "B0405" "conventions contradict one another"
 TRIALS "B0406" "the settings of the Monte Carlo method do not fit"
 "`trials` is a whole number of at least 1000, or \"adaptive\"; `procedure`, `digits` and `max_trials` belong to \
 \"adaptive\"."
+
+TOLERANCE "B0501" "a tolerance is not usable"
+"`[conformity]` states a lower or an upper tolerance limit, or both with the lower one first; acceptance limits are as \
+many. Two assessments of one measurand have a `name` each."
+
+DECISION_RULE "B0502" "a decision rule is missing or contradicts itself"
+"A statement of conformity needs the rule by which uncertainty was taken into account (ISO/IEC 17025 7.8.6): `rule`, or \
+`acceptance` limits, or the probabilities from which they follow. A guard band is an amount or a multiple of U."
+
+PROCESS "B0503" "the knowledge of the process is not usable"
+"`process` states a distribution with its parameters, located where the items are, or `in_tolerance_probability`, which \
+needs both tolerance limits."
+
+DETECTION "B0504" "characteristic limits cannot be found from this"
+"`[detection]` names in `gross` the input that carries the value of the measurand, such as the gross counts; `alpha` and \
+`beta` are probabilities below one half."
 
 FROM "B0701" "where an input comes from is not clear"
 "`from` names another `budget`, or the file of a saved `result`, and the `measurand` in it. The value and its \

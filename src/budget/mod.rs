@@ -8,9 +8,11 @@
 //!
 //! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
 
+mod analysis;
 pub mod chain;
 mod check;
 mod claim;
+mod decision;
 mod distributions;
 pub mod faults;
 mod files;
@@ -19,6 +21,7 @@ mod profile;
 mod reader;
 mod rejection;
 pub(crate) mod saved;
+mod series;
 mod shelf;
 mod strings;
 mod table;
@@ -28,7 +31,9 @@ mod variants;
 
 use nalgebra::DMatrix;
 
-pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
+pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
+pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
+pub use decision::{Conformity, DecisionRule, Detection, Following, Follows, Guard, Interval};
 pub use files::Files;
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
@@ -89,8 +94,18 @@ pub struct Budget {
     pub components: Vec<Component>,
     /// Correlated components; a component is in at most one group.
     pub groups: Vec<Group>,
+    /// Components whose effect follows the estimate of an input.
+    pub following: Vec<Following>,
+    /// Conformity assessments.
+    pub conformity: Vec<Conformity>,
+    /// Characteristic limits.
+    pub detection: Vec<Detection>,
     /// What certificates say.
     pub claims: Vec<Claim>,
+    /// Analyses of readings, for the report; their figures are among `figures`.
+    pub analyses: Vec<Analysis>,
+    /// What the analyses of the file's data found (fits, analyses of variance), known before any evaluation.
+    pub figures: Vec<NamedFigure>,
     /// What a reader must know that is not an error (certificate past due, estimate moved to the
     /// expectation of an asymmetric distribution, resolution absorbed by repeatability …).
     pub remarks: Vec<Remark>,

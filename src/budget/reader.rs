@@ -4,13 +4,13 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use toml::Spanned;
 use toml::de::DeTable;
 
-use super::check::{self, Origin};
-use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE};
+use super::check::{self, Origin, Variant};
+use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE, UNUSED};
 use super::files::Files;
 use super::rejection::Rejection;
+use super::series;
 use super::shelf::Shelf;
 use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
@@ -150,20 +150,18 @@ fn read_under(
     // Editors on Windows put a byte order mark in front; places are counted behind it.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (table, errors) = DeTable::parse_recoverable(text);
-    if !errors.is_empty() {
-        return Err(Rejection::new(name, text, syntax_faults(&errors, text)));
-    }
-    let (mut file, mut faults) = tables(&table, text);
-    if let Some(profile) = profile {
-        file.profile = Some(Stated {
-            value: profile.name.into(),
-            span: 0..0,
-            key: 0..0,
-        });
-    }
+    let (variants, mut faults) = variants(table.get_ref(), text, profile);
     let checked = origin
         .shelf
-        .within(origin.file, || check::rows(&file, text, origin));
+        .within(origin.file, || check::rows(variants, text, origin));
+    if !errors.is_empty() {
+        let mut all = syntax_faults(&errors, text);
+        if errors.iter().all(leaves_the_rest) {
+            faults.extend(checked.err().unwrap_or_default());
+            all.extend(elsewhere(faults, &all, text));
+        }
+        return Err(Rejection::new(name, text, all));
+    }
     match checked {
         Ok((heading, rows)) if faults.is_empty() => return Ok(Loaded { heading, rows }),
         Ok(_) => {}
@@ -176,14 +174,43 @@ fn read_under(
     Err(rejection)
 }
 
-/// Reads the tables of a file.
-fn tables(table: &Spanned<DeTable<'_>>, text: &str) -> (FileTable, Vec<Fault>) {
+/// The tables of the file, or of the file with each row of its series in place.
+fn variants(
+    table: &DeTable<'_>,
+    text: &str,
+    profile: Option<&Profile>,
+) -> (Vec<Variant>, Vec<Fault>) {
     let mut reader = Reader {
         file: text,
         faults: Vec::new(),
     };
-    let file = read_table::<FileTable>(table.get_ref(), "a budget", &mut reader);
-    (file, reader.faults)
+    let file = tables(table, profile, &mut reader);
+    let rows = match &file.series {
+        Some(stated) => series::variants(table, stated, &mut reader.faults),
+        None => Vec::new(),
+    };
+    // With a faulty series the file itself is still checked.
+    if rows.is_empty() {
+        return (vec![Variant { label: None, file }], reader.faults);
+    }
+    let rows = rows.into_iter().map(|row| Variant {
+        label: row.label,
+        file: tables(&row.table, profile, &mut reader),
+    });
+    (rows.collect(), reader.faults)
+}
+
+/// Reads the tables of a file.
+fn tables(table: &DeTable<'_>, profile: Option<&Profile>, reader: &mut Reader<'_>) -> FileTable {
+    let mut file = read_table::<FileTable>(table, "a budget", reader);
+    if let Some(profile) = profile {
+        file.profile = Some(Stated {
+            value: profile.name.into(),
+            span: 0..0,
+            key: 0..0,
+        });
+    }
+    file
 }
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
@@ -206,6 +233,34 @@ fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
     faults
 }
 
+/// Whether what stands on the other lines can be judged all the same.
+fn leaves_the_rest(error: &toml::de::Error) -> bool {
+    let message = error.message();
+    [
+        "string values must be quoted",
+        "invalid unquoted key",
+        "string, expected",
+        "duplicate key",
+    ]
+    .iter()
+    .any(|words| message.contains(words))
+}
+
+/// The faults that no line with a syntax error has part in.
+fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str) -> Vec<Fault> {
+    let line = |at: usize| text[..text.floor_char_boundary(at)].matches('\n').count();
+    let broken: Vec<usize> = syntax.iter().map(|fault| line(fault.span.start)).collect();
+    let touches = |fault: &Fault| {
+        let lines = line(fault.span.start)..=line(fault.span.end);
+        broken.iter().any(|broken| lines.contains(broken))
+    };
+    // What a broken line would have used seems unused.
+    faults
+        .into_iter()
+        .filter(|fault| fault.code != UNUSED && !touches(fault))
+        .collect()
+}
+
 fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     let end = text.len();
     let span = error.span().unwrap_or(end..end);
@@ -221,6 +276,18 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
         fault("there is nothing behind the `=`".into())
             .label("expected a value")
             .help("write a number, or a text in quotes; remove the line if there is nothing to say")
+    } else if says("string values must be quoted")
+        && let Some((number, unit)) = amount(marked)
+    {
+        fault(format!("`{marked}` needs quotes"))
+            .label("an amount with a unit is a text")
+            .help(format!("write \"{number} {unit}\""))
+    } else if says("invalid unquoted key") && !marked.is_empty() {
+        fault(format!("`{marked}` needs quotes where it is a key"))
+            .label("only A-Z a-z 0-9 _ - may stand without quotes here")
+            .help(format!(
+                "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
+            ))
     } else if says("string values must be quoted") {
         fault(format!("`{marked}` is no number, and a text needs quotes"))
             .label("expected a number or a text in quotes")
@@ -243,6 +310,19 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     } else {
         fault(format!("not well-formed TOML: {message}")).label("not understood here")
     }
+}
+
+/// Number and unit of an amount that was written without quotes.
+fn amount(text: &str) -> Option<(&str, &str)> {
+    let end = text
+        .char_indices()
+        .take_while(|(_, c)| c.is_ascii_digit() || "+-._".contains(*c))
+        .map(|(at, c)| at + c.len_utf8())
+        .last()?;
+    let (number, unit) = text.split_at(end);
+    let unit = unit.trim();
+    let plausible = number.parse::<f64>().is_ok() && !unit.is_empty() && !unit.contains(' ');
+    plausible.then_some((number, unit))
 }
 
 /// JSON Schema (draft-07) of the budget file, for editors.

@@ -238,17 +238,11 @@ fn parse_trials(text: &str) -> Result<Trials, String> {
     Ok(Trials::Fixed(number as u64))
 }
 
-/// Columns of the terminal that the report goes to, if it goes to one.
+/// Columns of the page: a file is as wide as pages usually are.
 fn page_width(args: &Args) -> usize {
-    /// Where nobody says otherwise, and at most: longer lines are hard to read.
-    const USUAL: usize = 100;
-    let stated = std::env::var("COLUMNS").ok().and_then(|c| c.parse().ok());
-    let terminal = || terminal_size::terminal_size_of(stdout()).map(|(w, _)| usize::from(w.0));
     match &args.output {
-        Some(_) => USUAL,
-        None => stated
-            .or_else(terminal)
-            .map_or(USUAL, |columns: usize| columns.clamp(NARROWEST, 120)),
+        Some(_) => output::USUAL_WIDTH,
+        None => output::page_width(),
     }
 }
 
@@ -259,14 +253,11 @@ fn parse_profile(text: &str) -> Result<&'static Profile, String> {
     })
 }
 
-/// Narrower pages cannot hold a budget table.
-const NARROWEST: usize = 60;
-
 fn parse_width(text: &str) -> Result<usize, String> {
     let width: usize = text
         .parse()
         .map_err(|_| "write a number of columns, such as 100".to_string())?;
-    Ok(width.clamp(NARROWEST, 200))
+    Ok(width.clamp(output::NARROWEST, 200))
 }
 
 #[cfg(test)]

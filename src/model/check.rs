@@ -382,13 +382,21 @@ impl<'r> Check<'r> {
                     .iter()
                     .flat_map(|s| self.statements[*s].symbols.iter().copied()),
             );
-            outputs.push(Output {
-                name: measurand.name.to_string(),
-                unit: outcome.unit.clone(),
-                equation: self.equation(index, measurand.name, outcome, &reached),
-            });
+            let equation = self.equation(index, measurand.name, outcome, &reached);
+            for element in 1..=outcome.ids.len() {
+                outputs.push(Output {
+                    name: match outcome.vector {
+                        true => format!("{}[{element}]", measurand.name),
+                        false => measurand.name.to_string(),
+                    },
+                    source: index,
+                    unit: outcome.unit.clone(),
+                    scaled_twice: outcome.scaled_twice,
+                    equation: equation.clone(),
+                });
+            }
         }
-        let ids: Vec<Id> = outcomes.iter().map(|o| o.id).collect();
+        let ids: Vec<Id> = outcomes.iter().flat_map(|o| o.ids.clone()).collect();
         let inputs = input_count(request.symbols);
         let graph = self.l.builder.finish(&ids);
         let program = Program::new(&graph, inputs);

@@ -54,6 +54,19 @@ pub struct Label {
     pub span: Span,
 }
 
+/// A table whose points are joined by straight lines, for hints.
+#[derive(Debug, Clone)]
+pub struct Table {
+    pub result: Id,
+    pub x: Id,
+    /// Where the lines meet, and both ends; in rising order.
+    pub knots: Vec<f64>,
+    /// `interpolate(t, ts, ys)`
+    pub call: Arc<str>,
+    /// `t`
+    pub argument: Arc<str>,
+}
+
 /// A program.
 #[derive(Debug, Clone, Default)]
 pub struct Graph {
@@ -61,6 +74,7 @@ pub struct Graph {
     pub implicit: Vec<Implicit>,
     pub outputs: Vec<Id>,
     pub labels: HashMap<Id, Label>,
+    pub tables: Vec<Table>,
 }
 
 impl Graph {
@@ -150,6 +164,14 @@ impl Graph {
             }
             replaced.insert(i as Id, id);
         }
+        let moved = |table: &Table| {
+            Some(Table {
+                result: *replaced.get(&table.result)?,
+                x: *replaced.get(&table.x)?,
+                ..table.clone()
+            })
+        };
+        out.tables.extend(self.tables.iter().filter_map(moved));
         (out, replaced)
     }
 }
@@ -375,6 +397,11 @@ impl Builder {
     /// Notes how the user wrote an operation.
     pub fn label(&mut self, id: Id, label: &Label) {
         self.graph.labels.entry(id).or_insert_with(|| label.clone());
+    }
+
+    /// Notes a table.
+    pub fn table(&mut self, table: Table) {
+        self.graph.tables.push(table);
     }
 
     /// The finished graph, without what the outputs do not need.

@@ -9,6 +9,7 @@ use super::{
     Validation,
 };
 use crate::budget::{Budget, CoverageRule, Group, Law, Owner};
+use crate::model::Notice;
 
 /// Poles and ends of domains are looked for within this many standard uncertainties.
 const REACH: f64 = 4.0;
@@ -94,7 +95,8 @@ impl Evidence<'_> {
     /// All findings: first those of the whole budget, then measurand by measurand.
     pub(super) fn findings(&self) -> Vec<Finding> {
         let of_model = self.of_model();
-        let doubtful_model = !of_model.is_empty();
+        let doubtful = |kind: &FindingKind| !matches!(kind, FindingKind::Extrapolated { .. });
+        let doubtful_model = of_model.iter().any(doubtful);
         let mut findings = whole(of_model);
         findings.extend(whole(self.of_run()));
         if doubtful_model && self.monte_carlo.is_none() {
@@ -118,11 +120,24 @@ impl Evidence<'_> {
         let kinks = model
             .irregularities(x)
             .into_iter()
-            .map(|what| FindingKind::Irregular { what });
+            .map(|notice| match notice {
+                Notice::BeyondTable { .. } => FindingKind::Extrapolated { what: notice },
+                _ => FindingKind::Irregular { what: notice },
+            });
         let poles = model.near_singular(x, &u, REACH).into_iter();
-        kinks
-            .chain(poles.map(|what| FindingKind::NearSingular { what }))
-            .collect()
+        let poles = poles.map(|notice| match notice {
+            Notice::Wrap { .. } => FindingKind::PhaseWraps { what: notice },
+            _ => FindingKind::NearSingular { what: notice },
+        });
+        let steps = match self.monte_carlo {
+            // Monte Carlo rounds every trial, and its verdict tells whether the steps matter.
+            Some(_) => Vec::new(),
+            None => model.coarse_steps(x, &u),
+        };
+        let steps = steps
+            .into_iter()
+            .map(|notice| FindingKind::CoarseStep { what: notice });
+        kinks.chain(poles).chain(steps).collect()
     }
 
     fn of_run(&self) -> Vec<FindingKind> {

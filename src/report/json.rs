@@ -9,8 +9,8 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use crate::budget::{
-    Adaptive, Claim, Component, CoverageRule, DofRule, Evaluation as Kind, Input, Law, OutputShape,
-    Owner, TScale,
+    Adaptive, Claim, Component, Confidence, CoverageRule, DofRule, Evaluation as Kind, Input, Law,
+    OutputShape, Owner, TScale,
 };
 use crate::propagate::{
     Basis, Contribution, Coverage, CoverageBasis, Freedom, Gum, JointResult, MeasurandResult,
@@ -56,7 +56,7 @@ impl Describe for Number {
     }
 }
 
-fn number(x: f64) -> Number {
+pub(super) fn number(x: f64) -> Number {
     Number(x)
 }
 
@@ -99,6 +99,8 @@ record! {
         joint: Option<JointJson>,
         /// How the Monte Carlo method was run.
         monte_carlo_run: Option<RunJson>,
+        /// Figures of analyses (fits, groups of readings, conformity …) by name.
+        figures: Vec<FigureJson<'a>>,
         /// Comparison with claims.
         claims: Vec<ClaimJson<'a>>,
         /// What must be known before the figures are used.
@@ -495,6 +497,18 @@ record! {
 }
 
 record! {
+    /// A figure of an analysis.
+    FigureJson<'a> {
+        /// Its name, as claims write it.
+        name: &'a str,
+        /// The number.
+        value: Number,
+        /// Its unit.
+        unit: &'a str,
+    }
+}
+
+record! {
     /// A claim with its comparison.
     ClaimJson<'a> {
         /// Measurand.
@@ -503,6 +517,8 @@ record! {
         reference: Option<&'a str>,
         /// Note.
         note: Option<&'a str>,
+        /// How well the figures are known: high, medium, low; low decides nothing.
+        confidence: &'static str,
         /// Claimed figures beside those obtained.
         comparison: Vec<ComparisonJson<'a>>,
     }
@@ -515,7 +531,7 @@ record! {
         figure: &'static str,
         /// The input, component or other measurand that the figure is about.
         of: Option<&'a str>,
-        /// Method that gave the obtained figure: gum, second_order, monte_carlo.
+        /// What gave the obtained figure: gum, second_order, monte_carlo, analysis.
         method: &'static str,
         /// Claimed.
         claimed: Number,
@@ -529,6 +545,8 @@ record! {
         ratio: Option<Number>,
         /// Whether the claim is about this method; otherwise the figure is for information.
         judged: bool,
+        /// Whether a verdict depends on it; not so where the claim's source is known in part only.
+        decides: bool,
         /// Whether obtained differs from claimed by no more than the tolerance, or is the claimed figure when rounded.
         agrees: bool,
     }
@@ -638,6 +656,15 @@ impl<'a> Document<'a> {
                 .collect(),
             joint: evaluation.joint.as_ref().map(joint),
             monte_carlo_run: evaluation.run.as_ref().map(run),
+            figures: evaluation
+                .figures
+                .iter()
+                .map(|f| FigureJson {
+                    name: &f.name,
+                    value: number(f.value),
+                    unit: &f.unit.symbol,
+                })
+                .collect(),
             claims: budget
                 .claims
                 .iter()
@@ -976,6 +1003,11 @@ fn claim_json<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> ClaimJ
             .map_or("", |o| o.name.as_str()),
         reference: claim.reference.as_deref(),
         note: claim.note.as_deref(),
+        confidence: match claim.confidence {
+            Confidence::High => "high",
+            Confidence::Medium => "medium",
+            Confidence::Low => "low",
+        },
         comparison: compare_claims(report.budget, report.evaluation)
             .iter()
             .filter(|c| c.claim == index)
@@ -986,6 +1018,7 @@ fn claim_json<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> ClaimJ
                     Method::Gum => "gum",
                     Method::SecondOrder => "second_order",
                     Method::MonteCarlo => "monte_carlo",
+                    Method::Analysis => "analysis",
                 },
                 claimed: number(c.claimed.value),
                 tolerance: number(c.claimed.tolerance),
@@ -993,6 +1026,7 @@ fn claim_json<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> ClaimJ
                 rounded: c.rounded.map(Number),
                 ratio: c.ratio().map(Number),
                 judged: c.judged,
+                decides: c.decides,
                 agrees: c.agrees(),
             })
             .collect(),

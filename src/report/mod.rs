@@ -21,6 +21,7 @@ mod series;
 mod statement;
 mod table;
 mod text;
+mod verification;
 
 #[cfg(test)]
 mod fixtures;
@@ -36,6 +37,10 @@ pub use schema::schema;
 pub use series::{series_markdown, series_text};
 pub use statement::statement;
 pub use text::{Page, text};
+pub use verification::{
+    Detail, FORMAT as VERIFICATION_FORMAT, json as verification_json,
+    markdown as verification_markdown, schema as verification_schema, text as verification_text,
+};
 
 use crate::budget::Budget;
 use crate::propagate::{Evaluation, FindingKind};

@@ -4,13 +4,16 @@
 //! once. What depends on a refused part is left out silently: it would only repeat the first fault.
 
 mod amounts;
+mod anova;
 mod certificates;
 mod chain;
 mod claims;
+mod conformity;
 mod constants;
 mod conventions;
 mod correlations;
 mod csv;
+mod detection;
 mod draft;
 mod formulas;
 mod given;
@@ -21,7 +24,6 @@ mod names;
 mod register;
 mod resolution;
 mod results;
-mod series;
 mod shapes;
 mod sources;
 mod specification;
@@ -38,7 +40,10 @@ use super::shelf::Shelf;
 use super::table::Stated;
 use super::tables::FileTable;
 use super::values::Named;
-use super::{Budget, Component, Conventions, Heading, Owner, Remark, Row, TScale};
+use super::{
+    Budget, Component, Conventions, Heading, MonteCarloSettings, NamedFigure, Owner, Remark, Row,
+    TScale, Trials,
+};
 use crate::fault::Fault;
 use crate::quantity::UnitTable;
 
@@ -74,6 +79,12 @@ struct Checker<'a> {
     date: Option<String>,
     faults: Vec<Fault>,
     remarks: Vec<Remark>,
+    /// Figures of the analyses of the file's data.
+    figures: Vec<NamedFigure>,
+    /// Names of figures that only the evaluation will give.
+    awaited_figures: Vec<String>,
+    /// Every result by name, with the entry of the file it belongs to: a vector has one per element.
+    results: Vec<(String, usize)>,
     /// Whether names that formulas use may be declared in a part of the file that was refused.
     hidden_names: bool,
 }
@@ -97,24 +108,31 @@ impl Checker<'_> {
     }
 }
 
+/// One evaluation: the file itself, or with the values of a row of its series in place.
+pub(super) struct Variant {
+    pub label: Option<String>,
+    pub file: FileTable,
+}
+
 /// The budgets of a file: one, or one for each row of its series.
 ///
 /// # Errors
 /// All faults, in no particular order.
 pub(super) fn rows(
-    file: &FileTable,
+    variants: Vec<Variant>,
     text: &str,
     origin: Origin<'_>,
 ) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
     let mut faults = Vec::new();
-    let heading = heading(file);
-    let variants = series::variants(file, &mut faults);
+    let heading = variants
+        .first()
+        .map(|variant| heading(&variant.file))
+        .unwrap_or_default();
+    let several = variants.len() > 1;
     let mut rows = Vec::new();
     for (index, variant) in variants.into_iter().enumerate() {
-        let row = file.series.as_ref().map(|_| {
-            let number = || (index + 1).to_string();
-            variant.label.clone().unwrap_or_else(number)
-        });
+        let number = || several.then(|| (index + 1).to_string());
+        let row = variant.label.clone().or_else(number);
         match budget(&variant.file, text, origin, &heading, row.as_deref()) {
             Ok(budget) => rows.push(Row {
                 label: variant.label,
@@ -186,6 +204,9 @@ fn budget(
         date: heading.date.clone(),
         faults,
         remarks: Vec::new(),
+        figures: Vec::new(),
+        awaited_figures: Vec::new(),
+        results: Vec::new(),
         hidden_names: names_hidden(file),
     };
     let budget = checker.budget(file, resolution, heading, row);
@@ -215,6 +236,12 @@ impl Checker<'_> {
         let mut groups = self.groups(file, &mut register);
         let chain = self.chain(file, row, &mut register, &mut groups);
         let model = self.model(file, &constants, &register);
+        self.results = formulas::results(file, model.as_ref());
+        let conformity = self.conformity(file, &register);
+        let detection = self.detection(file, &register);
+        self.await_tolerances(file, &monte_carlo);
+        let found = register.analyses.iter().flat_map(|one| one.figures());
+        self.figures.extend(found);
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -223,13 +250,32 @@ impl Checker<'_> {
             model: model?,
             inputs: register.inputs,
             constants,
-            measurands: formulas::measurands(file),
+            measurands: formulas::measurands(file, &self.results),
             components: register.components,
             groups,
+            following: register.following,
+            conformity,
+            detection,
             claims,
+            analyses: register.analyses,
+            figures: std::mem::take(&mut self.figures),
             remarks: std::mem::take(&mut self.remarks),
             chain,
         })
+    }
+}
+
+impl Checker<'_> {
+    /// Names the figures of JCGM 101, 7.9 that an evaluation will give.
+    fn await_tolerances(&mut self, file: &FileTable, monte_carlo: &MonteCarloSettings) {
+        for (name, _) in entries(&file.measurand) {
+            let tolerances = [1, 2].map(|digits| NamedFigure::tolerance(name, digits));
+            self.awaited_figures.extend(tolerances);
+        }
+        if matches!(monte_carlo.trials, Trials::Adaptive { .. }) {
+            let batches = [NamedFigure::LEAST_BATCH, NamedFigure::BATCH];
+            self.awaited_figures.extend(batches.map(String::from));
+        }
     }
 }
 

@@ -362,7 +362,7 @@ impl Checker<'_> {
                 .label("cannot be used as it is")
                 .help("its faults are listed after those of this file"),
             Missing::Circle(files) => {
-                let mut names: Vec<String> = files
+                let names: Vec<String> = files
                     .iter()
                     .chain(files.first())
                     .map(|file| file.file_name().unwrap_or_default().display().to_string())
@@ -373,7 +373,6 @@ impl Checker<'_> {
                         "this file itself".into(),
                     )
                 } else {
-                    names.dedup();
                     let circle = format!("a circle: {}", names.join(" uses "));
                     (
                         format!("{name} needs the result of this file itself"),

@@ -6,7 +6,7 @@ use crate::quantity::Rounding;
 use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{exact, probability};
-use super::{Report, budget_table, claim, comparison, joint, remarks, statement};
+use super::{Report, budget_table, claim, comparison, decisions, joint, remarks, statement};
 
 /// All blocks of a report.
 pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
@@ -31,6 +31,7 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
         blocks.extend(comparison::blocks(report, m));
     }
     blocks.extend(joint::blocks(report));
+    blocks.extend(decisions::blocks(report));
     blocks.extend(budget_table::origins(report));
     blocks.extend(budget_table::correlated(report));
     blocks.extend(claim::blocks(report));

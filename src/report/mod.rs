@@ -7,6 +7,7 @@ mod budget_table;
 mod claim;
 mod comparison;
 mod compose;
+mod decisions;
 mod document;
 mod joint;
 mod json;

@@ -2,8 +2,9 @@
 
 use crate::budget::faults::{SERIES, UNKNOWN_NAME};
 use crate::budget::table::Stated;
-use crate::budget::tables::{ClaimTable, FileTable, SeriesTable};
-use crate::budget::values::{Amount, Cell, OneOrMany};
+use crate::budget::tables::{ClaimTable, FileTable, ProcessTable, SeriesTable};
+use crate::budget::values::{Amount, Cell, Named, OneOrMany};
+use crate::budget::variants::Amounts;
 use crate::fault::{Fault, nearest};
 
 /// One evaluation: the file with the values of a row in place.
@@ -18,8 +19,25 @@ enum Column {
     Label,
     Input(usize),
     Constant(usize),
+    /// The standard uncertainty of an input.
+    Uncertainty(usize),
+    /// A number of the first conformity assessment.
+    Conformity(&'static str),
+    /// A figure of the first claim.
+    Figure(String),
     Claim(String),
 }
+
+/// Numbers of a conformity assessment that a column may set.
+const CONFORMITY_KEYS: [&str; 7] = [
+    "lower",
+    "upper",
+    "guard_band",
+    "guard_band_factor",
+    "conformance_probability",
+    "nonconformance_probability",
+    "in_tolerance_probability",
+];
 
 /// Numbers of a claim that a column may set.
 const CLAIM_KEYS: [&str; 6] = ["value", "u", "U", "k", "p", "dof"];
@@ -131,6 +149,24 @@ fn column(file: &FileTable, name: &Stated<String>, faults: &mut Vec<Fault>) -> O
     {
         return Some(Column::Claim(key.to_string()));
     }
+    if let Some(figure) = wanted.strip_prefix("claim.figures.") {
+        return Some(Column::Figure(figure.to_string()));
+    }
+    let key = wanted.strip_prefix("conformity.");
+    if let Some(key) = key.and_then(|key| CONFORMITY_KEYS.into_iter().find(|known| *known == key)) {
+        if file.conformity.is_none() {
+            faults.push(
+                Fault::new(SERIES, name.span.clone(), "the file has no [conformity]")
+                    .label("nothing to set"),
+            );
+            return None;
+        }
+        return Some(Column::Conformity(key));
+    }
+    let of_input = wanted.strip_suffix(".u");
+    if let Some(index) = of_input.and_then(|name| inputs.iter().position(|input| *input == name)) {
+        return Some(Column::Uncertainty(index));
+    }
     if let Some(index) = inputs.iter().position(|input| *input == wanted) {
         if let Some(values) = super::entries(&file.input)
             .get(index)
@@ -167,7 +203,7 @@ fn column(file: &FileTable, name: &Stated<String>, faults: &mut Vec<Fault>) -> O
     faults.push(match nearest(wanted, known) {
         Some(near) => fault.help(format!("did you mean \"{near}\"?")),
         None => fault.help(
-            "columns are inputs, constants, `label`, or numbers of the claim such as `claim.value`",
+            "columns are inputs (`X`), their standard uncertainties (`X.u`), constants, `label`, numbers of the claim such as `claim.value`, or of the conformity assessment such as `conformity.upper`",
         ),
     });
     None
@@ -219,21 +255,77 @@ fn set(variant: &mut Variant, column: &Column, cell: &Stated<Cell>, faults: &mut
                 entry.value.0.value = amount;
             }
         }
+        Column::Uncertainty(index) => {
+            let inputs = variant.file.input.as_mut();
+            let entry = inputs.and_then(|inputs| inputs.value.entries.get_mut(*index));
+            if let Some((_, entry)) = entry {
+                let component = &mut entry.value.component;
+                component.u = amount.map(|amount| amount.map(|a| Amounts::One(a.clone())));
+                component.present.retain(|(key, _)| *key != "u");
+                component.present.push(("u", cell.span.clone()));
+            }
+        }
+        Column::Conformity(key) => set_conformity(&mut variant.file, key, number, cell),
+        Column::Figure(name) => {
+            let claim = first_claim(&mut variant.file, cell);
+            let figures = claim.figures.get_or_insert_with(|| {
+                cell.map(|_| Named {
+                    entries: Vec::new(),
+                    refused: false,
+                })
+            });
+            figures.value.entries.retain(|(known, _)| known != name);
+            figures
+                .value
+                .entries
+                .push((name.clone(), cell.map(|_| number)));
+            claim.present.push(("figures", cell.span.clone()));
+        }
         Column::Claim(key) => set_claim(&mut variant.file, key, number, cell),
     }
 }
 
-/// Sets a number of the first claim, which is added where there is none.
-fn set_claim(file: &mut FileTable, key: &str, number: f64, cell: &Stated<Cell>) {
+/// Sets a number of the first conformity assessment.
+fn set_conformity(file: &mut FileTable, key: &str, number: f64, cell: &Stated<Cell>) {
+    let tables = file.conformity.as_mut();
+    let Some(table) = tables.and_then(|all| all.value.0.first_mut()) else {
+        return;
+    };
+    let table = &mut table.value;
+    let amount = Some(cell.map(|_| Amount { number, unit: None }));
+    let plain = Some(cell.map(|_| number));
+    let known = CONFORMITY_KEYS.iter().find(|known| **known == key);
+    match key {
+        "lower" => table.lower = amount,
+        "upper" => table.upper = amount,
+        "guard_band" => table.guard_band = amount,
+        "guard_band_factor" => table.guard_band_factor = plain,
+        "conformance_probability" => table.conformance_probability = plain,
+        "nonconformance_probability" => table.nonconformance_probability = plain,
+        _ => {
+            let process = table
+                .process
+                .get_or_insert_with(|| cell.map(|_| ProcessTable::default()));
+            process.value.in_tolerance_probability = plain;
+        }
+    }
+    table.present.extend(known.map(|key| (*key, cell.span.clone())));
+}
+
+/// The first claim, which is added where there is none.
+fn first_claim<'f>(file: &'f mut FileTable, cell: &Stated<Cell>) -> &'f mut ClaimTable {
     let claims = file
         .claim
         .get_or_insert_with(|| cell.map(|_| OneOrMany(Vec::new())));
     if claims.value.0.is_empty() {
         claims.value.0.push(cell.map(|_| ClaimTable::default()));
     }
-    let Some(claim) = claims.value.0.first_mut().map(|claim| &mut claim.value) else {
-        return;
-    };
+    &mut claims.value.0[0].value
+}
+
+/// Sets a number of the first claim.
+fn set_claim(file: &mut FileTable, key: &str, number: f64, cell: &Stated<Cell>) {
+    let claim = first_claim(file, cell);
     let amount = Some(cell.map(|_| Amount { number, unit: None }));
     let plain = Some(cell.map(|_| number));
     let key = match key {

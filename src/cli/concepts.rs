@@ -48,16 +48,28 @@ pub(super) const CONCEPTS: &[Concept] = &[
         text: "A file with several [measurand.NAME] gives, besides each result, the covariance and the correlation of all of them.\n\nTwo factors describe the joint coverage region for the GUM result: k_p of the ellipsoid, and k_q for simultaneous intervals y_j ± k_q·u_j (JCGM 102, 6.5). Both are larger than the k of a single measurand. For finite degrees of freedom the ellipsoid follows from Hotelling's T², and ν of the covariance matrix from the formula of Willink and Hall (2002). Monte Carlo gives the same factors from its trials and, for two or three measurands, the area or volume of the smallest region (7.7).\n\nWhere one measurand is a linear function of the others there is no such region, and the report says so.",
     },
     Concept {
+        name: "conformity",
+        aliases: &["risk", "decision rule", "guard band", "tolerance", "符合性", "合格判定"],
+        title: "decision rules and risks (JCGM 106, ISO/IEC 17025 7.8.6)",
+        text: "[conformity] states the tolerance and the decision rule. The acceptance limits follow from the rule: on the tolerance limits (simple), inside by a guard band w (guarded-acceptance; ILAC-G8 with w = U), outside (guarded-rejection), or both, undecided between (non-binary; ISO 14253-1 with 95 %; JJF 1094 where U > MPEV/3).\n\np_c is the probability that the measured item conforms, from the result alone or, where `process` says what is known of the items, by Bayes' theorem. Its complement is the specific consumer's risk of an accepted item; p_c itself the specific producer's risk of a rejected one.\n\nR_C and R_P are probabilities over all items of the process: that an item does not conform and is accepted, and that it conforms and is rejected. cpfa is R_C over the probability of acceptance. C_m = T/(4u); TUR = T/(2U) = MPEV/U.",
+    },
+    Concept {
         name: "degrees-of-freedom",
         aliases: &["welch-satterthwaite", "ws", "effective degrees of freedom", "freedom_refused", "few_degrees_of_freedom", "自由度"],
         title: "how well u itself is known (GUM G.4)",
         text: "n readings give ν = n − 1. A component whose u is uncertain by Δu/u (`reliability`) has ν = ½(Δu/u)^-2 (GUM G.4.2). Most Type B components have ν = ∞.\n\nν_eff of u(y) follows from the Welch–Satterthwaite formula, u⁴(y) / Σ u_i⁴(y)/ν_i (GUM G.4.1), which holds for independent terms. Correlated components that share one ν, such as joint readings, count as one term with that ν (Willink 2007). For correlated components with different finite ν no formula is valid: gumption refuses to invent one, says which components it concerns, and takes the smallest ν for k.\n\nMonte Carlo needs no ν_eff: components with finite ν are drawn from t distributions.",
     },
     Concept {
+        name: "detection-limit",
+        aliases: &["detection", "decision threshold", "characteristic limits", "iso 11929", "探测限", "判断限"],
+        title: "decision threshold and detection limit (ISO 11929)",
+        text: "A net effect that cannot be negative is recognised where y is above the decision threshold y* = k_{1−α}·u(0), which is exceeded with probability α where there is none. The detection limit y# = y* + k_{1−β}·u(y#) is the smallest value that is recognised with probability 1 − β. Both need u of a measurement that finds another value: the input that `gross` names takes the estimate that gives it, counts follow as their square root, relative uncertainties in proportion. Where u grows as fast as the value there is no detection limit.\n\nBest estimate and coverage interval are those of the normal distribution of the result, cut off at zero. With Monte Carlo, threshold and limit are also found from the quantiles of the simulated results (ISO 11929-2).",
+    },
+    Concept {
         name: "exit-codes",
         aliases: &["exit", "exit code"],
         title: "what the program returns to the shell",
-        text: "0: everything was evaluated. 1: a budget was read but gives no result (the model has no value at the estimates, or every trial failed). 2: a file or an argument is wrong. With several files the others are still printed, and the worst code is returned.",
+        text: "0: everything was evaluated. 1: a budget was read but gives no result (the model has no value at the estimates, or every trial failed), or a conformity assessment finds an item not conforming. 2: a file or an argument is wrong. With several files the others are still printed, and the worst code is returned.",
     },
     Concept {
         name: "findings",

@@ -6,7 +6,7 @@ use crate::quantity::Rounding;
 use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{exact, probability};
-use super::{Report, analyses, budget_table, claim, comparison, fits, joint, remarks, statement};
+use super::{Report, analyses, budget_table, claim, comparison, fits, joint, remarks, statement, decisions};
 
 /// All blocks of a report.
 pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
@@ -33,6 +33,7 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
         blocks.extend(comparison::blocks(report, m));
     }
     blocks.extend(joint::blocks(report));
+    blocks.extend(decisions::blocks(report));
     blocks.extend(budget_table::origins(report));
     blocks.extend(analyses::blocks(report));
     blocks.extend(budget_table::correlated(report));

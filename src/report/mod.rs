@@ -8,6 +8,7 @@ mod budget_table;
 mod claim;
 mod comparison;
 mod compose;
+mod decisions;
 mod document;
 mod fits;
 mod fits_json;

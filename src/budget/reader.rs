@@ -7,9 +7,11 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::DeTable;
 
-use super::check;
+use super::check::{self, Origin};
 use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE, UNUSED};
+use super::files::Files;
 use super::rejection::Rejection;
+use super::shelf::Shelf;
 use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
 use super::{Heading, Profile, Row};
@@ -40,9 +42,35 @@ pub fn load(path: &Path) -> Result<Loaded, Rejection> {
 /// # Errors
 /// As [`load`].
 pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Rejection> {
+    load_from(Files::Disk, path, profile)
+}
+
+/// Reads and checks a budget file, and the files that it names, from a disk or a library of files;
+/// under another profile than the one that it names, if one is given.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_from(
+    files: Files<'_>,
+    path: &Path,
+    profile: Option<&Profile>,
+) -> Result<Loaded, Rejection> {
+    let bytes = files.read(path).map_err(|error| {
+        let fault = unreadable(files, path, &error);
+        Rejection::new(&path.display().to_string(), "", vec![fault])
+    })?;
+    load_bytes(&Shelf::new(files), path, bytes, profile)
+}
+
+/// Reads and checks a budget file of this content.
+pub(super) fn load_bytes(
+    shelf: &Shelf<'_>,
+    path: &Path,
+    bytes: Vec<u8>,
+    profile: Option<&Profile>,
+) -> Result<Loaded, Rejection> {
     let name = path.display().to_string();
     let refuse = |fault| Rejection::new(&name, "", vec![fault]);
-    let bytes = std::fs::read(path).map_err(|error| refuse(unreadable(path, &error)))?;
     if path
         .extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
@@ -61,19 +89,23 @@ pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Reje
         .help("save the file as UTF-8");
         Rejection::new(&name, &valid, vec![fault])
     })?;
-    let directory = path.parent().unwrap_or_else(|| Path::new(""));
-    read_under(&text, &name, directory, profile)
+    let origin = Origin {
+        shelf,
+        directory: path.parent().unwrap_or_else(|| Path::new("")),
+        file: &shelf.files.identity(path),
+    };
+    read_under(&text, &name, origin, profile)
 }
 
 /// The fault of a file that cannot be opened, in words that do not depend on the operating system.
-fn unreadable(path: &Path, error: &std::io::Error) -> Fault {
+fn unreadable(files: Files<'_>, path: &Path, error: &std::io::Error) -> Fault {
     let name = path.display();
     let fault = |message: String| Fault::new(UNREADABLE_FILE, 0..0, message);
     if path.as_os_str().is_empty() {
         return fault("the name of the file is empty".into())
             .help("name a budget file, as in `gumption eval budget.toml`");
     }
-    if path.is_dir() {
+    if files.is_folder(path) {
         return fault(format!("{name} is a folder, not a file")).help(format!(
             "name the budgets in it, as in `gumption eval {}`",
             path.join("*.toml").display()
@@ -100,28 +132,29 @@ fn not_a_budget(name: &str) -> Fault {
 /// # Errors
 /// The text has faults: all of them.
 pub fn read(text: &str, name: &str, directory: &Path) -> Result<Loaded, Rejection> {
-    read_under(text, name, directory, None)
+    let shelf = Shelf::new(Files::Disk);
+    let origin = Origin {
+        shelf: &shelf,
+        directory,
+        file: &shelf.files.identity(&directory.join(name)),
+    };
+    read_under(text, name, origin, None)
 }
 
 fn read_under(
     text: &str,
     name: &str,
-    directory: &Path,
+    origin: Origin<'_>,
     profile: Option<&Profile>,
 ) -> Result<Loaded, Rejection> {
     // Editors on Windows put a byte order mark in front; places are counted behind it.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (table, errors) = DeTable::parse_recoverable(text);
-    let (mut file, mut faults) = tables(&table, text);
-    if !errors.is_empty() {
-        let mut all = syntax_faults(&errors, text);
-        if errors.iter().all(leaves_the_rest) {
-            let found = check::rows(&file, text, directory).err();
-            faults.extend(found.unwrap_or_default());
-            all.extend(elsewhere(faults, &all, text));
-        }
-        return Err(Rejection::new(name, text, all));
+    let mut syntax = syntax_faults(&errors, text);
+    if !errors.iter().all(leaves_the_rest) {
+        return Err(Rejection::new(name, text, syntax));
     }
+    let (mut file, mut faults) = tables(&table, text);
     if let Some(profile) = profile {
         file.profile = Some(Stated {
             value: profile.name.into(),
@@ -129,14 +162,26 @@ fn read_under(
             key: 0..0,
         });
     }
-    match check::rows(&file, text, directory) {
-        Ok((heading, rows)) if faults.is_empty() => Ok(Loaded { heading, rows }),
-        Ok(_) => Err(Rejection::new(name, text, faults)),
-        Err(found) => {
-            faults.extend(found);
-            Err(Rejection::new(name, text, faults))
+    let checked = origin
+        .shelf
+        .within(origin.file, || check::rows(&file, text, origin));
+    match checked {
+        Ok((heading, rows)) if faults.is_empty() && syntax.is_empty() => {
+            return Ok(Loaded { heading, rows });
         }
+        Ok(_) => {}
+        Err(found) => faults.extend(found),
     }
+    if !syntax.is_empty() {
+        let others = elsewhere(faults, &syntax, text);
+        syntax.extend(others);
+        faults = syntax;
+    }
+    let mut rejection = Rejection::new(name, text, faults);
+    if origin.shelf.is_outermost() {
+        rejection.others = origin.shelf.take_rejections();
+    }
+    Err(rejection)
 }
 
 /// Reads the tables of a file.

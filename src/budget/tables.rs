@@ -3,7 +3,9 @@
 use super::distributions::DistributionEntry;
 use super::table::{Stated, table, words};
 use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
-use super::variants::{Amounts, ConstantEntry, Numbers, ReadingsOf, Sources, TrialsEntry};
+use super::variants::{
+    Amounts, ConstantEntry, Numbers, ReadingsOf, RowLabel, Sources, TrialsEntry,
+};
 
 type List<T> = Vec<Stated<T>>;
 
@@ -46,6 +48,10 @@ table! {
         correlation: OneOrMany<CorrelationTable>,
         /// Inputs measured together, or given with a covariance matrix.
         joint: OneOrMany<JointTable>,
+        /// Whether a measurand conforms to a tolerance.
+        conformity: OneOrMany<ConformityTable>,
+        /// Decision threshold and detection limit of a measurand that is not negative.
+        detection: OneOrMany<DetectionTable>,
         /// What somebody's certificate says; compared, never used.
         claim: OneOrMany<ClaimTable>,
         /// The same budget for a table of values.
@@ -208,9 +214,25 @@ table! {
         description: String,
         /// Heading under which the budget table sums it up.
         group: String,
+        /// Result of another budget, or a saved result, in place of a value and its uncertainty.
+        from: FromTable,
         /// Several reasons to doubt the input; with a single one its keys may stand in the input itself.
         components: List<ComponentTable>,
         with component: ComponentTable
+    }
+}
+
+table! {
+    /// A result of another file, with everything that makes it uncertain.
+    FromTable "`from`" {
+        /// Path of another budget, from the folder of this one; its formulas and components become part of this budget.
+        budget: String,
+        /// Path of a file that `gumption eval --save` wrote; the result is taken over in linear form.
+        result: String,
+        /// Which of its measurands; may be left out where it has only one.
+        measurand: String,
+        /// Which row of its series, by label or by number.
+        row: RowLabel,
     }
 }
 
@@ -430,6 +452,12 @@ table! {
         validated: VerdictTable,
         /// Stated figures of inputs (`V`) and components (`V.calibration`), by name.
         inputs: Named<InputClaimTable>,
+        /// Stated figures of analyses, by name: `"line.residual_sd" = 0.0035`.
+        figures: Named<f64>,
+        /// Correct significant digits that every figure of the claim must have, in place of tolerances.
+        digits: u64,
+        /// How well the stated figures are known; with "low" they are shown and decide nothing.
+        confidence: ConfidenceWord,
         /// Largest differences that still agree, where half a unit of the last stated digit is too little.
         tolerance: ToleranceTable,
         /// Who says so.
@@ -448,6 +476,18 @@ words! {
         SecondOrder "second-order",
         /// Propagation of distributions.
         MonteCarlo "Monte Carlo",
+    }
+}
+
+words! {
+    /// How well the figures of a claim are known.
+    ConfidenceWord {
+        /// Inputs and figures stand in a source that was read.
+        High "high",
+        /// Recalled, or quoted by a third party.
+        Medium "medium",
+        /// Recalled in part.
+        Low "low",
     }
 }
 
@@ -518,6 +558,88 @@ table! {
         contribution: f64,
         /// Of sensitivity coefficients of inputs.
         sensitivity: f64,
+        /// Of figures of analyses.
+        figures: f64,
+    }
+}
+
+table! {
+    /// Whether a measurand conforms to a tolerance (JCGM 106).
+    ConformityTable "[conformity]" {
+        /// Measurand, where there are several.
+        measurand: String,
+        /// Name of this assessment, where a measurand has several.
+        name: String,
+        /// Lower tolerance limit.
+        lower: Amount,
+        /// Upper tolerance limit.
+        upper: Amount,
+        /// Decision rule.
+        rule: RuleWord,
+        /// Distance of the acceptance limits from the tolerance limits; U when left out.
+        guard_band: Amount,
+        /// The same as a multiple of U.
+        guard_band_factor: f64,
+        /// Guarded acceptance: least conformance probability of an accepted item.
+        conformance_probability: f64,
+        /// Guarded rejection: least probability that a rejected item does not conform.
+        nonconformance_probability: f64,
+        /// Acceptance limits: one for every tolerance limit.
+        acceptance: List<Amount>,
+        /// What is known of the items before one is measured.
+        process: ProcessTable,
+        /// Input that carries the measurand's value, where u depends on that value.
+        carrier: String,
+        /// Nothing is measured yet: only limits and risks are wanted.
+        planning: bool,
+    }
+}
+
+words! {
+    /// Decision rules.
+    RuleWord {
+        /// Acceptance interval = tolerance interval (shared risk).
+        Simple "simple",
+        /// Acceptance limits inside the tolerance by the guard band.
+        GuardedAcceptance "guarded-acceptance",
+        /// Acceptance limits outside the tolerance by the guard band.
+        GuardedRejection "guarded-rejection",
+        /// Undecided within the guard band on both sides of a tolerance limit.
+        NonBinary "non-binary",
+        /// Guarded acceptance with w = U.
+        IlacG8 "ILAC-G8",
+        /// Conformance and non-conformance each to be shown with 95 %.
+        Iso14253 "ISO 14253-1",
+        /// Simple where U is at most a third of MPEV, else undecided within U of the limits.
+        Jjf1094 "JJF 1094",
+    }
+}
+
+table! {
+    /// What is known of the items before one is measured.
+    ProcessTable "`process`" {
+        /// Distribution of the property over the items: `{ NAME = { parameters } }`, in the unit of the measurand.
+        distribution: DistributionEntry,
+        /// Fraction of the items that conform; a normal distribution centred between both limits follows from it.
+        in_tolerance_probability: f64,
+    }
+}
+
+table! {
+    /// Characteristic limits of a measurand that is not negative (ISO 11929).
+    DetectionTable "[detection]" {
+        /// Measurand, where there are several.
+        measurand: String,
+        /// Input that carries the measurand's value: the gross counts or the gross indication.
+        gross: String,
+        /// Probability of recognising an effect that is not there (default 0.05).
+        alpha: f64,
+        /// Probability of missing an effect at the detection limit (default 0.05).
+        beta: f64,
+        /// Coverage probability of the limits of the coverage interval; that of the conventions when left out.
+        coverage_probability: f64,
+        /// Guideline value that the detection limit must not exceed.
+        guideline: Amount,
     }
 }
 

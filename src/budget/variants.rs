@@ -37,6 +37,32 @@ impl FromToml for Sources {
     }
 }
 
+/// A row of a series, by its label or its number.
+#[derive(Debug, Clone)]
+pub struct RowLabel(pub String);
+
+impl FromToml for RowLabel {
+    fn expected() -> String {
+        "a text or a number".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Integer(_) => {
+                u64::read(value, reader).map(|number| RowLabel(number.to_string()))
+            }
+            DeValue::Float(_) => {
+                f64::read(value, reader).map(|number| RowLabel(number.to_string()))
+            }
+            _ => String::read(value, reader).map(RowLabel),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "type": ["string", "number"] })
+    }
+}
+
 /// A constant: `c = 9.8`, `c = "299792458 m/s"`, or a table.
 #[derive(Debug, Clone)]
 pub struct ConstantEntry(pub ConstantTable);

@@ -17,12 +17,15 @@ enum Which {
     Budget,
     /// The output of `gumption eval --json`
     Evaluation,
+    /// What `gumption eval --save` writes
+    Result,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
     let schema = match args.which {
         Which::Budget => budget::schema(),
         Which::Evaluation => report::schema(),
+        Which::Result => budget::result_schema(),
     };
     output::print(&format!("{schema:#}\n"))
 }

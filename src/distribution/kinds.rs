@@ -118,7 +118,13 @@ pub const KINDS: &[Kind] = &[
     },
     Kind {
         key: "t",
-        aliases: &["student-t", "student", "students-t", "student's-t", "t-distribution"],
+        aliases: &[
+            "student-t",
+            "student",
+            "students-t",
+            "student's-t",
+            "t-distribution",
+        ],
         name_en: "scaled and shifted t",
         name_zh: "t分布",
         parameters: "t_ν(x, s²), ν degrees of freedom",

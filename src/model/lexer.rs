@@ -297,7 +297,9 @@ impl<'a> Lexer<'a> {
                     "" => "5",
                     number => number,
                 };
-                format!("a unit stands between single quotes right after its number: `{number} '{c}'`")
+                format!(
+                    "a unit stands between single quotes right after its number: `{number} '{c}'`"
+                )
             }
             '"' | '`' | '’' | '‘' => {
                 "a unit stands between single quotes: `25 'mm'`".to_string()

@@ -36,6 +36,7 @@ mod units;
 mod tests;
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
@@ -71,6 +72,16 @@ pub enum Role {
     Constant(f64),
     /// Exactly known numbers.
     ConstantVector(Vec<f64>),
+    /// The value of another compiled model, in the symbol's unit.
+    Result {
+        /// The model.
+        model: Arc<Model>,
+        /// Which of its outputs.
+        output: usize,
+        /// Where each of its inputs stands in the input vector (anywhere, for those that the output
+        /// does not use).
+        places: Vec<usize>,
+    },
 }
 
 /// A measurand as the budget file states it.
@@ -223,6 +234,17 @@ impl Model {
     /// different blocks are zero. `None` for inputs that take part in no nonlinear operation.
     pub fn interactions(&self) -> Vec<Option<usize>> {
         interaction::blocks(&self.graph, self.inputs)
+    }
+
+    /// Which inputs one output uses.
+    pub fn inputs_of(&self, output: usize) -> Vec<bool> {
+        let mut used = vec![false; self.inputs];
+        if let Some(id) = self.graph.outputs.get(output) {
+            for place in self.graph.inputs_of(*id) {
+                used[place] = true;
+            }
+        }
+        used
     }
 
     /// Which of the request's symbols no measurand depends on.

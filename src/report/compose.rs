@@ -128,7 +128,7 @@ fn footer(report: &Report<'_>) -> Vec<String> {
     };
     let rounding = match (conventions.rounding, l) {
         (Rounding::HalfEven, Language::English) => "rounding to nearest, ties to even",
-        (Rounding::HalfEven, Language::Chinese) => "四舍六入五留双",
+        (Rounding::HalfEven, Language::Chinese) => "四舍六入五成双",
         (Rounding::HalfUp, Language::English) => "rounding to nearest, ties up",
         (Rounding::HalfUp, Language::Chinese) => "四舍五入",
         (Rounding::Up, Language::English) => "U always rounded up",

@@ -9,12 +9,12 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use crate::budget::{
-    Adaptive, Claim, Component, CoverageRule, DofRule, Evaluation as Kind, Input, Law, OutputShape,
-    Owner, TScale,
+    Adaptive, Claim, Component, Confidence, CoverageRule, DofRule, Evaluation as Kind, Input, Law,
+    OutputShape, Owner, TScale,
 };
 use crate::propagate::{
-    Basis, Contribution, Coverage, CoverageBasis, Freedom, Gum, JointResult, MeasurandResult,
-    Method, MonteCarlo, Run, Validation, compare_claims,
+    Basis, Clause8, Contribution, Coverage, CoverageBasis, Freedom, Gum, JointResult,
+    MeasurandResult, Method, MonteCarlo, Run, Validation, compare_claims,
 };
 use crate::quantity::Rounding;
 
@@ -97,6 +97,8 @@ record! {
         joint: Option<JointJson>,
         /// How the Monte Carlo method was run.
         monte_carlo_run: Option<RunJson>,
+        /// Figures of analyses (fits, groups of readings, conformity …) by name.
+        figures: Vec<FigureJson<'a>>,
         /// Comparison with claims.
         claims: Vec<ClaimJson<'a>>,
         /// What must be known before the figures are used.
@@ -289,7 +291,11 @@ record! {
         d_low: Number,
         /// Difference of the upper ends.
         d_high: Number,
-        /// Whether both differences are within δ.
+        /// Standard error of the Monte Carlo ends, the larger of the two.
+        standard_error: Number,
+        /// validated, not-validated, or undecided (the ends scatter too much for a verdict).
+        verdict: &'static str,
+        /// Whether both differences are within δ beyond doubt.
         validated: bool,
     }
 }
@@ -475,6 +481,18 @@ record! {
 }
 
 record! {
+    /// A figure of an analysis.
+    FigureJson<'a> {
+        /// Its name, as claims write it.
+        name: &'a str,
+        /// The number.
+        value: Number,
+        /// Its unit.
+        unit: &'a str,
+    }
+}
+
+record! {
     /// A claim with its comparison.
     ClaimJson<'a> {
         /// Measurand.
@@ -483,6 +501,8 @@ record! {
         reference: Option<&'a str>,
         /// Note.
         note: Option<&'a str>,
+        /// How well the figures are known: high, medium, low; low decides nothing.
+        confidence: &'static str,
         /// Claimed figures beside those obtained.
         comparison: Vec<ComparisonJson<'a>>,
     }
@@ -495,7 +515,7 @@ record! {
         figure: &'static str,
         /// The input, component or other measurand that the figure is about.
         of: Option<&'a str>,
-        /// Method that gave the obtained figure: gum, second_order, monte_carlo.
+        /// What gave the obtained figure: gum, second_order, monte_carlo, analysis.
         method: &'static str,
         /// Claimed.
         claimed: Number,
@@ -509,6 +529,8 @@ record! {
         ratio: Option<Number>,
         /// Whether the claim is about this method; otherwise the figure is for information.
         judged: bool,
+        /// Whether a verdict depends on it; not so where the claim's source is known in part only.
+        decides: bool,
         /// Whether obtained differs from claimed by no more than the tolerance, or is the claimed figure when rounded.
         agrees: bool,
     }
@@ -605,6 +627,15 @@ impl<'a> Document<'a> {
                 .collect(),
             joint: evaluation.joint.as_ref().map(joint),
             monte_carlo_run: evaluation.run.as_ref().map(run),
+            figures: evaluation
+                .figures
+                .iter()
+                .map(|f| FigureJson {
+                    name: &f.name,
+                    value: number(f.value),
+                    unit: &f.unit.symbol,
+                })
+                .collect(),
             claims: budget
                 .claims
                 .iter()
@@ -781,7 +812,13 @@ fn validation(v: &Validation) -> ValidationJson {
         delta: number(v.delta),
         d_low: number(v.d_low),
         d_high: number(v.d_high),
-        validated: v.validated,
+        standard_error: number(v.error),
+        verdict: match v.verdict {
+            Clause8::Validated => "validated",
+            Clause8::NotValidated => "not-validated",
+            Clause8::Undecided => "undecided",
+        },
+        validated: v.is_validated(),
     }
 }
 
@@ -943,6 +980,11 @@ fn claim_json<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> ClaimJ
             .map_or("", |o| o.name.as_str()),
         reference: claim.reference.as_deref(),
         note: claim.note.as_deref(),
+        confidence: match claim.confidence {
+            Confidence::High => "high",
+            Confidence::Medium => "medium",
+            Confidence::Low => "low",
+        },
         comparison: compare_claims(report.budget, report.evaluation)
             .iter()
             .filter(|c| c.claim == index)
@@ -953,6 +995,7 @@ fn claim_json<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> ClaimJ
                     Method::Gum => "gum",
                     Method::SecondOrder => "second_order",
                     Method::MonteCarlo => "monte_carlo",
+                    Method::Analysis => "analysis",
                 },
                 claimed: number(c.claimed.value),
                 tolerance: number(c.claimed.tolerance),
@@ -960,6 +1003,7 @@ fn claim_json<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> ClaimJ
                 rounded: c.rounded.map(Number),
                 ratio: c.ratio().map(Number),
                 judged: c.judged,
+                decides: c.decides,
                 agrees: c.agrees(),
             })
             .collect(),

@@ -102,16 +102,15 @@ impl Checker<'_> {
     }
 
     fn csv_text(&mut self, file: &Stated<String>) -> Option<String> {
-        let path = self.directory.join(&file.value);
-        let folder = match self.directory.as_os_str().is_empty() {
-            true => "the current folder".to_string(),
-            false => format!("the folder {}", self.directory.display()),
-        };
-        let bytes = match std::fs::read(&path) {
+        let path = self.origin.directory.join(&file.value);
+        let folder = self.origin.folder();
+        let bytes = match self.origin.shelf.files.read(&path) {
             Ok(bytes) => bytes,
             Err(error) => {
                 let message = match error.kind() {
-                    _ if path.is_dir() => format!("{} is a folder, not a file", file.value),
+                    _ if self.origin.shelf.files.is_folder(&path) => {
+                        format!("{} is a folder, not a file", file.value)
+                    }
                     ErrorKind::NotFound => format!("there is no file {} in {folder}", file.value),
                     ErrorKind::PermissionDenied => format!("{} may not be read", file.value),
                     _ => format!("{} cannot be read: {error}", file.value),

@@ -6,7 +6,7 @@ use super::Checker;
 use crate::budget::faults::{DOF, NOT_POSITIVE};
 use crate::budget::table::Stated;
 use crate::budget::tables::ComponentTable;
-use crate::budget::{Certificate, Evaluation, TScale};
+use crate::budget::{Certificate, Evaluation, Follows, TScale};
 use crate::distribution::Distribution;
 use crate::fault::Fault;
 use crate::quantity::Unit;
@@ -48,6 +48,8 @@ pub(super) struct Draft {
     /// Where the statement puts the quantity.
     pub location: Location,
     pub kind: Kind,
+    /// How its uncertainty follows the estimate.
+    pub follows: Option<Follows>,
     pub certificate: Option<Certificate>,
     pub reference: Option<String>,
     /// Place of the component as a whole.

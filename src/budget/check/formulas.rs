@@ -1,6 +1,7 @@
 //! Measurands, and the way into the model language.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::register::Register;
 use super::{Checker, entries};
@@ -301,9 +302,14 @@ fn symbols(constants: &[Constant], register: &Register) -> Vec<Symbol> {
         Some(Symbol {
             name: entry.name.clone(),
             unit: entry.unit.clone()?,
-            role: match entry.vector {
-                true => Role::InputVector(entry.places.clone()),
-                false => Role::Input(entry.places.start),
+            role: match (&entry.formula, entry.vector) {
+                (Some(formula), _) => Role::Result {
+                    model: Arc::clone(&formula.model),
+                    output: formula.output,
+                    places: formula.places.clone(),
+                },
+                (None, true) => Role::InputVector(entry.places.clone()),
+                (None, false) => Role::Input(entry.places.start),
             },
         })
     });

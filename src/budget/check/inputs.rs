@@ -11,14 +11,18 @@ use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_
 use crate::budget::table::Stated;
 use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
-use crate::budget::{Input, Owner};
+use crate::budget::{Follows, Input, Owner};
 use crate::fault::Fault;
 use crate::quantity::Unit;
 
 /// A reason for doubt of one input.
 pub(super) enum Piece {
     Own(Box<Draft>, Option<Vec<f64>>),
-    Shared { component: usize, coefficient: f64 },
+    Shared {
+        component: usize,
+        coefficient: f64,
+        follows: Option<Follows>,
+    },
 }
 
 /// A component of the file, and the way it is stated.
@@ -38,6 +42,10 @@ impl Checker<'_> {
     ) {
         for (name, stated) in entries(&file.input) {
             let table = &stated.value;
+            if let Some(from) = &table.from {
+                self.taken(name, stated, from, register);
+                continue;
+            }
             // A misspelt or unreadable `unit` must not be judged as dimension one.
             let hidden = table.unknown || table.present.iter().any(|(key, _)| *key == "unit");
             let unit = match &table.unit {
@@ -73,6 +81,7 @@ impl Checker<'_> {
                 places: start..start + count,
                 vector: table.values.is_some(),
                 unit,
+                formula: None,
             });
         }
     }
@@ -304,7 +313,7 @@ impl Checker<'_> {
             );
             return Some(Vec::new());
         }
-        let draft = self.draft(entry.table, entry.way, context)?;
+        let draft = self.draft_following(entry.table, entry.way, context)?;
         let readings = match &entry.table.readings {
             Some(readings) if entry.table.pooled.is_none() => self.numbers(readings),
             _ => None,
@@ -397,7 +406,11 @@ impl Checker<'_> {
                 Piece::Shared {
                     component,
                     coefficient,
-                } => register.act(place, component, coefficient),
+                    follows,
+                } => {
+                    register.follow(place, component, coefficient, follows);
+                    register.act(place, component, coefficient);
+                }
             }
         }
         self.label_uniquely(name, &mut drafts);
@@ -406,7 +419,9 @@ impl Checker<'_> {
                 .iter()
                 .find(|(place, _)| *place == draft.place)
                 .and_then(|(_, n)| n.clone());
+            let follows = draft.follows;
             let component = register.add(Owner::Input(place), name, unit, draft, alone);
+            register.follow(place, component, 1.0, follows);
             register.act(place, component, 1.0);
             if let Some(numbers) = numbers {
                 register.readings.insert(component, numbers);
@@ -458,7 +473,13 @@ pub(super) fn element_name(name: &str, element: usize) -> String {
     format!("{name}[{}]", element + 1)
 }
 
-fn blank(name: &str, table: &InputTable, unit: Option<&Unit>, element: Option<usize>) -> Input {
+/// An input of which nothing is known yet but its words.
+pub(super) fn blank(
+    name: &str,
+    table: &InputTable,
+    unit: Option<&Unit>,
+    element: Option<usize>,
+) -> Input {
     Input {
         name: element.map_or_else(|| name.to_string(), |element| element_name(name, element)),
         description: table.description.as_ref().map(|text| text.value.clone()),

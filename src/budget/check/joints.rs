@@ -275,6 +275,7 @@ impl Checker<'_> {
                 how: "√ of the variance in the covariance matrix".into(),
                 location: Location::None,
                 kind: Kind::Other,
+                follows: None,
                 certificate: None,
                 reference: stated
                     .value

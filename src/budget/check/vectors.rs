@@ -108,8 +108,10 @@ impl Checker<'_> {
                     if let Piece::Shared {
                         component,
                         coefficient,
+                        follows,
                     } = piece
                     {
+                        register.follow(place, component, coefficient, follows);
                         register.act(place, component, coefficient);
                     }
                 }
@@ -150,8 +152,8 @@ impl Checker<'_> {
                 place: entry.place.clone(),
             };
             let mut draft = match of_element(entry.table, element) {
-                Some(table) => self.draft(&table, entry.way, &context)?,
-                None => self.draft(entry.table, entry.way, &context)?,
+                Some(table) => self.draft_following(&table, entry.way, &context)?,
+                None => self.draft_following(entry.table, entry.way, &context)?,
             };
             if !matches!(draft.location, Location::None | Location::Mean(_)) {
                 return self.refuse(
@@ -165,6 +167,7 @@ impl Checker<'_> {
             }
             let label = label.get_or_insert_with(|| another(labels, &draft.label));
             draft.label.clone_from(label);
+            let follows = draft.follows;
             let (component, coefficient) = match first {
                 Some((component, u)) if common => (component, draft.u / u),
                 _ => {
@@ -182,11 +185,13 @@ impl Checker<'_> {
                         alone,
                     );
                     first = Some((component, u));
+                    register.follow(start + element, component, 1.0, follows);
                     register.act(start + element, component, 1.0);
                     continue;
                 }
             };
             let sign = if relative { value.signum() } else { 1.0 };
+            register.follow(start + element, component, sign * coefficient, follows);
             register.act(start + element, component, sign * coefficient);
         }
         Some(())

@@ -7,7 +7,7 @@ use super::draft::{Context, Core, Draft, Kind, Location};
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::faults::{MISSING_KEY, MODIFIER, NO_DOUBT, TWO_WAYS};
 use crate::budget::tables::{CertificateTable, ComponentTable};
-use crate::budget::{Certificate, Evaluation};
+use crate::budget::{Certificate, Evaluation, Follows};
 use crate::fault::Fault;
 
 /// How a component states its uncertainty.
@@ -326,6 +326,32 @@ impl Checker<'_> {
         self.finish(table, way, context, core)
     }
 
+    /// The same, with the rule by which the uncertainty follows the estimate: found by drafting the component
+    /// once more for twice the estimate.
+    pub(super) fn draft_following(
+        &mut self,
+        table: &ComponentTable,
+        way: Way,
+        context: &Context<'_>,
+    ) -> Option<Draft> {
+        let mut draft = self.draft(table, way, context)?;
+        draft.follows = match (way, context.value) {
+            (Count, _) => Some(Follows::Root),
+            (U | HalfWidth | PlusMinus | Way::Certificate | Specification, Some(value))
+                if value != 0.0 =>
+            {
+                let double = Context {
+                    value: Some(2.0 * value),
+                    ..context.clone()
+                };
+                let share = self.draft(table, way, &double)?.u / draft.u - 1.0;
+                proportion(share)
+            }
+            _ => None,
+        };
+        Some(draft)
+    }
+
     fn finish(
         &mut self,
         table: &ComponentTable,
@@ -362,6 +388,7 @@ impl Checker<'_> {
             how: core.how,
             location: core.location,
             kind,
+            follows: None,
             certificate,
             reference: table.reference.as_ref().map(|text| text.value.clone()),
             place: context.place.clone(),
@@ -399,6 +426,18 @@ impl Checker<'_> {
         }
         certificate
     }
+}
+
+/// The rule for a share that grows with the estimate, cleaned of rounding.
+fn proportion(share: f64) -> Option<Follows> {
+    /// Of the doubles that make the share.
+    const ROUNDING: f64 = 1e-12;
+    let share = if (share - 1.0).abs() < ROUNDING {
+        1.0
+    } else {
+        share
+    };
+    (share > ROUNDING).then_some(Follows::Proportion { share })
 }
 
 /// Whether the draft states where its quantity is, apart from a shift.

@@ -4,9 +4,7 @@ use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 
 use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Profile, Trials};
-use gumption::propagate::{
-    self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict,
-};
+use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
 use gumption::report::{self, Language, Page, Report};
 use serde_json::Value;
 
@@ -140,7 +138,8 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
     for budget::Row { label, budget } in loaded.rows {
         match propagate::evaluate(&budget, &options(args, &budget)) {
             Ok(evaluation) => {
-                let rejected = |found: &ConformityResult| found.verdict == Some(Verdict::NotConforming);
+                let rejected =
+                    |found: &ConformityResult| found.verdict == Some(Verdict::NotConforming);
                 if evaluation.conformity.iter().any(rejected) {
                     *worst = (*worst).max(Outcome::Negative);
                 }

@@ -13,16 +13,16 @@ use crate::budget::{
     Evaluation as Kind, Input, Interval, Law, OutputShape, Owner, TScale,
 };
 use crate::propagate::{
-    Basis, ConformityResult, Contribution, Coverage, CoverageBasis, DetectionResult, Freedom, Gum,
-    JointResult, MeasurandResult,
-    Method, MonteCarlo, Run, Validation, compare_claims,
+    Basis, Clause8, ConformityResult, Contribution, Coverage, CoverageBasis, DetectionResult,
+    Freedom, Gum, JointResult, MeasurandResult, Method, MonteCarlo, Run, Validation,
+    compare_claims,
 };
 use crate::quantity::Rounding;
 
 use super::fits_json::{self, FitJson};
 use super::language::Language;
 use super::schema::{Describe, record};
-use super::{Report, analyses, claim, remarks, statement, decisions};
+use super::{Report, analyses, claim, decisions, remarks, statement};
 
 /// Name and version of the format; the number changes when a field changes its meaning or goes.
 pub const FORMAT: &str = "gumption-evaluation/1";
@@ -303,7 +303,11 @@ record! {
         d_low: Number,
         /// Difference of the upper ends.
         d_high: Number,
-        /// Whether both differences are within δ.
+        /// Standard error of the Monte Carlo ends, the larger of the two.
+        standard_error: Number,
+        /// validated, not-validated, or undecided (the ends scatter too much for a verdict).
+        verdict: &'static str,
+        /// Whether both differences are within δ beyond doubt.
         validated: bool,
     }
 }
@@ -962,7 +966,13 @@ fn validation(v: &Validation) -> ValidationJson {
         delta: number(v.delta),
         d_low: number(v.d_low),
         d_high: number(v.d_high),
-        validated: v.validated,
+        standard_error: number(v.error),
+        verdict: match v.verdict {
+            Clause8::Validated => "validated",
+            Clause8::NotValidated => "not-validated",
+            Clause8::Undecided => "undecided",
+        },
+        validated: v.is_validated(),
     }
 }
 

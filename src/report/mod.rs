@@ -12,6 +12,7 @@ mod decisions;
 mod document;
 mod fits;
 mod fits_json;
+mod how;
 mod joint;
 mod json;
 mod language;

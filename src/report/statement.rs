@@ -248,6 +248,8 @@ impl<'a> Subject<'a> {
     fn stated_probability(&self, coverage: &Coverage) -> f64 {
         match coverage.basis {
             CoverageBasis::Fixed => (coverage.probability * 100.0).round() / 100.0,
+            // EA-4/02: 95.45 % is what k = 2 has for a normal distribution; "about" goes with 95 %.
+            _ if (coverage.probability - 0.9545).abs() < 1e-4 => 0.95,
             _ => coverage.probability,
         }
     }

@@ -64,16 +64,18 @@ fn data(l: Language, fit: &Fit) -> String {
         (Language::English, false, _) => format!(
             "{n} points; the predictors are taken as exact, and the residuals tell the scatter of {y}."
         ),
-        (Language::English, true, true) => format!(
-            "{n} points, weighted by the uncertainties of {names} as stated."
-        ),
+        (Language::English, true, true) => {
+            format!("{n} points, weighted by the uncertainties of {names} as stated.")
+        }
         (Language::English, true, false) => format!(
             "{n} points, weighted by the uncertainties of {names}, which are known up to a common factor that the residuals tell."
         ),
         (Language::Chinese, false, _) => {
             format!("{n} 个数据点；自变量视为精确，{y} 的分散性由残差得出。")
         }
-        (Language::Chinese, true, true) => format!("{n} 个数据点，按给出的 {names} 的不确定度加权。"),
+        (Language::Chinese, true, true) => {
+            format!("{n} 个数据点，按给出的 {names} 的不确定度加权。")
+        }
         (Language::Chinese, true, false) => {
             format!("{n} 个数据点，按 {names} 的不确定度加权，其公共因子由残差得出。")
         }
@@ -81,7 +83,10 @@ fn data(l: Language, fit: &Fit) -> String {
     if !common.is_empty() {
         let names = l.list(&common);
         text.push_str(&l.pick(
-            format!(" {names} act{} on all points together.", if common.len() == 1 { "s" } else { "" }),
+            format!(
+                " {names} act{} on all points together.",
+                if common.len() == 1 { "s" } else { "" }
+            ),
             format!("{names} 对所有数据点共同起作用。"),
         ));
     }
@@ -114,7 +119,10 @@ fn parameters(l: Language, fit: &Fit) -> Table {
     let matrix = fit.parameters.len() > 1 && fit.parameters.len() <= MOST;
     if matrix {
         for parameter in &fit.parameters {
-            columns.push(column(format!("r({}, ·)", parameter.name), ColumnKind::Numbers));
+            columns.push(column(
+                format!("r({}, ·)", parameter.name),
+                ColumnKind::Numbers,
+            ));
         }
     }
     let mut table = Table {
@@ -145,21 +153,33 @@ fn parameters(l: Language, fit: &Fit) -> Table {
 
 fn quality(l: Language, fit: &Fit) -> Vec<(String, String)> {
     let mut fields = Vec::new();
-    let freedom_of = format!("ν = n − p = {} − {} = {}", fit.points(), fit.parameters.len(), fit.dof);
+    let freedom_of = format!(
+        "ν = n − p = {} − {} = {}",
+        fit.points(),
+        fit.parameters.len(),
+        fit.dof
+    );
     if fit.weighted {
-        let per = fit
-            .chi_squared_per_dof()
-            .map_or(String::new(), |ratio| format!(", χ²/ν = {}", significant(ratio, TABLE_DIGITS)));
+        let per = fit.chi_squared_per_dof().map_or(String::new(), |ratio| {
+            format!(", χ²/ν = {}", significant(ratio, TABLE_DIGITS))
+        });
         fields.push((
             l.pick("weighted sum of squares", "加权平方和").to_string(),
-            format!("χ² = {}, {freedom_of}{per}", significant(fit.chi_squared, 4)),
+            format!(
+                "χ² = {}, {freedom_of}{per}",
+                significant(fit.chi_squared, 4)
+            ),
         ));
     } else if let Some(s) = fit.residual_sd {
         let unit = difference_symbol(&fit.response().unit);
         let gap = if unit.is_empty() { "" } else { " " };
         fields.push((
-            l.pick("residual standard deviation", "残差标准差").to_string(),
-            format!("s = {}{gap}{unit}, {freedom_of}", significant(s, TABLE_DIGITS)),
+            l.pick("residual standard deviation", "残差标准差")
+                .to_string(),
+            format!(
+                "s = {}{gap}{unit}, {freedom_of}",
+                significant(s, TABLE_DIGITS)
+            ),
         ));
     }
     if fit.r_squared.is_finite() {
@@ -171,7 +191,8 @@ fn quality(l: Language, fit: &Fit) -> Vec<(String, String)> {
             exact(fit.r_squared)
         };
         fields.push((
-            l.pick("coefficient of determination", "决定系数").to_string(),
+            l.pick("coefficient of determination", "决定系数")
+                .to_string(),
             format!("R² = {text}"),
         ));
     }
@@ -193,7 +214,10 @@ fn verdict(l: Language, fit: &Fit) -> Option<String> {
     let figures = test_figures(l, test);
     Some(match (test.verdict(), l) {
         (FitVerdict::Accepted, Language::English) => {
-            format!("The curve describes the data: {figures}, p {}.", shown(test.p))
+            format!(
+                "The curve describes the data: {figures}, p {}.",
+                shown(test.p)
+            )
         }
         (FitVerdict::Accepted, Language::Chinese) => {
             format!("曲线与数据相符：{figures}，p {}。", shown(test.p))
@@ -289,8 +313,7 @@ fn points(l: Language, fit: &Fit) -> Table {
 /// The point that is farthest from the curve.
 fn farthest(l: Language, fit: &Fit) -> Option<String> {
     let (point, distance) = fit.farthest()?;
-    let place: Vec<String> = fit
-        .columns[1..]
+    let place: Vec<String> = fit.columns[1..]
         .iter()
         .map(|c| {
             let unit = symbol(&c.unit);

@@ -7,7 +7,9 @@ use crate::quantity::{Unit, space_before};
 
 use super::document::Block;
 use super::language::Language;
-use super::number::{NONE, TABLE_DIGITS, aligned, at_place, exact, print, probability, significant};
+use super::number::{
+    NONE, TABLE_DIGITS, aligned, at_place, exact, print, probability, significant,
+};
 use super::{Report, difference_symbol, symbol};
 
 /// The sections of all decisions.
@@ -75,7 +77,11 @@ impl Assessment<'_> {
         row(l.pick("Tolerance", "容许区间"), self.tolerance());
         row(l.pick("Decision rule", "判定规则"), self.rule());
         row(l.pick("Accepted", "接受"), self.acceptance());
-        if self.found.acceptance.is_some_and(|a| a != self.found.rejection) {
+        if self
+            .found
+            .acceptance
+            .is_some_and(|a| a != self.found.rejection)
+        {
             let outside = self.interval(self.found.rejection, &|x| self.limit(x));
             row(
                 l.pick("Rejected", "拒绝"),
@@ -185,15 +191,21 @@ impl Assessment<'_> {
         row(
             l.pick("Process", "过程"),
             l.pick(
-                format!("{} distribution; {inside} of the items conform", kind.name_en),
+                format!(
+                    "{} distribution; {inside} of the items conform",
+                    kind.name_en
+                ),
                 format!("{}；{inside} 的产品合格", kind.name_zh),
             ),
         );
-        row(
-            l.pick("Items accepted", "接受率"),
-            chance(risk.accepted),
-        );
-        let given = |p: f64| if p.is_finite() { chance(p) } else { NONE.to_string() };
+        row(l.pick("Items accepted", "接受率"), chance(risk.accepted));
+        let given = |p: f64| {
+            if p.is_finite() {
+                chance(p)
+            } else {
+                NONE.to_string()
+            }
+        };
         let (consumer, producer) = (chance(risk.consumer), chance(risk.producer));
         let (wrong, lost) = (given(risk.false_acceptance), given(risk.false_rejection));
         row(
@@ -341,7 +353,8 @@ impl Assessment<'_> {
 
     fn interval(&self, interval: Interval, number: &dyn Fn(f64) -> String) -> String {
         let unit = symbol(self.unit);
-        let bound = |sign: &str, limit: f64| with_unit(&format!("{sign} {}", number(limit)), unit.clone());
+        let bound =
+            |sign: &str, limit: f64| with_unit(&format!("{sign} {}", number(limit)), unit.clone());
         match (interval.lower.is_finite(), interval.upper.is_finite()) {
             (true, true) => with_unit(
                 &format!("[{}, {}]", number(interval.lower), number(interval.upper)),
@@ -393,17 +406,29 @@ impl Limits<'_> {
         let mut fields: Vec<(String, String)> = Vec::new();
         let mut row = |label: &str, text: String| fields.push((label.to_string(), text));
         let gross = &self.report.budget.inputs[self.stated.gross].name;
-        let (alpha, beta) = (probability(self.stated.alpha), probability(self.stated.beta));
+        let (alpha, beta) = (
+            probability(self.stated.alpha),
+            probability(self.stated.beta),
+        );
         let of_trials = |text: Option<String>| match text {
             None => String::new(),
-            Some(text) => l.pick(format!(" (Monte Carlo {text})"), format!("（蒙特卡洛法 {text}）")),
+            Some(text) => l.pick(
+                format!(" (Monte Carlo {text})"),
+                format!("（蒙特卡洛法 {text}）"),
+            ),
         };
         match self.found.limits {
             None => row(
                 l.pick("Decision threshold", "判断限"),
                 l.pick(
-                    format!("none: no value of {gross} gives {} = 0 with a u that is finite", self.name),
-                    format!("不存在：{gross} 取任何值都不能使 {} = 0 且 u 有限", self.name),
+                    format!(
+                        "none: no value of {gross} gives {} = 0 with a u that is finite",
+                        self.name
+                    ),
+                    format!(
+                        "不存在：{gross} 取任何值都不能使 {} = 0 且 u 有限",
+                        self.name
+                    ),
                 ),
             ),
             Some(limits) => {
@@ -453,7 +478,10 @@ impl Limits<'_> {
             format!(
                 "ŷ = {}, u(ŷ) = {}",
                 self.beside(best.value, best.u),
-                with_unit(&significant(best.u, TABLE_DIGITS), difference_symbol(self.unit))
+                with_unit(
+                    &significant(best.u, TABLE_DIGITS),
+                    difference_symbol(self.unit)
+                )
             ),
         );
         let interval = |ends: [f64; 2]| {

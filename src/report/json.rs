@@ -14,14 +14,14 @@ use crate::budget::{
 };
 use crate::propagate::{
     Basis, ConformityResult, Contribution, Coverage, CoverageBasis, DetectionResult, Freedom, Gum,
-    JointResult, MeasurandResult,
-    Method, MonteCarlo, Run, Validation, compare_claims,
+    JointResult, MeasurandResult, Method, MonteCarlo, Run, Validation, compare_claims,
 };
 use crate::quantity::Rounding;
 
+use super::fits_json::{self, FitJson};
 use super::language::Language;
 use super::schema::{Describe, record};
-use super::{Report, claim, decisions, remarks, statement};
+use super::{Report, analyses, claim, decisions, remarks, statement};
 
 /// Name and version of the format; the number changes when a field changes its meaning or goes.
 pub const FORMAT: &str = "gumption-evaluation/1";
@@ -57,15 +57,15 @@ impl Describe for Number {
     }
 }
 
-fn number(x: f64) -> Number {
+pub(super) fn number(x: f64) -> Number {
     Number(x)
 }
 
-fn numbers(xs: &[f64]) -> Vec<Number> {
+pub(super) fn numbers(xs: &[f64]) -> Vec<Number> {
     xs.iter().copied().map(Number).collect()
 }
 
-fn matrix(m: &DMatrix<f64>) -> Vec<Vec<Number>> {
+pub(super) fn matrix(m: &DMatrix<f64>) -> Vec<Vec<Number>> {
     m.row_iter()
         .map(|row| row.iter().copied().map(Number).collect())
         .collect()
@@ -92,8 +92,12 @@ record! {
         components: Vec<ComponentJson<'a>>,
         /// Correlated components.
         correlated: Vec<GroupJson>,
+        /// Analyses of readings; their numbers are among `figures`, under their names.
+        analyses: Vec<AnalysisJson<'a>>,
         /// Exactly known quantities.
         constants: Vec<ConstantJson<'a>>,
+        /// Least-squares fits whose parameters are inputs.
+        fits: Vec<FitJson<'a>>,
         /// Joint result of several measurands.
         joint: Option<JointJson>,
         /// How the Monte Carlo method was run.
@@ -298,6 +302,18 @@ record! {
         d_high: Number,
         /// Whether both differences are within δ.
         validated: bool,
+    }
+}
+
+record! {
+    /// An analysis of the readings behind a component.
+    AnalysisJson<'a> {
+        /// Name of the component, with which the names of its figures begin.
+        component: &'a str,
+        /// What it is: readings, anova, nested-anova, outlier-grubbs, outlier-dixon, outlier-4d, outlier-3s.
+        kind: &'a str,
+        /// What was done with the differences between groups, and between subgroups (included, negative, not-significant, ignored), or whether an outlier was found (outlier, none).
+        verdicts: Vec<&'a str>,
     }
 }
 
@@ -699,6 +715,18 @@ impl<'a> Document<'a> {
                     degrees_of_freedom: g.dof.map(Number),
                 })
                 .collect(),
+            analyses: budget
+                .analyses
+                .iter()
+                .map(|analysis| {
+                    let (kind, verdicts) = analyses::codes(&analysis.found);
+                    AnalysisJson {
+                        component: &analysis.name,
+                        kind,
+                        verdicts,
+                    }
+                })
+                .collect(),
             constants: budget
                 .constants
                 .iter()
@@ -710,6 +738,7 @@ impl<'a> Document<'a> {
                     reference: c.reference.as_deref(),
                 })
                 .collect(),
+            fits: budget.fits.iter().map(fits_json::fit).collect(),
             joint: evaluation.joint.as_ref().map(joint),
             monte_carlo_run: evaluation.run.as_ref().map(run),
             conformity: conformity(report),

@@ -117,7 +117,10 @@ impl Checker<'_> {
                 Fault::new(
                     TOLERANCE,
                     second.span.clone(),
-                    format!("the tolerance limits of {} are {lower} and {upper}", subject.name),
+                    format!(
+                        "the tolerance limits of {} are {lower} and {upper}",
+                        subject.name
+                    ),
                 )
                 .label("must be above the lower limit")
                 .related(first.span.clone(), "lower limit"),
@@ -145,9 +148,7 @@ impl Checker<'_> {
         let probable = inner.is_some() || outer.is_some();
         let Some(word) = &table.rule else {
             return match (inner, outer, &band) {
-                (Some(inner), Some(outer), None) => {
-                    Some(DecisionRule::NonBinary { inner, outer })
-                }
+                (Some(inner), Some(outer), None) => Some(DecisionRule::NonBinary { inner, outer }),
                 (Some(inner), None, None) => Some(DecisionRule::GuardedAcceptance(inner)),
                 (None, Some(outer), None) => Some(DecisionRule::GuardedRejection(outer)),
                 (None, None, None) if table.refused => None,
@@ -207,7 +208,10 @@ impl Checker<'_> {
                 Fault::new(
                     DECISION_RULE,
                     word.span.clone(),
-                    format!("{} has one tolerance limit, JJF 1094 a maximum permissible error", subject.name),
+                    format!(
+                        "{} has one tolerance limit, JJF 1094 a maximum permissible error",
+                        subject.name
+                    ),
                 )
                 .label("needs `lower` and `upper`")
                 .help("with one limit write for example rule = \"non-binary\""),
@@ -276,10 +280,14 @@ impl Checker<'_> {
     ) -> Option<Option<(Guard, std::ops::Range<usize>)>> {
         if let (Some(amount), Some(factor)) = (&table.guard_band, &table.guard_band_factor) {
             return self.refuse(
-                Fault::new(TWO_WAYS, factor.key.clone(), "the guard band is stated in two ways")
-                    .label("as a multiple of U here")
-                    .related(amount.key.clone(), "as an amount here")
-                    .help("leave out one"),
+                Fault::new(
+                    TWO_WAYS,
+                    factor.key.clone(),
+                    "the guard band is stated in two ways",
+                )
+                .label("as a multiple of U here")
+                .related(amount.key.clone(), "as an amount here")
+                .help("leave out one"),
             );
         }
         if let Some(factor) = &table.guard_band_factor {
@@ -342,8 +350,12 @@ impl Checker<'_> {
         };
         if interval.lower >= interval.upper {
             return self.refuse(
-                Fault::new(LIMITS, stated.span.clone(), "the acceptance interval is empty")
-                    .label("expected [lower, upper]"),
+                Fault::new(
+                    LIMITS,
+                    stated.span.clone(),
+                    "the acceptance interval is empty",
+                )
+                .label("expected [lower, upper]"),
             );
         }
         Some(DecisionRule::Stated(interval))
@@ -357,10 +369,14 @@ impl Checker<'_> {
         let table = &stated.value;
         match (&table.distribution, &table.in_tolerance_probability) {
             (Some(first), Some(second)) => self.refuse(
-                Fault::new(TWO_WAYS, second.key.clone(), "the process is described twice")
-                    .label("by the fraction in tolerance here")
-                    .related(first.key.clone(), "by its distribution here")
-                    .help("leave out one"),
+                Fault::new(
+                    TWO_WAYS,
+                    second.key.clone(),
+                    "the process is described twice",
+                )
+                .label("by the fraction in tolerance here")
+                .related(first.key.clone(), "by its distribution here")
+                .help("leave out one"),
             ),
             (Some(entry), None) => {
                 let DistributionEntry::Full(full) = &entry.value else {
@@ -373,9 +389,13 @@ impl Checker<'_> {
                 match full.parametric(&entry.map(|_| ())) {
                     Err(fault) => self.refuse(*fault),
                     Ok(found) if !found.located => self.refuse(
-                        Fault::new(PROCESS, entry.span.clone(), "the distribution of the process has no location")
-                            .label("where are the items?")
-                            .help("add its `mean` (or `location`, or `lower` and `upper`)"),
+                        Fault::new(
+                            PROCESS,
+                            entry.span.clone(),
+                            "the distribution of the process has no location",
+                        )
+                        .label("where are the items?")
+                        .help("add its `mean` (or `location`, or `lower` and `upper`)"),
                     ),
                     Ok(found) => match found.distribution.validate() {
                         Ok(()) => Some(found.distribution),
@@ -409,7 +429,11 @@ impl Checker<'_> {
     }
 
     /// An input by name that moves with the measurand.
-    pub(super) fn carrier(&mut self, stated: &Stated<String>, register: &Register) -> Option<usize> {
+    pub(super) fn carrier(
+        &mut self,
+        stated: &Stated<String>,
+        register: &Register,
+    ) -> Option<usize> {
         let names = || register.inputs.iter().map(|input| input.name.as_str());
         if let Some(index) = names().position(|name| name == stated.value) {
             return Some(index);
@@ -447,10 +471,14 @@ impl Checker<'_> {
                     format!("[{table}] does not say which measurand it is about"),
                 )
                 .label("`measurand` is missing")
-                .help(format!("add measurand = \"{}\" (of {})", names[0], names.join(", "))),
+                .help(format!(
+                    "add measurand = \"{}\" (of {})",
+                    names[0],
+                    names.join(", ")
+                )),
             );
         }
-        self.claimed(stated, place, file)
+        self.claimed(stated, place)
     }
 }
 

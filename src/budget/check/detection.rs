@@ -52,9 +52,13 @@ impl Checker<'_> {
             Some(gross) => self.carrier(gross, register),
             None if table.refused => None,
             None => self.refuse(
-                Fault::new(MISSING_KEY, stated.span.clone(), "[detection] does not say which input carries the value")
-                    .label("`gross` is missing")
-                    .help("name the input that changes when the measurand does: gross = \"n_g\""),
+                Fault::new(
+                    MISSING_KEY,
+                    stated.span.clone(),
+                    "[detection] does not say which input carries the value",
+                )
+                .label("`gross` is missing")
+                .help("name the input that changes when the measurand does: gross = \"n_g\""),
             ),
         };
         let alpha = self.error_probability(&table.alpha);
@@ -68,8 +72,12 @@ impl Checker<'_> {
         let unit = self.unit(&entry.value.unit)?;
         let guideline = match &table.guideline {
             Some(amount) if amount.value.number <= 0.0 => self.refuse(
-                Fault::new(NOT_POSITIVE, amount.span.clone(), "the guideline value is not positive")
-                    .label("must be greater than zero"),
+                Fault::new(
+                    NOT_POSITIVE,
+                    amount.span.clone(),
+                    "the guideline value is not positive",
+                )
+                .label("must be greater than zero"),
             ),
             Some(amount) => self.quantity(amount, &unit, name).map(Some),
             None => Some(None),

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::draft::Draft;
-use crate::budget::{Component, Following, Follows, Input, Owner, Term};
+use super::draft::{Draft, Kind};
+use super::results::{Formula, Taken};
+use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
 use crate::distribution::Distribution;
 use crate::quantity::Unit;
 
@@ -19,6 +20,8 @@ pub(super) struct InputEntry {
     pub vector: bool,
     /// Nothing when the unit was refused.
     pub unit: Option<Unit>,
+    /// What stands behind the result of another budget.
+    pub formula: Option<Formula>,
 }
 
 /// One `[source.S]`.
@@ -37,8 +40,16 @@ pub(super) struct Register {
     pub components: Vec<Component>,
     pub entries: Vec<InputEntry>,
     pub sources: Vec<SourceEntry>,
+    /// Results of other files.
+    pub taken: Vec<Taken>,
     /// Readings behind a Type A component.
     pub readings: HashMap<usize, Vec<f64>>,
+    /// Analyses of readings.
+    pub analyses: Vec<Analysis>,
+    /// Elements of vectors that share one standard deviation of finite ν.
+    pub families: Vec<Vec<usize>>,
+    /// Components that are the scatter of data about a fit: the number of the fit, the component.
+    pub scatter: Vec<(usize, usize)>,
     /// Inputs whose uncertainty a covariance matrix states.
     pub by_matrix: Vec<String>,
     /// Components whose effect follows the estimate of an input.
@@ -62,6 +73,15 @@ impl Register {
         } else {
             format!("{owner_name}.{}", draft.label)
         };
+        let analysed = draft.findings.into_iter().map(|found| Analysis {
+            name: name.clone(),
+            unit: unit.clone(),
+            found,
+        });
+        self.analyses.extend(analysed);
+        if let Kind::Scatter(fit) = draft.kind {
+            self.scatter.push((fit, self.components.len()));
+        }
         self.components.push(Component {
             name,
             label: draft.label,

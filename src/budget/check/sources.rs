@@ -5,10 +5,10 @@ use super::draft::{Context, Draft, Location, show};
 use super::inputs::{Entry, Piece};
 use super::register::{Register, SourceEntry};
 use super::ways::Way;
-use crate::budget::{Follows, Owner};
 use crate::budget::faults::{TWO_ESTIMATES, UNIT_CLASH, UNKNOWN_NAME, UNUSED, VECTOR};
 use crate::budget::table::Stated;
 use crate::budget::tables::SourceTable;
+use crate::budget::{Follows, Owner};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 

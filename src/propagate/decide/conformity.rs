@@ -168,11 +168,7 @@ fn reported(result: &MeasurandResult) -> (f64, f64, f64) {
     let from_gum = (gum.estimate, gum.u, gum.coverage.expanded);
     match (&result.monte_carlo, result.basis) {
         (Some(mc), Basis::MonteCarlo) => match (mc.estimate, mc.u) {
-            (Some(estimate), Some(u)) => (
-                estimate,
-                u,
-                (mc.symmetric[1] - mc.symmetric[0]) / 2.0,
-            ),
+            (Some(estimate), Some(u)) => (estimate, u, (mc.symmetric[1] - mc.symmetric[0]) / 2.0),
             _ => from_gum,
         },
         _ => from_gum,
@@ -504,26 +500,42 @@ mod tests {
         let limits = simple(tolerance);
         let risk = risks(&cauchy, tolerance, &limits, &kernel);
         assert!(risk.consumer > 0.0 && risk.consumer < 1e-4);
-        let everything = risk.accepted + expectation(
-            &cauchy,
-            Region::Inside(Interval { lower: f64::NEG_INFINITY, upper: f64::INFINITY }),
-            &[0.0, 1.0],
-            &|y| kernel.outside(tolerance, y),
-        );
+        let everything = risk.accepted
+            + expectation(
+                &cauchy,
+                Region::Inside(Interval {
+                    lower: f64::NEG_INFINITY,
+                    upper: f64::INFINITY,
+                }),
+                &[0.0, 1.0],
+                &|y| kernel.outside(tolerance, y),
+            );
         close(everything, 1.0, 1e-9);
     }
 
     #[test]
     fn undecided_lies_between() {
         let limits = Limits {
-            acceptance: Some(Interval { lower: -1.0, upper: 1.0 }),
-            rejection: Interval { lower: -2.0, upper: 2.0 },
+            acceptance: Some(Interval {
+                lower: -1.0,
+                upper: 1.0,
+            }),
+            rejection: Interval {
+                lower: -2.0,
+                upper: 2.0,
+            },
         };
         assert_eq!(verdict(0.0, &limits), Verdict::Conforming);
         assert_eq!(verdict(1.0, &limits), Verdict::Conforming);
         assert_eq!(verdict(1.5, &limits), Verdict::Undecided);
         assert_eq!(verdict(-2.5, &limits), Verdict::NotConforming);
-        let binary = Limits { rejection: Interval { lower: -1.0, upper: 1.0 }, ..limits };
+        let binary = Limits {
+            rejection: Interval {
+                lower: -1.0,
+                upper: 1.0,
+            },
+            ..limits
+        };
         assert_eq!(verdict(1.5, &binary), Verdict::NotConforming);
     }
 }

@@ -184,7 +184,10 @@ fn best_estimate(y: f64, u: f64, coverage: f64) -> BestEstimate {
     let variance = u * u - (value - y) * value;
     // Both limits from the upper end: ω is tiny where y is far below zero.
     let above = |q: f64| y + u * normal_upper_quantile(q);
-    let symmetric = [above(omega * (1.0 - gamma / 2.0)), above(omega * gamma / 2.0)];
+    let symmetric = [
+        above(omega * (1.0 - gamma / 2.0)),
+        above(omega * gamma / 2.0),
+    ];
     let centred = u * normal_quantile((1.0 + omega * (1.0 - gamma)) / 2.0);
     let shortest = if y - centred < 0.0 {
         [0.0, above(omega * gamma)]
@@ -331,7 +334,10 @@ mod tests {
             assert!((best.u - variance.sqrt()).abs() < 1e-8, "{z}: {best:?}");
             for [low, high] in [best.symmetric, best.shortest] {
                 assert!(low >= 0.0);
-                assert!((moment(&|_| 1.0, low, high) / all - 0.95).abs() < 1e-10, "{z}");
+                assert!(
+                    (moment(&|_| 1.0, low, high) / all - 0.95).abs() < 1e-10,
+                    "{z}"
+                );
             }
             let below = moment(&|_| 1.0, 0.0, best.symmetric[0]) / all;
             assert!((below - 0.025).abs() < 1e-10, "{z}");

@@ -217,7 +217,10 @@ mod tests {
     }
 
     fn close(found: f64, expected: f64) {
-        assert!((found - expected).abs() < 1e-10 * expected.abs(), "{found} {expected}");
+        assert!(
+            (found - expected).abs() < 1e-10 * expected.abs(),
+            "{found} {expected}"
+        );
     }
 
     /// JCGM 106 8.3.3.2: 100 km/h, u = 2 %, wrong in one of a thousand cases at most.
@@ -260,10 +263,28 @@ mod tests {
     fn third_of_the_permissible_error() {
         let fine = |_: f64| 0.1;
         let fine = situation(-1.0, 1.0, &fine).limits(DecisionRule::Jjf1094);
-        assert_eq!(fine.rejection, Interval { lower: -1.0, upper: 1.0 });
+        assert_eq!(
+            fine.rejection,
+            Interval {
+                lower: -1.0,
+                upper: 1.0
+            }
+        );
         let coarse = |_: f64| 0.2;
         let coarse = situation(-1.0, 1.0, &coarse).limits(DecisionRule::Jjf1094);
-        assert_eq!(coarse.acceptance, Some(Interval { lower: -0.6, upper: 0.6 }));
-        assert_eq!(coarse.rejection, Interval { lower: -1.4, upper: 1.4 });
+        assert_eq!(
+            coarse.acceptance,
+            Some(Interval {
+                lower: -0.6,
+                upper: 0.6
+            })
+        );
+        assert_eq!(
+            coarse.rejection,
+            Interval {
+                lower: -1.4,
+                upper: 1.4
+            }
+        );
     }
 }

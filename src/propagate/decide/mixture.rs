@@ -176,9 +176,17 @@ mod tests {
 
     #[test]
     fn integrals_with_poles_at_the_ends() {
-        close(double_exponential(0.0, 4.0, &|x| 1.0 / x.sqrt()), 4.0, 1e-10);
+        close(
+            double_exponential(0.0, 4.0, &|x| 1.0 / x.sqrt()),
+            4.0,
+            1e-10,
+        );
         close(double_exponential(0.0, 1.0, &|x| -libm::log(x)), 1.0, 1e-13);
-        close(double_exponential(0.0, 1.0, &|x| x.sqrt()), 2.0 / 3.0, 1e-13);
+        close(
+            double_exponential(0.0, 1.0, &|x| x.sqrt()),
+            2.0 / 3.0,
+            1e-13,
+        );
         close(
             double_exponential(-1.0, 2.0, &libm::exp),
             libm::exp(2.0) - libm::exp(-1.0),

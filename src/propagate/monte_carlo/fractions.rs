@@ -44,7 +44,10 @@ pub(crate) fn fractions(
 
 /// Finite values inside, and all finite values.
 fn count(column: Option<&Vec<f64>>, interval: Interval) -> (u64, u64) {
-    let values = column.into_iter().flatten().filter(|value| value.is_finite());
+    let values = column
+        .into_iter()
+        .flatten()
+        .filter(|value| value.is_finite());
     values.fold((0, 0), |(inside, all), value| {
         (inside + u64::from(interval.contains(*value)), all + 1)
     })

@@ -94,6 +94,8 @@ record! {
         correlated: Vec<GroupJson>,
         /// Analyses of readings; their numbers are among `figures`, under their names.
         analyses: Vec<AnalysisJson<'a>>,
+        /// Results of other files that are inputs here.
+        taken_results: Vec<TakenJson<'a>>,
         /// Exactly known quantities.
         constants: Vec<ConstantJson<'a>>,
         /// Least-squares fits whose parameters are inputs.
@@ -430,6 +432,24 @@ record! {
 }
 
 record! {
+    /// A result of another file.
+    TakenJson<'a> {
+        /// Name that the model uses for it.
+        name: &'a str,
+        /// The file, as the budget names it.
+        file: &'a str,
+        /// Row of its series.
+        row: Option<&'a str>,
+        /// Its measurand.
+        measurand: &'a str,
+        /// Title of that file.
+        title: &'a str,
+        /// Defining statements there; null for a saved result, which is taken over in linear form.
+        equation: Option<&'a str>,
+    }
+}
+
+record! {
     /// Joint result (JCGM 102).
     JointJson {
         /// Covariance matrix, GUM.
@@ -725,6 +745,19 @@ impl<'a> Document<'a> {
                         kind,
                         verdicts,
                     }
+                })
+                .collect(),
+            taken_results: budget
+                .chain
+                .taken
+                .iter()
+                .map(|taken| TakenJson {
+                    name: &taken.input,
+                    file: &taken.file,
+                    row: taken.row.as_deref(),
+                    measurand: &taken.measurand,
+                    title: &taken.title,
+                    equation: taken.equation.as_deref(),
                 })
                 .collect(),
             constants: budget

@@ -11,6 +11,7 @@
 //! | [`quantity`] | units, dimensions, rounding of decimal numbers |
 //! | [`special`] | special functions for quantiles and coverage factors |
 //! | [`distribution`] | the distributions an input may have |
+//! | [`least_squares`] | parameters of a response from observed points |
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
 //! | [`budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget |
@@ -66,6 +67,7 @@
 pub mod budget;
 pub mod distribution;
 pub mod fault;
+pub mod least_squares;
 pub mod model;
 pub mod propagate;
 pub mod quantity;

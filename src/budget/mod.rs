@@ -13,6 +13,7 @@ mod claim;
 mod distributions;
 pub mod faults;
 mod files;
+mod fit;
 mod parametric;
 mod profile;
 mod reader;
@@ -28,6 +29,9 @@ use nalgebra::DMatrix;
 
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use files::Files;
+pub use fit::{
+    Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict,
+};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use rejection::Rejection;
@@ -86,6 +90,8 @@ pub struct Budget {
     pub components: Vec<Component>,
     /// Correlated components; a component is in at most one group.
     pub groups: Vec<Group>,
+    /// Curves fitted by least squares, whose parameters are inputs.
+    pub fits: Vec<Fit>,
     /// What certificates say.
     pub claims: Vec<Claim>,
     /// What the analyses of the file's data found (fits, analyses of variance), known before any evaluation.

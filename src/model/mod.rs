@@ -21,6 +21,7 @@ mod lexer;
 mod lower;
 mod measurand;
 mod operation;
+mod outline;
 mod parser;
 mod printer;
 mod reductions;
@@ -37,6 +38,7 @@ use nalgebra::DMatrix;
 pub use block::BlockRunner;
 pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
+pub use outline::{Outline, outline};
 
 use jet::Jet;
 
@@ -212,6 +214,11 @@ impl Model {
     /// different blocks are zero. `None` for inputs that take part in no nonlinear operation.
     pub fn interactions(&self) -> Vec<Option<usize>> {
         interaction::blocks(&self.graph, self.inputs)
+    }
+
+    /// Whether every output is an affine function of these inputs while the others are held.
+    pub fn is_affine_in(&self, inputs: &[usize]) -> bool {
+        interaction::affine(&self.graph, inputs)
     }
 
     /// Which of the request's symbols no measurand depends on.

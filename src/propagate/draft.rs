@@ -164,6 +164,7 @@ impl Draft {
             components: self.components,
             groups: self.groups,
             claims: Vec::new(),
+            fits: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
         }

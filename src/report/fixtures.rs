@@ -161,6 +161,7 @@ impl Bench {
                 .collect(),
             components: self.components,
             groups: Vec::new(),
+            fits: Vec::new(),
             claims: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),

@@ -108,7 +108,7 @@ impl Checker<'_> {
             self.claimed(&table.measurand, &stated.span, file)?
         };
         let (name, entry) = entries(&file.measurand).get(measurand)?;
-        let unit = self.unit(&entry.value.unit)?;
+        let unit = self.measurand_unit(name, &entry.value.unit)?;
         let mut reading = Reading {
             table,
             name,
@@ -391,6 +391,9 @@ impl Checker<'_> {
                 let tolerance = reading.tolerance(|t| &t.figures);
                 let half = self.half_digit(stated);
                 reading.push(Figure::Named(name.clone()), stated.value, half, tolerance);
+                continue;
+            }
+            if self.scatters.iter().any(|fit| fit.withholds(name)) {
                 continue;
             }
             let help = match nearest(name, known()) {

@@ -60,7 +60,7 @@ impl Checker<'_> {
         }
         let units: Vec<_> = stated
             .iter()
-            .map(|(_, entry)| self.unit(&entry.value.unit))
+            .map(|(name, entry)| self.measurand_unit(name, &entry.value.unit))
             .collect();
         let unread = register.entries.iter().any(|entry| entry.unit.is_none())
             || units.iter().any(Option::is_none)
@@ -77,8 +77,15 @@ impl Checker<'_> {
             .zip(&units)
             .map(|((name, entry), unit)| MeasurandSource {
                 name,
-                model: entry.value.model.as_ref().map(|text| text.value.as_str()),
-                unit: entry.value.unit.as_ref().and(unit.clone()),
+                model: match &entry.value.model {
+                    Some(text) => Some(text.value.as_str()),
+                    // A measurand that is called like a parameter of a fit reports it.
+                    None => self.parameter_unit(name).map(|_| name.as_str()),
+                },
+                unit: match self.parameter_unit(name) {
+                    Some(_) => unit.clone(),
+                    None => entry.value.unit.as_ref().and(unit.clone()),
+                },
             })
             .collect();
         let symbols = symbols(constants, register);
@@ -93,6 +100,7 @@ impl Checker<'_> {
             Ok(model) => {
                 if !self.hidden_names {
                     self.unused(file, &model, constants.len(), register);
+                    self.unused_fits(file, &model, constants.len(), register);
                 }
                 self.no_inputs(&model, register);
                 self.undefined(&model, file, constants.len(), register);
@@ -144,7 +152,7 @@ impl Checker<'_> {
         }
     }
 
-    fn in_formula(&self, fault: Fault, text: Option<&Stated<String>>) -> Fault {
+    pub(super) fn in_formula(&self, fault: Fault, text: Option<&Stated<String>>) -> Fault {
         let Some(text) = text else {
             return fault.moved(|_| 0..0);
         };
@@ -216,7 +224,16 @@ impl Checker<'_> {
     }
 
     fn unused(&mut self, file: &FileTable, model: &Model, constants: usize, register: &Register) {
+        let parameters = constants..constants + self.parameters.len();
         for index in model.unused_symbols() {
+            // Of a fit, all parameters come together.
+            if parameters.contains(&index) {
+                continue;
+            }
+            let constant = entries(&file.constant).get(index);
+            if constant.is_some_and(|(name, _)| self.used_by_fits.contains(name)) {
+                continue;
+            }
             let place = self.symbol_place(index, file, constants, register);
             let (kind, name) = if index < constants {
                 (

@@ -11,6 +11,7 @@ mod conventions;
 mod correlations;
 mod csv;
 mod draft;
+mod fits;
 mod formulas;
 mod given;
 mod groups;
@@ -39,7 +40,7 @@ use super::{
     Budget, Conventions, Heading, MonteCarloSettings, NamedFigure, Remark, Row, TScale, Trials,
 };
 use crate::fault::Fault;
-use crate::quantity::UnitTable;
+use crate::quantity::{Unit, UnitTable};
 
 /// Where a budget comes from, and with it the files that it names.
 #[derive(Debug, Clone, Copy)]
@@ -70,6 +71,12 @@ struct Checker<'a> {
     date: Option<String>,
     faults: Vec<Fault>,
     remarks: Vec<Remark>,
+    /// What the fits of the file say about the scatter of their responses.
+    scatters: Vec<fits::Scatter>,
+    /// Parameters of fits with their units.
+    parameters: Vec<(String, Option<Unit>)>,
+    /// Names that the formulas of fits use.
+    used_by_fits: Vec<String>,
     /// Figures of the analyses of the file's data.
     figures: Vec<NamedFigure>,
     /// Names of figures that only the evaluation will give.
@@ -163,6 +170,9 @@ fn budget(
         date: heading.date.clone(),
         faults,
         remarks: Vec::new(),
+        scatters: Vec::new(),
+        parameters: Vec::new(),
+        used_by_fits: Vec::new(),
         figures: Vec::new(),
         awaited_figures: Vec::new(),
         hidden_names: names_hidden(file),
@@ -188,9 +198,11 @@ impl Checker<'_> {
         let mut register = register::Register::default();
         self.joint_estimates(file, &mut register);
         self.sources(shared(file), &mut register);
+        let fitted = self.fits(file, &constants, &mut register);
+        let file = &self.reporting_fits(file);
         self.inputs(file, resolution, &mut register);
         self.unused_sources(shared(file), &register);
-        let groups = self.groups(file, &mut register);
+        let groups = self.groups(file, &fitted, &mut register);
         let model = self.model(file, &constants, &register);
         self.await_tolerances(file, &monte_carlo);
         let claims = self.claims(file, &register);
@@ -204,6 +216,7 @@ impl Checker<'_> {
             measurands: formulas::measurands(file),
             components: register.components,
             groups,
+            fits: fitted.into_iter().map(|found| found.fit).collect(),
             claims,
             figures: std::mem::take(&mut self.figures),
             remarks: std::mem::take(&mut self.remarks),
@@ -240,6 +253,7 @@ fn names_hidden(file: &FileTable) -> bool {
             "constant",
             file.constant.as_ref().map(|named| named.value.refused),
         )
+        || refused("fit", file.fit.as_ref().map(|named| named.value.refused))
         || refused("model", file.model.as_ref().map(|_| false))
 }
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::draft::Draft;
+use super::draft::{Draft, Kind};
 use crate::budget::{Component, Input, Owner, Term};
 use crate::distribution::Distribution;
 use crate::quantity::Unit;
@@ -39,6 +39,8 @@ pub(super) struct Register {
     pub sources: Vec<SourceEntry>,
     /// Readings behind a Type A component.
     pub readings: HashMap<usize, Vec<f64>>,
+    /// Components that are the scatter of data about a fit: the number of the fit, the component.
+    pub scatter: Vec<(usize, usize)>,
     /// Inputs whose uncertainty a covariance matrix states.
     pub by_matrix: Vec<String>,
     /// Whether something was refused, so that correlations of it cannot be checked.
@@ -60,6 +62,9 @@ impl Register {
         } else {
             format!("{owner_name}.{}", draft.label)
         };
+        if let Kind::Scatter(fit) = draft.kind {
+            self.scatter.push((fit, self.components.len()));
+        }
         self.components.push(Component {
             name,
             label: draft.label,

@@ -28,11 +28,12 @@ pub(super) enum Way {
     Distribution,
     Count,
     Successes,
+    ResidualOf,
 }
 
 use Way::{
-    Bits, Count, Distribution, HalfWidth, Limits, PlusMinus, Pooled, Readings, Sample, Source,
-    Specification, Step, Successes, U,
+    Bits, Count, Distribution, HalfWidth, Limits, PlusMinus, Pooled, Readings, ResidualOf, Sample,
+    Source, Specification, Step, Successes, U,
 };
 
 /// Which ways a modifier goes with, and what to say otherwise.
@@ -81,8 +82,8 @@ const MODIFIERS: [(&str, &[Way], &str); 16] = [
     ),
     (
         "of",
-        &[Readings, Pooled],
-        "`of` goes with `readings` or `pooled`",
+        &[Readings, Pooled, ResidualOf],
+        "`of` goes with `readings`, `pooled` or `residual_of`",
     ),
     (
         "pooled",
@@ -166,6 +167,7 @@ fn label(way: Way) -> &'static str {
         Distribution => "distribution",
         Count => "count",
         Successes => "proportion",
+        ResidualOf => "scatter of a reading",
     }
 }
 
@@ -204,6 +206,7 @@ fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)>
         "distribution" if full => Some(Distribution),
         "count" => Some(Count),
         "successes" => Some(Successes),
+        "residual_of" => Some(ResidualOf),
         _ => None,
     };
     table
@@ -321,6 +324,7 @@ impl Checker<'_> {
                 self.type_b(table, way, context)
             }
             Sample | Distribution | Count | Successes => self.given(table, way, context),
+            ResidualOf => self.residual_of(table, context),
             Source => None,
         }?;
         self.finish(table, way, context, core)
@@ -345,6 +349,7 @@ impl Checker<'_> {
         let kind = match way {
             Readings | Pooled => Kind::Repeatability,
             Step | Bits => Kind::Resolution,
+            ResidualOf => self.fit_named(table).map_or(Kind::Other, Kind::Scatter),
             _ => Kind::Other,
         };
         let name = table.name.as_ref().map(|name| name.value.clone());
@@ -354,7 +359,7 @@ impl Checker<'_> {
             distribution: core.distribution,
             u: core.u,
             dof: core.dof,
-            evaluation: if kind == Kind::Repeatability {
+            evaluation: if matches!(kind, Kind::Repeatability | Kind::Scatter(_)) {
                 Evaluation::TypeA
             } else {
                 Evaluation::TypeB

@@ -1,0 +1,67 @@
+//! Least squares: parameters of a response from observed points, with their covariance matrix and
+//! with their derivatives by every observation.
+//!
+//! Pure numerics; files, names and units are other modules' business.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `problem` | points, their errors, the response: what is asked |
+//! | `solution` | what is answered, and the ways to fail |
+//! | `polynomial` | the response that is a polynomial in one predictor |
+//! | `dd` | double-double arithmetic |
+//! | `factor` | pivoted Householder QR and Cholesky, in either precision |
+//! | `whiten` | errors of y to unit variance |
+//! | `linear` | responses affine in their parameters, exact predictors |
+//! | `nonlinear` | Levenberg–Marquardt, finished by Gauss–Newton steps |
+//! | `errors_in_variables` | predictors with errors: York, ISO/TS 28037, also for curves |
+//! | `derivatives` | how the estimates follow the observations |
+//! | `lack_of_fit` | χ² test for stated u, F test from replicates |
+//!
+//! # What is minimised
+//!
+//! With errors e of the observations, of covariance matrix V, and the response f,
+//!
+//! ```text
+//! χ² = min eᵀ V⁻¹ e   such that   y − e_y = f(x − e_x, β)
+//! ```
+//!
+//! over the parameters β and, where predictors have errors, over e_x. With Jacobian J = ∂f/∂β and
+//! slopes F = ∂f/∂x at the adjusted points, the covariance matrix of the parameters is
+//! (Jᵀ C⁻¹ J)⁻¹ with C = V_yy + F V_xx Fᵀ − F V_xy − V_yx Fᵀ: the usual formula for exact
+//! predictors, that of ISO/TS 28037 clauses 7 to 10 for others. If u is known up to a factor only,
+//! it is multiplied by χ²/ν.
+
+mod dd;
+mod derivatives;
+mod errors_in_variables;
+mod factor;
+mod lack_of_fit;
+mod linear;
+mod nonlinear;
+mod polynomial;
+mod problem;
+mod solution;
+mod whiten;
+
+pub use dd::Dd;
+pub use lack_of_fit::{LackOfFit, Replicates, lack_of_fit, replicates};
+pub use polynomial::Polynomial;
+pub use problem::{Errors, Problem, Response, Scale, Spread};
+pub use solution::{Failure, Observed, Solution};
+
+/// The parameters that minimise χ², their covariance matrix and their derivatives.
+///
+/// # Errors
+///
+/// A [`Failure`] says what is wrong with the problem, or that no minimum was found.
+pub fn solve(problem: &Problem) -> Result<Solution, Failure> {
+    problem.check()?;
+    match (
+        problem.response.is_linear(),
+        problem.errors.predictors_are_exact(),
+    ) {
+        (true, true) => linear::solve(problem),
+        (false, true) => nonlinear::solve(problem),
+        (_, false) => errors_in_variables::solve(problem),
+    }
+}

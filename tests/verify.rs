@@ -23,7 +23,8 @@ fn text(bytes: &[u8]) -> String {
 
 /// A folder of this test alone, empty.
 fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("gumption-verify-{}-{name}", std::process::id()));
+    let folder =
+        std::env::temp_dir().join(format!("gumption-verify-{}-{name}", std::process::id()));
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).expect("a writable folder");
     folder
@@ -41,7 +42,14 @@ fn claiming(folder: &Path, claim: &str) -> String {
 fn the_published_examples_pass() {
     let place = folder("examples");
     let report = place.join("dossier").display().to_string();
-    let output = gumption(&["verify", "--quiet", "--report", &report, "--date", "2026-01-31"]);
+    let output = gumption(&[
+        "verify",
+        "--quiet",
+        "--report",
+        &report,
+        "--date",
+        "2026-01-31",
+    ]);
     let out = text(&output.stdout);
     assert!(output.status.success(), "{out}{}", text(&output.stderr));
     let lines: Vec<&str> = out.lines().collect();
@@ -61,14 +69,23 @@ fn the_published_examples_pass() {
     assert_eq!(value["date"], "2026-01-31");
     assert_eq!(value["counts"]["passed"], passed);
     assert_eq!(value["counts"]["failed"], 0);
-    let markdown = std::fs::read_to_string(place.join("dossier/verification.md")).expect("Markdown");
+    let markdown =
+        std::fs::read_to_string(place.join("dossier/verification.md")).expect("Markdown");
     for example in value["examples"].as_array().expect("examples") {
         let file = example["file"].as_str().expect("a name");
         assert!(markdown.contains(file), "{file}");
         let reference = example["reference"].as_str().unwrap_or_default();
-        assert!(!reference.is_empty(), "{file} does not say where its figures come from");
+        assert!(
+            !reference.is_empty(),
+            "{file} does not say where its figures come from"
+        );
     }
-    assert_eq!(std::fs::read_dir(place.join("dossier")).expect("a folder").count(), 2);
+    assert_eq!(
+        std::fs::read_dir(place.join("dossier"))
+            .expect("a folder")
+            .count(),
+        2
+    );
     std::fs::remove_dir_all(place).expect("removed");
 }
 
@@ -80,7 +97,10 @@ fn a_wrong_claim_fails() {
     assert_eq!(output.status.code(), Some(1));
     let out = text(&output.stdout);
     assert!(out.contains("DIFFERS"), "{out}");
-    assert!(out.ends_with("\n2 figures compared, 1 of them differs\n0 passed, 1 failed\n"), "{out}");
+    assert!(
+        out.ends_with("\n2 figures compared, 1 of them differs\n0 passed, 1 failed\n"),
+        "{out}"
+    );
     std::fs::remove_dir_all(place).expect("removed");
 }
 
@@ -91,7 +111,10 @@ fn a_claim_of_low_confidence_decides_nothing() {
     let output = gumption(&["verify", &place.display().to_string()]);
     let out = text(&output.stdout);
     assert!(output.status.success() && out.contains(&file), "{out}");
-    assert!(out.contains("not gating") && out.ends_with("\n0 passed, 0 failed\n"), "{out}");
+    assert!(
+        out.contains("not gating") && out.ends_with("\n0 passed, 0 failed\n"),
+        "{out}"
+    );
     std::fs::remove_dir_all(place).expect("removed");
 }
 
@@ -102,8 +125,11 @@ fn a_file_with_faults_is_bad_input() {
     let report = place.join("dossier").display().to_string();
     let output = gumption(&["verify", &file, "--report", &report, "--lang", "zh"]);
     assert_eq!(output.status.code(), Some(2));
-    let markdown = std::fs::read_to_string(place.join("dossier/verification.md")).expect("Markdown");
-    assert!(markdown.contains("did you mean `value`?") && markdown.contains("0 个通过，1 个未通过"));
+    let markdown =
+        std::fs::read_to_string(place.join("dossier/verification.md")).expect("Markdown");
+    assert!(
+        markdown.contains("did you mean `value`?") && markdown.contains("0 个通过，1 个未通过")
+    );
     std::fs::remove_dir_all(place).expect("removed");
 }
 
@@ -190,7 +216,9 @@ fn the_index_names_every_budget() {
         let (group, _) = name.split_once('/').expect("a folder");
         if group != folder {
             folder = group.to_string();
-            index += &format!("\n## {group}\n\n| budget | measurement | figures from |\n|---|---|---|\n");
+            index += &format!(
+                "\n## {group}\n\n| budget | measurement | figures from |\n|---|---|---|\n"
+            );
         }
         let budget: toml::Table = std::fs::read_to_string(&path)
             .expect("a file of the repository")
@@ -202,7 +230,11 @@ fn the_index_names_every_budget() {
         };
         assert!(!word("title").is_empty(), "{name} has no title");
         let file = name.rsplit('/').next().unwrap_or(name);
-        index += &format!("| [{file}]({name}) | {} | {} |\n", word("title"), word("reference"));
+        index += &format!(
+            "| [{file}]({name}) | {} | {} |\n",
+            word("title"),
+            word("reference")
+        );
     }
     let path = common::root().join("budgets/README.md");
     let stale: Vec<String> = common::stale(&path, &index).into_iter().collect();

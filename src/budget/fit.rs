@@ -231,7 +231,10 @@ impl Fit {
     /// Sum of the squares of response − fitted.
     pub fn rss(&self) -> f64 {
         if self.weighted {
-            self.residuals.iter().map(|residual| residual * residual).sum()
+            self.residuals
+                .iter()
+                .map(|residual| residual * residual)
+                .sum()
         } else {
             // The sum that the solver formed with more digits.
             self.chi_squared

@@ -29,9 +29,7 @@ use nalgebra::DMatrix;
 
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use files::Files;
-pub use fit::{
-    Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict,
-};
+pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use rejection::Rejection;

@@ -231,9 +231,16 @@ mod tests {
     fn names_and_units_of_a_line() {
         let units = UnitTable::default();
         let outline = outline("b = y1 + y2*(t - t0)", &units).expect("well formed");
-        let needs: Vec<&str> = outline.needs.iter().map(|(name, _)| name.as_str()).collect();
+        let needs: Vec<&str> = outline
+            .needs
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .collect();
         assert_eq!(needs, ["y1", "y2", "t", "t0"]);
-        assert_eq!(outline.gives.as_ref().map(|(name, _)| name.as_str()), Some("b"));
+        assert_eq!(
+            outline.gives.as_ref().map(|(name, _)| name.as_str()),
+            Some("b")
+        );
         let symbols = [symbol("t", "°C", 0), symbol("t0", "°C", 1)];
         let parameters = ["y1".to_string(), "y2".to_string()];
         let found = outline.parameter_units(

@@ -193,7 +193,12 @@ impl Checker<'_> {
     }
 
     /// Checks that lists for elements are as long as the vector.
-    pub(super) fn one_for_each(&mut self, name: &str, table: &ComponentTable, length: usize) -> Option<()> {
+    pub(super) fn one_for_each(
+        &mut self,
+        name: &str,
+        table: &ComponentTable,
+        length: usize,
+    ) -> Option<()> {
         for (key, stated) in [("u", &table.u), ("half_width", &table.half_width)] {
             let Some(Stated {
                 value: Amounts::Each(list),

@@ -207,7 +207,10 @@ impl Checker<'_> {
             .covariance
             .as_ref()
             .map(|stated| ("covariance", &stated.key))
-            .or(table.weights.as_ref().map(|stated| ("weights", &stated.key)))
+            .or(table
+                .weights
+                .as_ref()
+                .map(|stated| ("weights", &stated.key)))
         {
             let (own, span) = &table.component.present[0];
             return self.refuse(
@@ -270,7 +273,12 @@ impl Checker<'_> {
                 Fault::new(
                     NOT_POSITIVE,
                     span,
-                    format!("weight {} of {} is {}", place + 1, column.name, weights[place]),
+                    format!(
+                        "weight {} of {} is {}",
+                        place + 1,
+                        column.name,
+                        weights[place]
+                    ),
                 )
                 .label("must be greater than zero")
                 .help("a weight is 1/u²; leave out points that are not to count"),

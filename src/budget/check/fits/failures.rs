@@ -6,9 +6,7 @@ use super::super::Checker;
 use super::super::draft::show;
 use super::columns::Column;
 use super::formula::Formula;
-use crate::budget::faults::{
-    FIT_ERRORS, FIT_FAILED, FIT_INDISTINCT, FIT_POINTS, NOT_SEMIDEFINITE,
-};
+use crate::budget::faults::{FIT_ERRORS, FIT_FAILED, FIT_INDISTINCT, FIT_POINTS, NOT_SEMIDEFINITE};
 use crate::budget::fit::column_of;
 use crate::budget::table::Stated;
 use crate::budget::tables::FitTable;
@@ -160,10 +158,14 @@ impl Checker<'_> {
 
 /// The place of a value of a column.
 fn value_place(column: &Column<'_>, point: usize) -> Range<usize> {
-    let listed = column.table.values.as_ref().and_then(|stated| match &stated.value {
-        Numbers::List(list) => list.get(point).map(|number| number.span.clone()),
-        Numbers::Column(_) => Some(stated.span.clone()),
-    });
+    let listed = column
+        .table
+        .values
+        .as_ref()
+        .and_then(|stated| match &stated.value {
+            Numbers::List(list) => list.get(point).map(|number| number.span.clone()),
+            Numbers::Column(_) => Some(stated.span.clone()),
+        });
     listed.unwrap_or_else(|| column.key.clone())
 }
 

@@ -88,7 +88,10 @@ impl Response for Compiled {
         let point: Vec<f64> = parameters.iter().chain(predictors).copied().collect();
         let slopes = self.model.gradients(&point);
         let (own, others) = (by_parameter.len(), by_predictor.len());
-        for (cell, slope) in by_parameter.iter_mut().zip(slopes.row(0).columns(0, own).iter()) {
+        for (cell, slope) in by_parameter
+            .iter_mut()
+            .zip(slopes.row(0).columns(0, own).iter())
+        {
             *cell = *slope;
         }
         for (cell, slope) in by_predictor
@@ -162,9 +165,18 @@ impl Checker<'_> {
     ) -> Result<Formula, Vec<Parameter>> {
         let table = &stated.value;
         for key in [
-            table.response.as_ref().map(|stated| ("response", &stated.key)),
-            table.predictor.as_ref().map(|stated| ("predictor", &stated.key)),
-            table.intercept.as_ref().map(|stated| ("intercept", &stated.key)),
+            table
+                .response
+                .as_ref()
+                .map(|stated| ("response", &stated.key)),
+            table
+                .predictor
+                .as_ref()
+                .map(|stated| ("predictor", &stated.key)),
+            table
+                .intercept
+                .as_ref()
+                .map(|stated| ("intercept", &stated.key)),
         ]
         .into_iter()
         .flatten()
@@ -223,12 +235,17 @@ impl Checker<'_> {
             .label("expected a column of the data");
             let fault = match nearest(given, known.clone()) {
                 Some(near) => fault.help(format!("did you mean `{near}`?")),
-                None => fault.help(format!("its columns are: {}", known.collect::<Vec<_>>().join(", "))),
+                None => fault.help(format!(
+                    "its columns are: {}",
+                    known.collect::<Vec<_>>().join(", ")
+                )),
             };
             return self.refuse(fault).ok_or_else(Vec::new);
         };
         let parameters = self
-            .fit_parameters(name, table, text, &outline, columns, response, constants, file)
+            .fit_parameters(
+                name, table, text, &outline, columns, response, constants, file,
+            )
             .ok_or_else(Vec::new)?;
         self.fit_compiled(text, &outline, parameters, columns, response, constants)
     }
@@ -248,13 +265,10 @@ impl Checker<'_> {
     ) -> Option<Vec<Parameter>> {
         let before = self.faults.len();
         let declared = self.declared(table);
-        let unread = table
-            .parameters
-            .as_ref()
-            .map_or_else(
-                || table.present.iter().any(|(key, _)| *key == "parameters"),
-                |stated| stated.value.0.refused,
-            );
+        let unread = table.parameters.as_ref().map_or_else(
+            || table.present.iter().any(|(key, _)| *key == "parameters"),
+            |stated| stated.value.0.refused,
+        );
         let column = |wanted: &str| columns.iter().position(|column| column.name == wanted);
         let used = |wanted: &str| outline.needs.iter().any(|(name, _)| name == wanted);
         let idle: Vec<&Column<'_>> = columns
@@ -266,11 +280,17 @@ impl Checker<'_> {
         let mut misspelt: Vec<&str> = Vec::new();
         let mut parameters: Vec<Parameter> = Vec::new();
         for (needed, span) in &outline.needs {
-            let place = self.in_formula(Fault::new(FIT, span.clone(), ""), Some(text)).span;
+            let place = self
+                .in_formula(Fault::new(FIT, span.clone(), ""), Some(text))
+                .span;
             if column(needed) == Some(response) {
                 self.faults.push(
-                    Fault::new(FIT, place, format!("{needed} is on both sides of the formula"))
-                        .label("expected columns, parameters and constants other than the left side"),
+                    Fault::new(
+                        FIT,
+                        place,
+                        format!("{needed} is on both sides of the formula"),
+                    )
+                    .label("expected columns, parameters and constants other than the left side"),
                 );
                 continue;
             }
@@ -281,7 +301,9 @@ impl Checker<'_> {
                 continue;
             }
             let near = nearest(needed, idle.iter().map(|column| column.name));
-            let is_input = entries(&file.input).iter().any(|(input, _)| input == needed);
+            let is_input = entries(&file.input)
+                .iter()
+                .any(|(input, _)| input == needed);
             let fault = Fault::new(
                 UNKNOWN_NAME,
                 place.clone(),
@@ -321,12 +343,18 @@ impl Checker<'_> {
                 }),
             }
         }
-        for column in idle.iter().filter(|column| !misspelt.contains(&column.name)) {
+        for column in idle
+            .iter()
+            .filter(|column| !misspelt.contains(&column.name))
+        {
             self.faults.push(
                 Fault::new(
                     UNUSED,
                     column.key.clone(),
-                    format!("the formula of the fit {name} does not use the column {}", column.name),
+                    format!(
+                        "the formula of the fit {name} does not use the column {}",
+                        column.name
+                    ),
                 )
                 .label("not used")
                 .help("use it in the formula, or remove it"),
@@ -348,7 +376,9 @@ impl Checker<'_> {
                     Fault::new(
                         UNUSED,
                         stated.key.clone(),
-                        format!("the formula of the fit {name} does not use the parameter {parameter}"),
+                        format!(
+                            "the formula of the fit {name} does not use the parameter {parameter}"
+                        ),
                     )
                     .label("not used")
                     .help("use it in the formula, or remove it"),
@@ -366,7 +396,11 @@ impl Checker<'_> {
                         place: stated.key.clone(),
                         unit: None,
                         start: None,
-                        description: stated.value.description.as_ref().map(|text| text.value.clone()),
+                        description: stated
+                            .value
+                            .description
+                            .as_ref()
+                            .map(|text| text.value.clone()),
                         stated: Some(stated.clone()),
                     })
                     .collect(),
@@ -569,7 +603,10 @@ impl Checker<'_> {
                 Fault::new(
                     UNUSED,
                     columns[idle].key.clone(),
-                    format!("the polynomial does not use the column {}", columns[idle].name),
+                    format!(
+                        "the polynomial does not use the column {}",
+                        columns[idle].name
+                    ),
                 )
                 .label("not used")
                 .help("remove it"),
@@ -618,7 +655,8 @@ impl Checker<'_> {
             } else {
                 natural
             };
-            let parameter = entry.map_or_else(|| format!("{name}_{power}"), |(name, _)| name.clone());
+            let parameter =
+                entry.map_or_else(|| format!("{name}_{power}"), |(name, _)| name.clone());
             if let Some(unit) = entry.and_then(|(_, entry)| entry.value.unit.as_ref()) {
                 let found = self.unit(&Some(unit.clone()))?;
                 let same = found
@@ -638,9 +676,13 @@ impl Checker<'_> {
             }
             if let Some(start) = entry.and_then(|(_, entry)| entry.value.start.as_ref()) {
                 self.faults.push(
-                    Fault::new(MODIFIER, start.key.clone(), "a polynomial needs no start values")
-                        .label("no meaning here")
-                        .help("leave it out"),
+                    Fault::new(
+                        MODIFIER,
+                        start.key.clone(),
+                        "a polynomial needs no start values",
+                    )
+                    .label("no meaning here")
+                    .help("leave it out"),
                 );
             }
             parameters.push(Parameter {
@@ -649,7 +691,11 @@ impl Checker<'_> {
                 unit: Some(natural),
                 start: None,
                 description: entry.and_then(|(_, entry)| {
-                    entry.value.description.as_ref().map(|text| text.value.clone())
+                    entry
+                        .value
+                        .description
+                        .as_ref()
+                        .map(|text| text.value.clone())
                 }),
                 stated: None,
             });
@@ -690,7 +736,10 @@ impl Checker<'_> {
                     format!("the polynomial of the fit {name} has no `{key}`"),
                 )
                 .label(format!("`{key}` is missing"))
-                .help(format!("write {key} = \"…\" with one of {}", known.join(", "))),
+                .help(format!(
+                    "write {key} = \"…\" with one of {}",
+                    known.join(", ")
+                )),
             );
         };
         let found = known.iter().position(|column| *column == side.value);
@@ -714,8 +763,14 @@ impl Checker<'_> {
 fn of_the_fit(mut fault: Fault, column: &str) -> Fault {
     let reword = |text: &str| {
         text.replace("for the measurand", &format!("for the column {column}"))
-            .replace("the measurand's unit", &format!("the unit of the column {column}"))
-            .replace("an input or constant of the file", "a column, parameter or constant")
+            .replace(
+                "the measurand's unit",
+                &format!("the unit of the column {column}"),
+            )
+            .replace(
+                "an input or constant of the file",
+                "a column, parameter or constant",
+            )
     };
     fault.message = reword(&fault.message);
     fault.help = fault.help.as_deref().map(reword);

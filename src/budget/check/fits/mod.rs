@@ -161,7 +161,10 @@ impl Checker<'_> {
             fit.dof as f64
         };
         let how = match (fit.stated, fit.weighted) {
-            (true, _) => format!("least squares, n = {}, u of the data as stated", fit.points()),
+            (true, _) => format!(
+                "least squares, n = {}, u of the data as stated",
+                fit.points()
+            ),
             (false, false) => format!(
                 "least squares, n = {}, s = {}",
                 fit.points(),
@@ -200,8 +203,7 @@ impl Checker<'_> {
                 stated: stated.key.clone(),
             };
             let owner = Owner::Input(parameter.input);
-            let component =
-                register.add(owner, &parameter.name, &parameter.unit, draft, alone);
+            let component = register.add(owner, &parameter.name, &parameter.unit, draft, alone);
             register.act(parameter.input, component, 1.0);
             members.push(component);
         }

@@ -31,7 +31,12 @@ impl Scatter {
         Scatter {
             fit: name.to_string(),
             parameters: fitted.map_or_else(Vec::new, |found| {
-                found.fit.parameters.iter().map(|p| p.name.clone()).collect()
+                found
+                    .fit
+                    .parameters
+                    .iter()
+                    .map(|p| p.name.clone())
+                    .collect()
             }),
             known,
             refused: fitted.is_none(),
@@ -55,7 +60,9 @@ impl Checker<'_> {
     /// The number of the fit whose scatter a component takes.
     pub(in crate::budget::check) fn fit_named(&self, table: &ComponentTable) -> Option<usize> {
         let name = table.residual_of.as_ref()?;
-        self.scatters.iter().position(|scatter| scatter.is(&name.value))
+        self.scatters
+            .iter()
+            .position(|scatter| scatter.is(&name.value))
     }
 
     /// u = s/√m with the ν of the fit.
@@ -66,7 +73,10 @@ impl Checker<'_> {
     ) -> Option<Core> {
         let stated = table.residual_of.as_ref()?;
         let owner = context.owner;
-        let Some(scatter) = self.fit_named(table).map(|index| self.scatters[index].clone()) else {
+        let Some(scatter) = self
+            .fit_named(table)
+            .map(|index| self.scatters[index].clone())
+        else {
             let known: Vec<&str> = self.scatters.iter().map(|s| s.fit.as_str()).collect();
             let help = match nearest(&stated.value, known.iter().copied()) {
                 Some(near) => format!("did you mean \"{near}\"?"),
@@ -91,10 +101,15 @@ impl Checker<'_> {
                 Fault::new(
                     RESIDUAL_OF,
                     stated.span.clone(),
-                    format!("the data of the fit {} have uncertainties of their own", scatter.fit),
+                    format!(
+                        "the data of the fit {} have uncertainties of their own",
+                        scatter.fit
+                    ),
                 )
                 .label("its residuals do not stand for the scatter of a reading")
-                .help(format!("state the uncertainty of {owner} as that of the data: u = …")),
+                .help(format!(
+                    "state the uncertainty of {owner} as that of the data: u = …"
+                )),
             );
         };
         let m = match table.of.as_ref().map(|of| (of.value, of)) {
@@ -138,7 +153,11 @@ impl Checker<'_> {
                 .help("state the resolution of the readings: { step = … }"),
             );
         }
-        let root = if m == 1.0 { "s".to_string() } else { format!("s/√{m}") };
+        let root = if m == 1.0 {
+            "s".to_string()
+        } else {
+            format!("s/√{m}")
+        };
         let how = format!("{root} about the fit {}, s = {}", scatter.fit, show(s));
         let distribution = self.t_or_normal(u, dof, &stated.key)?;
         let mut core = Core::new(distribution, u, how);

@@ -58,7 +58,10 @@ impl Checker<'_> {
             y: DVector::from_row_slice(&columns[0].values),
             errors: Errors {
                 y,
-                x: errors[1..].iter().map(|errors| errors.spread.clone()).collect(),
+                x: errors[1..]
+                    .iter()
+                    .map(|errors| errors.spread.clone())
+                    .collect(),
                 correlation,
                 scale,
             },
@@ -82,7 +85,13 @@ impl Checker<'_> {
             u,
             common: errors
                 .iter()
-                .map(|errors| errors.common.iter().map(|common| common.component).collect())
+                .map(|errors| {
+                    errors
+                        .common
+                        .iter()
+                        .map(|common| common.component)
+                        .collect()
+                })
                 .collect(),
             causes: causes(errors, &solution),
             solution,
@@ -115,7 +124,10 @@ impl Checker<'_> {
                 Fault::new(
                     FIT_COLUMNS,
                     list.span.clone(),
-                    format!("{} correlation coefficients for {n} points", list.value.len()),
+                    format!(
+                        "{} correlation coefficients for {n} points",
+                        list.value.len()
+                    ),
                 )
                 .label(format!("expected {n}"))
                 .help("state one for each point"),
@@ -213,7 +225,12 @@ impl Solved {
         register: &mut Register,
     ) -> Fit {
         let solution = self.solution;
-        let u: Vec<f64> = solution.covariance.diagonal().iter().map(|v| v.max(0.0).sqrt()).collect();
+        let u: Vec<f64> = solution
+            .covariance
+            .diagonal()
+            .iter()
+            .map(|v| v.max(0.0).sqrt())
+            .collect();
         for (place, estimate) in solution.parameters.iter().enumerate() {
             if let Some(input) = register.inputs.get_mut(first + place) {
                 input.estimate = *estimate;
@@ -258,7 +275,11 @@ impl Solved {
         });
         let columns = columns.iter().enumerate().map(|(index, column)| FitColumn {
             name: column.name.to_string(),
-            description: column.table.description.as_ref().map(|text| text.value.clone()),
+            description: column
+                .table
+                .description
+                .as_ref()
+                .map(|text| text.value.clone()),
             unit: column.unit.clone(),
             values: column.values.clone(),
             u: self.u[index].clone(),

@@ -10,6 +10,7 @@
 //! | [`fault`] | what is wrong in a user's file, and where |
 //! | [`quantity`] | units, dimensions, rounding of decimal numbers |
 //! | [`special`] | special functions for quantiles and coverage factors |
+//! | [`statistics`] | statistics of readings: scatter, serial correlation, analysis of variance |
 //! | [`distribution`] | the distributions an input may have |
 //! | [`least_squares`] | parameters of a response from observed points |
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
@@ -73,4 +74,5 @@ pub mod propagate;
 pub mod quantity;
 pub mod report;
 pub mod special;
+pub mod statistics;
 pub mod verify;

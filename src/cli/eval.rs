@@ -49,6 +49,9 @@ pub(super) struct Args {
     /// Write to this file instead of standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Save the results for other budgets, which name this file in `from = { result = … }`
+    #[arg(long, value_name = "FILE")]
+    save: Option<PathBuf>,
 }
 
 /// An evaluated row of a file.
@@ -70,6 +73,11 @@ impl Row {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    if args.save.is_some() && args.files.len() > 1 {
+        return output::complain(
+            "--save takes the results of one budget file; evaluate the files one after the other",
+        );
+    }
     let mut worst = Outcome::Done;
     let mut texts: Vec<String> = Vec::new();
     let mut values: Vec<Value> = Vec::new();
@@ -77,6 +85,9 @@ pub(super) fn run(args: &Args) -> Outcome {
         let rows = evaluate_file(args, file, &mut worst);
         if rows.is_empty() {
             continue;
+        }
+        if let Some(path) = &args.save {
+            worst = worst.max(save(&rows, path, args.lang));
         }
         if args.json {
             values.extend(rows.iter().map(|row| report::json(&row.report(args.lang))));
@@ -97,6 +108,20 @@ pub(super) fn run(args: &Args) -> Outcome {
         None => output::print(&text),
     };
     worst.max(written)
+}
+
+/// Writes the results for other budgets.
+fn save(rows: &[Row], path: &Path, language: Language) -> Outcome {
+    let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(language)).collect();
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let folder = budget::Files::Disk.identity(folder);
+    match report::saved(&reports, &folder) {
+        Ok(text) => output::replace(path, &text),
+        Err(why) => output::complain(&format!("nothing is saved: {why}")),
+    }
 }
 
 /// Reads and evaluates one file; says on standard error what fails, and goes on.

@@ -8,7 +8,8 @@ use super::{
     Basis, Finding, FindingKind, Freedom, Gum, MeasurandResult, MissingMoments, MonteCarlo,
     Validation,
 };
-use crate::budget::{Budget, CoverageRule, Group, Law, Owner};
+use crate::budget::{Budget, CoverageRule, FitVerdict, Group, Law, Owner};
+use crate::model::Notice;
 
 /// Poles and ends of domains are looked for within this many standard uncertainties.
 const REACH: f64 = 4.0;
@@ -94,8 +95,10 @@ impl Evidence<'_> {
     /// All findings: first those of the whole budget, then measurand by measurand.
     pub(super) fn findings(&self) -> Vec<Finding> {
         let of_model = self.of_model();
-        let doubtful_model = !of_model.is_empty();
-        let mut findings = whole(of_model);
+        let doubtful = |kind: &FindingKind| !matches!(kind, FindingKind::Extrapolated { .. });
+        let doubtful_model = of_model.iter().any(doubtful);
+        let mut findings = whole(self.of_fits());
+        findings.extend(whole(of_model));
         findings.extend(whole(self.of_run()));
         if doubtful_model && self.monte_carlo.is_none() {
             findings.extend(whole([FindingKind::NeedsMonteCarlo]));
@@ -112,17 +115,51 @@ impl Evidence<'_> {
         findings
     }
 
+    /// What the fits say about their data.
+    fn of_fits(&self) -> Vec<FindingKind> {
+        let mut kinds = Vec::new();
+        for fit in &self.budget.fits {
+            let name = fit.name.clone();
+            match fit.lack_of_fit {
+                Some(test) if test.verdict() == FitVerdict::Rejected => {
+                    kinds.push(FindingKind::LackOfFit { fit: name, test });
+                }
+                Some(test) if test.verdict() == FitVerdict::TooSmall => {
+                    kinds.push(FindingKind::ResidualsTooSmall { fit: name, test });
+                }
+                _ if fit.parameters.iter().any(|parameter| parameter.u == 0.0) => {
+                    kinds.push(FindingKind::ExactFit { fit: name });
+                }
+                _ => {}
+            }
+        }
+        kinds
+    }
+
     fn of_model(&self) -> Vec<FindingKind> {
         let (model, x) = (&self.budget.model, &self.linear.x);
         let u: Vec<f64> = self.linear.inputs.iter().map(|input| input.u).collect();
         let kinks = model
             .irregularities(x)
             .into_iter()
-            .map(|what| FindingKind::Irregular { what });
+            .map(|notice| match notice {
+                Notice::BeyondTable { .. } => FindingKind::Extrapolated { what: notice },
+                _ => FindingKind::Irregular { what: notice },
+            });
         let poles = model.near_singular(x, &u, REACH).into_iter();
-        kinks
-            .chain(poles.map(|what| FindingKind::NearSingular { what }))
-            .collect()
+        let poles = poles.map(|notice| match notice {
+            Notice::Wrap { .. } => FindingKind::PhaseWraps { what: notice },
+            _ => FindingKind::NearSingular { what: notice },
+        });
+        let steps = match self.monte_carlo {
+            // Monte Carlo rounds every trial, and its verdict tells whether the steps matter.
+            Some(_) => Vec::new(),
+            None => model.coarse_steps(x, &u),
+        };
+        let steps = steps
+            .into_iter()
+            .map(|notice| FindingKind::CoarseStep { what: notice });
+        kinks.chain(poles).chain(steps).collect()
     }
 
     fn of_run(&self) -> Vec<FindingKind> {

@@ -5,6 +5,7 @@
 mod claims;
 mod covariance;
 mod coverage;
+mod decide;
 #[cfg(test)]
 mod draft;
 mod findings;
@@ -20,12 +21,17 @@ mod tolerance;
 mod validation;
 
 pub use claims::{Comparison, Method, compare_claims};
+pub use decide::{
+    BestEstimate, CharacteristicLimits, Conformance, ConformityResult, DetectionLimit,
+    DetectionResult, GlobalRisk, Verdict,
+};
 pub use findings::is_residue;
 pub use monte_carlo::{Consequence, MissingMoments, Side};
 
 use nalgebra::DMatrix;
 
-use crate::budget::{Adaptive, Budget, MonteCarloSettings, NamedFigure};
+use crate::budget::{Adaptive, Budget, LackOfFit, MonteCarloSettings, NamedFigure};
+use crate::model::Notice;
 use gum::Linear;
 use monte_carlo::{GumForMc, McOutcome};
 use second_order::{Outcome, Terms};
@@ -41,6 +47,10 @@ pub struct Evaluation {
     pub run: Option<Run>,
     /// What the reader must know before using the numbers.
     pub findings: Vec<Finding>,
+    /// Conformity assessments, in the order of the budget.
+    pub conformity: Vec<ConformityResult>,
+    /// Characteristic limits, in the order of the budget.
+    pub detection: Vec<DetectionResult>,
     /// Figures of all analyses by name: those of the budget's data, then those of the evaluation.
     pub figures: Vec<NamedFigure>,
 }
@@ -365,13 +375,48 @@ pub enum FindingKind {
     },
     /// The model has a kink or a step at the estimates (abs, min, max, if, round …).
     Irregular {
-        /// The operation, in words.
-        what: String,
+        /// The operation.
+        what: Notice,
     },
     /// The divisor or the argument of a function is within a few u of a pole or of its domain's end.
     NearSingular {
-        /// The operation, in words.
-        what: String,
+        /// The operation.
+        what: Notice,
+    },
+    /// The distribution of a phase reaches the jump between -π and π.
+    PhaseWraps {
+        /// The operation.
+        what: Notice,
+    },
+    /// A rounding step is larger than the standard uncertainty of what is rounded, and Monte Carlo was
+    /// not run.
+    CoarseStep {
+        /// The operation.
+        what: Notice,
+    },
+    /// The argument of a table lies beyond its ends.
+    Extrapolated {
+        /// The operation.
+        what: Notice,
+    },
+    /// The data contradict the curve of a fit.
+    LackOfFit {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// The residuals of a fit are smaller than the stated uncertainties of its data let expect.
+    ResidualsTooSmall {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// A fit passes through all its points, so that its residuals tell no uncertainty.
+    ExactFit {
+        /// Name of the fit.
+        fit: String,
     },
     /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
     Asymmetric,
@@ -458,13 +503,22 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
     };
     let findings = evidence.findings();
     let run = monte_carlo.map(|McOutcome { run, .. }| run);
+    let decisions = decide::decisions(&decide::Evidence {
+        budget,
+        results: &results,
+        run: run.as_ref(),
+        threads: options.threads,
+    });
     let mut figures = budget.figures.clone();
+    figures.extend(decisions.figures(budget));
     figures.extend(tolerance::figures(budget, &results, run.as_ref()));
     Ok(Evaluation {
         results,
         joint,
         run,
         findings,
+        conformity: decisions.conformity,
+        detection: decisions.detection,
         figures,
     })
 }

@@ -6,7 +6,7 @@ use crate::quantity::Rounding;
 use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{exact, probability};
-use super::{Report, budget_table, claim, comparison, joint, remarks, statement};
+use super::{Report, budget_table, claim, comparison, fits, joint, remarks, statement};
 
 /// All blocks of a report.
 pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
@@ -14,6 +14,7 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
     let mut blocks = heading(report);
     blocks.extend(model(report));
     blocks.extend(budget_table::constants(report));
+    blocks.extend(fits::blocks(report));
     let several = report.evaluation.results.len() > 1;
     for m in 0..report.evaluation.results.len() {
         let name = report.measurand(m).0;
@@ -83,10 +84,15 @@ fn model(report: &Report<'_>) -> Vec<Block> {
     for output in report.budget.model.outputs() {
         // Several measurands of one model share their first statements.
         for line in output.equation.lines() {
-            if !lines.iter().any(|l| l == line) {
+            // A parameter of a fit that is reported as it is needs no equation.
+            let itself = line == format!("{0} = {0}", output.name);
+            if !itself && !lines.iter().any(|l| l == line) {
                 lines.push(line.to_string());
             }
         }
+    }
+    if lines.is_empty() {
+        return Vec::new();
     }
     let mut blocks = vec![
         Block::Section(report.language.word(Word::Model).to_string()),

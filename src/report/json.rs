@@ -18,6 +18,7 @@ use crate::propagate::{
 };
 use crate::quantity::Rounding;
 
+use super::fits_json::{self, FitJson};
 use super::language::Language;
 use super::schema::{Describe, record};
 use super::{Report, claim, remarks, statement};
@@ -60,11 +61,11 @@ pub(super) fn number(x: f64) -> Number {
     Number(x)
 }
 
-fn numbers(xs: &[f64]) -> Vec<Number> {
+pub(super) fn numbers(xs: &[f64]) -> Vec<Number> {
     xs.iter().copied().map(Number).collect()
 }
 
-fn matrix(m: &DMatrix<f64>) -> Vec<Vec<Number>> {
+pub(super) fn matrix(m: &DMatrix<f64>) -> Vec<Vec<Number>> {
     m.row_iter()
         .map(|row| row.iter().copied().map(Number).collect())
         .collect()
@@ -93,6 +94,8 @@ record! {
         correlated: Vec<GroupJson>,
         /// Exactly known quantities.
         constants: Vec<ConstantJson<'a>>,
+        /// Least-squares fits whose parameters are inputs.
+        fits: Vec<FitJson<'a>>,
         /// Joint result of several measurands.
         joint: Option<JointJson>,
         /// How the Monte Carlo method was run.
@@ -621,6 +624,7 @@ impl<'a> Document<'a> {
                     reference: c.reference.as_deref(),
                 })
                 .collect(),
+            fits: budget.fits.iter().map(fits_json::fit).collect(),
             joint: evaluation.joint.as_ref().map(joint),
             monte_carlo_run: evaluation.run.as_ref().map(run),
             figures: evaluation

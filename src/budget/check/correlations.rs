@@ -69,7 +69,7 @@ impl Checker<'_> {
         if self.faults.len() > before {
             return groups;
         }
-        for members in connected(&statements, register.components.len()) {
+        for members in connected(&statements, &register.families, register.components.len()) {
             groups.extend(self.group(members, &statements, register));
         }
         groups

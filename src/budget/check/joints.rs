@@ -284,7 +284,9 @@ impl Checker<'_> {
                 evaluation: Evaluation::TypeB,
                 how: "√ of the variance in the covariance matrix".into(),
                 location: Location::None,
+                findings: Vec::new(),
                 kind: Kind::Other,
+                follows: None,
                 certificate: None,
                 reference: stated
                     .value

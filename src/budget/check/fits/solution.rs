@@ -7,7 +7,7 @@ use super::super::register::Register;
 use super::columns::{Column, ColumnErrors, Common};
 use super::formula::Formula;
 use crate::budget::faults::{FIT_COLUMNS, FIT_ERRORS};
-use crate::budget::fit::{Fit, FitColumn, FitParameter};
+use crate::budget::fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest};
 use crate::budget::table::Stated;
 use crate::budget::tables::{FitTable, ScaleWord};
 use crate::fault::Fault;
@@ -25,7 +25,7 @@ pub(super) struct Solved {
     /// Component, and by how much each parameter follows it.
     causes: Vec<(usize, Vec<f64>)>,
     normalised: Option<Vec<f64>>,
-    lack_of_fit: Option<crate::budget::fit::LackOfFit>,
+    lack_of_fit: Option<LackOfFit>,
 }
 
 impl Checker<'_> {
@@ -204,13 +204,27 @@ fn normalised(
     distances.iter().all(|d| d.is_finite()).then_some(distances)
 }
 
-/// Whether the data could have come from the curve.
-fn lack_of_fit(
-    problem: &Problem<'_>,
-    solution: &Solution,
-) -> Option<crate::budget::fit::LackOfFit> {
-    let _ = (problem, solution);
-    None
+/// Whether the data could have come from the curve: χ² against stated uncertainties, otherwise the scatter of
+/// repeated points.
+fn lack_of_fit(problem: &Problem<'_>, solution: &Solution) -> Option<LackOfFit> {
+    if let Some(test) = least_squares::lack_of_fit(problem, solution) {
+        return Some(LackOfFit {
+            test: LackOfFitTest::ChiSquared,
+            statistic: test.chi_squared,
+            dof: test.dof as f64,
+            denominator: None,
+            p: test.probability,
+        });
+    }
+    let test = least_squares::replicates(problem, solution)?;
+    // Repetitions that are equal to the last digit tell nothing of the scatter.
+    (problem.errors.scale == Scale::Residuals && test.pure_error > 0.0).then_some(LackOfFit {
+        test: LackOfFitTest::Replicates,
+        statistic: test.f,
+        dof: test.lack_of_fit_dof as f64,
+        denominator: Some(test.pure_error_dof as f64),
+        p: test.probability,
+    })
 }
 
 impl Solved {

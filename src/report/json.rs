@@ -21,7 +21,7 @@ use crate::quantity::Rounding;
 use super::fits_json::{self, FitJson};
 use super::language::Language;
 use super::schema::{Describe, record};
-use super::{Report, claim, remarks, statement};
+use super::{Report, analyses, claim, remarks, statement};
 
 /// Name and version of the format; the number changes when a field changes its meaning or goes.
 pub const FORMAT: &str = "gumption-evaluation/1";
@@ -92,6 +92,10 @@ record! {
         components: Vec<ComponentJson<'a>>,
         /// Correlated components.
         correlated: Vec<GroupJson>,
+        /// Analyses of readings; their numbers are among `figures`, under their names.
+        analyses: Vec<AnalysisJson<'a>>,
+        /// Results of other files that are inputs here.
+        taken_results: Vec<TakenJson<'a>>,
         /// Exactly known quantities.
         constants: Vec<ConstantJson<'a>>,
         /// Least-squares fits whose parameters are inputs.
@@ -300,6 +304,18 @@ record! {
 }
 
 record! {
+    /// An analysis of the readings behind a component.
+    AnalysisJson<'a> {
+        /// Name of the component, with which the names of its figures begin.
+        component: &'a str,
+        /// What it is: readings, anova, nested-anova, outlier-grubbs, outlier-dixon, outlier-4d, outlier-3s.
+        kind: &'a str,
+        /// What was done with the differences between groups, and between subgroups (included, negative, not-significant, ignored), or whether an outlier was found (outlier, none).
+        verdicts: Vec<&'a str>,
+    }
+}
+
+record! {
     /// An input quantity.
     InputJson<'a> {
         /// Name.
@@ -408,6 +424,24 @@ record! {
         description: Option<&'a str>,
         /// Source.
         reference: Option<&'a str>,
+    }
+}
+
+record! {
+    /// A result of another file.
+    TakenJson<'a> {
+        /// Name that the model uses for it.
+        name: &'a str,
+        /// The file, as the budget names it.
+        file: &'a str,
+        /// Row of its series.
+        row: Option<&'a str>,
+        /// Its measurand.
+        measurand: &'a str,
+        /// Title of that file.
+        title: &'a str,
+        /// Defining statements there; null for a saved result, which is taken over in linear form.
+        equation: Option<&'a str>,
     }
 }
 
@@ -611,6 +645,31 @@ impl<'a> Document<'a> {
                     }
                     .to_string(),
                     degrees_of_freedom: g.dof.map(Number),
+                })
+                .collect(),
+            analyses: budget
+                .analyses
+                .iter()
+                .map(|analysis| {
+                    let (kind, verdicts) = analyses::codes(&analysis.found);
+                    AnalysisJson {
+                        component: &analysis.name,
+                        kind,
+                        verdicts,
+                    }
+                })
+                .collect(),
+            taken_results: budget
+                .chain
+                .taken
+                .iter()
+                .map(|taken| TakenJson {
+                    name: &taken.input,
+                    file: &taken.file,
+                    row: taken.row.as_deref(),
+                    measurand: &taken.measurand,
+                    title: &taken.title,
+                    equation: taken.equation.as_deref(),
                 })
                 .collect(),
             constants: budget

@@ -3,6 +3,7 @@
 //! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
 //! composed once; [`json`] is the machine form.
 
+mod analyses;
 mod budget_table;
 mod claim;
 mod comparison;

@@ -135,12 +135,11 @@ pub(super) fn rows(
         .first()
         .map(|variant| heading(&variant.file))
         .unwrap_or_default();
+    let several = variants.len() > 1;
     let mut rows = Vec::new();
     for (index, variant) in variants.into_iter().enumerate() {
-        let row = variant.file.series.as_ref().map(|_| {
-            let number = || (index + 1).to_string();
-            variant.label.clone().unwrap_or_else(number)
-        });
+        let number = || several.then(|| (index + 1).to_string());
+        let row = variant.label.clone().or_else(number);
         match budget(&variant.file, text, origin, &heading, row.as_deref()) {
             Ok(budget) => rows.push(Row {
                 label: variant.label,

@@ -154,6 +154,12 @@ impl Register {
         }
     }
 
+    /// What an input of this name takes over from another file.
+    pub fn taken_as(&self, name: &str) -> Option<&Taken> {
+        let named = |taken: &&Taken| self.entries[taken.entry].name == name;
+        self.taken.iter().find(named)
+    }
+
     /// The components behind a name: an input, an element, a source, or a component.
     pub fn lookup(&self, name: &str) -> Option<Vec<usize>> {
         if let Some(place) = self.inputs.iter().position(|input| input.name == name) {

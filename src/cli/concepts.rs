@@ -75,7 +75,7 @@ pub(super) const CONCEPTS: &[Concept] = &[
         name: "exit-codes",
         aliases: &["exit", "exit code"],
         title: "what the program returns to the shell",
-        text: "0: everything was evaluated. 1: a budget was read but gives no result (the model has no value at the estimates, or every trial failed), or a conformity assessment finds an item not conforming. 2: a file or an argument is wrong. With several files the others are still printed, and the worst code is returned.",
+        text: "0: everything was evaluated. 1: a budget was read but gives no result (the model has no value at the estimates, or every trial failed), or a conformity assessment finds an item not conforming, or an example of `gumption verify` failed. 2: a file or an argument is wrong. With several files the others are still printed, and the worst code is returned.",
     },
     Concept {
         name: "findings",
@@ -166,5 +166,11 @@ pub(super) const CONCEPTS: &[Concept] = &[
         aliases: &["clause 8", "validated", "open verdict", "d_low", "d_high", "验证"],
         title: "whether Monte Carlo confirms GUM (JCGM 101, clause 8)",
         text: "The GUM interval y ± U_p is compared with the probabilistically symmetric Monte Carlo interval, end by end: d_low and d_high are the absolute differences. GUM is validated when both are at most δ, half a unit of the last significant digit of u(y), taken with two digits and with one. The verdict at the digits that the profile reports decides which result the statement uses.\n\nThe ends of the Monte Carlo interval scatter themselves; where a difference is within two standard errors of δ the verdict is open, and the report says how many trials would settle it. JCGM 101, 8.2 recommends a run that is stable to δ/5, so a verdict with two digits may need trials = \"adaptive\" or 10⁷ trials. As long as it is open the statement uses the GUM result. With k fixed (JJF, NIST) the interval compared is not ± U but the one for the p of the profile; see `gumption explain statement` for what follows.",
+    },
+    Concept {
+        name: "verification",
+        aliases: &["verify", "17025", "ISO/IEC 17025", "dossier", "software validation", "验证报告"],
+        title: "published examples held against their figures (ISO/IEC 17025, 7.11.2)",
+        text: "`gumption verify` evaluates the published examples that the program carries with it and puts each published figure beside the one obtained, with the tolerance and the verdict; the last line is `N passed, M failed`. `--report DIR` writes verification.md and verification.json for the file of the laboratory: version, platform, seeds, date, every figure, its source and how it was compared.\n\nWith files or folders it does the same for your own budgets with claims. A claim with confidence = \"low\" is shown and decides nothing.",
     },
 ];

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use toml::de::DeTable;
 
 use super::check::{self, Origin, Variant};
-use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE};
+use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE, UNUSED};
 use super::files::Files;
 use super::rejection::Rejection;
 use super::series;
@@ -150,17 +150,25 @@ fn read_under(
     // Editors on Windows put a byte order mark in front; places are counted behind it.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (table, errors) = DeTable::parse_recoverable(text);
-    if !errors.is_empty() {
-        return Err(Rejection::new(name, text, syntax_faults(&errors, text)));
+    let mut syntax = syntax_faults(&errors, text);
+    if !errors.iter().all(leaves_the_rest) {
+        return Err(Rejection::new(name, text, syntax));
     }
     let (variants, mut faults) = variants(table.get_ref(), text, profile);
     let checked = origin
         .shelf
         .within(origin.file, || check::rows(variants, text, origin));
     match checked {
-        Ok((heading, rows)) if faults.is_empty() => return Ok(Loaded { heading, rows }),
+        Ok((heading, rows)) if faults.is_empty() && syntax.is_empty() => {
+            return Ok(Loaded { heading, rows });
+        }
         Ok(_) => {}
         Err(found) => faults.extend(found),
+    }
+    if !syntax.is_empty() {
+        let others = elsewhere(faults, &syntax, text);
+        syntax.extend(others);
+        faults = syntax;
     }
     let mut rejection = Rejection::new(name, text, faults);
     if origin.shelf.is_outermost() {
@@ -228,6 +236,34 @@ fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
     faults
 }
 
+/// Whether what stands on the other lines can be judged all the same.
+fn leaves_the_rest(error: &toml::de::Error) -> bool {
+    let message = error.message();
+    [
+        "string values must be quoted",
+        "invalid unquoted key",
+        "string, expected",
+        "duplicate key",
+    ]
+    .iter()
+    .any(|words| message.contains(words))
+}
+
+/// The faults that no line with a syntax error has part in.
+fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str) -> Vec<Fault> {
+    let line = |at: usize| text[..text.floor_char_boundary(at)].matches('\n').count();
+    let broken: Vec<usize> = syntax.iter().map(|fault| line(fault.span.start)).collect();
+    let touches = |fault: &Fault| {
+        let lines = line(fault.span.start)..=line(fault.span.end);
+        broken.iter().any(|broken| lines.contains(broken))
+    };
+    // What a broken line would have used seems unused.
+    faults
+        .into_iter()
+        .filter(|fault| fault.code != UNUSED && !touches(fault))
+        .collect()
+}
+
 fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     let end = text.len();
     let span = error.span().unwrap_or(end..end);
@@ -243,6 +279,18 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
         fault("there is nothing behind the `=`".into())
             .label("expected a value")
             .help("write a number, or a text in quotes; remove the line if there is nothing to say")
+    } else if says("string values must be quoted")
+        && let Some((number, unit)) = amount(marked)
+    {
+        fault(format!("`{marked}` needs quotes"))
+            .label("an amount with a unit is a text")
+            .help(format!("write \"{number} {unit}\""))
+    } else if says("invalid unquoted key") && !marked.is_empty() {
+        fault(format!("`{marked}` needs quotes where it is a key"))
+            .label("only A-Z a-z 0-9 _ - may stand without quotes here")
+            .help(format!(
+                "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
+            ))
     } else if says("string values must be quoted") {
         fault(format!("`{marked}` is no number, and a text needs quotes"))
             .label("expected a number or a text in quotes")
@@ -265,6 +313,19 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     } else {
         fault(format!("not well-formed TOML: {message}")).label("not understood here")
     }
+}
+
+/// Number and unit of an amount that was written without quotes.
+fn amount(text: &str) -> Option<(&str, &str)> {
+    let end = text
+        .char_indices()
+        .take_while(|(_, c)| c.is_ascii_digit() || "+-._".contains(*c))
+        .map(|(at, c)| at + c.len_utf8())
+        .last()?;
+    let (number, unit) = text.split_at(end);
+    let unit = unit.trim();
+    let plausible = number.parse::<f64>().is_ok() && !unit.is_empty() && !unit.contains(' ');
+    plausible.then_some((number, unit))
 }
 
 /// JSON Schema (draft-07) of the budget file, for editors.

@@ -22,6 +22,8 @@ pub struct Outcome {
     /// One operation, or one per element of a vector.
     pub ids: Vec<Id>,
     pub vector: bool,
+    /// See [`Output`](super::Output).
+    pub scaled_twice: bool,
     pub unit: Unit,
     /// The statement that gives it.
     pub statement: usize,
@@ -74,7 +76,9 @@ impl Check<'_> {
             self.l.place = Place::Entry(index);
             self.l.report(reserved(measurand.name, 0..0));
         }
-        if self.l.symbol(measurand.name).is_some() {
+        // An input may be reported as it is: `y1`, a parameter of a fit.
+        let itself = text.trim() == measurand.name;
+        if self.l.symbol(measurand.name).is_some() && !itself {
             self.l.place = Place::Entry(index);
             let name = measurand.name;
             self.l.report(
@@ -95,6 +99,7 @@ impl Check<'_> {
             Some(Outcome {
                 ids,
                 vector: value.vector,
+                scaled_twice: scaled_twice(&value, &expr, &unit),
                 unit,
                 statement,
                 own,
@@ -142,6 +147,7 @@ impl Check<'_> {
                 Some(Outcome {
                     ids,
                     vector: value.vector,
+                    scaled_twice: scaled_twice(&value, &expr, &unit),
                     unit,
                     statement,
                     own: Vec::new(),
@@ -291,6 +297,25 @@ impl Check<'_> {
             )),
         );
     }
+}
+
+/// Whether a pure number gets the factor of its unit although the formula holds it already.
+fn scaled_twice(value: &Value, expr: &Expr, wanted: &Unit) -> bool {
+    let factor = value
+        .unit()
+        .filter(|found| found.is_one())
+        .and_then(|found| found.conversion_to(wanted))
+        .map(|conversion| conversion.factor)
+        .filter(|factor| *factor > 1.0 && wanted.factor.pi == 0);
+    let Some(factor) = factor else { return false };
+    let mut open = vec![expr];
+    while let Some(e) = open.pop() {
+        if matches!(&e.node, Node::Number { value, unit: None, .. } if *value == factor) {
+            return true;
+        }
+        open.extend(e.children());
+    }
+    false
 }
 
 /// How a quantity takes part in a product.

@@ -25,6 +25,7 @@ mod lower;
 mod measurand;
 mod notice;
 mod operation;
+mod outline;
 mod parser;
 mod printer;
 mod reductions;
@@ -44,6 +45,7 @@ pub use block::BlockRunner;
 pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
 pub use notice::{Notice, Office};
+pub use outline::{Outline, outline};
 
 use jet::Jet;
 
@@ -140,6 +142,9 @@ pub struct Output {
     pub source: usize,
     /// Unit of its value.
     pub unit: Unit,
+    /// Whether the formula gives a pure number, which the unit (%, ppm …) multiplies, and holds that very
+    /// factor as well: `100 * (a - b) / b` with the unit %.
+    pub scaled_twice: bool,
     /// The defining statements in printed form, one per line (`R = V / I * cos(phi)`).
     pub equation: String,
 }
@@ -242,6 +247,11 @@ impl Model {
             }
         }
         used
+    }
+
+    /// Whether every output is an affine function of these inputs while the others are held.
+    pub fn is_affine_in(&self, inputs: &[usize]) -> bool {
+        interaction::affine(&self.graph, inputs)
     }
 
     /// Which of the request's symbols no measurand depends on.

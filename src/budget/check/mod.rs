@@ -15,6 +15,7 @@ mod correlations;
 mod csv;
 mod detection;
 mod draft;
+mod fits;
 mod formulas;
 mod given;
 mod groups;
@@ -45,7 +46,7 @@ use super::{
     TScale, Trials,
 };
 use crate::fault::Fault;
-use crate::quantity::UnitTable;
+use crate::quantity::{Unit, UnitTable};
 
 /// Where a budget comes from, and with it the files that it names.
 #[derive(Debug, Clone, Copy)]
@@ -79,6 +80,12 @@ struct Checker<'a> {
     date: Option<String>,
     faults: Vec<Fault>,
     remarks: Vec<Remark>,
+    /// What the fits of the file say about the scatter of their responses.
+    scatters: Vec<fits::Scatter>,
+    /// Parameters of fits with their units.
+    parameters: Vec<(String, Option<Unit>)>,
+    /// Names that the formulas of fits use.
+    used_by_fits: Vec<String>,
     /// Figures of the analyses of the file's data.
     figures: Vec<NamedFigure>,
     /// Names of figures that only the evaluation will give.
@@ -128,12 +135,11 @@ pub(super) fn rows(
         .first()
         .map(|variant| heading(&variant.file))
         .unwrap_or_default();
+    let several = variants.len() > 1;
     let mut rows = Vec::new();
     for (index, variant) in variants.into_iter().enumerate() {
-        let row = variant.file.series.as_ref().map(|_| {
-            let number = || (index + 1).to_string();
-            variant.label.clone().unwrap_or_else(number)
-        });
+        let number = || several.then(|| (index + 1).to_string());
+        let row = variant.label.clone().or_else(number);
         match budget(&variant.file, text, origin, &heading, row.as_deref()) {
             Ok(budget) => rows.push(Row {
                 label: variant.label,
@@ -205,6 +211,9 @@ fn budget(
         date: heading.date.clone(),
         faults,
         remarks: Vec::new(),
+        scatters: Vec::new(),
+        parameters: Vec::new(),
+        used_by_fits: Vec::new(),
         figures: Vec::new(),
         awaited_figures: Vec::new(),
         results: Vec::new(),
@@ -232,9 +241,11 @@ impl Checker<'_> {
         let mut register = register::Register::default();
         self.joint_estimates(file, &mut register);
         self.sources(shared(file), &mut register);
+        let fitted = self.fits(file, &constants, &mut register);
+        let file = &self.reporting_fits(file);
         self.inputs(file, resolution, &mut register);
         self.unused_sources(shared(file), &register);
-        let mut groups = self.groups(file, &mut register);
+        let mut groups = self.groups(file, &fitted, &mut register);
         let chain = self.chain(file, row, &mut register, &mut groups);
         let model = self.model(file, &constants, &register);
         self.results = formulas::results(file, model.as_ref());
@@ -257,6 +268,7 @@ impl Checker<'_> {
             following: register.following,
             conformity,
             detection,
+            fits: fitted.into_iter().map(|found| found.fit).collect(),
             claims,
             analyses: register.analyses,
             figures: std::mem::take(&mut self.figures),
@@ -295,6 +307,7 @@ fn names_hidden(file: &FileTable) -> bool {
             "constant",
             file.constant.as_ref().map(|named| named.value.refused),
         )
+        || refused("fit", file.fit.as_ref().map(|named| named.value.refused))
         || refused("model", file.model.as_ref().map(|_| false))
 }
 

@@ -12,7 +12,10 @@ fn elements(inputs: &str, text: &str, wanted: &str, x: &[f64]) -> Vec<f64> {
 fn near(found: &[f64], expected: &[f64], what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     for (f, e) in found.iter().zip(expected) {
-        close(*f, *e, 1e-12, what);
+        assert!(
+            (f - e).abs() <= 1e-14 * e.abs().max(1.0),
+            "{what}: {found:?}"
+        );
     }
 }
 

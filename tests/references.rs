@@ -19,6 +19,27 @@ const BUDGETS: &[(&str, &[&str])] = &[
         "bevington_t6_1",
         &["calibration-lines/voltage-bevington-6-1"],
     ),
+    (
+        "gum_h3_systematic",
+        &["temperature/thermometer-systematic-gum-h3"],
+    ),
+    (
+        "gum_h3_thermometer",
+        &["temperature/thermometer-calibration-gum-h3"],
+    ),
+    (
+        "iso28037_gdr1",
+        &["calibration-lines/both-uncertain-iso28037-7"],
+    ),
+    (
+        "iso28037_wls1",
+        &["calibration-lines/equal-weights-iso28037-6"],
+    ),
+    (
+        "natrella_young_modulus",
+        &["calibration-lines/young-modulus-natrella"],
+    ),
+    ("pearson_york_wtls", &["calibration-lines/pearson-york"]),
     ("ea402_s2_mass", &["mass/weight-10kg-ea402-s2"]),
     (
         "ea402_s4_gauge_block",

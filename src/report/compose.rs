@@ -6,7 +6,9 @@ use crate::quantity::Rounding;
 use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{exact, probability};
-use super::{Report, analyses, budget_table, claim, comparison, fits, joint, remarks, statement};
+use super::{
+    Report, analyses, budget_table, claim, comparison, decisions, fits, joint, remarks, statement,
+};
 
 /// All blocks of a report.
 pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
@@ -33,6 +35,7 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
         blocks.extend(comparison::blocks(report, m));
     }
     blocks.extend(joint::blocks(report));
+    blocks.extend(decisions::blocks(report));
     blocks.extend(budget_table::origins(report));
     blocks.extend(analyses::blocks(report));
     blocks.extend(budget_table::correlated(report));
@@ -169,7 +172,7 @@ fn footer(report: &Report<'_>) -> Vec<String> {
     };
     let rounding = match (conventions.rounding, l) {
         (Rounding::HalfEven, Language::English) => "rounding to nearest, ties to even",
-        (Rounding::HalfEven, Language::Chinese) => "四舍六入五留双",
+        (Rounding::HalfEven, Language::Chinese) => "四舍六入五成双",
         (Rounding::HalfUp, Language::English) => "rounding to nearest, ties up",
         (Rounding::HalfUp, Language::Chinese) => "四舍五入",
         (Rounding::Up, Language::English) => "U always rounded up",

@@ -46,6 +46,7 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::VanishingSensitivity { .. } => "vanishing_sensitivity",
         FindingKind::SecondOrderMatters { .. } => "second_order_matters",
         FindingKind::NotValidated => "not_validated",
+        FindingKind::Undecided { .. } => "undecided",
         FindingKind::NeedsMonteCarlo => "needs_monte_carlo",
         FindingKind::MomentsMissing { .. } => "moments_missing",
         FindingKind::FailedTrials { .. } => "failed_trials",
@@ -93,6 +94,10 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             },
         ),
         FindingKind::NotValidated => not_validated_in_english(report, measurand),
+        FindingKind::Undecided { trials } => format!(
+            "Monte Carlo neither validates nor refutes the GUM result (JCGM 101, clause 8): with so many trials the ends of its interval are not known well enough to compare them to within δ. The statement uses the GUM result. For a verdict set trials to about {}, or take trials = \"adaptive\".",
+            grouped(*trials),
+        ),
         FindingKind::NeedsMonteCarlo => "First order is doubtful for this budget and Monte Carlo was not run, so nothing checks the result. Run the evaluation with Monte Carlo before using it.".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_english(reason),
         FindingKind::FailedTrials { failed, trials } => format!(
@@ -166,6 +171,10 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             },
         ),
         FindingKind::NotValidated => not_validated_in_chinese(report, measurand),
+        FindingKind::Undecided { trials } => format!(
+            "蒙特卡洛法既未验证也未否定 GUM 法的结果（JJF 1059.2、JCGM 101 第 8 章）：按现有试验次数，区间端点的数值误差太大，不足以与数值容差 δ 比较。证书用语采用 GUM 法的结果。如需结论，请将 trials 增至约 {}，或取 trials = \"adaptive\"。",
+            grouped(*trials),
+        ),
         FindingKind::NeedsMonteCarlo => "一阶近似对本评定是否适用存疑，而蒙特卡洛法未运行，结果没有得到验证。使用前应运行蒙特卡洛法。".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_chinese(reason),
         FindingKind::FailedTrials { failed, trials } => format!(

@@ -300,7 +300,8 @@ impl Checker<'_> {
         match (&stated.value.digits, &stated.value.verdict) {
             (Some(digits), Some(verdict)) if matches!(digits.value, 1 | 2) => {
                 let what = Figure::Validated(if digits.value == 1 { 1 } else { 2 });
-                reading.push(what, f64::from(u8::from(verdict.value)), 0.5, None);
+                // An undecided validation, one half, agrees with neither verdict.
+                reading.push(what, f64::from(u8::from(verdict.value)), 0.25, None);
             }
             _ => self.faults.push(
                 Fault::new(

@@ -71,7 +71,8 @@ impl Checker<'_> {
         let stated = entries(&file.measurand);
         if stated.is_empty() {
             let refused = file.refused && file.present.iter().any(|(key, _)| *key == "measurand");
-            if refused || file.unknown {
+            // A fit that was refused would have given the measurands.
+            if refused || file.unknown || file.present.iter().any(|(key, _)| *key == "fit") {
                 return None;
             }
             let end = self.text.trim_end().len();

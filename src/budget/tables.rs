@@ -4,7 +4,8 @@ use super::distributions::DistributionEntry;
 use super::table::{Stated, table, words};
 use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
 use super::variants::{
-    Amounts, ConstantEntry, FitParameters, Numbers, ReadingsOf, Sources, TrialsEntry,
+    Amounts, ConstantEntry, FitParameters, Groups, Numbers, ReadingsOf, RowLabel, Sources,
+    TrialsEntry,
 };
 
 type List<T> = Vec<Stated<T>>;
@@ -50,6 +51,10 @@ table! {
         correlation: OneOrMany<CorrelationTable>,
         /// Inputs measured together, or given with a covariance matrix.
         joint: OneOrMany<JointTable>,
+        /// Whether a measurand conforms to a tolerance.
+        conformity: OneOrMany<ConformityTable>,
+        /// Decision threshold and detection limit of a measurand that is not negative.
+        detection: OneOrMany<DetectionTable>,
         /// What somebody's certificate says; compared, never used.
         claim: OneOrMany<ClaimTable>,
         /// The same budget for a table of values.
@@ -212,9 +217,25 @@ table! {
         description: String,
         /// Heading under which the budget table sums it up.
         group: String,
+        /// Result of another budget, or a saved result, in place of a value and its uncertainty.
+        from: FromTable,
         /// Several reasons to doubt the input; with a single one its keys may stand in the input itself.
         components: List<ComponentTable>,
         with component: ComponentTable
+    }
+}
+
+table! {
+    /// A result of another file, with everything that makes it uncertain.
+    FromTable "`from`" {
+        /// Path of another budget, from the folder of this one; its formulas and components become part of this budget.
+        budget: String,
+        /// Path of a file that `gumption eval --save` wrote; the result is taken over in linear form.
+        result: String,
+        /// Which of its measurands; may be left out where it has only one.
+        measurand: String,
+        /// Which row of its series, by label or by number.
+        row: RowLabel,
     }
 }
 
@@ -248,8 +269,20 @@ table! {
         minus: Amount,
         /// Way: expanded uncertainty from a certificate; without `U`, the certificate behind another way.
         certificate: CertificateTable,
-        /// Way: repeated readings, in the unit of the input, as a list or from a CSV file.
+        /// Whether a stated u was evaluated from readings (Type A) or otherwise.
+        kind as "type": TypeWord,
+        /// Way: repeated readings, in the unit of the input, as a list or from a CSV file; of a vector, one list for each element.
         readings: Numbers,
+        /// Way: readings in groups (days, laboratories), one list for each; in subgroups of groups, lists of lists; or from a CSV file.
+        groups: Groups,
+        /// Way: means, standard deviations and numbers of readings of groups.
+        group_summary: GroupSummaryTable,
+        /// With `groups`: what is done with a difference between them.
+        between: BetweenWord,
+        /// Level of significance of the F test of `groups` or of the `outlier_test` (default 0.05).
+        significance: f64,
+        /// With `readings`: tests the most outlying one; reported, never removed.
+        outlier_test: OutlierWord,
         /// Way: accuracy specification of an instrument.
         specification: SpecificationTable,
         /// Way: resolution q of an indication; half-width q/2.
@@ -300,6 +333,66 @@ table! {
         gum_u: Amount,
         /// Where the number comes from.
         reference: String,
+    }
+}
+
+words! {
+    /// How a standard uncertainty was evaluated.
+    TypeWord {
+        /// By a statistical analysis of readings.
+        A "A",
+        /// By other means.
+        B "B",
+    }
+}
+
+words! {
+    /// What is done with a difference between groups of readings.
+    BetweenWord {
+        /// Its variance is part of u.
+        Include "include",
+        /// As "include" if an F test finds the difference, else as "none".
+        Test "test",
+        /// All readings are taken for one population.
+        None "none",
+    }
+}
+
+words! {
+    /// Tests for outliers.
+    OutlierWord {
+        /// Grubbs: largest deviation in units of s.
+        Grubbs "grubbs",
+        /// Dixon: gap beside the outermost reading over the range.
+        Dixon "dixon",
+        /// Four mean deviations of the other readings.
+        FourD "4d",
+        /// Three standard deviations.
+        ThreeS "3s",
+    }
+}
+
+table! {
+    /// What is known of groups of readings.
+    GroupSummaryTable "group_summary" {
+        /// Mean of each group.
+        means: List<Amount>,
+        /// Experimental standard deviation of each group.
+        s: List<Amount>,
+        /// Number of readings of each group, or one number for all.
+        n: OneOrMany<u64>,
+    }
+}
+
+table! {
+    /// A column of a CSV file whose rows belong to groups.
+    GroupColumnTable "a CSV column in groups" {
+        /// Path of the file.
+        file: String,
+        /// Name of the column with the readings.
+        column: String,
+        /// Name of the column that tells the group; two names for groups and subgroups.
+        group: OneOrMany<String>,
     }
 }
 
@@ -362,6 +455,8 @@ table! {
         s: Amount,
         /// Its degrees of freedom.
         dof: Dof,
+        /// In place of both: earlier series of readings, one list for each.
+        readings: List<List<f64>>,
     }
 }
 
@@ -613,6 +708,86 @@ table! {
         sensitivity: f64,
         /// Of figures of analyses.
         figures: f64,
+    }
+}
+
+table! {
+    /// Whether a measurand conforms to a tolerance (JCGM 106).
+    ConformityTable "[conformity]" {
+        /// Measurand, where there are several.
+        measurand: String,
+        /// Name of this assessment, where a measurand has several.
+        name: String,
+        /// Lower tolerance limit.
+        lower: Amount,
+        /// Upper tolerance limit.
+        upper: Amount,
+        /// Decision rule.
+        rule: RuleWord,
+        /// Distance of the acceptance limits from the tolerance limits; U when left out.
+        guard_band: Amount,
+        /// The same as a multiple of U.
+        guard_band_factor: f64,
+        /// Guarded acceptance: least conformance probability of an accepted item.
+        conformance_probability: f64,
+        /// Guarded rejection: least probability that a rejected item does not conform.
+        nonconformance_probability: f64,
+        /// Acceptance limits: one for every tolerance limit.
+        acceptance: List<Amount>,
+        /// What is known of the items before one is measured.
+        process: ProcessTable,
+        /// Input that carries the measurand's value, where u depends on that value.
+        carrier: String,
+        /// Nothing is measured yet: only limits and risks are wanted.
+        planning: bool,
+    }
+}
+
+words! {
+    /// Decision rules.
+    RuleWord {
+        /// Acceptance interval = tolerance interval (shared risk).
+        Simple "simple",
+        /// Acceptance limits inside the tolerance by the guard band.
+        GuardedAcceptance "guarded-acceptance",
+        /// Acceptance limits outside the tolerance by the guard band.
+        GuardedRejection "guarded-rejection",
+        /// Undecided within the guard band on both sides of a tolerance limit.
+        NonBinary "non-binary",
+        /// Guarded acceptance with w = U.
+        IlacG8 "ILAC-G8",
+        /// Conformance and non-conformance each to be shown with 95 %.
+        Iso14253 "ISO 14253-1",
+        /// Simple where U is at most a third of MPEV, else undecided within U of the limits.
+        Jjf1094 "JJF 1094",
+    }
+}
+
+table! {
+    /// What is known of the items before one is measured.
+    ProcessTable "`process`" {
+        /// Distribution of the property over the items: `{ NAME = { parameters } }`, in the unit of the measurand.
+        distribution: DistributionEntry,
+        /// Fraction of the items that conform; a normal distribution centred between both limits follows from it.
+        in_tolerance_probability: f64,
+    }
+}
+
+table! {
+    /// Characteristic limits of a measurand that is not negative (ISO 11929).
+    DetectionTable "[detection]" {
+        /// Measurand, where there are several.
+        measurand: String,
+        /// Input that carries the measurand's value: the gross counts or the gross indication.
+        gross: String,
+        /// Probability of recognising an effect that is not there (default 0.05).
+        alpha: f64,
+        /// Probability of missing an effect at the detection limit (default 0.05).
+        beta: f64,
+        /// Coverage probability of the limits of the coverage interval; that of the conventions when left out.
+        coverage_probability: f64,
+        /// Guideline value that the detection limit must not exceed.
+        guideline: Amount,
     }
 }
 

@@ -11,11 +11,11 @@ use crate::budget::{
     PROFILES, Remark, Term, Trials,
 };
 use crate::distribution::Distribution;
-use crate::model::{MeasurandSource, Model, Request, Role, Symbol, compile};
+use crate::model::{MeasurandSource, Model, Notice, Office, Request, Role, Symbol, compile};
 use crate::propagate::{
-    Basis, Consequence, Contribution, Coverage, CoverageBasis, Evaluation, Finding, FindingKind,
-    Freedom, Gum, Histogram, JointResult, MeasurandResult, MissingMoments, MonteCarlo, Regions,
-    Run, SecondOrder, Side, Validation,
+    Basis, Clause8, Consequence, Contribution, Coverage, CoverageBasis, Evaluation, Finding,
+    FindingKind, Freedom, Gum, Histogram, JointResult, MeasurandResult, MissingMoments, MonteCarlo,
+    Regions, Run, SecondOrder, Side, Validation,
 };
 use crate::quantity::{Dimension, Factor, Unit, UnitTable};
 
@@ -161,10 +161,15 @@ impl Bench {
                 .collect(),
             components: self.components,
             groups: Vec::new(),
+            following: Vec::new(),
+            conformity: Vec::new(),
+            detection: Vec::new(),
             fits: Vec::new(),
             claims: Vec::new(),
+            analyses: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
+            chain: Default::default(),
         }
     }
 }
@@ -286,7 +291,12 @@ fn validations(delta: f64, d_low: f64, d_high: f64) -> [Validation; 2] {
         delta,
         d_low,
         d_high,
-        validated: d_low <= delta && d_high <= delta,
+        error: 0.01 * delta,
+        verdict: if d_low <= delta && d_high <= delta {
+            Clause8::Validated
+        } else {
+            Clause8::NotValidated
+        },
     })
 }
 
@@ -302,6 +312,8 @@ fn alone(gum: Gum) -> Evaluation {
         results: vec![result],
         joint: None,
         run: None,
+        conformity: Vec::new(),
+        detection: Vec::new(),
         findings: Vec::new(),
         figures: Vec::new(),
     }
@@ -664,7 +676,12 @@ pub(super) fn without_moments() -> Case {
             trials: 1_000_000,
         }),
         find(FindingKind::NearSingular {
-            what: "b (divisor) is 2.0 u from 0".to_string(),
+            what: Notice::Near {
+                argument: "b".to_string(),
+                role: Office::Divisor,
+                distance: 2.0,
+                edge: 0.0,
+            },
         }),
     ];
     Case { budget, evaluation }
@@ -789,7 +806,10 @@ pub(super) fn joint() -> Case {
     evaluation.findings.push(Finding {
         measurand: Some(1),
         kind: FindingKind::Irregular {
-            what: "abs(t) has a kink at 0".to_string(),
+            what: Notice::Kink {
+                call: "abs(t)".to_string(),
+                argument: "t".to_string(),
+            },
         },
     });
     Case { budget, evaluation }

@@ -105,20 +105,21 @@ impl Checker<'_> {
         let measurand = if about_analyses {
             0
         } else {
-            self.claimed(&table.measurand, &stated.span, file)?
+            self.claimed(&table.measurand, &stated.span)?
         };
-        let (name, entry) = entries(&file.measurand).get(measurand)?;
-        let unit = self.measurand_unit(name, &entry.value.unit)?;
+        let (name, source) = self.results.get(measurand).cloned()?;
+        let (_, entry) = entries(&file.measurand).get(source)?;
+        let unit = self.measurand_unit(&name, &entry.value.unit)?;
         let mut reading = Reading {
             table,
-            name,
+            name: &name,
             unit: &unit,
             figures: Vec::new(),
         };
         self.claimed_amounts(&mut reading);
         self.claimed_numbers(&mut reading);
         self.claimed_limits(&mut reading);
-        self.correlations_claimed(&mut reading, file);
+        self.correlations_claimed(&mut reading);
         self.verdict(&mut reading);
         self.input_figures(&mut reading, register);
         self.named_figures(&mut reading);
@@ -273,14 +274,14 @@ impl Checker<'_> {
         }
     }
 
-    fn correlations_claimed(&mut self, reading: &mut Reading<'_>, file: &FileTable) {
+    fn correlations_claimed(&mut self, reading: &mut Reading<'_>) {
         for (name, r) in entries(&reading.table.correlation) {
             let wanted = r.map(|_| name.clone());
             let wanted = Some(Stated {
                 span: r.key.clone(),
                 ..wanted
             });
-            if let Some(with) = self.claimed(&wanted, &r.key, file) {
+            if let Some(with) = self.claimed(&wanted, &r.key) {
                 let stated = reading.tolerance(|t| &t.correlation);
                 reading.push(
                     Figure::Correlation(with),
@@ -299,7 +300,8 @@ impl Checker<'_> {
         match (&stated.value.digits, &stated.value.verdict) {
             (Some(digits), Some(verdict)) if matches!(digits.value, 1 | 2) => {
                 let what = Figure::Validated(if digits.value == 1 { 1 } else { 2 });
-                reading.push(what, f64::from(u8::from(verdict.value)), 0.5, None);
+                // An undecided validation, one half, agrees with neither verdict.
+                reading.push(what, f64::from(u8::from(verdict.value)), 0.25, None);
             }
             _ => self.faults.push(
                 Fault::new(
@@ -475,16 +477,13 @@ impl Checker<'_> {
     }
 
     /// Which measurand a claim is about.
-    fn claimed(
+    pub(super) fn claimed(
         &mut self,
         stated: &Option<Stated<String>>,
         place: &std::ops::Range<usize>,
-        file: &FileTable,
     ) -> Option<usize> {
-        let names: Vec<&str> = entries(&file.measurand)
-            .iter()
-            .map(|(name, _)| name.as_str())
-            .collect();
+        let names: Vec<String> = self.results.iter().map(|(name, _)| name.clone()).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
         match stated {
             None if names.len() == 1 => Some(0),
             // Without measurands there is a fault about that already.

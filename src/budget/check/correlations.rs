@@ -69,7 +69,7 @@ impl Checker<'_> {
         if self.faults.len() > before {
             return groups;
         }
-        for members in connected(&statements, register.components.len()) {
+        for members in connected(&statements, &register.families, register.components.len()) {
             groups.extend(self.group(members, &statements, register));
         }
         groups
@@ -227,6 +227,9 @@ impl Checker<'_> {
     }
 
     fn side(&mut self, name: &Stated<String>, register: &Register) -> Option<Side> {
+        if let Some(taken) = register.taken_as(&name.value) {
+            return self.refuse(taken.not_to_be_correlated(name));
+        }
         let Some(members) = register.lookup(&name.value) else {
             if register.incomplete && name.value.contains(['.', '[']) {
                 return None;

@@ -1,6 +1,7 @@
 //! Measurands, and the way into the model language.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::register::Register;
 use super::{Checker, entries};
@@ -26,15 +27,37 @@ impl MeasurandTable {
 }
 
 /// The words about the measurands.
-pub(super) fn measurands(file: &FileTable) -> Vec<Measurand> {
-    let word = |stated: &Option<Stated<String>>| stated.as_ref().map(|text| text.value.clone());
-    entries(&file.measurand)
+pub(super) fn measurands(file: &FileTable, results: &[(String, usize)]) -> Vec<Measurand> {
+    let stated = entries(&file.measurand);
+    let description = |source: usize| {
+        let (_, entry) = stated.get(source)?;
+        let text = entry.value.description.as_ref()?;
+        Some(text.value.clone())
+    };
+    results
         .iter()
-        .map(|(name, entry)| Measurand {
+        .map(|(name, source)| Measurand {
             name: name.clone(),
-            description: word(&entry.value.description),
+            description: description(*source),
         })
         .collect()
+}
+
+/// The results by name, with the entry of the file that each belongs to. As long as there is no model,
+/// nobody knows which measurands are vectors.
+pub(super) fn results(file: &FileTable, model: Option<&Model>) -> Vec<(String, usize)> {
+    match model {
+        Some(model) => model
+            .outputs()
+            .iter()
+            .map(|output| (output.name.clone(), output.source))
+            .collect(),
+        None => entries(&file.measurand)
+            .iter()
+            .enumerate()
+            .map(|(index, (name, _))| (name.clone(), index))
+            .collect(),
+    }
 }
 
 impl Checker<'_> {
@@ -103,6 +126,7 @@ impl Checker<'_> {
                     self.unused(file, &model, constants.len(), register);
                     self.unused_fits(file, &model, constants.len(), register);
                 }
+                self.scaled_twice(&model);
                 self.no_inputs(&model, register);
                 self.undefined(&model, file, constants.len(), register);
                 Some(model)
@@ -179,6 +203,17 @@ impl Checker<'_> {
             .entries
             .get(index - constants)
             .map_or(0..0, |entry| entry.place.clone())
+    }
+
+    /// Remarks on formulas that bring their value to percent by a factor, which the unit does again.
+    fn scaled_twice(&mut self, model: &Model) {
+        for output in model.outputs().iter().filter(|output| output.scaled_twice) {
+            let (name, unit) = (&output.name, &output.unit.symbol);
+            self.remark(
+                format!("The formula of {name} gives a pure number, which is converted to {unit} because that is the unit of {name}. It also holds this conversion as a factor of its own. If the factor is meant to make the number one in {unit}, remove it: units are converted without it."),
+                format!("{name} 的公式给出纯数，程序按 {name} 的单位将其换算为 {unit}，而公式中又含有同一换算因子。如果该因子是为了换算成 {unit}，请将其去掉，单位由程序换算。"),
+            );
+        }
     }
 
     /// Reports a budget in which nothing is uncertain.
@@ -285,9 +320,14 @@ fn symbols(constants: &[Constant], register: &Register) -> Vec<Symbol> {
         Some(Symbol {
             name: entry.name.clone(),
             unit: entry.unit.clone()?,
-            role: match entry.vector {
-                true => Role::InputVector(entry.places.clone()),
-                false => Role::Input(entry.places.start),
+            role: match (&entry.formula, entry.vector) {
+                (Some(formula), _) => Role::Result {
+                    model: Arc::clone(&formula.model),
+                    output: formula.output,
+                    places: formula.places.clone(),
+                },
+                (None, true) => Role::InputVector(entry.places.clone()),
+                (None, false) => Role::Input(entry.places.start),
             },
         })
     });

@@ -113,6 +113,9 @@ impl Checker<'_> {
         let mut places: Vec<(usize, Stated<String>)> = Vec::new();
         let mut complete = true;
         for name in &names.value {
+            if let Some(taken) = register.taken_as(&name.value) {
+                return self.refuse(taken.not_to_be_correlated(name));
+            }
             let entry = register
                 .entries
                 .iter()
@@ -284,7 +287,9 @@ impl Checker<'_> {
                 evaluation: Evaluation::TypeB,
                 how: "√ of the variance in the covariance matrix".into(),
                 location: Location::None,
+                findings: Vec::new(),
                 kind: Kind::Other,
+                follows: None,
                 certificate: None,
                 reference: stated
                     .value

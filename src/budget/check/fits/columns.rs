@@ -267,7 +267,7 @@ impl Checker<'_> {
         if let Some(place) = weights.iter().position(|w| *w <= 0.0) {
             let span = match &stated.value {
                 Numbers::List(list) => list[place].span.clone(),
-                Numbers::Column(_) => stated.span.clone(),
+                Numbers::Lists(_) | Numbers::Column(_) => stated.span.clone(),
             };
             return self.refuse(
                 Fault::new(
@@ -384,6 +384,7 @@ impl Checker<'_> {
                 let Piece::Shared {
                     component,
                     coefficient,
+                    ..
                 } = piece
                 else {
                     continue;

@@ -164,7 +164,7 @@ fn value_place(column: &Column<'_>, point: usize) -> Range<usize> {
         .as_ref()
         .and_then(|stated| match &stated.value {
             Numbers::List(list) => list.get(point).map(|number| number.span.clone()),
-            Numbers::Column(_) => Some(stated.span.clone()),
+            Numbers::Lists(_) | Numbers::Column(_) => Some(stated.span.clone()),
         });
     listed.unwrap_or_else(|| column.key.clone())
 }

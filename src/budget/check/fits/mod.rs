@@ -144,6 +144,7 @@ impl Checker<'_> {
                 places: place..place + 1,
                 vector: false,
                 unit: parameter.unit.clone(),
+                formula: None,
             });
             self.parameters.push((name.clone(), parameter.unit.clone()));
         }
@@ -198,7 +199,9 @@ impl Checker<'_> {
                 },
                 how: how.clone(),
                 location: Location::None,
+                findings: Vec::new(),
                 kind: Kind::Other,
+                follows: None,
                 certificate: None,
                 reference: fit.reference.clone(),
                 place: stated.span.clone(),

@@ -10,12 +10,13 @@
 //! | [`fault`] | what is wrong in a user's file, and where |
 //! | [`quantity`] | units, dimensions, rounding of decimal numbers |
 //! | [`special`] | special functions for quantiles and coverage factors |
+//! | [`statistics`] | statistics of readings: scatter, serial correlation, analysis of variance |
 //! | [`distribution`] | the distributions an input may have |
 //! | [`least_squares`] | parameters of a response from observed points |
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
 //! | [`budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget |
-//! | [`report`] | text, Markdown, JSON, and the certificate's sentence |
+//! | [`verify`] | published examples held against their published figures |
 //! | [`report`] | text, Markdown, JSON and the certificate's sentence |
 //!
 //! # A tour
@@ -73,3 +74,5 @@ pub mod propagate;
 pub mod quantity;
 pub mod report;
 pub mod special;
+pub mod statistics;
+pub mod verify;

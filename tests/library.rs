@@ -24,8 +24,9 @@ fn gumption(arguments: &[&str], path: &Path) -> String {
         .arg(common::relative(path))
         .output()
         .expect("the program runs");
+    // 1 = an item that does not conform, by a verdict of the report.
     assert!(
-        output.status.success(),
+        matches!(output.status.code(), Some(0 | 1)) && output.stderr.is_empty(),
         "{} {}:\n{}",
         arguments.join(" "),
         common::relative(path),
@@ -46,16 +47,12 @@ fn every_budget_agrees_with_the_figures_it_claims() {
                 continue;
             }
         };
-        if path.ends_with("four-point-tumble-runs.toml") || path.ends_with("four-point-tumble.toml")
-        {
-            continue; // claims of a source whose formulas are lost: shown in the report, see `tumble_claims`
-        }
         for row in &loaded.rows {
             let evaluation = propagate::evaluate(&row.budget, &Options::default())
                 .unwrap_or_else(|error| panic!("{}: {error:?}", common::relative(&path)));
             for comparison in propagate::compare_claims(&row.budget, &evaluation) {
                 compared += 1;
-                if comparison.judged && !comparison.agrees() {
+                if comparison.decides && !comparison.agrees() {
                     wrong.push(format!("{} {comparison:?}", common::relative(&path)));
                 }
             }
@@ -248,7 +245,7 @@ fn validation_distances_of_jcgm_101() {
         assert_eq!(validation.delta, delta, "{file}");
         close(validation.d_low, distances[0], scatter);
         close(validation.d_high, distances[1], scatter);
-        assert_eq!(validation.validated, verdict, "{file}");
+        assert_eq!(validation.is_validated(), verdict, "{file}");
     }
     // 9.4 at the origin: first order gives [0, 0] for an output between 1.3 and 184 (× 10⁻⁶).
     let found = evaluated(
@@ -256,7 +253,7 @@ fn validation_distances_of_jcgm_101() {
         &Options::default(),
     );
     for validation in found.results[0].validation.expect("Monte Carlo was run") {
-        assert!(!validation.validated);
+        assert!(!validation.is_validated());
         close(validation.d_low, -50.0 * 0.975f64.ln(), 0.1);
         close(validation.d_high, -50.0 * 0.025f64.ln(), 1.0);
     }

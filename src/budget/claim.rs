@@ -1,6 +1,8 @@
 //! Claims: the figures that somebody's certificate or publication states, each with the tolerance that its
 //! digits imply.
 
+use crate::quantity::Unit;
+
 /// What somebody states about one measurand; compared, never used.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claim {
@@ -10,6 +12,10 @@ pub struct Claim {
     pub method: ClaimedMethod,
     /// The figures, in a fixed order.
     pub figures: Vec<ClaimedFigure>,
+    /// How well the claimed figures are known.
+    pub confidence: Confidence,
+    /// Correct significant digits that the claim asks for, in place of tolerances.
+    pub digits: Option<u8>,
     /// Who says so.
     pub reference: Option<String>,
     /// Anything to know about it.
@@ -24,6 +30,18 @@ impl Claim {
             .find(|figure| figure.what == *what)
             .map(|figure| figure.value)
     }
+}
+
+/// How well the source of a claim is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Confidence {
+    /// Inputs and figures stand in a source that was read.
+    #[default]
+    High,
+    /// Recalled, or quoted by a third party.
+    Medium,
+    /// Recalled in part: shown, but no verdict depends on it.
+    Low,
 }
 
 /// The method that a claim is about.
@@ -89,6 +107,34 @@ pub enum Figure {
     Input(usize, Part),
     /// A figure of a component.
     Component(usize, Part),
+    /// A figure of an analysis, by its name: see [`NamedFigure`].
+    Named(String),
+}
+
+/// A figure that an analysis found, such as the residual standard deviation of a fit, under the name by which
+/// claims and machines refer to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedFigure {
+    /// `OWNER.figure`, such as `calibration.residual_sd`.
+    pub name: String,
+    /// The number.
+    pub value: f64,
+    /// Its unit.
+    pub unit: Unit,
+}
+
+impl NamedFigure {
+    /// The smallest integer J ≥ 100/(1 − p) of an adaptive run (JCGM 101, 7.9.4 b).
+    pub const LEAST_BATCH: &str = "monte_carlo.J";
+
+    /// M, the trials in a batch of an adaptive run: J, and at least 10 000 (JCGM 101, 7.9.4 b).
+    pub const BATCH: &str = "monte_carlo.M";
+
+    /// The name of the numerical tolerance δ of a measurand when this many digits of u(y) are meaningful
+    /// (JCGM 101, 7.9.2).
+    pub fn tolerance(measurand: &str, digits: u8) -> String {
+        format!("{measurand}.delta({digits})")
+    }
 }
 
 /// Which figure of an input or component.

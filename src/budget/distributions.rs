@@ -1,11 +1,14 @@
 //! `distribution = …`: a shape for another way, or a distribution with all of its parameters.
 
 use serde_json::{Value, json};
-use toml::de::DeValue;
+use toml::Spanned;
+use toml::de::{DeString, DeValue};
 
-use super::faults::WRONG_TYPE;
+use super::faults::{UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, table, words};
 use super::values::Dof;
+use crate::distribution::{Kind, kind_named};
+use crate::fault::Fault;
 
 words! {
     /// A shape whose width another way states.
@@ -164,6 +167,47 @@ pub enum DistributionEntry {
     Full(Box<DistributionTable>),
 }
 
+/// A shape by any of its names, in any case.
+fn shape(text: &str, value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Shape> {
+    let Some(kind) = kind_meant(text) else {
+        return Shape::read(value, reader);
+    };
+    Shape::named(kind.key).or_else(|| {
+        reader.refuse(
+            Fault::new(
+                UNKNOWN_WORD,
+                value.span(),
+                format!("the {} distribution needs its parameters", kind.name_en),
+            )
+            .label("a name alone does not fix it")
+            .help(format!(
+                "state it with its parameters, without `u` or `half_width`; `gumption explain {}` shows them",
+                kind.key
+            )),
+        )
+    })
+}
+
+/// The kind of distribution of a name, whatever its case, hyphens and spaces.
+fn kind_meant(text: &str) -> Option<&'static Kind> {
+    kind_named(&text.to_lowercase().replace([' ', '_'], "-"))
+}
+
+/// The fault of a table with parameters under another name than the file format's.
+fn other_name(key: &Spanned<DeString<'_>>) -> Option<Fault> {
+    let name = key.get_ref();
+    let kind = kind_meant(name).filter(|kind| kind.key != name.as_ref())?;
+    Some(
+        Fault::new(
+            UNKNOWN_KEY,
+            key.span(),
+            format!("a distribution with parameters has no key `{name}`"),
+        )
+        .label("unknown key")
+        .help(format!("write `{}`", kind.key)),
+    )
+}
+
 impl FromToml for DistributionEntry {
     fn expected() -> String {
         "the name of a shape, or { NAME = { parameters } }".into()
@@ -171,9 +215,15 @@ impl FromToml for DistributionEntry {
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
-            DeValue::String(_) => Shape::read(value, reader).map(DistributionEntry::Shape),
-            DeValue::Table(_) => DistributionTable::read(value, reader)
-                .map(|table| DistributionEntry::Full(Box::new(table))),
+            DeValue::String(text) => shape(text, value, reader).map(DistributionEntry::Shape),
+            DeValue::Table(table) => {
+                let other_names = table.keys().find_map(|key| other_name(key));
+                match other_names {
+                    Some(fault) => reader.refuse(fault),
+                    None => DistributionTable::read(value, reader)
+                        .map(|table| DistributionEntry::Full(Box::new(table))),
+                }
+            }
             _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
         }
     }

@@ -143,6 +143,16 @@ SERIAL "B0218" "readings cannot be corrected for autocorrelation"
 "The correction estimates the autocorrelation from the readings themselves and needs at least ten of them, which \
 must not drift so much that less than two independent ones remain."
 
+GROUPS "B0219" "groups of readings are not usable"
+"An analysis of variance compares groups: two or more of them, one of which at least has two readings that \
+differ. In nested groups one group at least has two subgroups. A difference between groups is not seen in a \
+single group; state its readings as `readings`."
+
+OUTLIER_TEST "B0220" "a test for outliers cannot say anything"
+"Dixon's test is for 3 to 30 readings, that of Grubbs for 3 or more. Four mean deviations need 4 readings, and three \
+standard deviations need 11: with fewer no reading can be so far from the mean. `significance` is for the tests of Grubbs \
+and Dixon."
+
 UNKNOWN_NAME "B0301" "a name is not known"
 "A correlation, a joint input, a claim or a series refers to an input, source or component that the file does not have."
 
@@ -190,6 +200,75 @@ CONVENTIONS "B0405" "conventions contradict one another"
 TRIALS "B0406" "the settings of the Monte Carlo method do not fit"
 "`trials` is a whole number of at least 1000, or \"adaptive\"; `procedure`, `digits` and `max_trials` belong to \
 \"adaptive\"."
+
+TOLERANCE "B0501" "a tolerance is not usable"
+"`[conformity]` states a lower or an upper tolerance limit, or both with the lower one first; acceptance limits are as \
+many. Two assessments of one measurand have a `name` each."
+
+DECISION_RULE "B0502" "a decision rule is missing or contradicts itself"
+"A statement of conformity needs the rule by which uncertainty was taken into account (ISO/IEC 17025 7.8.6): `rule`, or \
+`acceptance` limits, or the probabilities from which they follow. A guard band is an amount or a multiple of U."
+
+PROCESS "B0503" "the knowledge of the process is not usable"
+"`process` states a distribution with its parameters, located where the items are, or `in_tolerance_probability`, which \
+needs both tolerance limits."
+
+DETECTION "B0504" "characteristic limits cannot be found from this"
+"`[detection]` names in `gross` the input that carries the value of the measurand, such as the gross counts; `alpha` and \
+`beta` are probabilities below one half."
+
+FROM "B0701" "where an input comes from is not clear"
+"`from` names another `budget`, or the file of a saved `result`, and the `measurand` in it. The value and its \
+uncertainty are stated there; beside `from` an input may only state `unit`, `description` and `group`. A further \
+reason for doubt, such as the drift since then, is an input of its own that the model adds."
+
+FROM_REFUSED "B0702" "a budget that this one uses has faults of its own"
+"The other file is checked like this one; its own faults are shown after those of this file."
+
+FROM_CIRCLE "B0703" "budgets use one another in a circle"
+"A result cannot depend on itself. The message lists the files of the circle."
+
+FROM_MEASURAND "B0704" "the other file has no such result"
+"`measurand` is the name of a measurand in the other file, `row` the label (or the number) of a row of its series."
+
+SAVED_RESULT "B0705" "a file does not hold saved results"
+"`from = { result = … }` reads what `gumption eval FILE --save saved.json` wrote (`gumption schema result`). Another \
+budget is read with `from = { budget = … }`."
+
+SAVED_STALE "B0706" "a file has changed since results were saved"
+"A saved result and another file state the same component (the same file and name) differently, so that their \
+correlation is not known. Evaluate the changed budget again and save its results anew."
+FIT "B0601" "a fit says too little or too much"
+"`[fit.NAME]` needs `data` and one formula: `model = \"y = a + b*x\"` with a column of the data on the left, or \
+`polynomial` with `response` and `predictor`. Every name of the formula that is neither a column nor a constant is a \
+parameter; with a table of parameters, only those that it lists."
+
+FIT_COLUMNS "B0602" "the columns of a fit do not match"
+"A point of a fit has one value in every column, and one in every list of uncertainties, weights or correlation coefficients."
+
+FIT_ERRORS "B0603" "the uncertainties of the data of a fit are not usable"
+"Where uncertainties are stated, those of the response must be greater than zero, unless the predictor has one that can take \
+up the distance of the point from the curve. `scale = \"stated\"` takes them as known, so that some must be stated; \
+`scale = \"residuals\"` takes them as known up to a factor."
+
+FIT_START "B0604" "a nonlinear fit has no start values"
+"A formula that is not linear in its parameters, such as `y = a*exp(-x/tau)`, is solved by a search. It begins at the `start` \
+of each parameter, which must be roughly right: `tau = { start = 2, unit = \"s\" }`."
+
+FIT_POINTS "B0605" "a fit has too few points"
+"There must be at least as many points as parameters; more where the residuals are to tell the uncertainty."
+
+FIT_INDISTINCT "B0606" "the data do not tell the parameters apart"
+"Some parameters can be changed together without any change of the curve at the points: two columns are proportional, all \
+values of a predictor are the same, or the formula has one parameter too many. Leave out one of them, or add points."
+
+FIT_FAILED "B0607" "a fit was not found"
+"The search for the parameters ended without a minimum, or the formula has no finite value at its start. Choose other start \
+values, and check that the formula can describe the data."
+
+RESIDUAL_OF "B0608" "the scatter of a fit cannot be used here"
+"`residual_of` is the scatter of a further reading as seen from the residuals of a fit. The fit must leave the scatter of its \
+response to the residuals, without stated uncertainties; else the uncertainty of the reading is known already."
 }
 
 #[cfg(test)]

@@ -8,14 +8,22 @@
 //!
 //! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
 
+mod analysis;
+pub mod chain;
 mod check;
 mod claim;
+mod decision;
 mod distributions;
 pub mod faults;
+mod files;
+mod fit;
 mod parametric;
 mod profile;
 mod reader;
 mod rejection;
+pub(crate) mod saved;
+mod series;
+mod shelf;
 mod strings;
 mod table;
 mod tables;
@@ -24,10 +32,15 @@ mod variants;
 
 use nalgebra::DMatrix;
 
-pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
+pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
+pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
+pub use decision::{Conformity, DecisionRule, Detection, Following, Follows, Guard, Interval};
+pub use files::Files;
+pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};
-pub use reader::{Loaded, keys, load, load_under, read, schema, template};
+pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use rejection::Rejection;
+pub use saved::{RESULT_FORMAT, result_schema};
 pub use table::KeyRow;
 
 use crate::distribution::Distribution;
@@ -83,11 +96,26 @@ pub struct Budget {
     pub components: Vec<Component>,
     /// Correlated components; a component is in at most one group.
     pub groups: Vec<Group>,
+    /// Components whose effect follows the estimate of an input.
+    pub following: Vec<Following>,
+    /// Conformity assessments.
+    pub conformity: Vec<Conformity>,
+    /// Characteristic limits.
+    pub detection: Vec<Detection>,
+    /// Curves fitted by least squares, whose parameters are inputs.
+    pub fits: Vec<Fit>,
     /// What certificates say.
     pub claims: Vec<Claim>,
+    /// Analyses of readings, for the report; their figures are among `figures`.
+    pub analyses: Vec<Analysis>,
+    /// What the analyses of the file's data found (fits, analyses of variance), known before any evaluation.
+    pub figures: Vec<NamedFigure>,
     /// What a reader must know that is not an error (certificate past due, estimate moved to the
     /// expectation of an asymmetric distribution, resolution absorbed by repeatability …).
     pub remarks: Vec<Remark>,
+    /// What comes from other files, and who inputs and components are across files; empty for a budget
+    /// that was not read from a file.
+    pub chain: chain::Chain,
 }
 
 /// A measurand's words; its unit and equation are in the model.
@@ -187,7 +215,8 @@ pub struct Component {
 }
 
 /// Where a value comes from.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Certificate {
     /// Its number.
     pub number: Option<String>,

@@ -4,12 +4,14 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use toml::Spanned;
 use toml::de::DeTable;
 
-use super::check;
-use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE};
+use super::check::{self, Origin, Variant};
+use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE, UNUSED};
+use super::files::Files;
 use super::rejection::Rejection;
+use super::series;
+use super::shelf::Shelf;
 use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
 use super::{Heading, Profile, Row};
@@ -40,9 +42,35 @@ pub fn load(path: &Path) -> Result<Loaded, Rejection> {
 /// # Errors
 /// As [`load`].
 pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Rejection> {
+    load_from(Files::Disk, path, profile)
+}
+
+/// Reads and checks a budget file, and the files that it names, from a disk or a library of files;
+/// under another profile than the one that it names, if one is given.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_from(
+    files: Files<'_>,
+    path: &Path,
+    profile: Option<&Profile>,
+) -> Result<Loaded, Rejection> {
+    let bytes = files.read(path).map_err(|error| {
+        let fault = unreadable(files, path, &error);
+        Rejection::new(&path.display().to_string(), "", vec![fault])
+    })?;
+    load_bytes(&Shelf::new(files), path, bytes, profile)
+}
+
+/// Reads and checks a budget file of this content.
+pub(super) fn load_bytes(
+    shelf: &Shelf<'_>,
+    path: &Path,
+    bytes: Vec<u8>,
+    profile: Option<&Profile>,
+) -> Result<Loaded, Rejection> {
     let name = path.display().to_string();
     let refuse = |fault| Rejection::new(&name, "", vec![fault]);
-    let bytes = std::fs::read(path).map_err(|error| refuse(unreadable(path, &error)))?;
     if path
         .extension()
         .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
@@ -61,19 +89,23 @@ pub fn load_under(path: &Path, profile: Option<&Profile>) -> Result<Loaded, Reje
         .help("save the file as UTF-8");
         Rejection::new(&name, &valid, vec![fault])
     })?;
-    let directory = path.parent().unwrap_or_else(|| Path::new(""));
-    read_under(&text, &name, directory, profile)
+    let origin = Origin {
+        shelf,
+        directory: path.parent().unwrap_or_else(|| Path::new("")),
+        file: &shelf.files.identity(path),
+    };
+    read_under(&text, &name, origin, profile)
 }
 
 /// The fault of a file that cannot be opened, in words that do not depend on the operating system.
-fn unreadable(path: &Path, error: &std::io::Error) -> Fault {
+fn unreadable(files: Files<'_>, path: &Path, error: &std::io::Error) -> Fault {
     let name = path.display();
     let fault = |message: String| Fault::new(UNREADABLE_FILE, 0..0, message);
     if path.as_os_str().is_empty() {
         return fault("the name of the file is empty".into())
             .help("name a budget file, as in `gumption eval budget.toml`");
     }
-    if path.is_dir() {
+    if files.is_folder(path) {
         return fault(format!("{name} is a folder, not a file")).help(format!(
             "name the budgets in it, as in `gumption eval {}`",
             path.join("*.toml").display()
@@ -100,22 +132,80 @@ fn not_a_budget(name: &str) -> Fault {
 /// # Errors
 /// The text has faults: all of them.
 pub fn read(text: &str, name: &str, directory: &Path) -> Result<Loaded, Rejection> {
-    read_under(text, name, directory, None)
+    let shelf = Shelf::new(Files::Disk);
+    let origin = Origin {
+        shelf: &shelf,
+        directory,
+        file: &shelf.files.identity(&directory.join(name)),
+    };
+    read_under(text, name, origin, None)
 }
 
 fn read_under(
     text: &str,
     name: &str,
-    directory: &Path,
+    origin: Origin<'_>,
     profile: Option<&Profile>,
 ) -> Result<Loaded, Rejection> {
     // Editors on Windows put a byte order mark in front; places are counted behind it.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (table, errors) = DeTable::parse_recoverable(text);
-    if !errors.is_empty() {
-        return Err(Rejection::new(name, text, syntax_faults(&errors, text)));
+    let mut syntax = syntax_faults(&errors, text);
+    if !errors.iter().all(leaves_the_rest) {
+        return Err(Rejection::new(name, text, syntax));
     }
-    let (mut file, mut faults) = tables(&table, text);
+    let (variants, mut faults) = variants(table.get_ref(), text, profile);
+    let checked = origin
+        .shelf
+        .within(origin.file, || check::rows(variants, text, origin));
+    match checked {
+        Ok((heading, rows)) if faults.is_empty() && syntax.is_empty() => {
+            return Ok(Loaded { heading, rows });
+        }
+        Ok(_) => {}
+        Err(found) => faults.extend(found),
+    }
+    if !syntax.is_empty() {
+        let others = elsewhere(faults, &syntax, text);
+        syntax.extend(others);
+        faults = syntax;
+    }
+    let mut rejection = Rejection::new(name, text, faults);
+    if origin.shelf.is_outermost() {
+        rejection.others = origin.shelf.take_rejections();
+    }
+    Err(rejection)
+}
+
+/// The tables of the file, or of the file with each row of its series in place.
+fn variants(
+    table: &DeTable<'_>,
+    text: &str,
+    profile: Option<&Profile>,
+) -> (Vec<Variant>, Vec<Fault>) {
+    let mut reader = Reader {
+        file: text,
+        faults: Vec::new(),
+    };
+    let file = tables(table, profile, &mut reader);
+    let rows = match &file.series {
+        Some(stated) => series::variants(table, stated, &mut reader.faults),
+        None => Vec::new(),
+    };
+    // With a faulty series the file itself is still checked.
+    if rows.is_empty() {
+        return (vec![Variant { label: None, file }], reader.faults);
+    }
+    let rows = rows.into_iter().map(|row| Variant {
+        label: row.label,
+        file: tables(&row.table, profile, &mut reader),
+    });
+    (rows.collect(), reader.faults)
+}
+
+/// Reads the tables of a file.
+fn tables(table: &DeTable<'_>, profile: Option<&Profile>, reader: &mut Reader<'_>) -> FileTable {
+    let mut file = read_table::<FileTable>(table, "a budget", reader);
     if let Some(profile) = profile {
         file.profile = Some(Stated {
             value: profile.name.into(),
@@ -123,24 +213,7 @@ fn read_under(
             key: 0..0,
         });
     }
-    match check::rows(&file, text, directory) {
-        Ok((heading, rows)) if faults.is_empty() => Ok(Loaded { heading, rows }),
-        Ok(_) => Err(Rejection::new(name, text, faults)),
-        Err(found) => {
-            faults.extend(found);
-            Err(Rejection::new(name, text, faults))
-        }
-    }
-}
-
-/// Reads the tables of a file.
-fn tables(table: &Spanned<DeTable<'_>>, text: &str) -> (FileTable, Vec<Fault>) {
-    let mut reader = Reader {
-        file: text,
-        faults: Vec::new(),
-    };
-    let file = read_table::<FileTable>(table.get_ref(), "a budget", &mut reader);
-    (file, reader.faults)
+    file
 }
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
@@ -163,6 +236,34 @@ fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
     faults
 }
 
+/// Whether what stands on the other lines can be judged all the same.
+fn leaves_the_rest(error: &toml::de::Error) -> bool {
+    let message = error.message();
+    [
+        "string values must be quoted",
+        "invalid unquoted key",
+        "string, expected",
+        "duplicate key",
+    ]
+    .iter()
+    .any(|words| message.contains(words))
+}
+
+/// The faults that no line with a syntax error has part in.
+fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str) -> Vec<Fault> {
+    let line = |at: usize| text[..text.floor_char_boundary(at)].matches('\n').count();
+    let broken: Vec<usize> = syntax.iter().map(|fault| line(fault.span.start)).collect();
+    let touches = |fault: &Fault| {
+        let lines = line(fault.span.start)..=line(fault.span.end);
+        broken.iter().any(|broken| lines.contains(broken))
+    };
+    // What a broken line would have used seems unused.
+    faults
+        .into_iter()
+        .filter(|fault| fault.code != UNUSED && !touches(fault))
+        .collect()
+}
+
 fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     let end = text.len();
     let span = error.span().unwrap_or(end..end);
@@ -178,6 +279,18 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
         fault("there is nothing behind the `=`".into())
             .label("expected a value")
             .help("write a number, or a text in quotes; remove the line if there is nothing to say")
+    } else if says("string values must be quoted")
+        && let Some((number, unit)) = amount(marked)
+    {
+        fault(format!("`{marked}` needs quotes"))
+            .label("an amount with a unit is a text")
+            .help(format!("write \"{number} {unit}\""))
+    } else if says("invalid unquoted key") && !marked.is_empty() {
+        fault(format!("`{marked}` needs quotes where it is a key"))
+            .label("only A-Z a-z 0-9 _ - may stand without quotes here")
+            .help(format!(
+                "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
+            ))
     } else if says("string values must be quoted") {
         fault(format!("`{marked}` is no number, and a text needs quotes"))
             .label("expected a number or a text in quotes")
@@ -200,6 +313,19 @@ fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
     } else {
         fault(format!("not well-formed TOML: {message}")).label("not understood here")
     }
+}
+
+/// Number and unit of an amount that was written without quotes.
+fn amount(text: &str) -> Option<(&str, &str)> {
+    let end = text
+        .char_indices()
+        .take_while(|(_, c)| c.is_ascii_digit() || "+-._".contains(*c))
+        .map(|(at, c)| at + c.len_utf8())
+        .last()?;
+    let (number, unit) = text.split_at(end);
+    let unit = unit.trim();
+    let plausible = number.parse::<f64>().is_ok() && !unit.is_empty() && !unit.contains(' ');
+    plausible.then_some((number, unit))
 }
 
 /// JSON Schema (draft-07) of the budget file, for editors.

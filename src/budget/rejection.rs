@@ -19,6 +19,8 @@ pub struct Rejection {
     pub text: String,
     /// All faults, in the order of the file.
     pub faults: Vec<Fault>,
+    /// Other files that it uses and that have faults themselves.
+    pub others: Vec<Rejection>,
 }
 
 impl Rejection {
@@ -32,6 +34,7 @@ impl Rejection {
             name: name.into(),
             text: text.into(),
             faults,
+            others: Vec::new(),
         }
     }
 
@@ -59,7 +62,12 @@ impl Rejection {
         } else {
             &self.name
         };
-        out + &format!("{count} error{plural} in {file}{rest}\n")
+        out += &format!("{count} error{plural} in {file}{rest}\n");
+        for other in &self.others {
+            out += "\n";
+            out += &other.render(color);
+        }
+        out
     }
 
     fn draw(&self, fault: &Fault, renderer: &Renderer) -> String {

@@ -374,6 +374,15 @@ macro_rules! words {
                     $( Self::$variant => $word, )+
                 }
             }
+
+            /// What a word stands for.
+            #[allow(dead_code)]
+            pub fn named(word: &str) -> Option<Self> {
+                match word {
+                    $( $word $( | $alias )* => Some(Self::$variant), )+
+                    _ => None,
+                }
+            }
         }
 
         impl $crate::budget::table::FromToml for $name {

@@ -17,12 +17,18 @@ enum Which {
     Budget,
     /// The output of `gumption eval --json`
     Evaluation,
+    /// What `gumption eval --save` writes
+    Result,
+    /// The output of `gumption verify --json`
+    Verification,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
     let schema = match args.which {
         Which::Budget => budget::schema(),
         Which::Evaluation => report::schema(),
+        Which::Result => budget::result_schema(),
+        Which::Verification => report::verification_schema(),
     };
     output::print(&format!("{schema:#}\n"))
 }

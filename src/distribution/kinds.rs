@@ -48,7 +48,7 @@ impl Kind {
 pub const KINDS: &[Kind] = &[
     Kind {
         key: "uniform",
-        aliases: &["rectangular"],
+        aliases: &["rectangular", "rectangle", "矩形", "均匀"],
         name_en: "rectangular",
         name_zh: "矩形分布(均匀分布)",
         parameters: "R(a, b), limits a < b",
@@ -59,7 +59,7 @@ pub const KINDS: &[Kind] = &[
     },
     Kind {
         key: "curvilinear-trapezoid",
-        aliases: &[],
+        aliases: &["curvilinear-trapezoidal", "ctrap"],
         name_en: "curvilinear trapezoid",
         name_zh: "曲线梯形分布",
         parameters: "CTrap(a, b, d), limits a ± d and b ± d",
@@ -70,7 +70,7 @@ pub const KINDS: &[Kind] = &[
     },
     Kind {
         key: "trapezoidal",
-        aliases: &[],
+        aliases: &["trapezoid", "梯形"],
         name_en: "trapezoidal",
         name_zh: "梯形分布",
         parameters: "Trap(a, b, β), top width β·(b - a)",
@@ -82,7 +82,7 @@ pub const KINDS: &[Kind] = &[
     },
     Kind {
         key: "triangular",
-        aliases: &[],
+        aliases: &["triangle", "三角"],
         name_en: "triangular",
         name_zh: "三角分布",
         parameters: "T(a, c, b), mode c, symmetric when c = (a + b)/2",
@@ -94,7 +94,7 @@ pub const KINDS: &[Kind] = &[
     },
     Kind {
         key: "arcsine",
-        aliases: &["u-shaped"],
+        aliases: &["u-shaped", "arc-sine", "arcsin", "反正弦"],
         name_en: "arc sine (U-shaped)",
         name_zh: "反正弦分布",
         parameters: "U(a, b)",
@@ -106,7 +106,7 @@ pub const KINDS: &[Kind] = &[
     },
     Kind {
         key: "normal",
-        aliases: &["gaussian"],
+        aliases: &["gaussian", "gauss", "正态"],
         name_en: "normal (Gaussian)",
         name_zh: "正态分布",
         parameters: "N(x, u²)",
@@ -118,7 +118,13 @@ pub const KINDS: &[Kind] = &[
     },
     Kind {
         key: "t",
-        aliases: &["student-t"],
+        aliases: &[
+            "student-t",
+            "student",
+            "students-t",
+            "student's-t",
+            "t-distribution",
+        ],
         name_en: "scaled and shifted t",
         name_zh: "t分布",
         parameters: "t_ν(x, s²), ν degrees of freedom",
@@ -151,7 +157,7 @@ pub const KINDS: &[Kind] = &[
     },
     Kind {
         key: "lognormal",
-        aliases: &["log-normal"],
+        aliases: &["log-normal", "对数正态"],
         name_en: "lognormal",
         name_zh: "对数正态分布",
         parameters: "LN(µ, σ²), normal logarithm",

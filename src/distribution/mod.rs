@@ -9,6 +9,7 @@
 //! | `copula` | the latent correlation that gives two margins a stated correlation |
 
 mod copula;
+pub(crate) mod extended;
 mod kinds;
 mod moments;
 mod quantile;
@@ -22,7 +23,8 @@ use std::sync::Arc;
 ///
 /// Parameters are in the unit of the component. Moments and quantiles follow from the
 /// parameters exactly; see the methods.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(tag = "name", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Distribution {
     /// N(mean, sd²), JCGM 101 6.4.7.
     Normal {
@@ -32,12 +34,14 @@ pub enum Distribution {
         sd: f64,
     },
     /// Scaled and shifted t, JCGM 101 6.4.9. Standard deviation `scale·√(ν/(ν−2))` for ν > 2.
+    #[serde(rename = "t")]
     StudentT {
         /// Expectation (ν > 1) and median.
         location: f64,
         /// Scale factor; not the standard deviation.
         scale: f64,
         /// Degrees of freedom ν; infinite for the normal limit.
+        #[serde(with = "extended")]
         dof: f64,
     },
     /// Rectangular R(lower, upper), JCGM 101 6.4.2.
@@ -98,6 +102,7 @@ pub enum Distribution {
         scale: f64,
     },
     /// `origin + exp(N(mu, sigma²))`.
+    #[serde(rename = "lognormal")]
     LogNormal {
         /// Smallest value.
         origin: f64,

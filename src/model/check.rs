@@ -7,7 +7,7 @@ use super::block::Program;
 use super::catalogue;
 use super::faults;
 use super::functions;
-use super::graph::Id;
+use super::graph::{Id, Label};
 use super::lower::{Binding, Kind, Lowering, UserFunction, Value};
 use super::measurand::Outcome;
 use super::parser;
@@ -62,7 +62,7 @@ pub struct Check<'r> {
 impl<'r> Check<'r> {
     // --- names of the file -------------------------------------------------------------------
 
-    fn symbols(&mut self, symbols: &[Symbol]) {
+    pub fn symbols(&mut self, symbols: &[Symbol]) {
         for (index, symbol) in symbols.iter().enumerate() {
             let name = &symbol.name;
             self.l.place = Place::Symbol(index);
@@ -81,7 +81,7 @@ impl<'r> Check<'r> {
                     .help("choose another name for one of them"),
                 );
             } else {
-                let value = self.symbol_value(symbol);
+                let value = self.symbol_value(index, symbol);
                 self.l
                     .scope
                     .insert(name.clone(), value.map_or(Binding::Faulty, Binding::Value));
@@ -89,8 +89,34 @@ impl<'r> Check<'r> {
         }
     }
 
-    /// `None` for a vector without elements, which its own statement has to be blamed for.
-    fn symbol_value(&mut self, symbol: &Symbol) -> Option<Value> {
+    /// The value of another model, as a scalar in the symbol's unit.
+    fn result_value(&mut self, index: usize, symbol: &Symbol) -> Option<Value> {
+        let Role::Result {
+            model,
+            output,
+            places,
+        } = &symbol.role
+        else {
+            return None;
+        };
+        let relabel = |label: &Label| Label {
+            call: format!("{} (in {})", label.call, symbol.name).into(),
+            argument: format!("{} (in {})", label.argument, symbol.name).into(),
+            place: Place::Symbol(index),
+            span: 0..0,
+        };
+        let id = *model.graph.outputs.get(*output)?;
+        let id = self.l.builder.embed(&model.graph, id, places, relabel);
+        let value = Value::scalar(id, model.outputs.get(*output)?.unit.clone());
+        self.l.converted(&value, &symbol.unit)
+    }
+
+    /// `None` for a vector without elements, which its own statement has to be blamed for, and for the
+    /// result of another model in a unit that does not fit.
+    fn symbol_value(&mut self, index: usize, symbol: &Symbol) -> Option<Value> {
+        if matches!(symbol.role, Role::Result { .. }) {
+            return self.result_value(index, symbol);
+        }
         let builder = &mut self.l.builder;
         let (elements, vector): (Vec<Id>, bool) = match &symbol.role {
             Role::Input(place) => (vec![builder.input(*place)], false),
@@ -99,6 +125,7 @@ impl<'r> Check<'r> {
             Role::ConstantVector(values) => {
                 (values.iter().map(|v| builder.constant(*v)).collect(), true)
             }
+            Role::Result { .. } => (Vec::new(), false),
         };
         let kind = Kind::Quantity(symbol.unit.clone());
         (!elements.is_empty()).then_some(Value {
@@ -195,6 +222,11 @@ impl<'r> Check<'r> {
                 }
             }
         }
+    }
+
+    /// A statement before the one that is looked at.
+    pub fn preceding(&mut self, statement: Statement) {
+        self.statement(statement, Place::Shared, false, true);
     }
 
     fn define(&mut self, name: &Name, binding: Binding, index: usize) {
@@ -355,13 +387,21 @@ impl<'r> Check<'r> {
                     .iter()
                     .flat_map(|s| self.statements[*s].symbols.iter().copied()),
             );
-            outputs.push(Output {
-                name: measurand.name.to_string(),
-                unit: outcome.unit.clone(),
-                equation: self.equation(index, measurand.name, outcome, &reached),
-            });
+            let equation = self.equation(index, measurand.name, outcome, &reached);
+            for element in 1..=outcome.ids.len() {
+                outputs.push(Output {
+                    name: match outcome.vector {
+                        true => format!("{}[{element}]", measurand.name),
+                        false => measurand.name.to_string(),
+                    },
+                    source: index,
+                    unit: outcome.unit.clone(),
+                    scaled_twice: outcome.scaled_twice,
+                    equation: equation.clone(),
+                });
+            }
         }
-        let ids: Vec<Id> = outcomes.iter().map(|o| o.id).collect();
+        let ids: Vec<Id> = outcomes.iter().flat_map(|o| o.ids.clone()).collect();
         let inputs = input_count(request.symbols);
         let graph = self.l.builder.finish(&ids);
         let program = Program::new(&graph, inputs);
@@ -419,6 +459,16 @@ fn input_count(symbols: &[Symbol]) -> usize {
         Role::Input(place) => place + 1,
         Role::InputVector(places) => places.end,
         Role::Constant(_) | Role::ConstantVector(_) => 0,
+        // Where the output does not use an input, its place means nothing.
+        Role::Result {
+            model,
+            output,
+            places,
+        } => {
+            let used = model.inputs_of(*output).into_iter().zip(places);
+            let ends = used.filter_map(|(used, place)| used.then_some(place + 1));
+            ends.max().unwrap_or(0)
+        }
     };
     symbols.iter().map(end).max().unwrap_or(0)
 }
@@ -431,7 +481,7 @@ fn defined_name(statement: &Statement) -> Option<&Name> {
 }
 
 /// The unknowns of the `solve` calls in an expression.
-fn unknowns(body: &Expr) -> Vec<String> {
+pub fn unknowns(body: &Expr) -> Vec<String> {
     let mut found = Vec::new();
     let mut open = vec![body];
     while let Some(e) = open.pop() {

@@ -67,8 +67,8 @@ codes! {
         "Reductions such as `mean` need a vector; conditions, indices and starting values need a single number.\n\n    y = mean(x)      wrong, when x is a single quantity\n    y = mean([x, z]) right";
     INDEX = "M0303", "an index is not one of the vector's places",
         "Elements are counted from 1, and the index must be a whole number written in the model.\n\n    y = x[0]      wrong\n    y = x[1]      right: the first element";
-    VECTOR_RESULT = "M0304", "the value of a measurand is a vector",
-        "A measurand is a single quantity. Reduce the vector, or make each element a measurand.\n\n    model = \"x - y\"            wrong, when x is a vector\n    model = \"mean(x - y)\"      right";
+    VECTOR_RESULT = "M0304", "the value of a measurand is too long a vector",
+        "The elements of a vector become measurands, `G[1]`, `G[2]` …, up to a hundred of them. Reduce a longer vector, or take the elements that are wanted.\n\n    model = \"x - y\"            wrong, when x has 1000 elements\n    model = \"mean(x - y)\"      right";
     NESTED_VECTOR = "M0305", "a vector stands inside a vector",
         "Vectors hold single quantities; there are no matrices.\n\n    [[1, 2], [3, 4]]      wrong\n    [1, 2, 3, 4]          right";
     TRUTH_AS_NUMBER = "M0306", "a comparison is used as a number",
@@ -95,6 +95,8 @@ codes! {
         "Written out element by element the model has too many operations. Shorten the vectors or the functions that call one another.\n\n    g(x) = f(f(f(x))) …      each level multiplies the work";
     UNKNOWN_OF_SOLVE = "M0502", "the unknown of `solve` is not fit",
         "`solve(equation, unknown, start)` needs a new name as its unknown, and the equation must contain it.\n\n    d = solve(a == b, d, 1)          wrong: d does not occur\n    d = solve(d * exp(d) == a, d, 1) right";
+    NOT_EXACT = "M0504", "an argument must be exactly known",
+        "Quantiles with degrees of freedom, the gamma function, the number of values of `linspace` and the first column of a table to interpolate in must be numbers that no input makes uncertain: written in the model or stated under [constant].\n\n    k = t_quantile(0.975, nu)      wrong, when nu is an input\n    k = t_quantile(0.975, 9)       right";
     UNDEFINED = "M0503", "the formula has no value at the estimates",
         "At the estimates of the inputs the formula divides by zero, takes the root or logarithm of a negative number, exceeds the range of numbers, or its `solve` finds no solution. The message names the operation.\n\n    model = \"V / (I - I_0)\"      has no value when I and I_0 are equal";
 }

@@ -11,6 +11,7 @@ use super::printer;
 use super::reductions::{fold, pair, reduce, vector_argument};
 use super::syntax::{Expr, Name};
 use super::units::Operand;
+use super::{complex, curves, exact, space};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 
@@ -70,6 +71,8 @@ pub fn unknown_function(l: &mut Lowering<'_>, name: &Name) {
             ("log", _) => "write `ln` for the natural logarithm, `log10` for base 10".to_string(),
             ("arcsin" | "arccos" | "arctan", _) => format!("did you mean `a{}`?", &text[3..]),
             ("avg" | "average", _) => "did you mean `mean`?".to_string(),
+            ("gamma" | "tgamma", _) => "write `gamma_function`".to_string(),
+            ("lgamma" | "gammaln", _) => "write `ln_gamma`".to_string(),
             ("std" | "stdev" | "stddev", _) => "did you mean `sd`?".to_string(),
             (_, Some(near)) => format!("did you mean `{near}`?"),
             (_, None) => {
@@ -107,7 +110,7 @@ fn value_as_function(l: &mut Lowering<'_>, name: &Name, arguments: &[Expr]) -> O
     None
 }
 
-fn wrong_count(
+pub fn wrong_count(
     l: &mut Lowering<'_>,
     e: &Expr,
     name: &str,
@@ -273,6 +276,7 @@ fn binary_call(
     let values: Option<Vec<Value>> = values.into_iter().collect();
     let values = values?;
     let points_fit = matches!(row.name, "min" | "max");
+    let label = l.written(e, e);
     let mut so_far = values[0].clone();
     for (value, expr) in values.iter().zip(arguments).skip(1) {
         let (left, right) = (
@@ -291,7 +295,7 @@ fn binary_call(
         let combined = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| {
             b.binary(row, x, y)
         })?;
-        l.watch(&combined, e, e);
+        l.mark(&combined, &label);
         let unit = if row.dimension == DimensionRule::Ratio {
             Unit::one()
         } else {
@@ -329,6 +333,7 @@ fn quantize(l: &mut Lowering<'_>, e: &Expr, argument: &Expr, step: &Expr) -> Opt
     let out = l.elementwise(&joined.left, &joined.right, e.span.clone(), |b, x, y| {
         b.call_binary("quantize", x, y)
     })?;
+    l.watch(&out, e, argument);
     let unit = if unit.is_point() { unit } else { joined.unit };
     Some(Value {
         kind: Kind::Quantity(unit),
@@ -346,6 +351,12 @@ fn form_call(
     arguments: &[Expr],
 ) -> Option<Value> {
     match (info.name, arguments) {
+        ("cmul" | "cdiv" | "conj" | "cabs" | "carg" | "csqrt" | "cexp" | "polar", _) => {
+            complex::call(l, e, info, arguments)
+        }
+        ("cross" | "rotate_x" | "rotate_y" | "rotate_z", _) => space::call(l, e, info, arguments),
+        ("linspace" | "polyval" | "interpolate", _) => curves::call(l, e, info, arguments),
+        (name, _) if exact::takes(name) => exact::call(l, e, info, arguments),
         ("pow", [x, n]) => {
             let (a, b) = (l.value(x), l.value(n));
             let (a, b) = (a?, b?);

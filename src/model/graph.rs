@@ -54,6 +54,19 @@ pub struct Label {
     pub span: Span,
 }
 
+/// A table whose points are joined by straight lines, for hints.
+#[derive(Debug, Clone)]
+pub struct Table {
+    pub result: Id,
+    pub x: Id,
+    /// Where the lines meet, and both ends; in rising order.
+    pub knots: Vec<f64>,
+    /// `interpolate(t, ts, ys)`
+    pub call: Arc<str>,
+    /// `t`
+    pub argument: Arc<str>,
+}
+
 /// A program.
 #[derive(Debug, Clone, Default)]
 pub struct Graph {
@@ -61,6 +74,7 @@ pub struct Graph {
     pub implicit: Vec<Implicit>,
     pub outputs: Vec<Id>,
     pub labels: HashMap<Id, Label>,
+    pub tables: Vec<Table>,
 }
 
 impl Graph {
@@ -108,6 +122,16 @@ impl Graph {
         needed
     }
 
+    /// The places of the inputs that an operation depends on.
+    pub fn inputs_of(&self, id: Id) -> impl Iterator<Item = usize> {
+        let needed = self.needed(&[id]);
+        let ops = self.ops.iter().zip(needed).filter(|(_, needed)| *needed);
+        ops.filter_map(|(op, _)| match op {
+            Op::Input(place) => Some(*place as usize),
+            _ => None,
+        })
+    }
+
     /// Copies the operations marked `keep`; `replaced` says what stands for those that are not kept.
     fn copied(
         &self,
@@ -140,6 +164,14 @@ impl Graph {
             }
             replaced.insert(i as Id, id);
         }
+        let moved = |table: &Table| {
+            Some(Table {
+                result: *replaced.get(&table.result)?,
+                x: *replaced.get(&table.x)?,
+                ..table.clone()
+            })
+        };
+        out.tables.extend(self.tables.iter().filter_map(moved));
         (out, replaced)
     }
 }
@@ -316,9 +348,60 @@ impl Builder {
         Some(self.push(Op::Solve(place)))
     }
 
+    /// Takes over one output of another graph, whose inputs stand at `places`; what it has in common
+    /// with this graph is shared. Labels get the place that `relabel` gives them.
+    pub fn embed(
+        &mut self,
+        other: &Graph,
+        output: Id,
+        places: &[usize],
+        relabel: impl Fn(&Label) -> Label,
+    ) -> Id {
+        let needed = other.needed(&[output]);
+        let mut moved: HashMap<Id, Id> = HashMap::new();
+        for (i, op) in other.ops.iter().enumerate().filter(|(i, _)| needed[*i]) {
+            let at = |id: Id| moved[&id];
+            let op = match *op {
+                Op::Input(place) => Op::Input(places[place as usize] as u32),
+                Op::Constant(_) => *op,
+                Op::Unknown(_) => {
+                    self.unknowns += 1;
+                    Op::Unknown(self.unknowns)
+                }
+                Op::Unary(row, a) => Op::Unary(row, at(a)),
+                Op::Binary(row, a, b) if matches!(row.name, "+" | "*") => {
+                    Op::Binary(row, at(a).min(at(b)), at(a).max(at(b)))
+                }
+                Op::Binary(row, a, b) => Op::Binary(row, at(a), at(b)),
+                Op::Power(a, c) => Op::Power(at(a), c),
+                Op::Select(c, a, b) => Op::Select(at(c), at(a), at(b)),
+                Op::Solve(n) => {
+                    let equation = &other.implicit[n as usize];
+                    self.graph.implicit.push(Implicit {
+                        start: at(equation.start),
+                        parameters: equation.parameters.iter().map(|p| at(*p)).collect(),
+                        residual: Arc::clone(&equation.residual),
+                    });
+                    Op::Solve(self.graph.implicit.len() as u32 - 1)
+                }
+            };
+            let id = self.push(op);
+            if let Some(label) = other.labels.get(&(i as Id)) {
+                self.label(id, &relabel(label));
+            }
+            moved.insert(i as Id, id);
+        }
+        moved[&output]
+    }
+
     /// Notes how the user wrote an operation.
     pub fn label(&mut self, id: Id, label: &Label) {
         self.graph.labels.entry(id).or_insert_with(|| label.clone());
+    }
+
+    /// Notes a table.
+    pub fn table(&mut self, table: Table) {
+        self.graph.tables.push(table);
     }
 
     /// The finished graph, without what the outputs do not need.

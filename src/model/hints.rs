@@ -1,24 +1,32 @@
 //! What a reader must know about a model at a point: kinks, steps, poles near by.
 
+use std::f64::consts::PI;
+
 use super::faults::UNDEFINED;
 use super::graph::{Graph, Id, Label, Op};
 use super::jet::Jet;
-use super::operation::Smoothness;
-use super::{ModelFault, Place};
+use super::notice::{Notice, Office, shown};
+use super::operation::{Rule, Smoothness};
+use super::{ModelFault, Output, Place};
 use crate::fault::Fault;
 
-/// Operations whose derivative does not exist or hides something here, in words.
-pub fn irregularities(graph: &Graph, x: &[f64]) -> Vec<String> {
+/// Operations whose derivative does not exist or hides something here.
+pub fn irregularities(graph: &Graph, x: &[f64]) -> Vec<Notice> {
     let mut found = Vec::new();
     collect_irregularities(graph, x, &mut found);
     found
 }
 
-fn collect_irregularities(graph: &Graph, x: &[f64], found: &mut Vec<String>) {
+fn collect_irregularities(graph: &Graph, x: &[f64], found: &mut Vec<Notice>) {
     let inputs: Vec<Jet<1>> = x.iter().map(|v| Jet::constant(*v)).collect();
     let values = graph.evaluate(&inputs);
     let at = |id: Id| values[id as usize].value();
     let (active, moving) = (active(graph, &values), moving(graph));
+    let mut note = |notice: Notice| {
+        if !found.contains(&notice) {
+            found.push(notice);
+        }
+    };
     for (i, op) in graph
         .ops
         .iter()
@@ -30,51 +38,62 @@ fn collect_irregularities(graph: &Graph, x: &[f64], found: &mut Vec<String>) {
             let inner: Vec<f64> = std::iter::once(at(i as Id))
                 .chain(equation.parameters.iter().map(|p| at(*p)))
                 .collect();
-            collect_irregularities(&equation.residual, &inner, found);
+            let mut within = Vec::new();
+            collect_irregularities(&equation.residual, &inner, &mut within);
+            within.into_iter().for_each(&mut note);
         }
         let Some(label) = graph.labels.get(&(i as Id)) else {
             continue;
         };
-        let (call, argument) = (&label.call, &label.argument);
-        let words = match *op {
-            Op::Unary(row, _) if row.smoothness == Smoothness::Steps => {
-                format!("{call} is a step function: its derivative is 0 although it jumps")
-            }
+        let (call, argument) = (label.call.to_string(), label.argument.to_string());
+        note(match *op {
+            Op::Unary(row, _) if row.smoothness == Smoothness::Steps => Notice::Steps { call },
             Op::Unary(row, a) if row.smoothness == Smoothness::Corner && at(a) == 0.0 => {
-                format!("{call} has a kink where {argument} is 0, which is just here")
+                Notice::Kink { call, argument }
             }
             Op::Binary(row, a, b) if row.smoothness == Smoothness::Corner && at(a) == at(b) => {
                 match row.name {
-                    "min" | "max" => format!(
-                        "{call} has a kink where two arguments are equal, which is just here"
-                    ),
-                    _ => format!("the condition {call} changes just here"),
+                    "min" | "max" => Notice::Tie { call },
+                    _ => Notice::Condition { call },
                 }
             }
             Op::Binary(row, a, b)
                 if row.smoothness == Smoothness::Branch && at(a) == 0.0 && at(b) <= 0.0 =>
             {
-                format!("{call} jumps from -π to π just here")
+                Notice::Jump { call }
             }
             _ => continue,
-        };
-        if !found.contains(&words) {
-            found.push(words);
+        });
+    }
+    let used = |id: Id| active[id as usize];
+    for table in graph.tables.iter().filter(|table| used(table.result)) {
+        let (call, argument) = (table.call.to_string(), table.argument.to_string());
+        let (x, inner) = (at(table.x), table.knots.len() - 1);
+        let ends = [table.knots[0], table.knots[inner]];
+        if x < ends[0] || x > ends[1] {
+            note(Notice::BeyondTable {
+                call,
+                argument,
+                at: x,
+                ends,
+            });
+        } else if moving[table.x as usize] && table.knots[1..inner].contains(&x) {
+            note(Notice::Knot {
+                call,
+                argument,
+                at: x,
+            });
         }
     }
 }
 
 /// Measurands without a finite value here: the first operation whose operands are finite and whose
 /// result is not, where the user wrote it.
-pub fn undefined<'a>(
-    graph: &Graph,
-    x: &[f64],
-    names: impl Iterator<Item = &'a str>,
-) -> Vec<ModelFault> {
+pub fn undefined(graph: &Graph, x: &[f64], outputs: &[Output]) -> Vec<ModelFault> {
     let inputs: Vec<Jet<1>> = x.iter().map(|v| Jet::constant(*v)).collect();
     let values = graph.evaluate(&inputs);
     let mut found: Vec<ModelFault> = Vec::new();
-    for (index, (output, name)) in graph.outputs.iter().zip(names).enumerate() {
+    for (output, Output { name, source, .. }) in graph.outputs.iter().zip(outputs) {
         if values[*output as usize].value().is_finite() {
             continue;
         }
@@ -86,7 +105,7 @@ pub fn undefined<'a>(
                 (label.place, label.span.clone(), why, short)
             }
             None => (
-                Place::Entry(index),
+                Place::Entry(*source),
                 0..0,
                 "an intermediate result is too large or is no number".to_string(),
                 "no finite value".to_string(),
@@ -160,68 +179,136 @@ fn reason(graph: &Graph, values: &[Jet<1>], id: Id, label: &Label) -> (String, S
     }
 }
 
-/// Divisors and arguments within `reach` standard uncertainties of a pole or the end of a domain.
-pub fn near_singular(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<String> {
-    let inputs: Vec<Jet<1>> = x.iter().map(|v| Jet::constant(*v)).collect();
-    let values = graph.evaluate(&inputs);
-    let (active, moving) = (active(graph, &values), moving(graph));
-    let mut nearest: Vec<(String, f64, f64)> = Vec::new();
+/// Quantities within `reach` standard uncertainties of a pole, of the end of a domain or of the jump of
+/// a phase.
+pub fn near_singular(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<Notice> {
+    let spread = Spread::new(graph, x, u);
+    let values = &spread.values;
+    let (active, moving) = (active(graph, values), moving(graph));
+    let mut nearest: Vec<Notice> = Vec::new();
     for (i, op) in graph.ops.iter().enumerate().filter(|(i, _)| active[*i]) {
-        let (Some((id, edge, role)), Some(label)) =
-            (edge(graph, *op, &values), graph.labels.get(&(i as Id)))
-        else {
+        let Some(label) = graph.labels.get(&(i as Id)) else {
             continue;
         };
-        if !moving[id as usize] {
-            continue;
-        }
-        let gradient = graph.gradient(&values, id, x.len());
-        let variance: f64 = gradient
-            .iter()
-            .zip(u)
-            .map(|(c, u)| (c.value() * u).powi(2))
-            .sum();
-        let distance = (values[id as usize].value() - edge).abs() / variance.sqrt();
-        if distance > reach || distance.is_nan() {
-            continue;
-        }
-        let what = format!("{} ({role})", label.argument);
-        match nearest
-            .iter_mut()
-            .find(|(known, _, e)| *known == what && *e == edge)
+        let notice = if let Op::Binary(row, _, _) = op
+            && row.smoothness == Smoothness::Branch
         {
-            Some((_, least, _)) => *least = least.min(distance),
-            None => nearest.push((what, distance, edge)),
+            let left = PI - values[i].value().abs();
+            let distance = left / spread.u(i as Id);
+            // A phase that jumps just here is told of as such.
+            (left > 0.0 && moving[i]).then(|| Notice::Wrap {
+                call: label.call.to_string(),
+                distance,
+            })
+        } else {
+            edge(graph, *op, values)
+                .filter(|(id, _, _)| moving[*id as usize])
+                .map(|(id, edge, role)| Notice::Near {
+                    argument: label.argument.to_string(),
+                    role,
+                    distance: (values[id as usize].value() - edge).abs() / spread.u(id),
+                    edge,
+                })
+        };
+        let Some(notice) = notice.filter(|notice| distance(notice) <= reach) else {
+            continue;
+        };
+        match nearest.iter_mut().find(|known| is_same(known, &notice)) {
+            Some(known) if distance(&notice) < distance(known) => *known = notice,
+            Some(_) => {}
+            None => nearest.push(notice),
         }
     }
     nearest
-        .into_iter()
-        .map(|(what, distance, edge)| format!("{what} is {distance:.1} u from {}", shown(edge)))
-        .collect()
 }
 
-fn shown(edge: f64) -> String {
-    if edge.fract() == 0.0 {
-        format!("{edge}")
-    } else {
-        format!("{edge:.4}")
+fn distance(notice: &Notice) -> f64 {
+    match notice {
+        Notice::Near { distance, .. } | Notice::Wrap { distance, .. } => *distance,
+        _ => 0.0,
+    }
+}
+
+/// Whether two notices differ in the distance only.
+fn is_same(a: &Notice, b: &Notice) -> bool {
+    match (a, b) {
+        (
+            Notice::Near {
+                argument: a,
+                role: p,
+                edge: e,
+                ..
+            },
+            Notice::Near {
+                argument: b,
+                role: q,
+                edge: f,
+                ..
+            },
+        ) => a == b && p == q && e == f,
+        (Notice::Wrap { call: a, .. }, Notice::Wrap { call: b, .. }) => a == b,
+        _ => false,
+    }
+}
+
+/// Calls of `quantize` whose step exceeds the standard uncertainty of what is rounded: there the mean
+/// slope of the staircase says nothing.
+pub fn coarse_steps(graph: &Graph, x: &[f64], u: &[f64]) -> Vec<Notice> {
+    let spread = Spread::new(graph, x, u);
+    let active = active(graph, &spread.values);
+    let mut found = Vec::new();
+    for (i, op) in graph.ops.iter().enumerate().filter(|(i, _)| active[*i]) {
+        let (Op::Binary(row, a, step), Some(label)) = (op, graph.labels.get(&(i as Id))) else {
+            continue;
+        };
+        let ratio = spread.values[*step as usize].value().abs() / spread.u(*a);
+        if row.rule == Rule::Staircase && ratio > 1.0 && ratio.is_finite() {
+            let call = label.call.to_string();
+            found.push(Notice::CoarseStep { call, ratio });
+        }
+    }
+    found
+}
+
+/// Values of all operations and their standard uncertainties, without covariances.
+struct Spread<'a> {
+    graph: &'a Graph,
+    values: Vec<Jet<1>>,
+    u: &'a [f64],
+}
+
+impl<'a> Spread<'a> {
+    fn new(graph: &'a Graph, x: &[f64], u: &'a [f64]) -> Self {
+        let inputs: Vec<Jet<1>> = x.iter().map(|v| Jet::constant(*v)).collect();
+        Spread {
+            graph,
+            values: graph.evaluate(&inputs),
+            u,
+        }
+    }
+
+    fn u(&self, id: Id) -> f64 {
+        let gradient = self.graph.gradient(&self.values, id, self.u.len());
+        let terms = gradient.iter().zip(self.u);
+        let variance: f64 = terms.map(|(c, u)| (c.value() * u).powi(2)).sum();
+        variance.sqrt()
     }
 }
 
 /// The operand of an operation that must keep away from a pole or edge, that edge, and its role.
-fn edge(graph: &Graph, op: Op, values: &[Jet<1>]) -> Option<(Id, f64, String)> {
+fn edge(graph: &Graph, op: Op, values: &[Jet<1>]) -> Option<(Id, f64, Office)> {
     match op {
         Op::Unary(row, a) => {
             let edge = row.edge?(values[a as usize].value());
-            Some((a, edge, format!("argument of {}", row.name)))
+            Some((a, edge, Office::Argument(row.name)))
         }
-        Op::Binary(row, _, b) if row.name == "/" => Some((b, 0.0, "divisor".to_string())),
+        Op::Binary(row, _, b) if row.name == "/" => Some((b, 0.0, Office::Divisor)),
         Op::Binary(row, a, b) if row.name == "^" && graph.constant(b).is_none() => {
-            Some((a, 0.0, "base of a power".to_string()))
+            Some((a, 0.0, Office::Base))
         }
         Op::Power(a, bits) => {
             let c = f64::from_bits(bits);
-            (c < 0.0 || c.fract() != 0.0).then(|| (a, 0.0, "base of a power".to_string()))
+            (c < 0.0 || c.fract() != 0.0).then_some((a, 0.0, Office::Base))
         }
         _ => None,
     }

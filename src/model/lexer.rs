@@ -291,7 +291,15 @@ impl<'a> Lexer<'a> {
         let span = self.at..self.at + c.len_utf8();
         let help = match c {
             '°' | '%' | '‰' | 'µ' => {
-                format!("a unit stands between single quotes right after its number: `5 '{c}'`")
+                let before = self.text[..self.at].trim_end();
+                let digits = before.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.');
+                let number = match &before[digits.len()..] {
+                    "" => "5",
+                    number => number,
+                };
+                format!(
+                    "a unit stands between single quotes right after its number: `{number} '{c}'`"
+                )
             }
             '"' | '`' | '’' | '‘' => {
                 "a unit stands between single quotes: `25 'mm'`".to_string()

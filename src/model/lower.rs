@@ -668,19 +668,29 @@ impl<'r> Lowering<'r> {
 
     /// Notes how the user wrote the operations of a value, for hints about poles and kinks.
     pub fn watch(&mut self, value: &Value, call: &Expr, argument: &Expr) {
+        let label = self.written(call, argument);
+        self.mark(value, &label);
+    }
+
+    /// How the user wrote a call.
+    pub fn written(&self, call: &Expr, argument: &Expr) -> Label {
         // What a user's function does is shown where it is called.
         let (place, span) = match &self.call {
             Some((place, span, _)) => (*place, span.clone()),
             None => (self.place, call.span.clone()),
         };
-        let label = Label {
+        Label {
             call: printer::expression(call).into(),
             argument: printer::expression(argument).into(),
             place,
             span,
-        };
+        }
+    }
+
+    /// Gives the operations of a value a label.
+    pub fn mark(&mut self, value: &Value, label: &Label) {
         for id in &value.elements {
-            self.builder.label(*id, &label);
+            self.builder.label(*id, label);
         }
     }
 }

@@ -6,7 +6,7 @@ use super::catalogue;
 use super::check::{Check, reserved};
 use super::faults;
 use super::graph::Id;
-use super::lower::{Binding, Value};
+use super::lower::{Binding, Kind, Value};
 use super::printer;
 use super::syntax::{Expr, Infix, Node, Statement};
 use super::units::in_words;
@@ -14,9 +14,16 @@ use super::{MeasurandSource, Place};
 use crate::fault::Fault;
 use crate::quantity::{Dimension, Unit, hint_for_clash};
 
+/// A measurand may be a vector of up to so many elements.
+const MOST_ELEMENTS: usize = 100;
+
 /// The value of a measurand and where it comes from.
 pub struct Outcome {
-    pub id: Id,
+    /// One operation, or one per element of a vector.
+    pub ids: Vec<Id>,
+    pub vector: bool,
+    /// See [`Output`](super::Output).
+    pub scaled_twice: bool,
     pub unit: Unit,
     /// The statement that gives it.
     pub statement: usize,
@@ -40,7 +47,13 @@ impl Check<'_> {
         };
         // Later measurands may use this one.
         if !self.l.scope.contains_key(measurand.name) && !catalogue::is_reserved(measurand.name) {
-            let value = Value::scalar(outcome.id, outcome.unit.clone());
+            let value = Value {
+                elements: outcome.ids.clone(),
+                vector: outcome.vector,
+                kind: Kind::Quantity(outcome.unit.clone()),
+                zero: false,
+                literal: false,
+            };
             self.l
                 .scope
                 .insert(measurand.name.to_string(), Binding::Value(value));
@@ -63,7 +76,9 @@ impl Check<'_> {
             self.l.place = Place::Entry(index);
             self.l.report(reserved(measurand.name, 0..0));
         }
-        if self.l.symbol(measurand.name).is_some() {
+        // An input may be reported as it is: `y1`, a parameter of a fit.
+        let itself = text.trim() == measurand.name;
+        if self.l.symbol(measurand.name).is_some() && !itself {
             self.l.place = Place::Entry(index);
             let name = measurand.name;
             self.l.report(
@@ -80,9 +95,11 @@ impl Check<'_> {
         let own = self.text(text, place, true);
         let outcome = own.last().copied().and_then(|statement| {
             let (value, expr) = self.statement_value(statement)?;
-            let (id, unit) = self.result(index, measurand, &value, &expr, place)?;
+            let (ids, unit) = self.result(index, measurand, &value, &expr, place)?;
             Some(Outcome {
-                id,
+                ids,
+                vector: value.vector,
+                scaled_twice: scaled_twice(&value, &expr, &unit),
                 unit,
                 statement,
                 own,
@@ -126,9 +143,11 @@ impl Check<'_> {
             (Some(Binding::Value(_)), Some(statement)) => {
                 let place = self.statements[statement].place;
                 let (value, expr) = self.statement_value(statement)?;
-                let (id, unit) = self.result(index, measurand, &value, &expr, place)?;
+                let (ids, unit) = self.result(index, measurand, &value, &expr, place)?;
                 Some(Outcome {
-                    id,
+                    ids,
+                    vector: value.vector,
+                    scaled_twice: scaled_twice(&value, &expr, &unit),
                     unit,
                     statement,
                     own: Vec::new(),
@@ -155,11 +174,11 @@ impl Check<'_> {
         value: &Value,
         expr: &Expr,
         place: Place,
-    ) -> Option<(Id, Unit)> {
+    ) -> Option<(Vec<Id>, Unit)> {
         self.l.place = place;
         let found = self.l.quantity(value, expr)?;
         let text = printer::expression(expr);
-        if value.vector {
+        if value.elements.len() > MOST_ELEMENTS {
             self.l.report(
                 Fault::new(
                     faults::VECTOR_RESULT,
@@ -170,7 +189,7 @@ impl Check<'_> {
                         value.elements.len()
                     ),
                 )
-                .label("expected a single value")
+                .label(format!("expected at most {MOST_ELEMENTS}"))
                 .help(format!("reduce it, `mean({text})`, or take one element")),
             );
             return None;
@@ -178,7 +197,7 @@ impl Check<'_> {
         let Some(wanted) = &measurand.unit else {
             if found.dimension == Dimension::NONE {
                 let out = self.l.converted(value, &Unit::one())?;
-                return Some((out.elements[0], Unit::one()));
+                return Some((out.elements, Unit::one()));
             }
             self.l.place = Place::Entry(index);
             self.l.report(
@@ -220,7 +239,7 @@ impl Check<'_> {
             return None;
         }
         let out = self.l.converted(&value, wanted)?;
-        Some((out.elements[0], wanted.clone()))
+        Some((out.elements, wanted.clone()))
     }
 
     fn result_help(&self, expr: &Expr, found: &Unit, wanted: &Unit) -> String {
@@ -278,6 +297,25 @@ impl Check<'_> {
             )),
         );
     }
+}
+
+/// Whether a pure number gets the factor of its unit although the formula holds it already.
+fn scaled_twice(value: &Value, expr: &Expr, wanted: &Unit) -> bool {
+    let factor = value
+        .unit()
+        .filter(|found| found.is_one())
+        .and_then(|found| found.conversion_to(wanted))
+        .map(|conversion| conversion.factor)
+        .filter(|factor| *factor > 1.0 && wanted.factor.pi == 0);
+    let Some(factor) = factor else { return false };
+    let mut open = vec![expr];
+    while let Some(e) = open.pop() {
+        if matches!(&e.node, Node::Number { value, unit: None, .. } if *value == factor) {
+            return true;
+        }
+        open.extend(e.children());
+    }
+    false
 }
 
 /// How a quantity takes part in a product.

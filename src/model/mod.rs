@@ -9,6 +9,9 @@
 mod block;
 mod catalogue;
 mod check;
+mod complex;
+mod curves;
+mod exact;
 pub mod faults;
 mod forms;
 mod functions;
@@ -20,10 +23,13 @@ mod jet;
 mod lexer;
 mod lower;
 mod measurand;
+mod notice;
 mod operation;
+mod outline;
 mod parser;
 mod printer;
 mod reductions;
+mod space;
 mod syntax;
 mod units;
 
@@ -31,12 +37,15 @@ mod units;
 mod tests;
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
 pub use block::BlockRunner;
 pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
+pub use notice::{Notice, Office};
+pub use outline::{Outline, outline};
 
 use jet::Jet;
 
@@ -65,6 +74,16 @@ pub enum Role {
     Constant(f64),
     /// Exactly known numbers.
     ConstantVector(Vec<f64>),
+    /// The value of another compiled model, in the symbol's unit.
+    Result {
+        /// The model.
+        model: Arc<Model>,
+        /// Which of its outputs.
+        output: usize,
+        /// Where each of its inputs stands in the input vector (anywhere, for those that the output
+        /// does not use).
+        places: Vec<usize>,
+    },
 }
 
 /// A measurand as the budget file states it.
@@ -117,10 +136,15 @@ pub struct ModelFault {
 /// One measurand of a compiled model.
 #[derive(Debug, Clone)]
 pub struct Output {
-    /// As the file calls it.
+    /// As the file calls it; `G[1]`, `G[2]` … for the elements of a vector.
     pub name: String,
+    /// Index of the request's measurand that it belongs to: elements of a vector have one in common.
+    pub source: usize,
     /// Unit of its value.
     pub unit: Unit,
+    /// Whether the formula gives a pure number, which the unit (%, ppm …) multiplies, and holds that very
+    /// factor as well: `100 * (a - b) / b` with the unit %.
+    pub scaled_twice: bool,
     /// The defining statements in printed form, one per line (`R = V / I * cos(phi)`).
     pub equation: String,
 }
@@ -214,27 +238,47 @@ impl Model {
         interaction::blocks(&self.graph, self.inputs)
     }
 
+    /// Which inputs one output uses.
+    pub fn inputs_of(&self, output: usize) -> Vec<bool> {
+        let mut used = vec![false; self.inputs];
+        if let Some(id) = self.graph.outputs.get(output) {
+            for place in self.graph.inputs_of(*id) {
+                used[place] = true;
+            }
+        }
+        used
+    }
+
+    /// Whether every output is an affine function of these inputs while the others are held.
+    pub fn is_affine_in(&self, inputs: &[usize]) -> bool {
+        interaction::affine(&self.graph, inputs)
+    }
+
     /// Which of the request's symbols no measurand depends on.
     pub fn unused_symbols(&self) -> Vec<usize> {
         self.unused.clone()
     }
 
-    /// Operations whose derivative does not exist or hides something at `x` (kink, step, branch), in
-    /// words: `abs(x - a) has a kink where x - a is 0, which is just here`.
-    pub fn irregularities(&self, x: &[f64]) -> Vec<String> {
+    /// Operations whose derivative does not exist or hides something at `x`: kinks, steps, branches, points
+    /// of tables.
+    pub fn irregularities(&self, x: &[f64]) -> Vec<Notice> {
         hints::irregularities(&self.graph, x)
     }
 
     /// Measurands that have no finite value at `x`, each with the operation that is to blame.
     pub fn undefined(&self, x: &[f64]) -> Vec<ModelFault> {
-        let names = self.outputs.iter().map(|output| output.name.as_str());
-        hints::undefined(&self.graph, x, names)
+        hints::undefined(&self.graph, x, &self.outputs)
     }
 
     /// Divisors and function arguments that come within `reach` standard uncertainties of a pole or of
-    /// the end of a domain, given the covariance-free u of every input: `x2 (divisor) is 1.4 u from 0`.
-    pub fn near_singular(&self, x: &[f64], u: &[f64], reach: f64) -> Vec<String> {
+    /// the end of a domain, and phases that come so near to ±π, given the covariance-free u of every input.
+    pub fn near_singular(&self, x: &[f64], u: &[f64], reach: f64) -> Vec<Notice> {
         hints::near_singular(&self.graph, x, u, reach)
+    }
+
+    /// Roundings by `quantize` whose step is larger than the standard uncertainty of what they round.
+    pub fn coarse_steps(&self, x: &[f64], u: &[f64]) -> Vec<Notice> {
+        hints::coarse_steps(&self.graph, x, u)
     }
 }
 

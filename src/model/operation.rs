@@ -12,6 +12,7 @@ use std::hash::{Hash, Hasher};
 use gumption_lanes::{Block, LANES, Level, elementary, ops as kernels};
 
 use super::jet::Jet;
+use crate::special;
 
 /// What a function does to units.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -198,6 +199,8 @@ pub static UNARY: &[Unary] = &[
     row!("acosh", "inverse hyperbolic cosine", One, libm::acosh, acosh, kernels::acosh, Smooth, Some(|_| 1.0)),
     row!("atanh", "inverse hyperbolic tangent", One, libm::atanh, atanh, kernels::atanh, Smooth, Some(f64::signum)),
     row!("erf", "error function", One, libm::erf, erf, lanewise!(libm::erf)),
+    row!("normal_cdf", "distribution function of the standard normal distribution", One, special::normal_cdf, normal_cdf, lanewise!(special::normal_cdf)),
+    row!("normal_quantile", "quantile of the standard normal distribution", One, special::normal_quantile, normal_quantile, lanewise!(special::normal_quantile), Smooth, Some(|p| p.round().clamp(0.0, 1.0))),
     row!("sign", "-1, 0 or 1", Sign, sign, |x| [sign(x), 0.0, 0.0, 0.0], kernels::sign, Steps, None),
     row!("floor", "next whole number below", One, f64::floor, |x| [x.floor(), 0.0, 0.0, 0.0], kernels::floor, Steps, None),
     row!("ceil", "next whole number above", One, f64::ceil, |x| [x.ceil(), 0.0, 0.0, 0.0], kernels::ceil, Steps, None),
@@ -489,6 +492,17 @@ fn atanh(x: f64) -> [f64; 4] {
         2.0 * x * q * q,
         (2.0 + 6.0 * x * x) * q * q * q,
     ]
+}
+
+fn normal_cdf(x: f64) -> [f64; 4] {
+    let d = special::normal_pdf(x);
+    [special::normal_cdf(x), d, -x * d, (x * x - 1.0) * d]
+}
+
+fn normal_quantile(p: f64) -> [f64; 4] {
+    let x = special::normal_quantile(p);
+    let r = 1.0 / special::normal_pdf(x);
+    [x, r, x * r * r, (1.0 + 2.0 * x * x) * r * r * r]
 }
 
 fn erf(x: f64) -> [f64; 4] {

@@ -655,8 +655,12 @@ impl Parser<'_> {
 /// Joins operators of one level to one chain, so that long sums are flat.
 fn chain(left: Expr, infix: Infix, right: Expr) -> Expr {
     let span = left.span.start..right.span.end;
+    // All operators of a chain are of one level, so the first stands for them.
     let same = |rest: &Vec<(Infix, Expr)>| {
-        !infix.compares() && rest.iter().all(|(i, _)| i.level() == infix.level())
+        !infix.compares()
+            && rest
+                .first()
+                .is_none_or(|(first, _)| first.level() == infix.level())
     };
     match left.node {
         Node::Chain { first, mut rest } if same(&rest) => {

@@ -70,7 +70,11 @@ fn chain(first: &Expr, rest: &[(Infix, Expr)]) -> String {
             (Infix::Add | Infix::Sub, Node::Minus(_)) => ATOM,
             _ => level + 1,
         };
-        out = format!("{out} {} {}", infix.symbol(), bracketed(operand, inner));
+        out.push_str(&format!(
+            " {} {}",
+            infix.symbol(),
+            bracketed(operand, inner)
+        ));
     }
     out
 }

@@ -386,7 +386,9 @@ impl Lowering<'_> {
                 format!("the exponent `{text}` is in {}", unit.symbol),
             )
             .label("expected a number")
-            .help("divide the exponent by a quantity of the same kind"),
+            .help(hint_for_clash(&Unit::one(), &unit).unwrap_or_else(|| {
+                "divide the exponent by a quantity of the same kind".to_string()
+            })),
         );
         None
     }

@@ -1,8 +1,8 @@
 //! Claimed figures held against those obtained.
 
-use crate::budget::{Budget, Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
+use crate::budget::{Budget, Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 
-use super::{Evaluation, MeasurandResult};
+use super::{Clause8, Evaluation, MeasurandResult};
 
 /// One claimed figure against one obtained figure.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Comparison {
     pub rounded: Option<f64>,
     /// Whether the claim is about this method; otherwise the figure is shown beside for information.
     pub judged: bool,
+    /// Whether a verdict depends on it: the claim is about this method and its source is known well enough.
+    pub decides: bool,
 }
 
 /// Which method gave a figure.
@@ -31,6 +33,8 @@ pub enum Method {
     SecondOrder,
     /// Monte Carlo.
     MonteCarlo,
+    /// An analysis that is no propagation: a fit, an analysis of variance, a conformity assessment.
+    Analysis,
 }
 
 impl Comparison {
@@ -50,6 +54,18 @@ impl Comparison {
         })
     }
 
+    /// Correct significant digits: log relative error −log₁₀|obtained − claimed|/|claimed| (absolute where zero is
+    /// claimed), at most 16; `None` where nothing was obtained.
+    pub fn log_relative_error(&self) -> Option<f64> {
+        let error = (self.obtained? - self.claimed.value).abs();
+        let scale = if self.claimed.value == 0.0 {
+            1.0
+        } else {
+            self.claimed.value.abs()
+        };
+        Some((-libm::log10(error / scale)).clamp(0.0, 16.0))
+    }
+
     /// Obtained divided by claimed, where that says something.
     pub fn ratio(&self) -> Option<f64> {
         self.obtained
@@ -65,7 +81,7 @@ pub fn compare_claims(budget: &Budget, evaluation: &Evaluation) -> Vec<Compariso
     let mut comparisons = Vec::new();
     for (index, claim) in budget.claims.iter().enumerate() {
         for figure in &claim.figures {
-            for (method, judged) in methods(claim.method) {
+            for (method, judged) in methods(claim.method, &figure.what) {
                 let obtained = obtained(budget, evaluation, claim, &figure.what, method);
                 if judged || obtained.is_some() {
                     let rounded = obtained
@@ -78,6 +94,7 @@ pub fn compare_claims(budget: &Budget, evaluation: &Evaluation) -> Vec<Compariso
                         obtained,
                         rounded,
                         judged,
+                        decides: judged && claim.confidence != Confidence::Low,
                     });
                 }
             }
@@ -86,7 +103,10 @@ pub fn compare_claims(budget: &Budget, evaluation: &Evaluation) -> Vec<Compariso
     comparisons
 }
 
-fn methods(claimed: ClaimedMethod) -> Vec<(Method, bool)> {
+fn methods(claimed: ClaimedMethod, what: &Figure) -> Vec<(Method, bool)> {
+    if matches!(what, Figure::Named(_)) {
+        return vec![(Method::Analysis, true)];
+    }
     match claimed {
         ClaimedMethod::Unstated => vec![(Method::Gum, true), (Method::MonteCarlo, false)],
         ClaimedMethod::Gum => vec![(Method::Gum, true)],
@@ -107,6 +127,7 @@ fn obtained(
         Method::Gum => by_gum(budget, evaluation, result, claim, what),
         Method::SecondOrder => by_second_order(result, claim, what),
         Method::MonteCarlo => by_monte_carlo(evaluation, result, claim, what),
+        Method::Analysis => named(evaluation, what),
     }
 }
 
@@ -149,7 +170,19 @@ fn by_gum(
             .components
             .get(*index)
             .and_then(|line| part_of(line, *part)),
+        Figure::Named(_) => None,
     }
+}
+
+fn named(evaluation: &Evaluation, what: &Figure) -> Option<f64> {
+    let Figure::Named(name) = what else {
+        return None;
+    };
+    let figure = evaluation
+        .figures
+        .iter()
+        .find(|figure| figure.name == *name);
+    figure.map(|figure| figure.value)
 }
 
 fn part_of(line: &super::Contribution, part: Part) -> Option<f64> {
@@ -224,7 +257,11 @@ fn verdict(result: &MeasurandResult, digits: u8) -> Option<f64> {
         .as_ref()?
         .iter()
         .find(|validation| validation.digits == digits)
-        .map(|validation| f64::from(u8::from(validation.validated)))
+        .map(|validation| match validation.verdict {
+            Clause8::Validated => 1.0,
+            Clause8::NotValidated => 0.0,
+            Clause8::Undecided => 0.5,
+        })
 }
 
 #[cfg(test)]
@@ -243,6 +280,7 @@ mod tests {
             obtained: Some(obtained),
             rounded,
             judged: true,
+            decides: true,
         }
     }
 

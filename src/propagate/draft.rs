@@ -163,8 +163,15 @@ impl Draft {
                 .collect(),
             components: self.components,
             groups: self.groups,
+            following: Vec::new(),
+            conformity: Vec::new(),
+            detection: Vec::new(),
             claims: Vec::new(),
+            analyses: Vec::new(),
+            fits: Vec::new(),
+            figures: Vec::new(),
             remarks: Vec::new(),
+            chain: Default::default(),
         }
     }
 }

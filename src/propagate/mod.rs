@@ -5,6 +5,7 @@
 mod claims;
 mod covariance;
 mod coverage;
+mod decide;
 #[cfg(test)]
 mod draft;
 mod findings;
@@ -16,15 +17,21 @@ mod second_order;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod validation;
 
 pub use claims::{Comparison, Method, compare_claims};
+pub use decide::{
+    BestEstimate, CharacteristicLimits, Conformance, ConformityResult, DetectionLimit,
+    DetectionResult, GlobalRisk, Verdict,
+};
 pub use findings::is_residue;
 pub use monte_carlo::{Consequence, MissingMoments, Side};
 
 use nalgebra::DMatrix;
 
-use crate::budget::{Adaptive, Budget, MonteCarloSettings};
+use crate::budget::{Adaptive, Budget, LackOfFit, MonteCarloSettings, NamedFigure};
+use crate::model::Notice;
 use gum::Linear;
 use monte_carlo::{GumForMc, McOutcome};
 use second_order::{Outcome, Terms};
@@ -40,6 +47,12 @@ pub struct Evaluation {
     pub run: Option<Run>,
     /// What the reader must know before using the numbers.
     pub findings: Vec<Finding>,
+    /// Conformity assessments, in the order of the budget.
+    pub conformity: Vec<ConformityResult>,
+    /// Characteristic limits, in the order of the budget.
+    pub detection: Vec<DetectionResult>,
+    /// Figures of all analyses by name: those of the budget's data, then those of the evaluation.
+    pub figures: Vec<NamedFigure>,
 }
 
 /// Both methods for one measurand.
@@ -251,8 +264,21 @@ pub struct Validation {
     pub d_low: f64,
     /// |y + U_p − y_high|.
     pub d_high: f64,
-    /// Whether neither difference exceeds δ.
-    pub validated: bool,
+    /// Standard error of the Monte Carlo ends, the larger of the two.
+    pub error: f64,
+    /// Whether neither difference exceeds δ, as far as the errors of the ends allow to tell.
+    pub verdict: Clause8,
+}
+
+/// The verdict of GUM-S1 clause 8.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Clause8 {
+    /// Neither difference exceeds δ.
+    Validated,
+    /// One of them does.
+    NotValidated,
+    /// The Monte Carlo ends scatter too much to tell: more trials are needed.
+    Undecided,
 }
 
 /// Several measurands (JCGM 102).
@@ -329,6 +355,12 @@ pub enum FindingKind {
     /// Clause 8: GUM is not validated at the digits reported. The statement uses Monte Carlo, unless it
     /// claims no coverage probability (see [`MeasurandResult::basis`]).
     NotValidated,
+    /// Clause 8: the ends of the Monte Carlo interval scatter too much for a verdict at the digits
+    /// reported. The statement uses the GUM result, which nothing refutes.
+    Undecided {
+        /// About how many trials would do.
+        trials: u64,
+    },
     /// No Monte Carlo was run and first order is doubtful.
     NeedsMonteCarlo,
     /// Mean or standard deviation do not exist or do not converge; quantiles are given.
@@ -362,13 +394,48 @@ pub enum FindingKind {
     },
     /// The model has a kink or a step at the estimates (abs, min, max, if, round …).
     Irregular {
-        /// The operation, in words.
-        what: String,
+        /// The operation.
+        what: Notice,
     },
     /// The divisor or the argument of a function is within a few u of a pole or of its domain's end.
     NearSingular {
-        /// The operation, in words.
-        what: String,
+        /// The operation.
+        what: Notice,
+    },
+    /// The distribution of a phase reaches the jump between -π and π.
+    PhaseWraps {
+        /// The operation.
+        what: Notice,
+    },
+    /// A rounding step is larger than the standard uncertainty of what is rounded, and Monte Carlo was
+    /// not run.
+    CoarseStep {
+        /// The operation.
+        what: Notice,
+    },
+    /// The argument of a table lies beyond its ends.
+    Extrapolated {
+        /// The operation.
+        what: Notice,
+    },
+    /// The data contradict the curve of a fit.
+    LackOfFit {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// The residuals of a fit are smaller than the stated uncertainties of its data let expect.
+    ResidualsTooSmall {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// A fit passes through all its points, so that its residuals tell no uncertainty.
+    ExactFit {
+        /// Name of the fit.
+        fit: String,
     },
     /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
     Asymmetric,
@@ -454,11 +521,24 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         monte_carlo: monte_carlo.as_ref(),
     };
     let findings = evidence.findings();
+    let run = monte_carlo.map(|McOutcome { run, .. }| run);
+    let decisions = decide::decisions(&decide::Evidence {
+        budget,
+        results: &results,
+        run: run.as_ref(),
+        threads: options.threads,
+    });
+    let mut figures = budget.figures.clone();
+    figures.extend(decisions.figures(budget));
+    figures.extend(tolerance::figures(budget, &results, run.as_ref()));
     Ok(Evaluation {
         results,
         joint,
-        run: monte_carlo.map(|McOutcome { run, .. }| run),
+        run,
         findings,
+        conformity: decisions.conformity,
+        detection: decisions.detection,
+        figures,
     })
 }
 

@@ -68,8 +68,8 @@ fn clash_with(other: &Unit, suspect: &Unit) -> Option<String> {
     }
     if (named("dB") || named("Np")) && other.dimension.is_none() {
         return Some(
-            "a level in dB is no plain ratio; convert it as in `10^(L / 20 'dB')` for amplitudes, \
-                     `10^(L / 10 'dB')` for powers"
+            "a level in dB is no plain ratio: the level of a ratio x of amplitudes is `20 'dB' * log10(x)`, \
+                     the ratio of a level L is `10^(L / 20 'dB')`; for powers write 10 in place of 20"
                 .to_owned(),
         );
     }

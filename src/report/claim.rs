@@ -37,6 +37,7 @@ pub(super) fn code(what: &Figure) -> &'static str {
             Part::Sensitivity => "input_sensitivity",
             Part::Contribution => "input_contribution",
         },
+        Figure::Named(_) => "figure",
     }
 }
 
@@ -47,6 +48,9 @@ pub(super) fn subject<'a>(report: &Report<'a>, what: &Figure) -> Option<&'a str>
         Figure::Input(index, _) => budget.inputs.get(*index).map(|input| input.name.as_str()),
         Figure::Component(index, _) => budget.components.get(*index).map(|c| c.name.as_str()),
         Figure::Correlation(with) => budget.measurands.get(*with).map(|m| m.name.as_str()),
+        Figure::Named(name) => (report.evaluation.figures.iter())
+            .find(|figure| figure.name == *name)
+            .map(|figure| figure.name.as_str()),
         _ => None,
     }
 }
@@ -79,6 +83,7 @@ pub(super) fn label(report: &Report<'_>, what: &Figure) -> String {
             Part::Sensitivity => "c",
             Part::Contribution => "|c|·u",
         },
+        Figure::Named(name) => return name.clone(),
     };
     match subject(report, what) {
         Some(name) if matches!(what, Figure::Correlation(_)) => format!("{plain} {name}"),
@@ -87,11 +92,12 @@ pub(super) fn label(report: &Report<'_>, what: &Figure) -> String {
     }
 }
 
-fn method(method: Method, language: Language) -> &'static str {
+pub(super) fn method(method: Method, language: Language) -> &'static str {
     match method {
         Method::Gum => language.word(Word::Gum),
         Method::SecondOrder => language.pick("GUM, second order", "GUM 二阶"),
         Method::MonteCarlo => language.word(Word::MonteCarlo),
+        Method::Analysis => "",
     }
 }
 
@@ -110,7 +116,9 @@ pub(super) fn last_place(comparison: &Comparison) -> i32 {
 /// A claimed or obtained number in words.
 pub(super) fn number(what: &Figure, value: f64, place: i32, language: Language) -> String {
     if matches!(what, Figure::Validated(_)) {
-        return if value > 0.5 {
+        return if value == 0.5 {
+            language.pick("undecided", "未定").to_string()
+        } else if value > 0.5 {
             language.pick("yes", "是").to_string()
         } else {
             language.pick("no", "否").to_string()
@@ -124,17 +132,37 @@ pub(super) fn number(what: &Figure, value: f64, place: i32, language: Language) 
     }
 }
 
-fn verdict(comparison: &Comparison, language: Language) -> String {
+fn verdict(comparison: &Comparison, claim: Option<&Claim>, language: Language) -> String {
     if comparison.obtained.is_none() {
         return NONE.to_string();
     }
+    let wants_digits = claim.is_some_and(|claim| claim.digits.is_some());
+    if let (true, Some(digits)) = (wants_digits, comparison.log_relative_error()) {
+        let verdict = match comparison.agrees() {
+            true => language.pick("agrees", "一致"),
+            false => language.pick("differs", "不一致"),
+        };
+        return language.pick(
+            format!("{verdict}, {digits:.1} digits"),
+            format!("{verdict}，{digits:.1} 位"),
+        );
+    }
     if comparison.agrees() {
-        return if comparison.is_near() {
-            language.pick("agrees", "一致")
+        let tolerance = comparison.claimed.tolerance;
+        let counts = matches!(comparison.claimed.what, Figure::Validated(_));
+        return if comparison.is_near() && tolerance > 0.0 && !counts {
+            let within = significant(tolerance, 2);
+            language.pick(
+                format!("agrees within {within}"),
+                format!("在 {within} 内一致"),
+            )
+        } else if comparison.is_near() {
+            language.pick("agrees", "一致").to_string()
         } else {
-            language.pick("agrees when rounded", "修约后一致")
-        }
-        .to_string();
+            language
+                .pick("agrees when rounded", "修约后一致")
+                .to_string()
+        };
     }
     match comparison.ratio() {
         Some(ratio) if (0.5..2.0).contains(&ratio) => {
@@ -247,6 +275,6 @@ fn push(report: &Report<'_>, table: &mut Table, comparison: &Comparison, before:
         claimed,
         method(comparison.method, l).into(),
         obtained.into(),
-        verdict(comparison, l).into(),
+        verdict(comparison, of(report, comparison), l).into(),
     ]);
 }

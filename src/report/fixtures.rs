@@ -6,16 +6,16 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use crate::budget::{
-    Budget, Certificate, Claim, ClaimedFigure, ClaimedMethod, Component, CoverageRule,
+    Budget, Certificate, Claim, ClaimedFigure, ClaimedMethod, Component, Confidence, CoverageRule,
     Evaluation as Kind, Figure, Group, Heading, Input, Law, Measurand, MonteCarloSettings, Owner,
     PROFILES, Remark, Term, Trials,
 };
 use crate::distribution::Distribution;
-use crate::model::{MeasurandSource, Model, Request, Role, Symbol, compile};
+use crate::model::{MeasurandSource, Model, Notice, Office, Request, Role, Symbol, compile};
 use crate::propagate::{
-    Basis, Consequence, Contribution, Coverage, CoverageBasis, Evaluation, Finding, FindingKind,
-    Freedom, Gum, Histogram, JointResult, MeasurandResult, MissingMoments, MonteCarlo, Regions,
-    Run, SecondOrder, Side, Validation,
+    Basis, Clause8, Consequence, Contribution, Coverage, CoverageBasis, Evaluation, Finding,
+    FindingKind, Freedom, Gum, Histogram, JointResult, MeasurandResult, MissingMoments, MonteCarlo,
+    Regions, Run, SecondOrder, Side, Validation,
 };
 use crate::quantity::{Dimension, Factor, Unit, UnitTable};
 
@@ -161,8 +161,15 @@ impl Bench {
                 .collect(),
             components: self.components,
             groups: Vec::new(),
+            following: Vec::new(),
+            conformity: Vec::new(),
+            detection: Vec::new(),
+            fits: Vec::new(),
             claims: Vec::new(),
+            analyses: Vec::new(),
+            figures: Vec::new(),
             remarks: Vec::new(),
+            chain: Default::default(),
         }
     }
 }
@@ -284,7 +291,12 @@ fn validations(delta: f64, d_low: f64, d_high: f64) -> [Validation; 2] {
         delta,
         d_low,
         d_high,
-        validated: d_low <= delta && d_high <= delta,
+        error: 0.01 * delta,
+        verdict: if d_low <= delta && d_high <= delta {
+            Clause8::Validated
+        } else {
+            Clause8::NotValidated
+        },
     })
 }
 
@@ -300,7 +312,10 @@ fn alone(gum: Gum) -> Evaluation {
         results: vec![result],
         joint: None,
         run: None,
+        conformity: Vec::new(),
+        detection: Vec::new(),
         findings: Vec::new(),
+        figures: Vec::new(),
     }
 }
 
@@ -367,6 +382,8 @@ pub(super) fn resistor() -> Case {
             figure(Figure::Lower, 9.998, 0.0005),
             figure(Figure::Upper, 10.001, 0.0005),
         ],
+        confidence: Confidence::High,
+        digits: None,
         reference: Some("Certificate 17".to_string()),
         note: None,
     });
@@ -659,7 +676,12 @@ pub(super) fn without_moments() -> Case {
             trials: 1_000_000,
         }),
         find(FindingKind::NearSingular {
-            what: "b (divisor) is 2.0 u from 0".to_string(),
+            what: Notice::Near {
+                argument: "b".to_string(),
+                role: Office::Divisor,
+                distance: 2.0,
+                edge: 0.0,
+            },
         }),
     ];
     Case { budget, evaluation }
@@ -784,7 +806,10 @@ pub(super) fn joint() -> Case {
     evaluation.findings.push(Finding {
         measurand: Some(1),
         kind: FindingKind::Irregular {
-            what: "abs(t) has a kink at 0".to_string(),
+            what: Notice::Kink {
+                call: "abs(t)".to_string(),
+                argument: "t".to_string(),
+            },
         },
     });
     Case { budget, evaluation }

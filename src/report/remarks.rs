@@ -2,6 +2,7 @@
 
 use crate::propagate::{Basis, EvaluationError, FindingKind, is_residue};
 
+use super::fits::test_figures;
 use super::language::Language;
 use super::number::{aligned, freedom, grouped, probability, significant};
 use super::{Report, moments};
@@ -45,6 +46,7 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::VanishingSensitivity { .. } => "vanishing_sensitivity",
         FindingKind::SecondOrderMatters { .. } => "second_order_matters",
         FindingKind::NotValidated => "not_validated",
+        FindingKind::Undecided { .. } => "undecided",
         FindingKind::NeedsMonteCarlo => "needs_monte_carlo",
         FindingKind::MomentsMissing { .. } => "moments_missing",
         FindingKind::FailedTrials { .. } => "failed_trials",
@@ -53,6 +55,12 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::FewDegreesOfFreedom { .. } => "few_degrees_of_freedom",
         FindingKind::Irregular { .. } => "irregular",
         FindingKind::NearSingular { .. } => "near_singular",
+        FindingKind::PhaseWraps { .. } => "phase_wraps",
+        FindingKind::CoarseStep { .. } => "coarse_step",
+        FindingKind::Extrapolated { .. } => "extrapolated",
+        FindingKind::LackOfFit { .. } => "lack_of_fit",
+        FindingKind::ResidualsTooSmall { .. } => "residuals_too_small",
+        FindingKind::ExactFit { .. } => "exact_fit",
         FindingKind::Asymmetric => "asymmetric",
     }
 }
@@ -86,6 +94,10 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             },
         ),
         FindingKind::NotValidated => not_validated_in_english(report, measurand),
+        FindingKind::Undecided { trials } => format!(
+            "Monte Carlo neither validates nor refutes the GUM result (JCGM 101, clause 8): with so many trials the ends of its interval are not known well enough to compare them to within δ. The statement uses the GUM result. For a verdict set trials to about {}, or take trials = \"adaptive\".",
+            grouped(*trials),
+        ),
         FindingKind::NeedsMonteCarlo => "First order is doubtful for this budget and Monte Carlo was not run, so nothing checks the result. Run the evaluation with Monte Carlo before using it.".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_english(reason),
         FindingKind::FailedTrials { failed, trials } => format!(
@@ -108,10 +120,35 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             significant(100.0 / (2.0 * dof).sqrt(), 2),
         ),
         FindingKind::Irregular { what } => format!(
-            "The model is not smooth at the estimates: {what}. A derivative says little there, so the GUM figures may be wrong. Rely on Monte Carlo."
+            "The model is not smooth at the estimates: {}. A derivative says little there, so the GUM figures may be wrong. Rely on Monte Carlo.",
+            what.english(),
         ),
         FindingKind::NearSingular { what } => format!(
-            "The model comes close to a point where it has no value: {what}. The output may have very long tails, and neither u nor k then describes it well. Look at the coverage interval, and check the uncertainty of that quantity."
+            "The model comes close to a point where it has no value: {}. The output may have very long tails, and neither u nor k then describes it well. Look at the coverage interval, and check the uncertainty of that quantity.",
+            what.english(),
+        ),
+        FindingKind::PhaseWraps { what } => format!(
+            "The distribution of a phase reaches the place where phases jump from π to -π: {}. Trials on both sides of it lie a full turn apart, so that Monte Carlo gives a u and an interval that mean nothing, and the GUM does not see the jump. Turn the reference of the phase by half a turn (multiply the complex quantity by -1, or both arguments of atan2) and add π to the result.",
+            what.english(),
+        ),
+        FindingKind::CoarseStep { what } => format!(
+            "The GUM method replaces a rounding by the straight line through its steps, which leaves out what the rounding does: {}. State the rounding as a component of its own (`step`), or run Monte Carlo, which rounds every trial.",
+            what.english(),
+        ),
+        FindingKind::Extrapolated { what } => format!(
+            "A table is used beyond its ends: {}. The last straight line of the table was continued, with no allowance for what the quantity does out there. Extend the table, or add a component for the extrapolation.",
+            what.english(),
+        ),
+        FindingKind::LackOfFit { fit, test } => format!(
+            "The curve of the fit {fit} does not describe its data ({}): deviations as large come about in fewer than one of twenty cases if curve and uncertainties are right. The uncertainties of its parameters do not cover that. Look at the residuals for a pattern or a single wrong point; try another formula, or state larger uncertainties of the data.",
+            test_figures(Language::English, test),
+        ),
+        FindingKind::ResidualsTooSmall { fit, test } => format!(
+            "The data of the fit {fit} lie closer to the curve than their stated uncertainties let expect ({}). Perhaps these are too large, or contain a part that all points have in common: state that as a component with common = true.",
+            test_figures(Language::English, test),
+        ),
+        FindingKind::ExactFit { fit } => format!(
+            "The curve of the fit {fit} passes through all its points, so that the residuals tell no uncertainty of its parameters: they enter as exact. State the uncertainties of the data."
         ),
         FindingKind::Asymmetric => "The distribution of the output is asymmetric, so that the probabilistically symmetric and the shortest coverage interval differ. Do not write the result as estimate ± U; state the interval.".to_string(),
     }
@@ -134,6 +171,10 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             },
         ),
         FindingKind::NotValidated => not_validated_in_chinese(report, measurand),
+        FindingKind::Undecided { trials } => format!(
+            "蒙特卡洛法既未验证也未否定 GUM 法的结果（JJF 1059.2、JCGM 101 第 8 章）：按现有试验次数，区间端点的数值误差太大，不足以与数值容差 δ 比较。证书用语采用 GUM 法的结果。如需结论，请将 trials 增至约 {}，或取 trials = \"adaptive\"。",
+            grouped(*trials),
+        ),
         FindingKind::NeedsMonteCarlo => "一阶近似对本评定是否适用存疑，而蒙特卡洛法未运行，结果没有得到验证。使用前应运行蒙特卡洛法。".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_chinese(reason),
         FindingKind::FailedTrials { failed, trials } => format!(
@@ -155,9 +196,33 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             freedom(*dof),
             significant(100.0 / (2.0 * dof).sqrt(), 2),
         ),
-        FindingKind::Irregular { what } => format!("测量模型在估计值处不光滑（{what}）。此处的导数意义不大，GUM 法的结果可能不正确，应以蒙特卡洛法为准。"),
+        FindingKind::Irregular { what } => format!("测量模型在估计值处不光滑（{}）。此处的导数意义不大，GUM 法的结果可能不正确，应以蒙特卡洛法为准。", what.chinese()),
         FindingKind::NearSingular { what } => format!(
-            "测量模型接近无定义的点（{what}，即距该点的标准不确定度倍数）。输出量的分布可能有很长的尾部，标准不确定度和包含因子不能很好地描述它。请看包含区间，并核对该量的不确定度。"
+            "测量模型接近无定义的点（{}，u 为该量的标准不确定度）。输出量的分布可能有很长的尾部，标准不确定度和包含因子不能很好地描述它。请看包含区间，并核对该量的不确定度。",
+            what.chinese(),
+        ),
+        FindingKind::PhaseWraps { what } => format!(
+            "相位的分布到达由 π 跳变到 -π 之处（{}）。跳变两侧的试验值相差一整周，蒙特卡洛法给出的标准不确定度和区间没有意义，GUM 法则反映不出跳变。请将相位的基准转过半周（复数量乘以 -1，或 atan2 的两个自变量都变号），再在结果上加 π。",
+            what.chinese(),
+        ),
+        FindingKind::CoarseStep { what } => format!(
+            "GUM 法以穿过各台阶的直线代替修约，没有计入修约本身的影响（{}）。请把修约作为一个分量给出（`step`），或运行蒙特卡洛法，它对每次试验值进行修约。",
+            what.chinese(),
+        ),
+        FindingKind::Extrapolated { what } => format!(
+            "表的使用超出其范围（{}）。计算时延长了表的最后一段直线，未计入该量在表外变化的影响。请扩展表的范围，或为外推增加一个分量。",
+            what.chinese(),
+        ),
+        FindingKind::LackOfFit { fit, test } => format!(
+            "拟合 {fit} 的曲线与数据不符（{}）：若曲线和不确定度正确，出现如此大偏差的机会不到二十分之一。参数的不确定度不包含这一影响。请检查残差是否有规律或个别点有误，改用其他公式，或给出更大的数据不确定度。",
+            test_figures(Language::Chinese, test),
+        ),
+        FindingKind::ResidualsTooSmall { fit, test } => format!(
+            "拟合 {fit} 的数据比所给不确定度的预期更接近曲线（{}）。不确定度可能偏大，或含有各点共有的部分：请将该部分写成 common = true 的分量。",
+            test_figures(Language::Chinese, test),
+        ),
+        FindingKind::ExactFit { fit } => format!(
+            "拟合 {fit} 的曲线通过所有数据点，残差不能给出参数的不确定度，参数按精确值处理。请给出数据的不确定度。"
         ),
         FindingKind::Asymmetric => "输出量的分布不对称，概率对称包含区间与最短包含区间不同。不要写成估计值 ± U 的形式，应给出包含区间。".to_string(),
     }

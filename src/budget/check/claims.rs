@@ -4,14 +4,16 @@ use super::register::Register;
 use super::{Checker, entries};
 use crate::budget::faults::{CLAIM, LIMITS, NOT_POSITIVE, UNKNOWN_NAME};
 use crate::budget::table::Stated;
-use crate::budget::tables::{ClaimTable, FileTable, InputClaimTable, MethodWord, ToleranceTable};
+use crate::budget::tables::{
+    ClaimTable, ConfidenceWord, FileTable, InputClaimTable, MethodWord, ToleranceTable,
+};
 use crate::budget::values::Amount;
-use crate::budget::{Claim, ClaimedFigure, ClaimedMethod, Figure, Part};
+use crate::budget::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 use crate::fault::{Fault, nearest};
 use crate::quantity::{Decimal, Unit};
 
 /// The keys of a claim that state a figure.
-const FIGURES: [&str; 13] = [
+const FIGURES: [&str; 14] = [
     "value",
     "u",
     "U",
@@ -25,7 +27,16 @@ const FIGURES: [&str; 13] = [
     "region",
     "validated",
     "inputs",
+    "figures",
 ];
+
+/// No double has more.
+const MOST_DIGITS: u64 = 17;
+
+/// The significant digits that a claim asks for.
+fn correct_digits(stated: &Stated<u64>) -> u8 {
+    stated.value.min(MOST_DIGITS) as u8
+}
 
 /// k = 2 is meant as 2.00.
 const COARSEST_K: f64 = 0.005;
@@ -47,10 +58,14 @@ impl Reading<'_> {
     }
 
     fn push(&mut self, what: Figure, value: f64, half_digit: f64, stated: Option<f64>) {
+        let by_digits = self.table.digits.as_ref().map(|digits| {
+            let scale = if value == 0.0 { 1.0 } else { value.abs() };
+            scale * 10f64.powi(-i32::from(correct_digits(digits)))
+        });
         self.figures.push(ClaimedFigure {
             what,
             value,
-            tolerance: stated.unwrap_or(half_digit),
+            tolerance: stated.or(by_digits).unwrap_or(half_digit),
         });
     }
 }
@@ -82,21 +97,32 @@ impl Checker<'_> {
                     .help(format!("add at least one of {}", FIGURES.join(", "))),
             );
         }
-        let measurand = self.claimed(&table.measurand, &stated.span, file)?;
-        let (name, entry) = entries(&file.measurand).get(measurand)?;
-        let unit = self.unit(&entry.value.unit)?;
+        let about_analyses = table.measurand.is_none()
+            && table
+                .present
+                .iter()
+                .all(|(key, _)| *key == "figures" || !FIGURES.contains(key));
+        let measurand = if about_analyses {
+            0
+        } else {
+            self.claimed(&table.measurand, &stated.span)?
+        };
+        let (name, source) = self.results.get(measurand).cloned()?;
+        let (_, entry) = entries(&file.measurand).get(source)?;
+        let unit = self.measurand_unit(&name, &entry.value.unit)?;
         let mut reading = Reading {
             table,
-            name,
+            name: &name,
             unit: &unit,
             figures: Vec::new(),
         };
         self.claimed_amounts(&mut reading);
         self.claimed_numbers(&mut reading);
         self.claimed_limits(&mut reading);
-        self.correlations_claimed(&mut reading, file);
+        self.correlations_claimed(&mut reading);
         self.verdict(&mut reading);
         self.input_figures(&mut reading, register);
+        self.named_figures(&mut reading);
         Some(Claim {
             measurand,
             method: match table.method.as_ref().map(|word| word.value) {
@@ -106,6 +132,12 @@ impl Checker<'_> {
                 Some(MethodWord::MonteCarlo) => ClaimedMethod::MonteCarlo,
             },
             figures: reading.figures,
+            confidence: match table.confidence.as_ref().map(|word| word.value) {
+                None | Some(ConfidenceWord::High) => Confidence::High,
+                Some(ConfidenceWord::Medium) => Confidence::Medium,
+                Some(ConfidenceWord::Low) => Confidence::Low,
+            },
+            digits: table.digits.as_ref().map(correct_digits),
             reference: table.reference.as_ref().map(|text| text.value.clone()),
             note: table.note.as_ref().map(|text| text.value.clone()),
         })
@@ -242,14 +274,14 @@ impl Checker<'_> {
         }
     }
 
-    fn correlations_claimed(&mut self, reading: &mut Reading<'_>, file: &FileTable) {
+    fn correlations_claimed(&mut self, reading: &mut Reading<'_>) {
         for (name, r) in entries(&reading.table.correlation) {
             let wanted = r.map(|_| name.clone());
             let wanted = Some(Stated {
                 span: r.key.clone(),
                 ..wanted
             });
-            if let Some(with) = self.claimed(&wanted, &r.key, file) {
+            if let Some(with) = self.claimed(&wanted, &r.key) {
                 let stated = reading.tolerance(|t| &t.correlation);
                 reading.push(
                     Figure::Correlation(with),
@@ -268,7 +300,8 @@ impl Checker<'_> {
         match (&stated.value.digits, &stated.value.verdict) {
             (Some(digits), Some(verdict)) if matches!(digits.value, 1 | 2) => {
                 let what = Figure::Validated(if digits.value == 1 { 1 } else { 2 });
-                reading.push(what, f64::from(u8::from(verdict.value)), 0.5, None);
+                // An undecided validation, one half, agrees with neither verdict.
+                reading.push(what, f64::from(u8::from(verdict.value)), 0.25, None);
             }
             _ => self.faults.push(
                 Fault::new(
@@ -350,6 +383,41 @@ impl Checker<'_> {
         }
     }
 
+    fn named_figures(&mut self, reading: &mut Reading<'_>) {
+        for (name, stated) in entries(&reading.table.figures) {
+            let known = || {
+                let found = self.figures.iter().map(|figure| figure.name.as_str());
+                found.chain(self.awaited_figures.iter().map(String::as_str))
+            };
+            if known().any(|figure| figure == name) {
+                let tolerance = reading.tolerance(|t| &t.figures);
+                let half = self.half_digit(stated);
+                reading.push(Figure::Named(name.clone()), stated.value, half, tolerance);
+                continue;
+            }
+            if self.scatters.iter().any(|fit| fit.withholds(name)) {
+                continue;
+            }
+            let help = match nearest(name, known()) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None if known().next().is_none() => {
+                    "the file has no analysis (fit, groups of readings, conformity …) with figures"
+                        .into()
+                }
+                None => format!("figures: {}", known().collect::<Vec<_>>().join(", ")),
+            };
+            self.faults.push(
+                Fault::new(
+                    UNKNOWN_NAME,
+                    stated.key.clone(),
+                    format!("there is no figure \"{name}\""),
+                )
+                .label("not known")
+                .help(help),
+            );
+        }
+    }
+
     fn unknown_input(&mut self, name: &str, stated: &Stated<InputClaimTable>, register: &Register) {
         let known = register
             .inputs
@@ -409,16 +477,13 @@ impl Checker<'_> {
     }
 
     /// Which measurand a claim is about.
-    fn claimed(
+    pub(super) fn claimed(
         &mut self,
         stated: &Option<Stated<String>>,
         place: &std::ops::Range<usize>,
-        file: &FileTable,
     ) -> Option<usize> {
-        let names: Vec<&str> = entries(&file.measurand)
-            .iter()
-            .map(|(name, _)| name.as_str())
-            .collect();
+        let names: Vec<String> = self.results.iter().map(|(name, _)| name.clone()).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
         match stated {
             None if names.len() == 1 => Some(0),
             // Without measurands there is a fault about that already.

@@ -1,6 +1,7 @@
 //! Measurands, and the way into the model language.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::register::Register;
 use super::{Checker, entries};
@@ -26,15 +27,37 @@ impl MeasurandTable {
 }
 
 /// The words about the measurands.
-pub(super) fn measurands(file: &FileTable) -> Vec<Measurand> {
-    let word = |stated: &Option<Stated<String>>| stated.as_ref().map(|text| text.value.clone());
-    entries(&file.measurand)
+pub(super) fn measurands(file: &FileTable, results: &[(String, usize)]) -> Vec<Measurand> {
+    let stated = entries(&file.measurand);
+    let description = |source: usize| {
+        let (_, entry) = stated.get(source)?;
+        let text = entry.value.description.as_ref()?;
+        Some(text.value.clone())
+    };
+    results
         .iter()
-        .map(|(name, entry)| Measurand {
+        .map(|(name, source)| Measurand {
             name: name.clone(),
-            description: word(&entry.value.description),
+            description: description(*source),
         })
         .collect()
+}
+
+/// The results by name, with the entry of the file that each belongs to. As long as there is no model,
+/// nobody knows which measurands are vectors.
+pub(super) fn results(file: &FileTable, model: Option<&Model>) -> Vec<(String, usize)> {
+    match model {
+        Some(model) => model
+            .outputs()
+            .iter()
+            .map(|output| (output.name.clone(), output.source))
+            .collect(),
+        None => entries(&file.measurand)
+            .iter()
+            .enumerate()
+            .map(|(index, (name, _))| (name.clone(), index))
+            .collect(),
+    }
 }
 
 impl Checker<'_> {
@@ -48,7 +71,8 @@ impl Checker<'_> {
         let stated = entries(&file.measurand);
         if stated.is_empty() {
             let refused = file.refused && file.present.iter().any(|(key, _)| *key == "measurand");
-            if refused || file.unknown {
+            // A fit that was refused would have given the measurands.
+            if refused || file.unknown || file.present.iter().any(|(key, _)| *key == "fit") {
                 return None;
             }
             let end = self.text.trim_end().len();
@@ -60,7 +84,7 @@ impl Checker<'_> {
         }
         let units: Vec<_> = stated
             .iter()
-            .map(|(_, entry)| self.unit(&entry.value.unit))
+            .map(|(name, entry)| self.measurand_unit(name, &entry.value.unit))
             .collect();
         let unread = register.entries.iter().any(|entry| entry.unit.is_none())
             || units.iter().any(Option::is_none)
@@ -77,8 +101,15 @@ impl Checker<'_> {
             .zip(&units)
             .map(|((name, entry), unit)| MeasurandSource {
                 name,
-                model: entry.value.model.as_ref().map(|text| text.value.as_str()),
-                unit: entry.value.unit.as_ref().and(unit.clone()),
+                model: match &entry.value.model {
+                    Some(text) => Some(text.value.as_str()),
+                    // A measurand that is called like a parameter of a fit reports it.
+                    None => self.parameter_unit(name).map(|_| name.as_str()),
+                },
+                unit: match self.parameter_unit(name) {
+                    Some(_) => unit.clone(),
+                    None => entry.value.unit.as_ref().and(unit.clone()),
+                },
             })
             .collect();
         let symbols = symbols(constants, register);
@@ -93,7 +124,9 @@ impl Checker<'_> {
             Ok(model) => {
                 if !self.hidden_names {
                     self.unused(file, &model, constants.len(), register);
+                    self.unused_fits(file, &model, constants.len(), register);
                 }
+                self.scaled_twice(&model);
                 self.no_inputs(&model, register);
                 self.undefined(&model, file, constants.len(), register);
                 Some(model)
@@ -144,7 +177,7 @@ impl Checker<'_> {
         }
     }
 
-    fn in_formula(&self, fault: Fault, text: Option<&Stated<String>>) -> Fault {
+    pub(super) fn in_formula(&self, fault: Fault, text: Option<&Stated<String>>) -> Fault {
         let Some(text) = text else {
             return fault.moved(|_| 0..0);
         };
@@ -170,6 +203,17 @@ impl Checker<'_> {
             .entries
             .get(index - constants)
             .map_or(0..0, |entry| entry.place.clone())
+    }
+
+    /// Remarks on formulas that bring their value to percent by a factor, which the unit does again.
+    fn scaled_twice(&mut self, model: &Model) {
+        for output in model.outputs().iter().filter(|output| output.scaled_twice) {
+            let (name, unit) = (&output.name, &output.unit.symbol);
+            self.remark(
+                format!("The formula of {name} gives a pure number, which is converted to {unit} because that is the unit of {name}. It also holds this conversion as a factor of its own. If the factor is meant to make the number one in {unit}, remove it: units are converted without it."),
+                format!("{name} 的公式给出纯数，程序按 {name} 的单位将其换算为 {unit}，而公式中又含有同一换算因子。如果该因子是为了换算成 {unit}，请将其去掉，单位由程序换算。"),
+            );
+        }
     }
 
     /// Reports a budget in which nothing is uncertain.
@@ -216,7 +260,16 @@ impl Checker<'_> {
     }
 
     fn unused(&mut self, file: &FileTable, model: &Model, constants: usize, register: &Register) {
+        let parameters = constants..constants + self.parameters.len();
         for index in model.unused_symbols() {
+            // Of a fit, all parameters come together.
+            if parameters.contains(&index) {
+                continue;
+            }
+            let constant = entries(&file.constant).get(index);
+            if constant.is_some_and(|(name, _)| self.used_by_fits.contains(name)) {
+                continue;
+            }
             let place = self.symbol_place(index, file, constants, register);
             let (kind, name) = if index < constants {
                 (
@@ -267,9 +320,14 @@ fn symbols(constants: &[Constant], register: &Register) -> Vec<Symbol> {
         Some(Symbol {
             name: entry.name.clone(),
             unit: entry.unit.clone()?,
-            role: match entry.vector {
-                true => Role::InputVector(entry.places.clone()),
-                false => Role::Input(entry.places.start),
+            role: match (&entry.formula, entry.vector) {
+                (Some(formula), _) => Role::Result {
+                    model: Arc::clone(&formula.model),
+                    output: formula.output,
+                    places: formula.places.clone(),
+                },
+                (None, true) => Role::InputVector(entry.places.clone()),
+                (None, false) => Role::Input(entry.places.start),
             },
         })
     });

@@ -4,21 +4,25 @@ use std::ops::Range;
 
 use super::draft::{Context, Draft, Location, show};
 use super::register::{InputEntry, Register};
-use super::type_a::{all_equal, mean_and_squares};
+use super::type_a::all_equal;
 use super::ways::{Way, expectation, locates};
 use super::{Checker, entries};
 use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS};
 use crate::budget::table::Stated;
 use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
-use crate::budget::{Input, Owner};
+use crate::budget::{Follows, Input, Owner};
 use crate::fault::Fault;
 use crate::quantity::Unit;
 
 /// A reason for doubt of one input.
 pub(super) enum Piece {
     Own(Box<Draft>, Option<Vec<f64>>),
-    Shared { component: usize, coefficient: f64 },
+    Shared {
+        component: usize,
+        coefficient: f64,
+        follows: Option<Follows>,
+    },
 }
 
 /// A component of the file, and the way it is stated.
@@ -38,6 +42,10 @@ impl Checker<'_> {
     ) {
         for (name, stated) in entries(&file.input) {
             let table = &stated.value;
+            if let Some(from) = &table.from {
+                self.taken(name, stated, from, register);
+                continue;
+            }
             // A misspelt or unreadable `unit` must not be judged as dimension one.
             let hidden = table.unknown || table.present.iter().any(|(key, _)| *key == "unit");
             let unit = match &table.unit {
@@ -49,7 +57,8 @@ impl Checker<'_> {
                 .values
                 .as_ref()
                 .map(|list| list.value.iter().map(|value| value.value).collect());
-            let values: Option<Vec<f64>> = values;
+            let values: Option<Vec<f64>> = values.or_else(|| self.element_means(table));
+            let vector = values.is_some();
             let count = values.as_ref().map_or(1, Vec::len);
             for element in 0..count {
                 register.inputs.push(blank(
@@ -71,8 +80,9 @@ impl Checker<'_> {
                 name: name.clone(),
                 place: stated.key.clone(),
                 places: start..start + count,
-                vector: table.values.is_some(),
+                vector,
                 unit,
+                formula: None,
             });
         }
     }
@@ -245,11 +255,16 @@ impl Checker<'_> {
         }
         if found.is_empty() {
             // Readings that tell the scatter of a single one still tell where the quantity is.
-            for entry in list.iter().filter(|entry| entry.way == Way::Readings) {
-                let numbers = self.numbers(entry.table.readings.as_ref()?)?;
-                if !numbers.is_empty() {
-                    found.push((mean_and_squares(&numbers).0, entry.place.clone()));
-                }
+            let of_readings = [Way::Readings, Way::Groups, Way::GroupSummary];
+            for entry in list.iter().filter(|entry| of_readings.contains(&entry.way)) {
+                let context = Context {
+                    owner: name,
+                    value: None,
+                    unit,
+                    place: entry.place.clone(),
+                };
+                let mean = self.mean_of_readings(entry.table, entry.way, &context)?;
+                found.push((mean, entry.place.clone()));
             }
         }
         match found.as_slice() {
@@ -266,6 +281,21 @@ impl Checker<'_> {
                     .help("add `value`: the estimate that is reported"),
             ),
         }
+    }
+
+    /// The mean of readings, whatever they are evaluated for.
+    fn mean_of_readings(
+        &mut self,
+        table: &ComponentTable,
+        way: Way,
+        context: &Context<'_>,
+    ) -> Option<f64> {
+        let of_mean = ComponentTable {
+            of: None,
+            ..table.clone()
+        };
+        let location = self.draft(&of_mean, way, context)?.location;
+        expectation(location)
     }
 
     /// The common value of readings that do not scatter beside a stated resolution: their scatter is
@@ -304,7 +334,7 @@ impl Checker<'_> {
             );
             return Some(Vec::new());
         }
-        let draft = self.draft(entry.table, entry.way, context)?;
+        let draft = self.draft_following(entry.table, entry.way, context)?;
         let readings = match &entry.table.readings {
             Some(readings) if entry.table.pooled.is_none() => self.numbers(readings),
             _ => None,
@@ -397,7 +427,11 @@ impl Checker<'_> {
                 Piece::Shared {
                     component,
                     coefficient,
-                } => register.act(place, component, coefficient),
+                    follows,
+                } => {
+                    register.follow(place, component, coefficient, follows);
+                    register.act(place, component, coefficient);
+                }
             }
         }
         self.label_uniquely(name, &mut drafts);
@@ -406,7 +440,9 @@ impl Checker<'_> {
                 .iter()
                 .find(|(place, _)| *place == draft.place)
                 .and_then(|(_, n)| n.clone());
+            let follows = draft.follows;
             let component = register.add(Owner::Input(place), name, unit, draft, alone);
+            register.follow(place, component, 1.0, follows);
             register.act(place, component, 1.0);
             if let Some(numbers) = numbers {
                 register.readings.insert(component, numbers);
@@ -458,7 +494,13 @@ pub(super) fn element_name(name: &str, element: usize) -> String {
     format!("{name}[{}]", element + 1)
 }
 
-fn blank(name: &str, table: &InputTable, unit: Option<&Unit>, element: Option<usize>) -> Input {
+/// An input of which nothing is known yet but its words.
+pub(super) fn blank(
+    name: &str,
+    table: &InputTable,
+    unit: Option<&Unit>,
+    element: Option<usize>,
+) -> Input {
     Input {
         name: element.map_or_else(|| name.to_string(), |element| element_name(name, element)),
         description: table.description.as_ref().map(|text| text.value.clone()),

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::draft::Draft;
-use crate::budget::{Component, Input, Owner, Term};
+use super::draft::{Draft, Kind};
+use super::results::{Formula, Taken};
+use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
 use crate::distribution::Distribution;
 use crate::quantity::Unit;
 
@@ -19,6 +20,8 @@ pub(super) struct InputEntry {
     pub vector: bool,
     /// Nothing when the unit was refused.
     pub unit: Option<Unit>,
+    /// What stands behind the result of another budget.
+    pub formula: Option<Formula>,
 }
 
 /// One `[source.S]`.
@@ -37,10 +40,20 @@ pub(super) struct Register {
     pub components: Vec<Component>,
     pub entries: Vec<InputEntry>,
     pub sources: Vec<SourceEntry>,
+    /// Results of other files.
+    pub taken: Vec<Taken>,
     /// Readings behind a Type A component.
     pub readings: HashMap<usize, Vec<f64>>,
+    /// Analyses of readings.
+    pub analyses: Vec<Analysis>,
+    /// Elements of vectors that share one standard deviation of finite ν.
+    pub families: Vec<Vec<usize>>,
+    /// Components that are the scatter of data about a fit: the number of the fit, the component.
+    pub scatter: Vec<(usize, usize)>,
     /// Inputs whose uncertainty a covariance matrix states.
     pub by_matrix: Vec<String>,
+    /// Components whose effect follows the estimate of an input.
+    pub following: Vec<Following>,
     /// Whether something was refused, so that correlations of it cannot be checked.
     pub incomplete: bool,
 }
@@ -60,6 +73,15 @@ impl Register {
         } else {
             format!("{owner_name}.{}", draft.label)
         };
+        let analysed = draft.findings.into_iter().map(|found| Analysis {
+            name: name.clone(),
+            unit: unit.clone(),
+            found,
+        });
+        self.analyses.extend(analysed);
+        if let Kind::Scatter(fit) = draft.kind {
+            self.scatter.push((fit, self.components.len()));
+        }
         self.components.push(Component {
             name,
             label: draft.label,
@@ -74,6 +96,44 @@ impl Register {
             reference: draft.reference,
         });
         self.components.len() - 1
+    }
+
+    /// Notes how a component that is about to act on an input follows its estimate. Of several actions of
+    /// one cause, those in proportion are a share of the sum.
+    pub fn follow(
+        &mut self,
+        place: usize,
+        component: usize,
+        coefficient: f64,
+        follows: Option<Follows>,
+    ) {
+        let share_of = |rule: Option<Follows>| match rule {
+            Some(Follows::Proportion { share }) => share,
+            _ => 0.0,
+        };
+        let terms = self.inputs.get(place).map_or(&[][..], |input| &input.terms);
+        let before = terms.iter().find(|term| term.component == component);
+        let known = self
+            .following
+            .iter()
+            .position(|f| f.input == place && f.component == component);
+        let rule = match before {
+            None => follows,
+            Some(term) => {
+                let earlier = known.map(|index| self.following[index].rule);
+                let moving = term.coefficient * share_of(earlier) + coefficient * share_of(follows);
+                let share = moving / (term.coefficient + coefficient);
+                Some(Follows::Proportion { share }).filter(|_| share.is_finite() && share != 0.0)
+            }
+        };
+        if let Some(index) = known {
+            self.following.remove(index);
+        }
+        self.following.extend(rule.map(|rule| Following {
+            input: place,
+            component,
+            rule,
+        }));
     }
 
     /// Lets a component act on an input; several actions of one cause add up.
@@ -92,6 +152,12 @@ impl Register {
                 coefficient,
             }),
         }
+    }
+
+    /// What an input of this name takes over from another file.
+    pub fn taken_as(&self, name: &str) -> Option<&Taken> {
+        let named = |taken: &&Taken| self.entries[taken.entry].name == name;
+        self.taken.iter().find(named)
     }
 
     /// The components behind a name: an input, an element, a source, or a component.

@@ -5,10 +5,10 @@ use super::draft::{Context, Draft, Location, show};
 use super::inputs::{Entry, Piece};
 use super::register::{Register, SourceEntry};
 use super::ways::Way;
-use crate::budget::Owner;
 use crate::budget::faults::{TWO_ESTIMATES, UNIT_CLASH, UNKNOWN_NAME, UNUSED, VECTOR};
 use crate::budget::table::Stated;
 use crate::budget::tables::SourceTable;
+use crate::budget::{Follows, Owner};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 
@@ -172,12 +172,15 @@ impl Checker<'_> {
         source.used = true;
         let (unit, components) = (source.unit.clone()?, source.components.clone());
         let coefficient = self.coefficient(entry, context, &unit)?;
+        let relative = entry.table.relative.as_ref().is_some_and(|r| r.value);
+        let follows = relative.then_some(Follows::Proportion { share: 1.0 });
         Some(
             components
                 .into_iter()
                 .map(|component| Piece::Shared {
                     component,
                     coefficient,
+                    follows,
                 })
                 .collect(),
         )

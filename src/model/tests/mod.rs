@@ -1,6 +1,7 @@
 //! Tests of the model language as its users see it.
 
 mod derivatives;
+mod library;
 mod messages;
 mod random;
 mod values;

@@ -60,7 +60,8 @@ impl Layout {
         batches.start * self.chunks_per_batch()..batches.end * self.chunks_per_batch()
     }
 
-    fn trials_in(self, chunk: u64) -> usize {
+    /// Trials in a chunk.
+    pub(super) fn trials_in(self, chunk: u64) -> usize {
         let before = (chunk % self.chunks_per_batch()) * CHUNK;
         // At most CHUNK, so that the conversion is exact.
         (self.batch - before).min(CHUNK) as usize

@@ -10,6 +10,7 @@
 //! | [`interval`] | median, symmetric and shortest coverage interval |
 //! | [`existence`] | whether the moments exist at all, judged from the trials |
 //! | [`heavy`] | components that are known to leave the output without moments |
+//! | [`fractions`] | fractions of the trials between given limits |
 //! | [`adaptive`] | how many trials |
 //! | [`region`] | covariance and coverage regions of several outputs |
 
@@ -18,6 +19,7 @@ mod budget_source;
 mod engine;
 mod existence;
 mod factor;
+mod fractions;
 mod heavy;
 mod histogram;
 mod interval;
@@ -34,9 +36,11 @@ use nalgebra::DMatrix;
 use super::{EvaluationError, MonteCarlo, Regions, Run};
 use crate::budget::{Budget, MonteCarloSettings, Trials};
 use adaptive::Target;
+pub(crate) use adaptive::{batch_size, least_batch};
 use engine::{Layout, Source, simulate};
 pub use existence::{Consequence, MissingMoments, Side};
 use existence::{Tail, Verdict};
+pub(crate) use fractions::fractions;
 use heavy::HeavyComponent;
 use interval::{Ordered, Ranks};
 use moments::{Moments, Pivot};

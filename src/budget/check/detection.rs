@@ -1,0 +1,113 @@
+//! `[detection]`: what decision threshold and detection limit need to know.
+
+use super::register::Register;
+use super::{Checker, entries};
+use crate::budget::Detection;
+use crate::budget::faults::{DETECTION, MISSING_KEY, NOT_POSITIVE};
+use crate::budget::table::Stated;
+use crate::budget::tables::{DetectionTable, FileTable};
+use crate::fault::Fault;
+
+/// α and β where the file states none (ISO 11929).
+const USUAL: f64 = 0.05;
+
+impl Checker<'_> {
+    /// Reads `[detection]`.
+    pub(super) fn detection(&mut self, file: &FileTable, register: &Register) -> Vec<Detection> {
+        let stated = file.detection.as_ref().map_or(&[][..], |all| &all.value.0);
+        let mut found: Vec<Detection> = Vec::new();
+        for one in stated {
+            let Some(detection) = self.limits_of(one, file, register) else {
+                continue;
+            };
+            if found.iter().any(|d| d.measurand == detection.measurand) {
+                self.faults.push(
+                    Fault::new(
+                        DETECTION,
+                        one.span.clone(),
+                        "the characteristic limits of this measurand are asked for twice",
+                    )
+                    .label("second time")
+                    .help("leave out one [[detection]]"),
+                );
+            }
+            if let Some((name, _)) = entries(&file.measurand).get(detection.measurand) {
+                let names = Detection::FIGURES.map(|figure| format!("{name}.{figure}"));
+                self.awaited_figures.extend(names);
+            }
+            found.push(detection);
+        }
+        found
+    }
+
+    fn limits_of(
+        &mut self,
+        stated: &Stated<DetectionTable>,
+        file: &FileTable,
+        register: &Register,
+    ) -> Option<Detection> {
+        let table = &stated.value;
+        let measurand = self.decided(&table.measurand, &stated.span, file, "detection");
+        let gross = match &table.gross {
+            Some(gross) => self.carrier(gross, register),
+            None if table.refused => None,
+            None => self.refuse(
+                Fault::new(
+                    MISSING_KEY,
+                    stated.span.clone(),
+                    "[detection] does not say which input carries the value",
+                )
+                .label("`gross` is missing")
+                .help("name the input that changes when the measurand does: gross = \"n_g\""),
+            ),
+        };
+        let alpha = self.error_probability(&table.alpha);
+        let beta = self.error_probability(&table.beta);
+        let coverage = match &table.coverage_probability {
+            Some(p) => self.probability(p),
+            None => Some(self.conventions.coverage_probability),
+        };
+        let measurand = measurand?;
+        let (name, entry) = entries(&file.measurand).get(measurand)?;
+        let unit = self.unit(&entry.value.unit)?;
+        let guideline = match &table.guideline {
+            Some(amount) if amount.value.number <= 0.0 => self.refuse(
+                Fault::new(
+                    NOT_POSITIVE,
+                    amount.span.clone(),
+                    "the guideline value is not positive",
+                )
+                .label("must be greater than zero"),
+            ),
+            Some(amount) => self.quantity(amount, &unit, name).map(Some),
+            None => Some(None),
+        };
+        Some(Detection {
+            measurand,
+            gross: gross?,
+            alpha: alpha?,
+            beta: beta?,
+            coverage_probability: coverage?,
+            guideline: guideline?,
+        })
+    }
+
+    fn error_probability(&mut self, stated: &Option<Stated<f64>>) -> Option<f64> {
+        let Some(stated) = stated else {
+            return Some(USUAL);
+        };
+        let p = self.probability(stated)?;
+        if p < 0.5 {
+            return Some(p);
+        }
+        self.refuse(
+            Fault::new(
+                DETECTION,
+                stated.span.clone(),
+                format!("a wrong decision with probability {p}"),
+            )
+            .label("expected less than 0.5")
+            .help("state the probability of a wrong decision, such as 0.05"),
+        )
+    }
+}

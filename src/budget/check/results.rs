@@ -1,0 +1,425 @@
+//! `from = { … }`: an input that is the result of another budget, or a saved one.
+
+use std::io::ErrorKind;
+use std::ops::Range;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use super::Checker;
+use super::inputs::blank;
+use super::register::{InputEntry, Register};
+use crate::budget::Loaded;
+use crate::budget::faults::{
+    FROM, FROM_CIRCLE, FROM_MEASURAND, FROM_REFUSED, SAVED_RESULT, UNIT_CLASH, UNREADABLE_FILE,
+};
+use crate::budget::saved::SavedResults;
+use crate::budget::shelf::Missing;
+use crate::budget::table::Stated;
+use crate::budget::tables::{FromTable, InputTable};
+use crate::fault::{Fault, nearest};
+use crate::model::Model;
+use crate::quantity::Unit;
+
+/// What an input takes over.
+#[derive(Debug, Clone)]
+pub(super) struct Taken {
+    /// Index into the entries of the register.
+    pub entry: usize,
+    pub result: Result,
+    /// The file as the user names it.
+    pub file: String,
+    /// Heading that the user wants for what comes with it.
+    pub group: Option<String>,
+    pub place: Range<usize>,
+}
+
+impl Taken {
+    /// The fault of a correlation that is stated for such an input.
+    pub(super) fn not_to_be_correlated(&self, name: &Stated<String>) -> Fault {
+        Fault::new(
+            FROM,
+            name.span.clone(),
+            format!("{} is a result of {}, and no correlation of it can be stated", name.value, self.file),
+        )
+        .label("what it has in common with others follows from its components")
+        .related(self.place.clone(), "the other file")
+        .help("use a common budget or a common [source] in the other files; for a bare coefficient state the result as an input with `value` and `u`")
+    }
+}
+
+/// A result of another file.
+#[derive(Debug, Clone)]
+pub(super) enum Result {
+    Budget {
+        loaded: Rc<Loaded>,
+        row: usize,
+        output: usize,
+    },
+    Saved {
+        saved: Rc<SavedResults>,
+        result: usize,
+    },
+}
+
+/// The formula behind an input, with the places of its own inputs.
+#[derive(Debug, Clone)]
+pub(super) struct Formula {
+    pub model: Arc<Model>,
+    pub output: usize,
+    pub places: Vec<usize>,
+}
+
+/// One thing to choose from in another file.
+struct Candidate<'a> {
+    row: Option<&'a str>,
+    measurand: &'a str,
+}
+
+impl Checker<'_> {
+    /// Reads an input that is a result of another file.
+    pub(super) fn taken(
+        &mut self,
+        name: &str,
+        stated: &Stated<InputTable>,
+        from: &Stated<FromTable>,
+        register: &mut Register,
+    ) {
+        let table = &stated.value;
+        let start = register.inputs.len();
+        let found = self.from(name, table, from);
+        register.incomplete |= found.is_none();
+        let mut unit = None;
+        let mut end = start;
+        if let Some((result, file, found)) = found {
+            if let Result::Saved { saved, result } = &result {
+                let saved = &saved.results[*result];
+                let conversion = saved.unit.conversion_to(&found);
+                let mut input = blank(name, table, Some(&found), None);
+                input.estimate = conversion.map_or(f64::NAN, |c| c.apply(saved.estimate));
+                register.inputs.push(input);
+                end = start + 1;
+            }
+            register.taken.push(Taken {
+                entry: register.entries.len(),
+                result,
+                file,
+                group: table.group.as_ref().map(|text| text.value.clone()),
+                place: from.span.clone(),
+            });
+            unit = Some(found);
+        }
+        register.entries.push(InputEntry {
+            name: name.to_string(),
+            place: stated.key.clone(),
+            places: start..end,
+            vector: false,
+            unit,
+            formula: None,
+        });
+    }
+
+    /// The result, its file as the user names it, and the unit of the input.
+    fn from(
+        &mut self,
+        name: &str,
+        table: &InputTable,
+        from: &Stated<FromTable>,
+    ) -> Option<(Result, String, Unit)> {
+        let alone = self.nothing_beside(name, table, from);
+        let hidden = table.unit.is_none() && table.present.iter().any(|(key, _)| *key == "unit");
+        if from.value.refused {
+            return None;
+        }
+        let (result, file) = match (&from.value.budget, &from.value.result) {
+            (Some(budget), None) => (self.from_budget(budget, from)?, budget.value.clone()),
+            (None, Some(result)) => (self.from_saved(result, from)?, result.value.clone()),
+            (budget, _) => {
+                let fault = Fault::new(
+                    FROM,
+                    from.span.clone(),
+                    match budget {
+                        Some(_) => format!("{name} comes from two files"),
+                        None => format!("it is not said from which file {name} comes"),
+                    },
+                );
+                return self.refuse(
+                    fault
+                        .label("expected `budget` or `result`")
+                        .help("write from = { budget = \"other.toml\", measurand = \"Y\" }, or result = \"saved.json\" for a saved result"),
+                );
+            }
+        };
+        let theirs = match &result {
+            Result::Budget {
+                loaded,
+                row,
+                output,
+            } => loaded.rows[*row].budget.model.outputs()[*output]
+                .unit
+                .clone(),
+            Result::Saved { saved, result } => saved.results[*result].unit.clone(),
+        };
+        let unit = match &table.unit {
+            None if hidden => return None,
+            None => theirs.clone(),
+            Some(text) => {
+                let unit = self.unit(&table.unit)?;
+                let fits =
+                    theirs.dimension == unit.dimension && theirs.is_point() == unit.is_point();
+                if !fits {
+                    return self.refuse(
+                        Fault::new(
+                            UNIT_CLASH,
+                            text.span.clone(),
+                            format!(
+                                "the result in {file} is in {}, {name} in {}",
+                                theirs.symbol, unit.symbol
+                            ),
+                        )
+                        .label("units do not fit")
+                        .related(from.span.clone(), format!("a result in {}", theirs.symbol))
+                        .help(format!(
+                            "write unit = \"{}\", or leave the unit out",
+                            theirs.symbol
+                        )),
+                    );
+                }
+                unit
+            }
+        };
+        alone.then_some((result, file, unit))
+    }
+
+    /// Whether the input states nothing that the other file states already.
+    fn nothing_beside(&mut self, name: &str, table: &InputTable, from: &Stated<FromTable>) -> bool {
+        let own = table.present.iter();
+        let beside = own
+            .filter(|(key, _)| !["unit", "description", "group", "from"].contains(key))
+            .chain(&table.component.present)
+            .next();
+        let Some((key, place)) = beside else {
+            return true;
+        };
+        self.faults.push(
+            Fault::new(
+                FROM,
+                place.clone(),
+                format!("{name} comes from another file, and `{key}` is stated beside it"),
+            )
+            .label("stated there already")
+            .related(from.key.clone(), "the other file")
+            .help(
+                "remove it; a further reason for doubt is an input of its own that the model adds",
+            ),
+        );
+        false
+    }
+
+    fn from_budget(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
+        let path = self.origin.directory.join(&file.value);
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "json")
+        {
+            return self.refuse(
+                Fault::new(
+                    FROM,
+                    file.span.clone(),
+                    format!("{} is no budget by its name", file.value),
+                )
+                .label("expected a budget (*.toml)")
+                .help(format!(
+                    "for a saved result write result = \"{}\"",
+                    file.value
+                )),
+            );
+        }
+        let loaded = match self.origin.shelf.budget(&path) {
+            Ok(loaded) => loaded,
+            Err(missing) => return self.missing(file, missing),
+        };
+        let labels: Vec<String> = loaded
+            .rows
+            .iter()
+            .enumerate()
+            .map(|(index, row)| row.label.clone().unwrap_or_else(|| (index + 1).to_string()))
+            .collect();
+        let series = loaded.rows.len() > 1 || loaded.rows.iter().any(|row| row.label.is_some());
+        let mut candidates = Vec::new();
+        let mut places = Vec::new();
+        for (row, label) in labels.iter().enumerate() {
+            for (output, found) in loaded.rows[row].budget.model.outputs().iter().enumerate() {
+                candidates.push(Candidate {
+                    row: series.then_some(label.as_str()),
+                    measurand: &found.name,
+                });
+                places.push((row, output));
+            }
+        }
+        let (row, output) = places[self.choice(&file.value, from, &candidates)?];
+        Some(Result::Budget {
+            loaded,
+            row,
+            output,
+        })
+    }
+
+    fn from_saved(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
+        let path = self.origin.directory.join(&file.value);
+        let saved = match self.origin.shelf.saved(&path) {
+            Ok(saved) => saved,
+            Err(missing) => return self.missing(file, missing),
+        };
+        let candidates: Vec<Candidate<'_>> = saved
+            .results
+            .iter()
+            .map(|result| Candidate {
+                row: result.row.as_deref(),
+                measurand: &result.measurand,
+            })
+            .collect();
+        let result = self.choice(&file.value, from, &candidates)?;
+        Some(Result::Saved { saved, result })
+    }
+
+    /// Which of the results of another file is meant.
+    fn choice(
+        &mut self,
+        file: &str,
+        from: &Stated<FromTable>,
+        candidates: &[Candidate<'_>],
+    ) -> Option<usize> {
+        let different = |names: Vec<&str>| {
+            let mut found: Vec<String> = Vec::new();
+            for name in names {
+                if !found.iter().any(|known| known == name) {
+                    found.push(name.to_string());
+                }
+            }
+            found
+        };
+        let rows = different(candidates.iter().filter_map(|c| c.row).collect());
+        let measurands = different(candidates.iter().map(|c| c.measurand).collect());
+        let row = from
+            .value
+            .row
+            .as_ref()
+            .map(|row| row.map(|row| row.0.clone()));
+        let row = self.one(file, from, "row", "row", row.as_ref(), &rows)?;
+        let measurand = from.value.measurand.as_ref();
+        let measurand = self.one(file, from, "measurand", "measurand", measurand, &measurands)?;
+        candidates
+            .iter()
+            .position(|c| c.row == row.as_deref() && Some(c.measurand) == measurand.as_deref())
+    }
+
+    /// One of several names, stated or the only one. Nothing is chosen where there is nothing to choose from.
+    fn one(
+        &mut self,
+        file: &str,
+        from: &Stated<FromTable>,
+        key: &str,
+        word: &str,
+        stated: Option<&Stated<String>>,
+        names: &[String],
+    ) -> Option<Option<String>> {
+        match (stated, names) {
+            (None, []) => Some(None),
+            (None, [only]) => Some(Some(only.clone())),
+            (Some(stated), _) if names.contains(&stated.value) => Some(Some(stated.value.clone())),
+            (Some(stated), _) => {
+                let wanted = &stated.value;
+                let message = match names {
+                    [] => format!("{file} has no series, and so no row \"{wanted}\""),
+                    _ => format!("{file} has no {word} {wanted}"),
+                };
+                let fault = Fault::new(FROM_MEASURAND, stated.span.clone(), message)
+                    .label(format!("no such {word}"));
+                let near = nearest(wanted, names.iter().map(String::as_str));
+                self.refuse(match (near, names) {
+                    (_, []) => fault.help("leave out `row`"),
+                    (Some(near), _) => fault.help(format!("did you mean \"{near}\"?")),
+                    (None, _) => fault.help(format!("it has: {}", shortened(names))),
+                })
+            }
+            (None, _) => self.refuse(
+                Fault::new(
+                    FROM_MEASURAND,
+                    from.span.clone(),
+                    format!("{file} has {} {word}s", names.len()),
+                )
+                .label(format!("which {word}?"))
+                .help(format!("add {key} = \"…\", one of: {}", shortened(names))),
+            ),
+        }
+    }
+
+    fn missing<T>(&mut self, file: &Stated<String>, missing: Missing) -> Option<T> {
+        let name = &file.value;
+        let fault = |code, message: String| Fault::new(code, file.span.clone(), message);
+        let fault = match missing {
+            Missing::Refused => fault(FROM_REFUSED, format!("{name} has faults itself"))
+                .label("cannot be used as it is")
+                .help("its faults are listed after those of this file"),
+            Missing::Circle(files) => {
+                let names: Vec<String> = files
+                    .iter()
+                    .chain(files.first())
+                    .map(|file| file.file_name().unwrap_or_default().display().to_string())
+                    .collect();
+                let (message, label) = if names.len() == 2 {
+                    (
+                        "a budget uses its own result".into(),
+                        "this file itself".into(),
+                    )
+                } else {
+                    let circle = format!("a circle: {}", names.join(" uses "));
+                    (
+                        format!("{name} needs the result of this file itself"),
+                        circle,
+                    )
+                };
+                fault(FROM_CIRCLE, message)
+                    .label(label)
+                    .help("a result cannot depend on itself: put what both need into a third file")
+            }
+            Missing::Unfit(_) if name.ends_with(".toml") => fault(
+                SAVED_RESULT,
+                format!("{name} is a budget, not a file of saved results"),
+            )
+            .label("expected a file that `gumption eval --save` wrote")
+            .help(format!("for another budget write budget = \"{name}\"")),
+            Missing::Unfit(why) => fault(
+                SAVED_RESULT,
+                format!("{name} holds no saved results: {why}"),
+            )
+            .label("expected a file that `gumption eval --save` wrote")
+            .help(format!("write it with: gumption eval BUDGET --save {name}")),
+            Missing::Folder => fault(UNREADABLE_FILE, format!("{name} is a folder, not a file"))
+                .label("expected a file"),
+            Missing::Unreadable(error) => {
+                let message = match error.kind() {
+                    ErrorKind::NotFound => {
+                        format!("there is no file {name} in {}", self.origin.folder())
+                    }
+                    ErrorKind::PermissionDenied => format!("{name} may not be read"),
+                    _ => format!("{name} cannot be read: {error}"),
+                };
+                fault(UNREADABLE_FILE, message)
+                    .label("expected a file")
+                    .help("the path starts from the folder of the budget")
+            }
+        };
+        self.refuse(fault)
+    }
+}
+
+/// At most a dozen names.
+fn shortened(names: &[String]) -> String {
+    const MOST: usize = 12;
+    let shown = names[..names.len().min(MOST)].join(", ");
+    match names.len() > MOST {
+        true => format!("{shown} …"),
+        false => shown,
+    }
+}

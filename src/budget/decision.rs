@@ -1,0 +1,280 @@
+//! Decisions that rest on a result: conformity with a tolerance (JCGM 106, ISO/IEC 17025 7.8.6) and
+//! recognition of a small effect (ISO 11929). For both, u is needed at other values of the measurand than
+//! the one that was found: [`Budget::at`].
+
+use super::Budget;
+use crate::distribution::Distribution;
+
+/// Values between two limits; a missing limit is infinite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Lower limit.
+    pub lower: f64,
+    /// Upper limit.
+    pub upper: f64,
+}
+
+impl Interval {
+    /// Whether the value is between the limits or on one of them.
+    pub fn contains(&self, value: f64) -> bool {
+        self.lower <= value && value <= self.upper
+    }
+
+    /// Upper less lower limit, where there are both.
+    pub fn width(&self) -> Option<f64> {
+        Some(self.upper - self.lower).filter(|width| width.is_finite())
+    }
+}
+
+/// A conformity assessment (JCGM 106).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conformity {
+    /// What its figures are called after: the measurand, or a name of its own.
+    pub name: String,
+    /// Index of the measurand.
+    pub measurand: usize,
+    /// Tolerance interval: the permissible values of the property.
+    pub tolerance: Interval,
+    /// The decision rule.
+    pub rule: DecisionRule,
+    /// What is known of the items before one is measured.
+    pub process: Option<Distribution>,
+    /// The input that carries the measurand's value, where u depends on it.
+    pub carrier: Option<usize>,
+    /// Whether nothing has been measured yet: there is no verdict, only limits and risks.
+    pub planning: bool,
+}
+
+impl Conformity {
+    /// What its figures are called.
+    pub const FIGURES: [&str; 13] = [
+        "p_c",
+        "p_c_measurement",
+        "p_c_monte_carlo",
+        "acceptance_lower",
+        "acceptance_upper",
+        "C_m",
+        "TUR",
+        "p_in_tolerance",
+        "p_accepted",
+        "R_C",
+        "R_P",
+        "cpfa",
+        "cpfr",
+    ];
+}
+
+/// From a measured value to acceptance or rejection.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DecisionRule {
+    /// Simple acceptance (JCGM 106 8.2): acceptance interval = tolerance interval.
+    Simple,
+    /// Guarded acceptance (8.3.2): the acceptance limits lie inside the tolerance.
+    GuardedAcceptance(Guard),
+    /// Guarded rejection (8.3.3): the acceptance limits lie outside the tolerance.
+    GuardedRejection(Guard),
+    /// Both: accepted inside the inner limits, rejected outside the outer ones, undecided between.
+    NonBinary {
+        /// Of the inner limits.
+        inner: Guard,
+        /// Of the outer limits.
+        outer: Guard,
+    },
+    /// Acceptance limits that the file states.
+    Stated(Interval),
+    /// JJF 1094: simple where U ≤ MPEV/3, else undecided within U of the limits.
+    Jjf1094,
+}
+
+/// The distance of an acceptance limit from its tolerance limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Guard {
+    /// An amount in the unit of the measurand.
+    Amount(f64),
+    /// A multiple of the expanded uncertainty U.
+    Expanded(f64),
+    /// What makes the probability of a right decision at least so large.
+    Probability(f64),
+}
+
+/// Characteristic limits of a measurand that is not negative (ISO 11929).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Detection {
+    /// Index of the measurand.
+    pub measurand: usize,
+    /// Index of the input that carries the measurand's value: the gross counts or gross indication.
+    pub gross: usize,
+    /// Probability of recognising an effect that is not there.
+    pub alpha: f64,
+    /// Probability of missing an effect at the detection limit.
+    pub beta: f64,
+    /// Coverage probability 1 − γ of the limits of the coverage interval.
+    pub coverage_probability: f64,
+    /// A guideline value with which the detection limit is compared.
+    pub guideline: Option<f64>,
+}
+
+impl Detection {
+    /// What its figures are called.
+    pub const FIGURES: [&str; 13] = [
+        "u_of_zero",
+        "decision_threshold",
+        "detection_limit",
+        "decision_threshold_monte_carlo",
+        "detection_limit_monte_carlo",
+        "best_estimate",
+        "u_best",
+        "interval_lower",
+        "interval_upper",
+        "shortest_lower",
+        "shortest_upper",
+        "recognised",
+        "suitable",
+    ];
+}
+
+/// A component whose effect on an input follows the input's estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Following {
+    /// Index of the input.
+    pub input: usize,
+    /// Index of the component.
+    pub component: usize,
+    /// In which way.
+    pub rule: Follows,
+}
+
+/// How the standard uncertainty follows the estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Follows {
+    /// This share of it grows in proportion to the estimate (1 for a relative uncertainty, less for a
+    /// specification such as 0.01 % of the reading + 2 counts); the rest stays.
+    Proportion {
+        /// From 0 to 1.
+        share: f64,
+    },
+    /// It grows as the square root: the estimate is a number of counts.
+    Root,
+}
+
+impl Follows {
+    /// The factor of u when the estimate goes from one value to another.
+    pub fn factor(self, from: f64, to: f64) -> f64 {
+        match self {
+            Follows::Proportion { share } => 1.0 - share + share * (to / from).abs(),
+            Follows::Root => (to / from).max(0.0).sqrt(),
+        }
+    }
+}
+
+impl Budget {
+    /// How the effect of a component on an input follows the input's estimate; nothing where it does not.
+    pub fn follows(&self, input: usize, component: usize) -> Option<Follows> {
+        let mut found = self.following.iter();
+        let found = found.find(|f| f.input == input && f.component == component);
+        found.map(|f| f.rule)
+    }
+
+    /// The budget as it would be had the input this estimate: what is stated relative to the input, or
+    /// follows from a number of counts, follows it; everything else stays as it is.
+    #[must_use]
+    pub fn at(&self, input: usize, value: f64) -> Budget {
+        let mut moved = self.clone();
+        let Some(place) = moved.inputs.get_mut(input) else {
+            return moved;
+        };
+        let from = std::mem::replace(&mut place.estimate, value);
+        for following in self.following.iter().filter(|f| f.input == input) {
+            let factor = following.rule.factor(from, value);
+            let Some(component) = moved.components.get_mut(following.component) else {
+                continue;
+            };
+            match (&mut component.distribution, following.rule) {
+                // What so many counts would say of the expected number (JCGM 101 6.4.11).
+                (Distribution::Gamma { origin, shape, .. }, Follows::Root) if value > 0.0 => {
+                    (*origin, *shape) = (-value, value);
+                    component.u *= factor;
+                }
+                _ => {
+                    let terms = place.terms.iter_mut();
+                    for term in terms.filter(|term| term.component == following.component) {
+                        term.coefficient *= factor;
+                    }
+                }
+            }
+        }
+        moved
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::budget::read;
+
+    fn budget(inputs: &str) -> Budget {
+        let text = format!("[measurand.y]\nmodel = \"x\"\nunit = \"V\"\n[input]\n{inputs}");
+        let loaded = read(&text, "test", "".as_ref());
+        let mut loaded = loaded.unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+        loaded.rows.remove(0).budget
+    }
+
+    /// u of the only input at another value.
+    fn u_at(budget: &Budget, value: f64) -> f64 {
+        let moved = budget.at(0, value);
+        assert_eq!(moved.inputs[0].estimate, value);
+        let terms = moved.inputs[0].terms.iter();
+        let square = |u: f64| u * u;
+        let variance: f64 = terms
+            .map(|term| square(term.coefficient * moved.components[term.component].u))
+            .sum();
+        variance.sqrt()
+    }
+
+    #[test]
+    fn an_absolute_uncertainty_stays() {
+        let fixed = budget("x = { value = 2, unit = \"V\", u = 0.1 }");
+        assert_eq!(u_at(&fixed, 200.0), 0.1);
+    }
+
+    #[test]
+    fn a_relative_uncertainty_follows() {
+        for stated in ["u = \"1 %\"", "u = 0.01, relative = true"] {
+            let relative = budget(&format!("x = {{ value = 2, unit = \"V\", {stated} }}"));
+            assert!((u_at(&relative, 200.0) - 2.0).abs() < 1e-12, "{stated}");
+            assert!((u_at(&relative, -1.0) - 0.01).abs() < 1e-14, "{stated}");
+        }
+    }
+
+    #[test]
+    fn a_specification_follows_in_part() {
+        let stated = "specification = { reading = \"1 %\", fixed = 0.03 }";
+        let meter = budget(&format!("x = {{ value = 2, unit = \"V\", {stated} }}"));
+        for value in [0.0, 2.0, 10.0] {
+            let expected = (0.01 * value + 0.03) / 3f64.sqrt();
+            assert!((u_at(&meter, value) - expected).abs() < 1e-14, "{value}");
+        }
+    }
+
+    #[test]
+    fn counts_follow_as_the_root() {
+        let text = "[measurand.y]\nmodel = \"x\"\n[input]\nx = { count = 100 }";
+        let mut loaded = read(text, "test", "".as_ref()).expect("a budget");
+        let counts = loaded.rows.remove(0).budget;
+        assert!((u_at(&counts, 25.0) - 5.0).abs() < 1e-12);
+        assert_eq!(u_at(&counts, 0.0), 0.0);
+        let few = counts.at(0, 4.0);
+        let distribution = &few.components[0].distribution;
+        assert!((distribution.standard_deviation().expect("a gamma") - 2.0).abs() < 1e-14);
+        assert!(distribution.mean().expect("a gamma").abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_shared_cause_in_proportion_follows() {
+        let gain = "\n[source.gain]\nu = 0.01\n";
+        let shared = budget(&format!(
+            "x = {{ value = 2, unit = \"V\", source = \"gain\", relative = true }}{gain}"
+        ));
+        assert!((u_at(&shared, 5.0) - 0.05).abs() < 1e-14);
+    }
+}

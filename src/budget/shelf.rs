@@ -1,0 +1,120 @@
+//! The files that are open while a budget is read: every other file is read once, and none twice inside
+//! itself.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use super::Files;
+use super::reader::{self, Loaded};
+use super::rejection::Rejection;
+use super::saved::SavedResults;
+
+/// Files that have been read, and those that are being read.
+#[derive(Debug)]
+pub(super) struct Shelf<'a> {
+    pub files: Files<'a>,
+    /// Budgets by identity; nothing for one that was refused.
+    budgets: RefCell<HashMap<PathBuf, Option<Rc<Loaded>>>>,
+    saved: RefCell<HashMap<PathBuf, Rc<SavedResults>>>,
+    /// Identities of the budgets that are being read, the outermost first.
+    open: RefCell<Vec<PathBuf>>,
+    /// Why other budgets were refused, each before those that it uses itself.
+    rejections: RefCell<Vec<Rejection>>,
+}
+
+/// Why another file cannot be used.
+#[derive(Debug)]
+pub(super) enum Missing {
+    /// It cannot be read.
+    Unreadable(io::Error),
+    /// It is a folder.
+    Folder,
+    /// It has faults, which are kept on the shelf.
+    Refused,
+    /// It is being read at this moment; all files of the circle.
+    Circle(Vec<PathBuf>),
+    /// It is not what it should be, in words.
+    Unfit(String),
+}
+
+impl<'a> Shelf<'a> {
+    pub fn new(files: Files<'a>) -> Self {
+        Shelf {
+            files,
+            budgets: RefCell::default(),
+            saved: RefCell::default(),
+            open: RefCell::default(),
+            rejections: RefCell::default(),
+        }
+    }
+
+    /// Another budget.
+    pub fn budget(&self, path: &Path) -> Result<Rc<Loaded>, Missing> {
+        let identity = self.files.identity(path);
+        let circle = {
+            let open = self.open.borrow();
+            let first = open.iter().position(|file| *file == identity);
+            first.map(|first| open[first..].to_vec())
+        };
+        if let Some(circle) = circle {
+            return Err(Missing::Circle(circle));
+        }
+        if let Some(known) = self.budgets.borrow().get(&identity) {
+            return known.clone().ok_or(Missing::Refused);
+        }
+        let bytes = self.bytes(path)?;
+        let before = self.rejections.borrow().len();
+        let loaded = match reader::load_bytes(self, path, bytes, None) {
+            Ok(loaded) => Some(Rc::new(loaded)),
+            Err(rejection) => {
+                self.rejections.borrow_mut().insert(before, rejection);
+                None
+            }
+        };
+        self.budgets.borrow_mut().insert(identity, loaded.clone());
+        loaded.ok_or(Missing::Refused)
+    }
+
+    /// Saved results.
+    pub fn saved(&self, path: &Path) -> Result<Rc<SavedResults>, Missing> {
+        let identity = self.files.identity(path);
+        if let Some(known) = self.saved.borrow().get(&identity) {
+            return Ok(Rc::clone(known));
+        }
+        let bytes = self.bytes(path)?;
+        let folder = path.parent().unwrap_or_else(|| Path::new(""));
+        let place = |file: &str| self.files.identity(&folder.join(file));
+        let saved = SavedResults::read(&bytes, &place).map_err(Missing::Unfit)?;
+        let saved = Rc::new(saved);
+        self.saved.borrow_mut().insert(identity, Rc::clone(&saved));
+        Ok(saved)
+    }
+
+    fn bytes(&self, path: &Path) -> Result<Vec<u8>, Missing> {
+        if self.files.is_folder(path) {
+            return Err(Missing::Folder);
+        }
+        self.files.read(path).map_err(Missing::Unreadable)
+    }
+
+    /// Does something while a file is open.
+    pub fn within<T>(&self, file: &Path, work: impl FnOnce() -> T) -> T {
+        self.open.borrow_mut().push(file.to_path_buf());
+        let result = work();
+        self.open.borrow_mut().pop();
+        result
+    }
+
+    /// Whether the outermost file alone is open.
+    pub fn is_outermost(&self) -> bool {
+        self.open.borrow().is_empty()
+    }
+
+    /// What was refused so far.
+    pub fn take_rejections(&self) -> Vec<Rejection> {
+        self.rejections.take()
+    }
+}

@@ -1,0 +1,22 @@
+//! Statistics of readings (GUM 4.2 and H.5): sums of twice the precision of a double, serial
+//! correlation, analysis of variance, tests for outliers. Knows nothing of files.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `dd` | numbers of twice the precision |
+//! | `readings` | mean, standard deviation, autocorrelation, pooling |
+//! | `anova` | readings in groups |
+//! | `nested` | readings in subgroups of groups |
+//! | `outliers` | tests of the most outlying reading |
+
+mod anova;
+mod dd;
+mod nested;
+mod outliers;
+mod readings;
+
+pub use anova::{Group, Line, Of, OneWay, Policy, Ratio, Uncertainty, Verdict};
+pub use dd::Dd;
+pub use nested::{Nested, Verdicts};
+pub use outliers::{OutlierTest, Suspect};
+pub use readings::{Serial, Series, pooled};

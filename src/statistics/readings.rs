@@ -1,0 +1,227 @@
+//! Statistics of one series of readings (GUM 4.2), with its serial correlation.
+
+use super::Dd;
+
+/// Mean and scatter of readings of one quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// The readings' deviations from their mean.
+    deviations: Vec<Dd>,
+    mean: Dd,
+    squares: Dd,
+}
+
+/// What serial correlation does to the mean of readings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Serial {
+    /// By what it multiplies the variance of the mean: 1 + 2 Σ (1 - k/n) ρ_k.
+    pub factor: f64,
+    /// The largest lag k that counts; 0 when no correlation was found.
+    pub lags: usize,
+}
+
+impl Series {
+    /// Readings in the order in which they were taken.
+    pub fn new(readings: &[Dd]) -> Self {
+        let n = Dd::from(readings.len() as f64);
+        let mean = readings.iter().copied().sum::<Dd>() / n;
+        let deviations: Vec<Dd> = readings.iter().map(|reading| *reading - mean).collect();
+        let squares = deviations.iter().map(|deviation| deviation.squared()).sum();
+        Series {
+            deviations,
+            mean,
+            squares,
+        }
+    }
+
+    /// Number of readings.
+    pub fn count(&self) -> usize {
+        self.deviations.len()
+    }
+
+    /// Arithmetic mean.
+    pub fn mean(&self) -> f64 {
+        self.mean.value()
+    }
+
+    /// The mean beyond the double.
+    pub(super) fn exact_mean(&self) -> Dd {
+        self.mean
+    }
+
+    /// The sum of squared deviations beyond the double.
+    pub(super) fn exact_squares(&self) -> Dd {
+        self.squares
+    }
+
+    /// Sum of squared deviations from the mean.
+    pub fn squares(&self) -> f64 {
+        self.squares.value()
+    }
+
+    /// Experimental standard deviation of a single reading, divisor n - 1 (GUM 4.2.2).
+    pub fn standard_deviation(&self) -> f64 {
+        let freedom = Dd::from(self.deviations.len() as f64 - 1.0);
+        (self.squares / freedom).sqrt()
+    }
+
+    /// The readings' deviations from their mean.
+    pub fn deviations(&self) -> impl Iterator<Item = f64> + '_ {
+        self.deviations.iter().map(|deviation| deviation.value())
+    }
+
+    /// Autocorrelation coefficient at a lag: Σ (x_i - x̄)(x_{i+k} - x̄) / Σ (x_i - x̄)².
+    pub fn autocorrelation(&self, lag: usize) -> f64 {
+        let later = self.deviations.get(lag..).unwrap_or_default();
+        let products: Dd = self
+            .deviations
+            .iter()
+            .zip(later)
+            .map(|(a, b)| *a * *b)
+            .sum();
+        (products / self.squares).value()
+    }
+
+    /// What |ρ_1| of independent readings exceeds in one case of twenty only.
+    pub fn serial_limit(&self) -> f64 {
+        2.0 / (self.deviations.len() as f64).sqrt()
+    }
+
+    /// The effect of serial correlation on the mean: var(x̄) = σ²/n · (1 + 2 Σ (1 - k/n) ρ_k), with the
+    /// estimated ρ_k summed up to the lag before the first that independent readings would show as
+    /// well (a quarter of n at most). The factor is never below 1: alternating readings are not
+    /// trusted more than independent ones.
+    pub fn serial(&self) -> Serial {
+        let n = self.deviations.len();
+        let limit = self.serial_limit();
+        let significant: Vec<f64> = (1..=n / 4)
+            .map(|lag| self.autocorrelation(lag))
+            .take_while(|rho| *rho > limit)
+            .collect();
+        let sum: f64 = (1..)
+            .zip(&significant)
+            .map(|(lag, rho)| (1.0 - f64::from(lag) / n as f64) * rho)
+            .sum();
+        Serial {
+            factor: 1.0 + 2.0 * sum,
+            lags: significant.len(),
+        }
+    }
+}
+
+/// A standard deviation pooled over series of one precision (GUM 4.2.4): s and ν.
+pub fn pooled(series: &[Series]) -> (f64, f64) {
+    let squares: Dd = series.iter().map(|one| one.squares).sum();
+    let freedom: f64 = series.iter().map(|one| one.count() as f64 - 1.0).sum();
+    ((squares / Dd::from(freedom)).sqrt(), freedom)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn series(texts: impl IntoIterator<Item = &'static str>) -> Series {
+        let readings: Vec<Dd> = texts.into_iter().filter_map(Dd::parse).collect();
+        Series::new(&readings)
+    }
+
+    /// NIST StRD NumAcc: one reading in the middle, then as many below as above.
+    fn accuracy(middle: &'static str, low: &'static str, high: &'static str) -> Series {
+        let pairs = (0..500).flat_map(|_| [low, high]);
+        series(std::iter::once(middle).chain(pairs))
+    }
+
+    fn digits(obtained: f64, certified: f64) -> f64 {
+        let error = ((obtained - certified) / certified).abs();
+        (-libm::log10(error)).min(16.0)
+    }
+
+    #[test]
+    fn strd_numerical_accuracy() {
+        for (data, mean) in [
+            (accuracy("1.2", "1.1", "1.3"), 1.2),
+            (accuracy("1000000.2", "1000000.1", "1000000.3"), 1_000_000.2),
+            (
+                accuracy("10000000.2", "10000000.1", "10000000.3"),
+                10_000_000.2,
+            ),
+        ] {
+            assert_eq!(data.mean(), mean);
+            assert!(
+                digits(data.standard_deviation(), 0.1) >= 15.0,
+                "s at {mean}"
+            );
+            assert!(
+                digits(data.autocorrelation(1), -0.999) >= 15.0,
+                "r at {mean}"
+            );
+        }
+        let first = series(["10000001", "10000003", "10000002"]);
+        assert_eq!(
+            (first.mean(), first.standard_deviation()),
+            (10_000_002.0, 1.0)
+        );
+        assert_eq!(first.autocorrelation(1), -0.5);
+    }
+
+    #[test]
+    fn alternating_readings_are_not_deflated() {
+        let data = series((0..40).map(|i| if i % 2 == 0 { "0" } else { "1" }));
+        assert_eq!(
+            data.serial(),
+            Serial {
+                factor: 1.0,
+                lags: 0
+            }
+        );
+    }
+
+    fn noise() -> impl FnMut() -> f64 {
+        let mut state = 1_u64;
+        move || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) as f64 / f64::from(u32::MAX) * 2.0 - 0.5
+        }
+    }
+
+    #[test]
+    fn doubled_readings_are_worth_about_half() {
+        // Every reading twice: ρ_1 is about ½, higher lags about 0, so the factor is about 2.
+        let mut noise = noise();
+        let readings: Vec<Dd> = (0..2000)
+            .flat_map(|_| {
+                let reading = Dd::from(noise());
+                [reading, reading]
+            })
+            .collect();
+        let serial = Series::new(&readings).serial();
+        assert!((serial.factor - 2.0).abs() < 0.1, "{serial:?}");
+    }
+
+    #[test]
+    fn an_autoregressive_series_has_the_factor_of_theory() {
+        // x_i = φ x_{i-1} + e_i: ρ_k = φ^k, and the factor is (1 + φ)/(1 - φ) for long series.
+        for (phi, tolerance) in [(0.5, 0.3), (0.8, 1.5)] {
+            let mut noise = noise();
+            let mut x = 0.0;
+            let readings: Vec<Dd> = (0..20_000)
+                .map(|_| {
+                    x = phi * x + noise() - 0.5;
+                    Dd::from(x)
+                })
+                .collect();
+            let factor = Series::new(&readings).serial().factor;
+            let theory = (1.0 + phi) / (1.0 - phi);
+            assert!((factor - theory).abs() < tolerance, "{factor} for {theory}");
+        }
+    }
+
+    #[test]
+    fn pooling_adds_squares_and_degrees_of_freedom() {
+        let (s, freedom) = pooled(&[series(["1", "2", "3"]), series(["10", "14"])]);
+        assert_eq!(freedom, 3.0);
+        assert!((s - (10.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+    }
+}

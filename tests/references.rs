@@ -386,6 +386,7 @@ const NOT_CLAIMED: &[(&str, &str, &str)] = &[
         "an intermediate result: the u that it gives is held",
     ),
     ("gum_5_1_5_dmm", "u_rel", "u is held"),
+    ("gum_5_1_5_dmm", "u2", "u is held"),
     (
         "gum_5_2_2_ten_resistors",
         "u_if_uncorrelated",

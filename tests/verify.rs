@@ -155,6 +155,14 @@ fn the_same_run_gives_the_same_dossier() {
     std::fs::remove_dir_all(place).expect("removed");
 }
 
+#[test]
+fn the_schema_is_fresh() {
+    let schema = text(&gumption(&["schema", "verification"]).stdout);
+    let path = common::root().join("docs/verification.schema.json");
+    let stale: Vec<String> = common::stale(&path, &schema).into_iter().collect();
+    common::assert_fresh(&stale);
+}
+
 /// The list of `src/verify/library.rs`.
 #[test]
 fn the_program_carries_every_budget_and_its_data() {

@@ -262,11 +262,18 @@ fn curve(errors: Errors) -> Problem<'static> {
     }
 }
 
+/// The same points near an affine response.
 fn affine(errors: Errors) -> Problem<'static> {
+    let mut problem = curve(errors);
+    for i in 0..8 {
+        let (x, z) = (problem.x[(i, 0)], problem.x[(i, 1)]);
+        let off = problem.y[i] - 5.0 * (1.0 - (-0.7 * x).exp()) - 0.4 * z;
+        problem.y[i] = 1.0 + 0.8 * x * z + 0.5 * z * z + off;
+    }
     Problem {
         response: &Affine,
         start: None,
-        ..curve(errors)
+        ..problem
     }
 }
 
@@ -295,10 +302,6 @@ fn some_errors() -> Vec<Errors> {
 fn check_derivatives(problem: &mut Problem) {
     let solution = solve(problem).unwrap();
     let step = 1e-4;
-    eprintln!(
-        "CASE steps {} b {:?} chi2 {}",
-        solution.iterations, solution.parameters, solution.chi_squared
-    );
     for point in 0..problem.points() {
         for column in 0..=problem.x.ncols() {
             let mut shifted = |by: f64| {
@@ -324,12 +327,7 @@ fn check_derivatives(problem: &mut Problem) {
             for j in 0..above.len() {
                 let expected = (above[j] - below[j]) / (2.0 * step);
                 let size = derivative.row(j).amax().max(0.01);
-                if !((derivative[(j, point)] - expected).abs() <= 3e-6 * size) {
-                    eprintln!(
-                        "BAD {j} {point} col {column} {} {expected}",
-                        derivative[(j, point)]
-                    );
-                }
+                near(derivative[(j, point)], expected, 3e-6 * size);
             }
         }
     }
@@ -340,7 +338,11 @@ fn derivatives_by_observations() {
     for errors in some_errors() {
         check_derivatives(&mut curve(errors));
     }
-    for errors in some_errors() {
+    // Without errors of y, some of these points are out of reach of the response.
+    for errors in some_errors()
+        .into_iter()
+        .filter(|errors| errors.y != Spread::Exact)
+    {
         check_derivatives(&mut affine(errors));
     }
     let mut york = pearson_york();

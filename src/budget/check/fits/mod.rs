@@ -10,6 +10,8 @@ mod failures;
 mod formula;
 mod residual;
 mod solution;
+#[cfg(test)]
+mod tests;
 
 use std::collections::HashMap;
 use std::ops::Range;

@@ -305,22 +305,6 @@ const BUDGETS: &[(&str, &[&str])] = &[
         &["statistics/complex-difference-willink-hall"],
     ),
     ("wuebbeler_ex2_ohm", &["electrical/resistance-from-limits"]),
-    ("strd_anova_atmwtag", &["statistics/strd-atmwtag"]),
-    ("strd_anova_sirstv", &["statistics/strd-sirstv"]),
-    ("strd_anova_smls01", &["statistics/strd-smls01"]),
-    ("strd_anova_smls02", &["statistics/strd-smls02"]),
-    ("strd_anova_smls03", &["statistics/strd-smls03"]),
-    ("strd_anova_smls04", &["statistics/strd-smls04"]),
-    ("strd_anova_smls05", &["statistics/strd-smls05"]),
-    ("strd_anova_smls07", &["statistics/strd-smls07"]),
-    ("strd_anova_smls08", &["statistics/strd-smls08"]),
-    ("strd_uni_lew", &["statistics/strd-lew"]),
-    ("strd_uni_lottery", &["statistics/strd-lottery"]),
-    ("strd_uni_mavro", &["statistics/strd-mavro"]),
-    ("strd_uni_michelso", &["statistics/strd-michelso"]),
-    ("strd_uni_numacc1", &["statistics/strd-numacc1"]),
-    ("strd_uni_numacc2", &["statistics/strd-numacc2"]),
-    ("strd_uni_numacc3", &["statistics/strd-numacc3"]),
 ];
 
 /// Figures that no budget can have, or that other figures of the case contradict: (case, item, why).

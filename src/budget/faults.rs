@@ -238,6 +238,37 @@ budget is read with `from = { budget = … }`."
 SAVED_STALE "B0706" "a file has changed since results were saved"
 "A saved result and another file state the same component (the same file and name) differently, so that their \
 correlation is not known. Evaluate the changed budget again and save its results anew."
+FIT "B0601" "a fit says too little or too much"
+"`[fit.NAME]` needs `data` and one formula: `model = \"y = a + b*x\"` with a column of the data on the left, or \
+`polynomial` with `response` and `predictor`. Every name of the formula that is neither a column nor a constant is a \
+parameter; with a table of parameters, only those that it lists."
+
+FIT_COLUMNS "B0602" "the columns of a fit do not match"
+"A point of a fit has one value in every column, and one in every list of uncertainties, weights or correlation coefficients."
+
+FIT_ERRORS "B0603" "the uncertainties of the data of a fit are not usable"
+"Where uncertainties are stated, those of the response must be greater than zero, unless the predictor has one that can take \
+up the distance of the point from the curve. `scale = \"stated\"` takes them as known, so that some must be stated; \
+`scale = \"residuals\"` takes them as known up to a factor."
+
+FIT_START "B0604" "a nonlinear fit has no start values"
+"A formula that is not linear in its parameters, such as `y = a*exp(-x/tau)`, is solved by a search. It begins at the `start` \
+of each parameter, which must be roughly right: `tau = { start = 2, unit = \"s\" }`."
+
+FIT_POINTS "B0605" "a fit has too few points"
+"There must be at least as many points as parameters; more where the residuals are to tell the uncertainty."
+
+FIT_INDISTINCT "B0606" "the data do not tell the parameters apart"
+"Some parameters can be changed together without any change of the curve at the points: two columns are proportional, all \
+values of a predictor are the same, or the formula has one parameter too many. Leave out one of them, or add points."
+
+FIT_FAILED "B0607" "a fit was not found"
+"The search for the parameters ended without a minimum, or the formula has no finite value at its start. Choose other start \
+values, and check that the formula can describe the data."
+
+RESIDUAL_OF "B0608" "the scatter of a fit cannot be used here"
+"`residual_of` is the scatter of a further reading as seen from the residuals of a fit. The fit must leave the scatter of its \
+response to the residuals, without stated uncertainties; else the uncertainty of the reading is known already."
 }
 
 #[cfg(test)]

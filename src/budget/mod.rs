@@ -16,6 +16,7 @@ mod decision;
 mod distributions;
 pub mod faults;
 mod files;
+mod fit;
 mod parametric;
 mod profile;
 mod reader;
@@ -35,6 +36,7 @@ pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use decision::{Conformity, DecisionRule, Detection, Following, Follows, Guard, Interval};
 pub use files::Files;
+pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use rejection::Rejection;
@@ -100,6 +102,8 @@ pub struct Budget {
     pub conformity: Vec<Conformity>,
     /// Characteristic limits.
     pub detection: Vec<Detection>,
+    /// Curves fitted by least squares, whose parameters are inputs.
+    pub fits: Vec<Fit>,
     /// What certificates say.
     pub claims: Vec<Claim>,
     /// Analyses of readings, for the report; their figures are among `figures`.

@@ -150,22 +150,25 @@ fn read_under(
     // Editors on Windows put a byte order mark in front; places are counted behind it.
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let (table, errors) = DeTable::parse_recoverable(text);
+    let mut syntax = syntax_faults(&errors, text);
+    if !errors.iter().all(leaves_the_rest) {
+        return Err(Rejection::new(name, text, syntax));
+    }
     let (variants, mut faults) = variants(table.get_ref(), text, profile);
     let checked = origin
         .shelf
         .within(origin.file, || check::rows(variants, text, origin));
-    if !errors.is_empty() {
-        let mut all = syntax_faults(&errors, text);
-        if errors.iter().all(leaves_the_rest) {
-            faults.extend(checked.err().unwrap_or_default());
-            all.extend(elsewhere(faults, &all, text));
-        }
-        return Err(Rejection::new(name, text, all));
-    }
     match checked {
-        Ok((heading, rows)) if faults.is_empty() => return Ok(Loaded { heading, rows }),
+        Ok((heading, rows)) if faults.is_empty() && syntax.is_empty() => {
+            return Ok(Loaded { heading, rows });
+        }
         Ok(_) => {}
         Err(found) => faults.extend(found),
+    }
+    if !syntax.is_empty() {
+        let others = elsewhere(faults, &syntax, text);
+        syntax.extend(others);
+        faults = syntax;
     }
     let mut rejection = Rejection::new(name, text, faults);
     if origin.shelf.is_outermost() {

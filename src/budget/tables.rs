@@ -4,7 +4,8 @@ use super::distributions::DistributionEntry;
 use super::table::{Stated, table, words};
 use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
 use super::variants::{
-    Amounts, ConstantEntry, Groups, Numbers, ReadingsOf, RowLabel, Sources, TrialsEntry,
+    Amounts, ConstantEntry, FitParameters, Groups, Numbers, ReadingsOf, RowLabel, Sources,
+    TrialsEntry,
 };
 
 type List<T> = Vec<Stated<T>>;
@@ -44,6 +45,8 @@ table! {
         measurand: Named<MeasurandTable>,
         /// The quantities on which they depend.
         input: Named<InputTable>,
+        /// Curves fitted to data by least squares; their parameters are inputs.
+        fit: Named<FitTable>,
         /// Correlation coefficients for which no cause is known.
         correlation: OneOrMany<CorrelationTable>,
         /// Inputs measured together, or given with a covariance matrix.
@@ -290,6 +293,8 @@ table! {
         range: List<Amount>,
         /// Way: a `[source.NAME]` cause; its name.
         source: String,
+        /// Way: the scatter of the data about a `[fit.NAME]`; its name. `of` says of how many readings the value is the mean (default 1).
+        residual_of: String,
         /// Way: a sample of the distribution itself, as a list or from a CSV file.
         sample: Numbers,
         /// Shape that goes with another way (`"uniform"`), or a way of its own: `{ NAME = { parameters } }`.
@@ -462,6 +467,75 @@ table! {
         file: String,
         /// Name of the column in its first line.
         column: String,
+    }
+}
+
+table! {
+    /// A curve fitted to data by least squares; its parameters are inputs under their own names.
+    FitTable "[fit]" {
+        /// What is fitted.
+        description: String,
+        /// The formula: the response column on the left, other columns, parameters and constants on the right.
+        model: String,
+        /// In place of `model`: degree of a polynomial.
+        polynomial: u64,
+        /// With `polynomial`: the column on the left.
+        response: String,
+        /// With `polynomial`: the column of which it is a polynomial.
+        predictor: String,
+        /// With `polynomial`: false for a curve through the origin.
+        intercept: bool,
+        /// The observed data: one column for each quantity of the formula.
+        data: Named<FitColumnTable>,
+        /// The parameters with unit and start value, or a list of their names; without it every name of the formula that is no column and no constant.
+        parameters: FitParameters,
+        /// Whether the uncertainties of the data are used as stated, or known only up to a factor that follows from the residuals.
+        scale: ScaleWord,
+        /// Correlation coefficients of the errors of predictor and response, one for each point.
+        correlation: List<f64>,
+        /// Where the data come from.
+        reference: String,
+    }
+}
+
+table! {
+    /// A column of data: its values, and why they are in doubt. Without doubt it is exact; where no column has any, the residuals tell the scatter of the response.
+    FitColumnTable "[fit.NAME.data]" {
+        /// The observed values, as a list or from a CSV file.
+        values: Numbers,
+        /// Their unit; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+        /// Covariance matrix of the values in the square of their unit, row by row.
+        covariance: List<List<f64>>,
+        /// Weights of the values, 1/u², as a list or from a CSV file.
+        weights: Numbers,
+        /// Several reasons to doubt the values; those with `common = true` and shared causes act on all points together.
+        components: List<ComponentTable>,
+        with component: ComponentTable
+    }
+}
+
+table! {
+    /// A parameter of a fit.
+    FitParameterTable "[fit.NAME.parameters]" {
+        /// Its unit; where it is left out, the one that follows from the formula if that is linear in the parameters.
+        unit: String,
+        /// Where the search begins; needed for formulas that are not linear in the parameters.
+        start: Amount,
+        /// What it is.
+        description: String,
+    }
+}
+
+words! {
+    /// What the stated uncertainties of the data of a fit are worth.
+    ScaleWord {
+        /// Used as they are.
+        Stated "stated",
+        /// Known up to a common factor, which the residuals tell.
+        Residuals "residuals",
     }
 }
 

@@ -5,7 +5,7 @@ use toml::de::DeValue;
 
 use super::faults::WRONG_TYPE;
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, unknown_word};
-use super::tables::{ColumnTable, ConstantTable, GroupColumnTable, SourceTable};
+use super::tables::{ColumnTable, ConstantTable, FitParameterTable, GroupColumnTable, SourceTable};
 use super::values::{Amount, Named};
 use crate::fault::Fault;
 
@@ -296,5 +296,41 @@ impl FromToml for TrialsEntry {
 
     fn schema() -> Value {
         json!({ "oneOf": [{ "enum": ["adaptive"] }, { "type": "integer", "minimum": 1000 }] })
+    }
+}
+
+/// Parameters of a fit: tables with unit and start value, or a list of names.
+#[derive(Debug, Clone)]
+pub struct FitParameters(pub Named<FitParameterTable>);
+
+impl FromToml for FitParameters {
+    fn expected() -> String {
+        "tables of parameters, or a list of their names".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Table(_) => Named::read(value, reader).map(FitParameters),
+            DeValue::Array(_) => {
+                let names: Vec<Stated<String>> = Vec::read(value, reader)?;
+                let entries = names.into_iter().map(|name| {
+                    let table = name.map(|_| FitParameterTable::default());
+                    (name.value, table)
+                });
+                Some(FitParameters(Named {
+                    entries: entries.collect(),
+                    refused: false,
+                }))
+            }
+            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [Named::<FitParameterTable>::schema(), Vec::<Stated<String>>::schema()] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        Named::<FitParameterTable>::tables(path, rows);
     }
 }

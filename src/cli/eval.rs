@@ -4,7 +4,7 @@ use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 
 use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Profile, Trials};
-use gumption::propagate::{self, Evaluation, MonteCarloChoice, Options};
+use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
 use gumption::report::{self, Language, Page, Report};
 use serde_json::Value;
 
@@ -137,11 +137,18 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
     let mut rows = Vec::with_capacity(loaded.rows.len());
     for budget::Row { label, budget } in loaded.rows {
         match propagate::evaluate(&budget, &options(args, &budget)) {
-            Ok(evaluation) => rows.push(Row {
-                label,
-                budget,
-                evaluation,
-            }),
+            Ok(evaluation) => {
+                let rejected =
+                    |found: &ConformityResult| found.verdict == Some(Verdict::NotConforming);
+                if evaluation.conformity.iter().any(rejected) {
+                    *worst = (*worst).max(Outcome::Negative);
+                }
+                rows.push(Row {
+                    label,
+                    budget,
+                    evaluation,
+                });
+            }
             Err(error) => {
                 let row = label.map(|l| format!(", {l}")).unwrap_or_default();
                 output::warn(&format!(

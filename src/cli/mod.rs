@@ -18,7 +18,7 @@ use clap::{Parser, Subcommand};
 enum Outcome {
     /// All went well: 0.
     Done,
-    /// A budget was read but has no value or no result, or an example failed: 1.
+    /// A budget was read but has no value or no result, an example failed, or an item does not conform: 1.
     Negative,
     /// A file or an argument is wrong: 2.
     BadInput,
@@ -37,7 +37,7 @@ impl From<Outcome> for ExitCode {
     version,
     propagate_version = true,
     max_term_width = 100,
-    after_help = "Exit codes: 0 all went well, 1 a budget gives no result or an example failed, 2 a file or an argument is wrong.\n\nStart with `gumption new my-budget.toml`, edit the file, then `gumption eval my-budget.toml`."
+    after_help = "Exit codes: 0 all went well, 1 a budget gives no result, an example failed or an item does not conform, 2 a file or an argument is wrong.\n\nStart with `gumption new my-budget.toml`, edit the file, then `gumption eval my-budget.toml`."
 )]
 struct Cli {
     #[command(subcommand)]

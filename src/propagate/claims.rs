@@ -2,7 +2,7 @@
 
 use crate::budget::{Budget, Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 
-use super::{Evaluation, MeasurandResult};
+use super::{Clause8, Evaluation, MeasurandResult};
 
 /// One claimed figure against one obtained figure.
 #[derive(Debug, Clone, PartialEq)]
@@ -257,7 +257,11 @@ fn verdict(result: &MeasurandResult, digits: u8) -> Option<f64> {
         .as_ref()?
         .iter()
         .find(|validation| validation.digits == digits)
-        .map(|validation| f64::from(u8::from(validation.validated)))
+        .map(|validation| match validation.verdict {
+            Clause8::Validated => 1.0,
+            Clause8::NotValidated => 0.0,
+            Clause8::Undecided => 0.5,
+        })
 }
 
 #[cfg(test)]

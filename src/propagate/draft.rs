@@ -168,6 +168,7 @@ impl Draft {
             detection: Vec::new(),
             claims: Vec::new(),
             analyses: Vec::new(),
+            fits: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
             chain: Default::default(),

@@ -5,10 +5,10 @@ use super::monte_carlo::McOutcome;
 use super::second_order::{self, Outcome, Terms};
 use super::validation::{self, numerical_tolerance};
 use super::{
-    Basis, Finding, FindingKind, Freedom, Gum, MeasurandResult, MissingMoments, MonteCarlo,
-    Validation,
+    Basis, Clause8, Finding, FindingKind, Freedom, Gum, MeasurandResult, MissingMoments,
+    MonteCarlo, Validation,
 };
-use crate::budget::{Budget, CoverageRule, Group, Law, Owner};
+use crate::budget::{Budget, CoverageRule, FitVerdict, Group, Law, Owner};
 use crate::model::Notice;
 
 /// Poles and ends of domains are looked for within this many standard uncertainties.
@@ -43,9 +43,9 @@ pub(super) fn basis(
     rule: CoverageRule,
 ) -> Basis {
     match monte_carlo {
-        Some((mc, verdict)) if !verdict.validated => {
+        Some((mc, clause_8)) if clause_8.verdict == Clause8::NotValidated => {
             let claims_probability = !matches!(rule, CoverageRule::Fixed(_));
-            if claims_probability || !confirms(mc, gum, verdict.delta) {
+            if claims_probability || !confirms(mc, gum, clause_8.delta) {
                 Basis::MonteCarlo
             } else {
                 Basis::Gum
@@ -97,7 +97,8 @@ impl Evidence<'_> {
         let of_model = self.of_model();
         let doubtful = |kind: &FindingKind| !matches!(kind, FindingKind::Extrapolated { .. });
         let doubtful_model = of_model.iter().any(doubtful);
-        let mut findings = whole(of_model);
+        let mut findings = whole(self.of_fits());
+        findings.extend(whole(of_model));
         findings.extend(whole(self.of_run()));
         if doubtful_model && self.monte_carlo.is_none() {
             findings.extend(whole([FindingKind::NeedsMonteCarlo]));
@@ -112,6 +113,27 @@ impl Evidence<'_> {
             }));
         }
         findings
+    }
+
+    /// What the fits say about their data.
+    fn of_fits(&self) -> Vec<FindingKind> {
+        let mut kinds = Vec::new();
+        for fit in &self.budget.fits {
+            let name = fit.name.clone();
+            match fit.lack_of_fit {
+                Some(test) if test.verdict() == FitVerdict::Rejected => {
+                    kinds.push(FindingKind::LackOfFit { fit: name, test });
+                }
+                Some(test) if test.verdict() == FitVerdict::TooSmall => {
+                    kinds.push(FindingKind::ResidualsTooSmall { fit: name, test });
+                }
+                _ if fit.parameters.iter().any(|parameter| parameter.u == 0.0) => {
+                    kinds.push(FindingKind::ExactFit { fit: name });
+                }
+                _ => {}
+            }
+        }
+        kinds
     }
 
     fn of_model(&self) -> Vec<FindingKind> {
@@ -274,8 +296,13 @@ impl Evidence<'_> {
         let digits = self.budget.conventions.digits;
         let mut kinds = Vec::new();
         let verdicts = result.validation.as_ref();
-        if verdicts.is_some_and(|both| !validation::at(both, digits).validated) {
-            kinds.push(FindingKind::NotValidated);
+        let at_digits = verdicts.map(|both| validation::at(both, digits));
+        match at_digits.map(|found| (found.verdict, found)) {
+            Some((Clause8::NotValidated, _)) => kinds.push(FindingKind::NotValidated),
+            Some((Clause8::Undecided, found)) => kinds.push(FindingKind::Undecided {
+                trials: validation::trials_needed(found, outcome.run.trials),
+            }),
+            Some((Clause8::Validated, _)) | None => {}
         }
         if let Some(Some(reason)) = outcome.moments_missing.get(measurand) {
             kinds.push(FindingKind::MomentsMissing {
@@ -392,23 +419,40 @@ mod tests {
 
     #[test]
     fn the_verdict_of_clause_8_decides() {
-        let verdict = |validated| Validation {
+        let verdict = |verdict| Validation {
             digits: 2,
             delta: 0.05,
             d_low: 0.1,
             d_high: 0.1,
-            validated,
+            error: 0.0,
+            verdict,
         };
         let mc = monte_carlo([-1.9, 1.9], [-1.9, 1.9], 0.0);
-        let of = |validated, u, rule| {
-            let verdict = verdict(validated);
+        let of = |found, u, rule| {
+            let verdict = verdict(found);
             basis(&gum(0.0, u), Some((&mc, &verdict)), rule)
         };
-        assert_eq!(of(true, 1.0, CoverageRule::Output), Basis::Gum);
-        assert_eq!(of(false, 1.0, CoverageRule::Output), Basis::MonteCarlo);
+        assert_eq!(
+            of(Clause8::Validated, 1.0, CoverageRule::Output),
+            Basis::Gum
+        );
+        assert_eq!(
+            of(Clause8::NotValidated, 1.0, CoverageRule::Output),
+            Basis::MonteCarlo
+        );
+        assert_eq!(
+            of(Clause8::Undecided, 1.0, CoverageRule::Output),
+            Basis::Gum
+        );
         // A fixed k claims y and u only: 1.04 against 1.00 with δ = 0.05.
-        assert_eq!(of(false, 1.04, CoverageRule::Fixed(2.0)), Basis::Gum);
-        assert_eq!(of(false, 1.06, CoverageRule::Fixed(2.0)), Basis::MonteCarlo);
+        assert_eq!(
+            of(Clause8::NotValidated, 1.04, CoverageRule::Fixed(2.0)),
+            Basis::Gum
+        );
+        assert_eq!(
+            of(Clause8::NotValidated, 1.06, CoverageRule::Fixed(2.0)),
+            Basis::MonteCarlo
+        );
         assert_eq!(
             basis(&gum(0.0, 1.0), None, CoverageRule::Output),
             Basis::Gum

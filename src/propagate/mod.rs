@@ -30,7 +30,7 @@ pub use monte_carlo::{Consequence, MissingMoments, Side};
 
 use nalgebra::DMatrix;
 
-use crate::budget::{Adaptive, Budget, MonteCarloSettings, NamedFigure};
+use crate::budget::{Adaptive, Budget, LackOfFit, MonteCarloSettings, NamedFigure};
 use crate::model::Notice;
 use gum::Linear;
 use monte_carlo::{GumForMc, McOutcome};
@@ -264,8 +264,21 @@ pub struct Validation {
     pub d_low: f64,
     /// |y + U_p − y_high|.
     pub d_high: f64,
-    /// Whether neither difference exceeds δ.
-    pub validated: bool,
+    /// Standard error of the Monte Carlo ends, the larger of the two.
+    pub error: f64,
+    /// Whether neither difference exceeds δ, as far as the errors of the ends allow to tell.
+    pub verdict: Clause8,
+}
+
+/// The verdict of GUM-S1 clause 8.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Clause8 {
+    /// Neither difference exceeds δ.
+    Validated,
+    /// One of them does.
+    NotValidated,
+    /// The Monte Carlo ends scatter too much to tell: more trials are needed.
+    Undecided,
 }
 
 /// Several measurands (JCGM 102).
@@ -342,6 +355,12 @@ pub enum FindingKind {
     /// Clause 8: GUM is not validated at the digits reported. The statement uses Monte Carlo, unless it
     /// claims no coverage probability (see [`MeasurandResult::basis`]).
     NotValidated,
+    /// Clause 8: the ends of the Monte Carlo interval scatter too much for a verdict at the digits
+    /// reported. The statement uses the GUM result, which nothing refutes.
+    Undecided {
+        /// About how many trials would do.
+        trials: u64,
+    },
     /// No Monte Carlo was run and first order is doubtful.
     NeedsMonteCarlo,
     /// Mean or standard deviation do not exist or do not converge; quantiles are given.
@@ -398,6 +417,25 @@ pub enum FindingKind {
     Extrapolated {
         /// The operation.
         what: Notice,
+    },
+    /// The data contradict the curve of a fit.
+    LackOfFit {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// The residuals of a fit are smaller than the stated uncertainties of its data let expect.
+    ResidualsTooSmall {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// A fit passes through all its points, so that its residuals tell no uncertainty.
+    ExactFit {
+        /// Name of the fit.
+        fit: String,
     },
     /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
     Asymmetric,

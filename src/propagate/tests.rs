@@ -203,7 +203,7 @@ fn s1_9_2_2_is_validated() {
     let evaluation = run(&budget, MonteCarloChoice::AsBudget);
     let result = &evaluation.results[0];
     close(result.gum.coverage.expanded, 3.92, 0.005);
-    assert!(result.validation.unwrap()[0].validated);
+    assert!(result.validation.unwrap()[0].is_validated());
     assert_eq!(result.basis, Basis::Gum);
     assert!(result.second_order.is_none());
     assert!(evaluation.findings.is_empty(), "{:?}", evaluation.findings);
@@ -229,7 +229,7 @@ fn s1_9_2_4_is_not_validated() {
     let mut output = budget;
     output.conventions.coverage_factor = CoverageRule::Output;
     let evaluation = run(&output, MonteCarloChoice::AsBudget);
-    assert!(evaluation.results[0].validation.unwrap()[0].validated);
+    assert!(evaluation.results[0].validation.unwrap()[0].is_validated());
 }
 
 #[test]

@@ -1,7 +1,13 @@
 //! Validation of the GUM result by Monte Carlo (JCGM 101:2008, clause 8), and the numerical
 //! tolerance that it and the adaptive procedures use (7.9.2).
 
-use super::{Gum, MonteCarlo, Validation};
+use super::{Clause8, Gum, MonteCarlo, Validation};
+
+/// A difference is known to so many standard errors of the Monte Carlo ends.
+const ERRORS: f64 = 2.0;
+
+/// JCGM 101 8.2: a run for validation is stable to this part of δ.
+const STABLE: f64 = 0.2;
 
 /// δ = ½·10^l for u = c·10^l, c a whole number of `digits` digits (JCGM 101 7.9.2).
 ///
@@ -37,16 +43,56 @@ pub(crate) fn validate(gum: &Gum, mc: &MonteCarlo) -> [Validation; 2] {
     } else {
         mc.u.unwrap_or(0.0)
     };
+    // Where the errors are not known, the differences are taken as they are.
+    let [error_low, error_high] = [2, 3].map(|end: usize| {
+        Some(mc.standard_errors[end])
+            .filter(|e| e.is_finite())
+            .unwrap_or(0.0)
+    });
     [2, 1].map(|digits| {
         let delta = numerical_tolerance(u, digits);
+        let verdict = match [end(d_low, error_low, delta), end(d_high, error_high, delta)] {
+            [Clause8::NotValidated, _] | [_, Clause8::NotValidated] => Clause8::NotValidated,
+            [Clause8::Validated, Clause8::Validated] => Clause8::Validated,
+            _ => Clause8::Undecided,
+        };
         Validation {
             digits,
             delta,
             d_low,
             d_high,
-            validated: d_low <= delta && d_high <= delta,
+            error: error_low.max(error_high),
+            verdict,
         }
     })
+}
+
+/// The verdict about one end.
+fn end(difference: f64, error: f64, delta: f64) -> Clause8 {
+    let doubt = ERRORS * error;
+    if difference + doubt <= delta {
+        Clause8::Validated
+    } else if difference - doubt <= delta && doubt > 0.0 {
+        Clause8::Undecided
+    } else {
+        Clause8::NotValidated
+    }
+}
+
+/// About how many trials in place of `trials` would make the ends stable enough for the verdict.
+pub(crate) fn trials_needed(of: &Validation, trials: u64) -> u64 {
+    let times = (ERRORS * of.error / (STABLE * of.delta)).powi(2).max(2.0);
+    let needed = trials as f64 * times;
+    // Rounded up to one digit: an order of magnitude is all that is meant.
+    let scale = libm::pow(10.0, libm::log10(needed).floor());
+    ((needed / scale).ceil() * scale) as u64
+}
+
+impl Validation {
+    /// Whether Monte Carlo validates the GUM result beyond doubt.
+    pub fn is_validated(&self) -> bool {
+        self.verdict == Clause8::Validated
+    }
 }
 
 /// The verdict at the digits that are reported.
@@ -127,22 +173,28 @@ mod tests {
         let gum = gum(1.2340, 0.0539, 1.2340 - 1.1285);
         let [two, one] = validate(&gum, &monte_carlo(Some(0.0754), [1.0834, 1.3825]));
         assert!((one.d_low - 0.0451).abs() < 1e-9 && (one.d_high - 0.0430).abs() < 1e-9);
-        assert_eq!((one.digits, one.delta, one.validated), (1, 0.005, false));
-        assert_eq!((two.digits, two.delta, two.validated), (2, 0.0005, false));
+        assert_eq!(
+            (one.digits, one.delta, one.verdict),
+            (1, 0.005, Clause8::NotValidated)
+        );
+        assert_eq!(
+            (two.digits, two.delta, two.verdict),
+            (2, 0.0005, Clause8::NotValidated)
+        );
     }
 
     #[test]
     fn agreement_within_delta_validates() {
         // 9.2.3: four rectangles, 3.92 against 3.88.
         let [two, one] = validate(&gum(0.0, 2.0, 3.92), &monte_carlo(Some(2.0), [-3.88, 3.88]));
-        assert!(two.validated && one.validated);
+        assert!(two.is_validated() && one.is_validated());
         assert_eq!((two.delta, one.delta), (0.05, 0.5));
         // 9.2.4: one dominates, 19.9 against 17.0.
         let [two, one] = validate(
             &gum(0.0, 10.1, 19.9),
             &monte_carlo(Some(10.1), [-17.0, 17.0]),
         );
-        assert!(!two.validated && one.validated);
+        assert!(!two.is_validated() && one.is_validated());
         assert!((two.d_low - 2.9).abs() < 1e-9);
     }
 
@@ -154,7 +206,7 @@ mod tests {
             &monte_carlo(Some(36.0), [745.0, 932.0]),
         );
         assert_eq!((two.delta, one.delta), (0.5, 5.0));
-        assert!(!two.validated && one.validated);
+        assert!(!two.is_validated() && one.is_validated());
     }
 
     #[test]
@@ -162,15 +214,35 @@ mod tests {
         // 9.4 with x1 = 0.
         let [two, one] = validate(&gum(0.0, 0.0, 0.0), &monte_carlo(Some(50.0), [1.3, 184.4]));
         assert_eq!((two.delta, one.delta), (0.5, 5.0));
-        assert!(!two.validated && !one.validated);
+        assert!(!two.is_validated() && !one.is_validated());
         // Nothing is uncertain: the two agree exactly.
         let [two, _] = validate(&gum(3.0, 0.0, 0.0), &monte_carlo(Some(0.0), [3.0, 3.0]));
-        assert!(two.validated);
+        assert!(two.is_validated());
         // Neither method has a u, but the interval is wide.
         let [_, one] = validate(
             &gum(0.0, f64::NAN, f64::NAN),
             &monte_carlo(None, [-1.0, 1.0]),
         );
-        assert!(!one.validated);
+        assert!(!one.is_validated());
+    }
+
+    #[test]
+    fn ends_that_scatter_leave_the_verdict_open() {
+        let scattered = |error| MonteCarlo {
+            standard_errors: [error; 4],
+            ..monte_carlo(Some(2.0), [-3.88, 3.88])
+        };
+        // d = 0.04, δ = 0.05: an error of 0.004 decides, one of 0.006 does not.
+        let verdict = |gum: &Gum, error| validate(gum, &scattered(error))[0].verdict;
+        assert_eq!(verdict(&gum(0.0, 2.0, 3.92), 0.004), Clause8::Validated);
+        assert_eq!(verdict(&gum(0.0, 2.0, 3.92), 0.006), Clause8::Undecided);
+        assert_eq!(verdict(&gum(0.0, 2.0, 3.94), 0.006), Clause8::Undecided);
+        assert_eq!(verdict(&gum(0.0, 2.0, 3.95), 0.006), Clause8::NotValidated);
+        assert_eq!(verdict(&gum(0.0, 2.0, 3.92), f64::NAN), Clause8::Validated);
+        // Twice the error is to be δ/5 = 0.01: 0.012 takes (1.2)² ~ 2 times as many trials.
+        let [two, _] = validate(&gum(0.0, 2.0, 3.92), &scattered(0.006));
+        assert_eq!(trials_needed(&two, 1_000_000), 2_000_000);
+        let [two, _] = validate(&gum(0.0, 2.0, 3.92), &scattered(0.02));
+        assert_eq!(trials_needed(&two, 1_000_000), 20_000_000);
     }
 }

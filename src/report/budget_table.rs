@@ -441,7 +441,7 @@ pub(super) fn origins(report: &Report<'_>) -> Vec<Block> {
         table.push(vec![
             component.name.clone().into(),
             kind(component.evaluation).into(),
-            component.how.clone().into(),
+            super::how::how(&component.how, l).into(),
             from.into(),
         ]);
     }

@@ -116,7 +116,9 @@ pub(super) fn last_place(comparison: &Comparison) -> i32 {
 /// A claimed or obtained number in words.
 pub(super) fn number(what: &Figure, value: f64, place: i32, language: Language) -> String {
     if matches!(what, Figure::Validated(_)) {
-        return if value > 0.5 {
+        return if value == 0.5 {
+            language.pick("undecided", "未定").to_string()
+        } else if value > 0.5 {
             language.pick("yes", "是").to_string()
         } else {
             language.pick("no", "否").to_string()
@@ -146,12 +148,21 @@ fn verdict(comparison: &Comparison, claim: Option<&Claim>, language: Language) -
         );
     }
     if comparison.agrees() {
-        return if comparison.is_near() {
-            language.pick("agrees", "一致")
+        let tolerance = comparison.claimed.tolerance;
+        let counts = matches!(comparison.claimed.what, Figure::Validated(_));
+        return if comparison.is_near() && tolerance > 0.0 && !counts {
+            let within = significant(tolerance, 2);
+            language.pick(
+                format!("agrees within {within}"),
+                format!("在 {within} 内一致"),
+            )
+        } else if comparison.is_near() {
+            language.pick("agrees", "一致").to_string()
         } else {
-            language.pick("agrees when rounded", "修约后一致")
-        }
-        .to_string();
+            language
+                .pick("agrees when rounded", "修约后一致")
+                .to_string()
+        };
     }
     match comparison.ratio() {
         Some(ratio) if (0.5..2.0).contains(&ratio) => {

@@ -1,6 +1,8 @@
 //! GUM and Monte Carlo side by side, with the verdict of JCGM 101 clause 8.
 
-use crate::propagate::{Coverage, CoverageBasis, FindingKind, MeasurandResult, Run, Validation};
+use crate::propagate::{
+    Clause8, Coverage, CoverageBasis, FindingKind, MeasurandResult, Run, Validation,
+};
 
 use super::document::Block;
 use super::language::{Language, Word};
@@ -197,6 +199,7 @@ fn verdict(report: &Report<'_>, measurand: usize, v: &Validation) -> String {
     } else {
         format!(" {unit}")
     };
+    let error = significant(v.error, 2);
     let (low, high, delta) = (
         significant(v.d_low, 2),
         significant(v.d_high, 2),
@@ -210,19 +213,23 @@ fn verdict(report: &Report<'_>, measurand: usize, v: &Validation) -> String {
             } else {
                 format!("{} digits", v.digits)
             },
-            if v.validated {
-                "validated"
-            } else {
-                "not validated"
+            match v.verdict {
+                Clause8::Validated => "validated".to_string(),
+                Clause8::NotValidated => "not validated".to_string(),
+                Clause8::Undecided => format!(
+                    "neither validated nor refuted, as the Monte Carlo ends have a standard error of {error}{unit}"
+                ),
             },
         ),
         Language::Chinese => format!(
             "按 u 的 {} 位有效数字验证：d_low = {low}，d_high = {high}，δ = {delta}{unit}：GUM 法{}",
             v.digits,
-            if v.validated {
-                "通过验证"
-            } else {
-                "未通过验证"
+            match v.verdict {
+                Clause8::Validated => "通过验证".to_string(),
+                Clause8::NotValidated => "未通过验证".to_string(),
+                Clause8::Undecided => {
+                    format!("是否通过验证未定（蒙特卡洛区间端点的标准误差为 {error}{unit}）")
+                }
             },
         ),
     }

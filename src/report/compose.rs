@@ -6,7 +6,9 @@ use crate::quantity::Rounding;
 use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{exact, probability};
-use super::{Report, budget_table, claim, comparison, joint, remarks, statement};
+use super::{
+    Report, analyses, budget_table, claim, comparison, decisions, fits, joint, remarks, statement,
+};
 
 /// All blocks of a report.
 pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
@@ -15,6 +17,7 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
     blocks.extend(model(report));
     blocks.extend(taken(report));
     blocks.extend(budget_table::constants(report));
+    blocks.extend(fits::blocks(report));
     let several = report.evaluation.results.len() > 1;
     for m in 0..report.evaluation.results.len() {
         let name = report.measurand(m).0;
@@ -32,7 +35,9 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
         blocks.extend(comparison::blocks(report, m));
     }
     blocks.extend(joint::blocks(report));
+    blocks.extend(decisions::blocks(report));
     blocks.extend(budget_table::origins(report));
+    blocks.extend(analyses::blocks(report));
     blocks.extend(budget_table::correlated(report));
     blocks.extend(claim::blocks(report));
     let remarks = remarks::remarks(report);
@@ -84,10 +89,15 @@ fn model(report: &Report<'_>) -> Vec<Block> {
     for output in report.budget.model.outputs() {
         // Several measurands of one model share their first statements.
         for line in output.equation.lines() {
-            if !lines.iter().any(|l| l == line) {
+            // A parameter of a fit that is reported as it is needs no equation.
+            let itself = line == format!("{0} = {0}", output.name);
+            if !itself && !lines.iter().any(|l| l == line) {
                 lines.push(line.to_string());
             }
         }
+    }
+    if lines.is_empty() {
+        return Vec::new();
     }
     let mut blocks = vec![
         Block::Section(report.language.word(Word::Model).to_string()),
@@ -162,7 +172,7 @@ fn footer(report: &Report<'_>) -> Vec<String> {
     };
     let rounding = match (conventions.rounding, l) {
         (Rounding::HalfEven, Language::English) => "rounding to nearest, ties to even",
-        (Rounding::HalfEven, Language::Chinese) => "四舍六入五留双",
+        (Rounding::HalfEven, Language::Chinese) => "四舍六入五成双",
         (Rounding::HalfUp, Language::English) => "rounding to nearest, ties up",
         (Rounding::HalfUp, Language::Chinese) => "四舍五入",
         (Rounding::Up, Language::English) => "U always rounded up",

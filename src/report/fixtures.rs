@@ -13,9 +13,9 @@ use crate::budget::{
 use crate::distribution::Distribution;
 use crate::model::{MeasurandSource, Model, Notice, Office, Request, Role, Symbol, compile};
 use crate::propagate::{
-    Basis, Consequence, Contribution, Coverage, CoverageBasis, Evaluation, Finding, FindingKind,
-    Freedom, Gum, Histogram, JointResult, MeasurandResult, MissingMoments, MonteCarlo, Regions,
-    Run, SecondOrder, Side, Validation,
+    Basis, Clause8, Consequence, Contribution, Coverage, CoverageBasis, Evaluation, Finding,
+    FindingKind, Freedom, Gum, Histogram, JointResult, MeasurandResult, MissingMoments, MonteCarlo,
+    Regions, Run, SecondOrder, Side, Validation,
 };
 use crate::quantity::{Dimension, Factor, Unit, UnitTable};
 
@@ -164,6 +164,7 @@ impl Bench {
             following: Vec::new(),
             conformity: Vec::new(),
             detection: Vec::new(),
+            fits: Vec::new(),
             claims: Vec::new(),
             analyses: Vec::new(),
             figures: Vec::new(),
@@ -290,7 +291,12 @@ fn validations(delta: f64, d_low: f64, d_high: f64) -> [Validation; 2] {
         delta,
         d_low,
         d_high,
-        validated: d_low <= delta && d_high <= delta,
+        error: 0.01 * delta,
+        verdict: if d_low <= delta && d_high <= delta {
+            Clause8::Validated
+        } else {
+            Clause8::NotValidated
+        },
     })
 }
 

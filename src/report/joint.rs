@@ -2,12 +2,12 @@
 
 use nalgebra::DMatrix;
 
-use super::Report;
 use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{TABLE_DIGITS, freedom, probability, significant};
 use super::statement::coefficient;
 use super::table::{Cell, Column, ColumnKind, Table};
+use super::{Report, symbol};
 
 /// Correlation matrices and the factors of the coverage regions.
 pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
@@ -81,6 +81,13 @@ fn matrix(report: &Report<'_>, correlation: &DMatrix<f64>, head: &str) -> Table 
     table
 }
 
+/// The product of the units of all measurands, in which the size of a region is.
+fn size_unit(report: &Report<'_>) -> String {
+    let all = (0..report.evaluation.results.len()).map(|m| report.measurand(m).1.difference());
+    let product = all.reduce(|product, unit| product.product(&unit));
+    product.map_or_else(String::new, |unit| symbol(&unit))
+}
+
 fn regions(report: &Report<'_>) -> Table {
     let l = report.language;
     let mut table = Table::new([
@@ -111,6 +118,10 @@ fn regions(report: &Report<'_>) -> Table {
         let size = match report.evaluation.results.len() {
             2 => l.pick("area", "面积"),
             _ => l.pick("volume", "体积"),
+        };
+        let size = match size_unit(report).as_str() {
+            "" => size.to_string(),
+            unit => format!("{size} / {unit}"),
         };
         row(
             format!("{size}{comma}{}", l.word(Word::Ellipsoid)),

@@ -3,11 +3,16 @@
 //! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
 //! composed once; [`json`] is the machine form.
 
+mod analyses;
 mod budget_table;
 mod claim;
 mod comparison;
 mod compose;
+mod decisions;
 mod document;
+mod fits;
+mod fits_json;
+mod how;
 mod joint;
 mod json;
 mod language;

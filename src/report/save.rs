@@ -11,7 +11,7 @@ use crate::budget::saved::{
     TypeEntry,
 };
 use crate::budget::{Component, Evaluation as Kind, Law, Owner, RESULT_FORMAT};
-use crate::propagate::MeasurandResult;
+use crate::propagate::{Clause8, MeasurandResult};
 use nalgebra::DMatrix;
 
 /// The results of the rows of one file, as the text of a file in `folder` that `from = { result = … }`
@@ -146,7 +146,8 @@ impl Writer<'_> {
         let validated = result
             .validation
             .and_then(|both| both.into_iter().find(|one| one.digits == digits))
-            .map(|one| one.validated);
+            .filter(|one| one.verdict != Clause8::Undecided)
+            .map(|one| one.is_validated());
         let entry = ResultEntry {
             file: self.file(report, &own.file),
             row: own.row.as_deref().map(str::to_string),

@@ -1,7 +1,7 @@
 //! A series: the same budget once per row, as compact tables: results, claims, repetitions.
 
 use crate::budget::Figure;
-use crate::propagate::Comparison;
+use crate::propagate::{Clause8, Comparison};
 
 use super::document::Block;
 use super::language::Word;
@@ -135,7 +135,7 @@ impl Series<'_> {
                 .iter()
                 .flatten()
                 .find(|v| v.digits == digits)
-                .map_or("", |v| yes_or_no(report, v.validated));
+                .map_or("", |v| verdict_word(report, v.verdict));
             table.push(vec![
                 report.label.unwrap_or_default().into(),
                 aligned(gum.estimate, gum.u, 2).into(),
@@ -344,6 +344,14 @@ fn yes_or_no(report: &Report<'_>, yes: bool) -> &'static str {
         report.language.pick("yes", "是")
     } else {
         report.language.pick("no", "否")
+    }
+}
+
+fn verdict_word(report: &Report<'_>, verdict: Clause8) -> &'static str {
+    match verdict {
+        Clause8::Validated => report.language.pick("yes", "是"),
+        Clause8::NotValidated => report.language.pick("no", "否"),
+        Clause8::Undecided => report.language.pick("undecided", "未定"),
     }
 }
 

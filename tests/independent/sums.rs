@@ -62,7 +62,7 @@ fn one_rectangle_has_k_from_its_own_width() {
     let gum = &only(&found).gum;
     close(gum.coverage.k, 0.95 * 3f64.sqrt(), 1e-12);
     close_ends(sampled(&found).symmetric, [-0.95, 0.95], 0.001);
-    assert!(only(&found).validation.expect("Monte Carlo was run")[0].validated);
+    assert!(only(&found).validation.expect("Monte Carlo was run")[0].is_validated());
 }
 
 #[test]

@@ -90,7 +90,7 @@ impl Checker<'_> {
         let words = ["between groups", "组间"];
         self.verdict_remark(verdict, words, &table.ratio(), request);
         let how = format!(
-            "analysis of variance of {} readings in {} groups, {}",
+            "analysis of variance of {} readings in {} groups, which {}",
             table.readings,
             table.groups,
             outcome(verdict),
@@ -177,8 +177,8 @@ impl Checker<'_> {
         request: &Request<'_>,
     ) {
         let owner = request.owner;
-        let f = show(ratio.f);
-        let critical = show(ratio.critical(1.0 - request.significance));
+        let f = format!("{:.2}", ratio.f);
+        let critical = format!("{:.2}", ratio.critical(1.0 - request.significance));
         let level = show(100.0 * request.significance);
         match verdict {
             Verdict::Negative => self.remark(
@@ -360,7 +360,7 @@ fn outcome(verdict: Verdict) -> &'static str {
         Verdict::Included => "differ (included)",
         Verdict::Negative => "do not differ (pooled)",
         Verdict::NotSignificant => "do not differ significantly (pooled)",
-        Verdict::Ignored => "taken as one population",
+        Verdict::Ignored => "are taken as one population",
     }
 }
 

@@ -109,7 +109,7 @@ impl Checker<'_> {
         };
         let (name, source) = self.results.get(measurand).cloned()?;
         let (_, entry) = entries(&file.measurand).get(source)?;
-        let unit = self.unit(&entry.value.unit)?;
+        let unit = self.measurand_unit(&name, &entry.value.unit)?;
         let mut reading = Reading {
             table,
             name: &name,
@@ -300,7 +300,8 @@ impl Checker<'_> {
         match (&stated.value.digits, &stated.value.verdict) {
             (Some(digits), Some(verdict)) if matches!(digits.value, 1 | 2) => {
                 let what = Figure::Validated(if digits.value == 1 { 1 } else { 2 });
-                reading.push(what, f64::from(u8::from(verdict.value)), 0.5, None);
+                // An undecided validation, one half, agrees with neither verdict.
+                reading.push(what, f64::from(u8::from(verdict.value)), 0.25, None);
             }
             _ => self.faults.push(
                 Fault::new(
@@ -392,6 +393,9 @@ impl Checker<'_> {
                 let tolerance = reading.tolerance(|t| &t.figures);
                 let half = self.half_digit(stated);
                 reading.push(Figure::Named(name.clone()), stated.value, half, tolerance);
+                continue;
+            }
+            if self.scatters.iter().any(|fit| fit.withholds(name)) {
                 continue;
             }
             let help = match nearest(name, known()) {

@@ -29,6 +29,8 @@ pub(super) struct Context<'a> {
 pub(super) enum Kind {
     Repeatability,
     Resolution,
+    /// Scatter of the data about the fit of this number.
+    Scatter(usize),
     Other,
 }
 

@@ -15,6 +15,7 @@ mod correlations;
 mod csv;
 mod detection;
 mod draft;
+mod fits;
 mod formulas;
 mod given;
 mod groups;
@@ -45,7 +46,7 @@ use super::{
     TScale, Trials,
 };
 use crate::fault::Fault;
-use crate::quantity::UnitTable;
+use crate::quantity::{Unit, UnitTable};
 
 /// Where a budget comes from, and with it the files that it names.
 #[derive(Debug, Clone, Copy)]
@@ -79,6 +80,12 @@ struct Checker<'a> {
     date: Option<String>,
     faults: Vec<Fault>,
     remarks: Vec<Remark>,
+    /// What the fits of the file say about the scatter of their responses.
+    scatters: Vec<fits::Scatter>,
+    /// Parameters of fits with their units.
+    parameters: Vec<(String, Option<Unit>)>,
+    /// Names that the formulas of fits use.
+    used_by_fits: Vec<String>,
     /// Figures of the analyses of the file's data.
     figures: Vec<NamedFigure>,
     /// Names of figures that only the evaluation will give.
@@ -204,6 +211,9 @@ fn budget(
         date: heading.date.clone(),
         faults,
         remarks: Vec::new(),
+        scatters: Vec::new(),
+        parameters: Vec::new(),
+        used_by_fits: Vec::new(),
         figures: Vec::new(),
         awaited_figures: Vec::new(),
         results: Vec::new(),
@@ -231,9 +241,11 @@ impl Checker<'_> {
         let mut register = register::Register::default();
         self.joint_estimates(file, &mut register);
         self.sources(shared(file), &mut register);
+        let fitted = self.fits(file, &constants, &mut register);
+        let file = &self.reporting_fits(file);
         self.inputs(file, resolution, &mut register);
         self.unused_sources(shared(file), &register);
-        let mut groups = self.groups(file, &mut register);
+        let mut groups = self.groups(file, &fitted, &mut register);
         let chain = self.chain(file, row, &mut register, &mut groups);
         let model = self.model(file, &constants, &register);
         self.results = formulas::results(file, model.as_ref());
@@ -256,6 +268,7 @@ impl Checker<'_> {
             following: register.following,
             conformity,
             detection,
+            fits: fitted.into_iter().map(|found| found.fit).collect(),
             claims,
             analyses: register.analyses,
             figures: std::mem::take(&mut self.figures),
@@ -294,6 +307,7 @@ fn names_hidden(file: &FileTable) -> bool {
             "constant",
             file.constant.as_ref().map(|named| named.value.refused),
         )
+        || refused("fit", file.fit.as_ref().map(|named| named.value.refused))
         || refused("model", file.model.as_ref().map(|_| false))
 }
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::draft::Draft;
+use super::draft::{Draft, Kind};
 use super::results::{Formula, Taken};
 use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
 use crate::distribution::Distribution;
@@ -48,6 +48,8 @@ pub(super) struct Register {
     pub analyses: Vec<Analysis>,
     /// Elements of vectors that share one standard deviation of finite ν.
     pub families: Vec<Vec<usize>>,
+    /// Components that are the scatter of data about a fit: the number of the fit, the component.
+    pub scatter: Vec<(usize, usize)>,
     /// Inputs whose uncertainty a covariance matrix states.
     pub by_matrix: Vec<String>,
     /// Components whose effect follows the estimate of an input.
@@ -77,6 +79,9 @@ impl Register {
             found,
         });
         self.analyses.extend(analysed);
+        if let Kind::Scatter(fit) = draft.kind {
+            self.scatter.push((fit, self.components.len()));
+        }
         self.components.push(Component {
             name,
             label: draft.label,

@@ -279,7 +279,12 @@ impl Checker<'_> {
     }
 
     /// Checks that lists for elements are as long as the vector.
-    fn one_for_each(&mut self, name: &str, table: &ComponentTable, length: usize) -> Option<()> {
+    pub(super) fn one_for_each(
+        &mut self,
+        name: &str,
+        table: &ComponentTable,
+        length: usize,
+    ) -> Option<()> {
         let amounts = |stated: &Option<Stated<Amounts>>| match stated {
             Some(Stated {
                 value: Amounts::Each(list),
@@ -320,7 +325,7 @@ impl Checker<'_> {
     }
 
     /// Whether the component is a fraction of the value alone.
-    fn acts_in_proportion(&mut self, entry: &Entry<'_>, unit: &Unit) -> bool {
+    pub(super) fn acts_in_proportion(&mut self, entry: &Entry<'_>, unit: &Unit) -> bool {
         let table = entry.table;
         let stated = table.relative.as_ref().is_some_and(|stated| stated.value);
         let certificate = table
@@ -340,7 +345,7 @@ impl Checker<'_> {
 }
 
 /// The component as it stands for one element, if it lists an amount for each.
-fn of_element(table: &ComponentTable, element: usize) -> Option<ComponentTable> {
+pub(super) fn of_element(table: &ComponentTable, element: usize) -> Option<ComponentTable> {
     let one = |stated: &Option<Stated<Amounts>>| {
         let amount = stated.as_ref()?.of_element(element)?;
         Some(amount.map(|amount| Amounts::One(amount.clone())))

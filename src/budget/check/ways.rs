@@ -31,11 +31,12 @@ pub(super) enum Way {
     Distribution,
     Count,
     Successes,
+    ResidualOf,
 }
 
 use Way::{
     Bits, Count, Distribution, GroupSummary, Groups, HalfWidth, Limits, PlusMinus, Pooled,
-    Readings, Sample, Source, Specification, Step, Successes, U,
+    Readings, ResidualOf, Sample, Source, Specification, Step, Successes, U,
 };
 
 /// Which ways a modifier goes with, and what to say otherwise.
@@ -84,8 +85,8 @@ const MODIFIERS: [(&str, &[Way], &str); 20] = [
     ),
     (
         "of",
-        &[Readings, Groups, GroupSummary, Pooled],
-        "`of` goes with `readings`, `groups` or `pooled`",
+        &[Readings, Groups, GroupSummary, Pooled, ResidualOf],
+        "`of` goes with `readings`, `groups`, `pooled` or `residual_of`",
     ),
     (
         "pooled",
@@ -200,6 +201,7 @@ fn label(way: Way) -> &'static str {
         Distribution => "distribution",
         Count => "count",
         Successes => "proportion",
+        ResidualOf => "scatter of a reading",
     }
 }
 
@@ -240,6 +242,7 @@ fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)>
         "distribution" if full => Some(Distribution),
         "count" => Some(Count),
         "successes" => Some(Successes),
+        "residual_of" => Some(ResidualOf),
         _ => None,
     };
     table
@@ -358,6 +361,7 @@ impl Checker<'_> {
                 self.type_b(table, way, context)
             }
             Sample | Distribution | Count | Successes => self.given(table, way, context),
+            ResidualOf => self.residual_of(table, context),
             Source => None,
         }?;
         self.finish(table, way, context, core)
@@ -408,6 +412,7 @@ impl Checker<'_> {
         let kind = match way {
             Readings | Groups | GroupSummary | Pooled => Kind::Repeatability,
             Step | Bits => Kind::Resolution,
+            ResidualOf => self.fit_named(table).map_or(Kind::Other, Kind::Scatter),
             _ => Kind::Other,
         };
         self.limits_without_freedom(&core, context);
@@ -421,7 +426,7 @@ impl Checker<'_> {
             evaluation: match table.kind.as_ref().map(|word| word.value) {
                 Some(TypeWord::A) => Evaluation::TypeA,
                 Some(TypeWord::B) => Evaluation::TypeB,
-                None if kind == Kind::Repeatability => Evaluation::TypeA,
+                None if matches!(kind, Kind::Repeatability | Kind::Scatter(_)) => Evaluation::TypeA,
                 None => Evaluation::TypeB,
             },
             how: core.how,

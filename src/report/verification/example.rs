@@ -138,14 +138,19 @@ fn table(rows: &[Row], l: Language) -> Table {
 fn line(row: &Row, comparison: &Comparison, l: Language) -> Vec<Cell> {
     let report = report(row, l);
     let what = &comparison.claimed.what;
-    let obtained = comparison.obtained.map_or_else(
-        || NONE.to_string(),
-        // Two digits beyond the tolerance show what rounding hides.
-        |value| claim::number(what, value, last_place(comparison) - 2, l),
-    );
     let asked = row
         .digits_wanted(comparison)
         .filter(|digits| is_by_digits(comparison, *digits));
+    // Digits beyond the tolerance show what rounding hides.
+    let stated = Decimal::from_f64(comparison.claimed.value).place();
+    let place = match (asked, stated) {
+        (Some(_), Some(stated)) => stated - 1,
+        _ => last_place(comparison) - 2,
+    };
+    let obtained = comparison.obtained.map_or_else(
+        || NONE.to_string(),
+        |value| claim::number(what, value, place, l),
+    );
     vec![
         name(&report, comparison).into(),
         claim::method(comparison.method, l).into(),

@@ -16,7 +16,7 @@
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
 //! | [`budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget |
-//! | [`report`] | text, Markdown, JSON, and the certificate's sentence |
+//! | [`verify`] | published examples held against their published figures |
 //! | [`report`] | text, Markdown, JSON and the certificate's sentence |
 //!
 //! # A tour
@@ -75,3 +75,4 @@ pub mod quantity;
 pub mod report;
 pub mod special;
 pub mod statistics;
+pub mod verify;

@@ -53,9 +53,10 @@ fn blocks(text: &str, word: &str) -> Vec<(usize, String)> {
     blocks
 }
 
-/// A block that shows single tables only, as the page of units does, needs a measurand to be a budget.
+/// A block that shows single tables only, as the page of units does, needs a measurand to be a budget; a fit
+/// reports its parameters.
 fn completed(block: String) -> String {
-    if block.contains("measurand") {
+    if block.contains("measurand") || block.contains("[fit.") {
         block
     } else {
         format!("{block}\n[measurand.y]\nmodel = \"x\"\n[input]\nx = {{ value = 1, u = 0.1 }}\n")

@@ -24,8 +24,9 @@ fn gumption(arguments: &[&str], path: &Path) -> String {
         .arg(common::relative(path))
         .output()
         .expect("the program runs");
+    // 1 = an item that does not conform, by a verdict of the report.
     assert!(
-        output.status.success(),
+        matches!(output.status.code(), Some(0 | 1)) && output.stderr.is_empty(),
         "{} {}:\n{}",
         arguments.join(" "),
         common::relative(path),

@@ -123,6 +123,20 @@ pub struct NamedFigure {
     pub unit: Unit,
 }
 
+impl NamedFigure {
+    /// The smallest integer J ≥ 100/(1 − p) of an adaptive run (JCGM 101, 7.9.4 b).
+    pub const LEAST_BATCH: &str = "monte_carlo.J";
+
+    /// M, the trials in a batch of an adaptive run: J, and at least 10 000 (JCGM 101, 7.9.4 b).
+    pub const BATCH: &str = "monte_carlo.M";
+
+    /// The name of the numerical tolerance δ of a measurand when this many digits of u(y) are meaningful
+    /// (JCGM 101, 7.9.2).
+    pub fn tolerance(measurand: &str, digits: u8) -> String {
+        format!("{measurand}.delta({digits})")
+    }
+}
+
 /// Which figure of an input or component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {

@@ -168,6 +168,13 @@ impl Follows {
 }
 
 impl Budget {
+    /// How the effect of a component on an input follows the input's estimate; nothing where it does not.
+    pub fn follows(&self, input: usize, component: usize) -> Option<Follows> {
+        let mut found = self.following.iter();
+        let found = found.find(|f| f.input == input && f.component == component);
+        found.map(|f| f.rule)
+    }
+
     /// The budget as it would be had the input this estimate: what is stated relative to the input, or
     /// follows from a number of counts, follows it; everything else stays as it is.
     #[must_use]

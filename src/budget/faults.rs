@@ -143,6 +143,16 @@ SERIAL "B0218" "readings cannot be corrected for autocorrelation"
 "The correction estimates the autocorrelation from the readings themselves and needs at least ten of them, which \
 must not drift so much that less than two independent ones remain."
 
+GROUPS "B0219" "groups of readings are not usable"
+"An analysis of variance compares groups: two or more of them, one of which at least has two readings that \
+differ. In nested groups one group at least has two subgroups. A difference between groups is not seen in a \
+single group; state its readings as `readings`."
+
+OUTLIER_TEST "B0220" "a test for outliers cannot say anything"
+"Dixon's test is for 3 to 30 readings, that of Grubbs for 3 or more. Four mean deviations need 4 readings, and three \
+standard deviations need 11: with fewer no reading can be so far from the mean. `significance` is for the tests of Grubbs \
+and Dixon."
+
 UNKNOWN_NAME "B0301" "a name is not known"
 "A correlation, a joint input, a claim or a series refers to an input, source or component that the file does not have."
 
@@ -228,6 +238,37 @@ budget is read with `from = { budget = … }`."
 SAVED_STALE "B0706" "a file has changed since results were saved"
 "A saved result and another file state the same component (the same file and name) differently, so that their \
 correlation is not known. Evaluate the changed budget again and save its results anew."
+FIT "B0601" "a fit says too little or too much"
+"`[fit.NAME]` needs `data` and one formula: `model = \"y = a + b*x\"` with a column of the data on the left, or \
+`polynomial` with `response` and `predictor`. Every name of the formula that is neither a column nor a constant is a \
+parameter; with a table of parameters, only those that it lists."
+
+FIT_COLUMNS "B0602" "the columns of a fit do not match"
+"A point of a fit has one value in every column, and one in every list of uncertainties, weights or correlation coefficients."
+
+FIT_ERRORS "B0603" "the uncertainties of the data of a fit are not usable"
+"Where uncertainties are stated, those of the response must be greater than zero, unless the predictor has one that can take \
+up the distance of the point from the curve. `scale = \"stated\"` takes them as known, so that some must be stated; \
+`scale = \"residuals\"` takes them as known up to a factor."
+
+FIT_START "B0604" "a nonlinear fit has no start values"
+"A formula that is not linear in its parameters, such as `y = a*exp(-x/tau)`, is solved by a search. It begins at the `start` \
+of each parameter, which must be roughly right: `tau = { start = 2, unit = \"s\" }`."
+
+FIT_POINTS "B0605" "a fit has too few points"
+"There must be at least as many points as parameters; more where the residuals are to tell the uncertainty."
+
+FIT_INDISTINCT "B0606" "the data do not tell the parameters apart"
+"Some parameters can be changed together without any change of the curve at the points: two columns are proportional, all \
+values of a predictor are the same, or the formula has one parameter too many. Leave out one of them, or add points."
+
+FIT_FAILED "B0607" "a fit was not found"
+"The search for the parameters ended without a minimum, or the formula has no finite value at its start. Choose other start \
+values, and check that the formula can describe the data."
+
+RESIDUAL_OF "B0608" "the scatter of a fit cannot be used here"
+"`residual_of` is the scatter of a further reading as seen from the residuals of a fit. The fit must leave the scatter of its \
+response to the residuals, without stated uncertainties; else the uncertainty of the reading is known already."
 }
 
 #[cfg(test)]

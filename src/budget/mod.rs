@@ -8,6 +8,7 @@
 //!
 //! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
 
+mod analysis;
 pub mod chain;
 mod check;
 mod claim;
@@ -15,11 +16,13 @@ mod decision;
 mod distributions;
 pub mod faults;
 mod files;
+mod fit;
 mod parametric;
 mod profile;
 mod reader;
 mod rejection;
 pub(crate) mod saved;
+mod series;
 mod shelf;
 mod strings;
 mod table;
@@ -29,9 +32,11 @@ mod variants;
 
 use nalgebra::DMatrix;
 
+pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use decision::{Conformity, DecisionRule, Detection, Following, Follows, Guard, Interval};
 pub use files::Files;
+pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use rejection::Rejection;
@@ -97,8 +102,12 @@ pub struct Budget {
     pub conformity: Vec<Conformity>,
     /// Characteristic limits.
     pub detection: Vec<Detection>,
+    /// Curves fitted by least squares, whose parameters are inputs.
+    pub fits: Vec<Fit>,
     /// What certificates say.
     pub claims: Vec<Claim>,
+    /// Analyses of readings, for the report; their figures are among `figures`.
+    pub analyses: Vec<Analysis>,
     /// What the analyses of the file's data found (fits, analyses of variance), known before any evaluation.
     pub figures: Vec<NamedFigure>,
     /// What a reader must know that is not an error (certificate past due, estimate moved to the

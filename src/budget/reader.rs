@@ -4,13 +4,13 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use toml::Spanned;
 use toml::de::DeTable;
 
-use super::check::{self, Origin};
+use super::check::{self, Origin, Variant};
 use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE, UNUSED};
 use super::files::Files;
 use super::rejection::Rejection;
+use super::series;
 use super::shelf::Shelf;
 use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
@@ -154,17 +154,10 @@ fn read_under(
     if !errors.iter().all(leaves_the_rest) {
         return Err(Rejection::new(name, text, syntax));
     }
-    let (mut file, mut faults) = tables(&table, text);
-    if let Some(profile) = profile {
-        file.profile = Some(Stated {
-            value: profile.name.into(),
-            span: 0..0,
-            key: 0..0,
-        });
-    }
+    let (variants, mut faults) = variants(table.get_ref(), text, profile);
     let checked = origin
         .shelf
-        .within(origin.file, || check::rows(&file, text, origin));
+        .within(origin.file, || check::rows(variants, text, origin));
     match checked {
         Ok((heading, rows)) if faults.is_empty() && syntax.is_empty() => {
             return Ok(Loaded { heading, rows });
@@ -184,14 +177,43 @@ fn read_under(
     Err(rejection)
 }
 
-/// Reads the tables of a file.
-fn tables(table: &Spanned<DeTable<'_>>, text: &str) -> (FileTable, Vec<Fault>) {
+/// The tables of the file, or of the file with each row of its series in place.
+fn variants(
+    table: &DeTable<'_>,
+    text: &str,
+    profile: Option<&Profile>,
+) -> (Vec<Variant>, Vec<Fault>) {
     let mut reader = Reader {
         file: text,
         faults: Vec::new(),
     };
-    let file = read_table::<FileTable>(table.get_ref(), "a budget", &mut reader);
-    (file, reader.faults)
+    let file = tables(table, profile, &mut reader);
+    let rows = match &file.series {
+        Some(stated) => series::variants(table, stated, &mut reader.faults),
+        None => Vec::new(),
+    };
+    // With a faulty series the file itself is still checked.
+    if rows.is_empty() {
+        return (vec![Variant { label: None, file }], reader.faults);
+    }
+    let rows = rows.into_iter().map(|row| Variant {
+        label: row.label,
+        file: tables(&row.table, profile, &mut reader),
+    });
+    (rows.collect(), reader.faults)
+}
+
+/// Reads the tables of a file.
+fn tables(table: &DeTable<'_>, profile: Option<&Profile>, reader: &mut Reader<'_>) -> FileTable {
+    let mut file = read_table::<FileTable>(table, "a budget", reader);
+    if let Some(profile) = profile {
+        file.profile = Some(Stated {
+            value: profile.name.into(),
+            span: 0..0,
+            key: 0..0,
+        });
+    }
+    file
 }
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.

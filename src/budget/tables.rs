@@ -4,7 +4,8 @@ use super::distributions::DistributionEntry;
 use super::table::{Stated, table, words};
 use super::values::{Amount, Cell, Date, Dof, Named, OneOrMany};
 use super::variants::{
-    Amounts, ConstantEntry, Numbers, ReadingsOf, RowLabel, Sources, TrialsEntry,
+    Amounts, ConstantEntry, FitParameters, Groups, Numbers, ReadingsOf, RowLabel, Sources,
+    TrialsEntry,
 };
 
 type List<T> = Vec<Stated<T>>;
@@ -44,6 +45,8 @@ table! {
         measurand: Named<MeasurandTable>,
         /// The quantities on which they depend.
         input: Named<InputTable>,
+        /// Curves fitted to data by least squares; their parameters are inputs.
+        fit: Named<FitTable>,
         /// Correlation coefficients for which no cause is known.
         correlation: OneOrMany<CorrelationTable>,
         /// Inputs measured together, or given with a covariance matrix.
@@ -266,8 +269,20 @@ table! {
         minus: Amount,
         /// Way: expanded uncertainty from a certificate; without `U`, the certificate behind another way.
         certificate: CertificateTable,
-        /// Way: repeated readings, in the unit of the input, as a list or from a CSV file.
+        /// Whether a stated u was evaluated from readings (Type A) or otherwise.
+        kind as "type": TypeWord,
+        /// Way: repeated readings, in the unit of the input, as a list or from a CSV file; of a vector, one list for each element.
         readings: Numbers,
+        /// Way: readings in groups (days, laboratories), one list for each; in subgroups of groups, lists of lists; or from a CSV file.
+        groups: Groups,
+        /// Way: means, standard deviations and numbers of readings of groups.
+        group_summary: GroupSummaryTable,
+        /// With `groups`: what is done with a difference between them.
+        between: BetweenWord,
+        /// Level of significance of the F test of `groups` or of the `outlier_test` (default 0.05).
+        significance: f64,
+        /// With `readings`: tests the most outlying one; reported, never removed.
+        outlier_test: OutlierWord,
         /// Way: accuracy specification of an instrument.
         specification: SpecificationTable,
         /// Way: resolution q of an indication; half-width q/2.
@@ -278,6 +293,8 @@ table! {
         range: List<Amount>,
         /// Way: a `[source.NAME]` cause; its name.
         source: String,
+        /// Way: the scatter of the data about a `[fit.NAME]`; its name. `of` says of how many readings the value is the mean (default 1).
+        residual_of: String,
         /// Way: a sample of the distribution itself, as a list or from a CSV file.
         sample: Numbers,
         /// Shape that goes with another way (`"uniform"`), or a way of its own: `{ NAME = { parameters } }`.
@@ -316,6 +333,66 @@ table! {
         gum_u: Amount,
         /// Where the number comes from.
         reference: String,
+    }
+}
+
+words! {
+    /// How a standard uncertainty was evaluated.
+    TypeWord {
+        /// By a statistical analysis of readings.
+        A "A",
+        /// By other means.
+        B "B",
+    }
+}
+
+words! {
+    /// What is done with a difference between groups of readings.
+    BetweenWord {
+        /// Its variance is part of u.
+        Include "include",
+        /// As "include" if an F test finds the difference, else as "none".
+        Test "test",
+        /// All readings are taken for one population.
+        None "none",
+    }
+}
+
+words! {
+    /// Tests for outliers.
+    OutlierWord {
+        /// Grubbs: largest deviation in units of s.
+        Grubbs "grubbs",
+        /// Dixon: gap beside the outermost reading over the range.
+        Dixon "dixon",
+        /// Four mean deviations of the other readings.
+        FourD "4d",
+        /// Three standard deviations.
+        ThreeS "3s",
+    }
+}
+
+table! {
+    /// What is known of groups of readings.
+    GroupSummaryTable "group_summary" {
+        /// Mean of each group.
+        means: List<Amount>,
+        /// Experimental standard deviation of each group.
+        s: List<Amount>,
+        /// Number of readings of each group, or one number for all.
+        n: OneOrMany<u64>,
+    }
+}
+
+table! {
+    /// A column of a CSV file whose rows belong to groups.
+    GroupColumnTable "a CSV column in groups" {
+        /// Path of the file.
+        file: String,
+        /// Name of the column with the readings.
+        column: String,
+        /// Name of the column that tells the group; two names for groups and subgroups.
+        group: OneOrMany<String>,
     }
 }
 
@@ -378,6 +455,8 @@ table! {
         s: Amount,
         /// Its degrees of freedom.
         dof: Dof,
+        /// In place of both: earlier series of readings, one list for each.
+        readings: List<List<f64>>,
     }
 }
 
@@ -388,6 +467,75 @@ table! {
         file: String,
         /// Name of the column in its first line.
         column: String,
+    }
+}
+
+table! {
+    /// A curve fitted to data by least squares; its parameters are inputs under their own names.
+    FitTable "[fit]" {
+        /// What is fitted.
+        description: String,
+        /// The formula: the response column on the left, other columns, parameters and constants on the right.
+        model: String,
+        /// In place of `model`: degree of a polynomial.
+        polynomial: u64,
+        /// With `polynomial`: the column on the left.
+        response: String,
+        /// With `polynomial`: the column of which it is a polynomial.
+        predictor: String,
+        /// With `polynomial`: false for a curve through the origin.
+        intercept: bool,
+        /// The observed data: one column for each quantity of the formula.
+        data: Named<FitColumnTable>,
+        /// The parameters with unit and start value, or a list of their names; without it every name of the formula that is no column and no constant.
+        parameters: FitParameters,
+        /// Whether the uncertainties of the data are used as stated, or known only up to a factor that follows from the residuals.
+        scale: ScaleWord,
+        /// Correlation coefficients of the errors of predictor and response, one for each point.
+        correlation: List<f64>,
+        /// Where the data come from.
+        reference: String,
+    }
+}
+
+table! {
+    /// A column of data: its values, and why they are in doubt. Without doubt it is exact; where no column has any, the residuals tell the scatter of the response.
+    FitColumnTable "[fit.NAME.data]" {
+        /// The observed values, as a list or from a CSV file.
+        values: Numbers,
+        /// Their unit; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+        /// Covariance matrix of the values in the square of their unit, row by row.
+        covariance: List<List<f64>>,
+        /// Weights of the values, 1/u², as a list or from a CSV file.
+        weights: Numbers,
+        /// Several reasons to doubt the values; those with `common = true` and shared causes act on all points together.
+        components: List<ComponentTable>,
+        with component: ComponentTable
+    }
+}
+
+table! {
+    /// A parameter of a fit.
+    FitParameterTable "[fit.NAME.parameters]" {
+        /// Its unit; where it is left out, the one that follows from the formula if that is linear in the parameters.
+        unit: String,
+        /// Where the search begins; needed for formulas that are not linear in the parameters.
+        start: Amount,
+        /// What it is.
+        description: String,
+    }
+}
+
+words! {
+    /// What the stated uncertainties of the data of a fit are worth.
+    ScaleWord {
+        /// Used as they are.
+        Stated "stated",
+        /// Known up to a common factor, which the residuals tell.
+        Residuals "residuals",
     }
 }
 

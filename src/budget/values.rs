@@ -250,6 +250,11 @@ impl FromToml for Amount {
     }
 }
 
+/// Number and unit of a text such as `25 µV`.
+pub fn amount_parts(text: &str) -> Option<(f64, &str)> {
+    split_amount(text).map(|(number, unit)| (number, &text[unit]))
+}
+
 /// The number at the beginning of a text, and where its unit is.
 fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
     let lead = text.len() - text.trim_start().len();

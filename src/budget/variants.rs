@@ -5,7 +5,7 @@ use toml::de::DeValue;
 
 use super::faults::WRONG_TYPE;
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, unknown_word};
-use super::tables::{ColumnTable, ConstantTable, SourceTable};
+use super::tables::{ColumnTable, ConstantTable, FitParameterTable, GroupColumnTable, SourceTable};
 use super::values::{Amount, Named};
 use crate::fault::Fault;
 
@@ -144,6 +144,8 @@ impl FromToml for Amounts {
 pub enum Numbers {
     /// As a list.
     List(Vec<Stated<f64>>),
+    /// As a list for each element of a vector.
+    Lists(Vec<Stated<Vec<Stated<f64>>>>),
     /// In a column.
     Column(Box<ColumnTable>),
 }
@@ -155,6 +157,7 @@ impl FromToml for Numbers {
 
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
+            DeValue::Array(list) if depth(list) > 1 => Vec::read(value, reader).map(Numbers::Lists),
             DeValue::Array(_) => Vec::read(value, reader).map(Numbers::List),
             DeValue::Table(_) => {
                 ColumnTable::read(value, reader).map(|table| Numbers::Column(Box::new(table)))
@@ -164,11 +167,68 @@ impl FromToml for Numbers {
     }
 
     fn schema() -> Value {
-        json!({ "oneOf": [Vec::<Stated<f64>>::schema(), ColumnTable::schema()] })
+        json!({ "oneOf": [
+            Vec::<Stated<f64>>::schema(),
+            Vec::<Stated<Vec<Stated<f64>>>>::schema(),
+            ColumnTable::schema(),
+        ] })
     }
 
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {
         ColumnTable::tables(path, rows);
+    }
+}
+
+/// How deep lists stand in lists, judged by the first of each.
+fn depth(list: &toml::de::DeArray<'_>) -> usize {
+    match list.iter().next().map(|first| first.get_ref()) {
+        Some(DeValue::Array(inner)) => 1 + depth(inner),
+        _ => 1,
+    }
+}
+
+type Lists<T> = Vec<Stated<Vec<T>>>;
+
+/// Readings in groups, in the file itself or in a CSV file.
+#[derive(Debug, Clone)]
+pub enum Groups {
+    /// One list for each group.
+    OneWay(Lists<Stated<f64>>),
+    /// For each group a list of its subgroups.
+    Nested(Lists<Stated<Vec<Stated<f64>>>>),
+    /// In a column, beside one or two that name the groups.
+    Column(Box<GroupColumnTable>),
+}
+
+impl FromToml for Groups {
+    fn expected() -> String {
+        "a list of lists of numbers, or { file = \"…\", column = \"…\", group = \"…\" }".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Array(list) => match depth(list) {
+                1 => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+                2 => Vec::read(value, reader).map(Groups::OneWay),
+                _ => Vec::read(value, reader).map(Groups::Nested),
+            },
+            DeValue::Table(_) => {
+                GroupColumnTable::read(value, reader).map(|table| Groups::Column(Box::new(table)))
+            }
+            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [
+            Lists::<Stated<f64>>::schema(),
+            Lists::<Stated<Vec<Stated<f64>>>>::schema(),
+            GroupColumnTable::schema(),
+        ] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        GroupColumnTable::tables(path, rows);
     }
 }
 
@@ -236,5 +296,41 @@ impl FromToml for TrialsEntry {
 
     fn schema() -> Value {
         json!({ "oneOf": [{ "enum": ["adaptive"] }, { "type": "integer", "minimum": 1000 }] })
+    }
+}
+
+/// Parameters of a fit: tables with unit and start value, or a list of names.
+#[derive(Debug, Clone)]
+pub struct FitParameters(pub Named<FitParameterTable>);
+
+impl FromToml for FitParameters {
+    fn expected() -> String {
+        "tables of parameters, or a list of their names".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Table(_) => Named::read(value, reader).map(FitParameters),
+            DeValue::Array(_) => {
+                let names: Vec<Stated<String>> = Vec::read(value, reader)?;
+                let entries = names.into_iter().map(|name| {
+                    let table = name.map(|_| FitParameterTable::default());
+                    (name.value, table)
+                });
+                Some(FitParameters(Named {
+                    entries: entries.collect(),
+                    refused: false,
+                }))
+            }
+            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [Named::<FitParameterTable>::schema(), Vec::<Stated<String>>::schema()] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        Named::<FitParameterTable>::tables(path, rows);
     }
 }

@@ -18,6 +18,12 @@ pub(super) const CONCEPTS: &[Concept] = &[
         text: "With trials = \"adaptive\" (or --trials adaptive) Monte Carlo runs until estimate, standard uncertainty and both ends of the symmetric interval are stable to a numerical tolerance δ: half a unit of the last of the one or two digits of u(y) that are asked for by `digits` (JCGM 101, 7.9.2).\n\nTrials are run in batches of at least 10 000. procedure = \"stein\" (the default) takes the scatter between the first ten batches, computes from it once how many batches are needed, and runs them; all results are then within δ with a probability of at least 95 % (Wübbeler, Harris, Cox, Elster 2010). procedure = \"jcgm101\" adds batch after batch until twice the standard error of every result is at most δ (7.9.4). Because it looks again after each batch, a scatter that is small by chance ends it too early, and it promises no probability. That is why it is not the default.\n\nThe run stops in any case at `max_trials` (100 million if not stated); the report then says that the tolerance was not reached.",
     },
     Concept {
+        name: "anova",
+        aliases: &["analysis of variance", "groups", "between", "nested", "reproducibility", "方差分析"],
+        title: "readings in groups: days, operators, laboratories (GUM H.5)",
+        text: "Readings of one day may lie closer together than those of different days. `groups` takes one list for each group, `group_summary` their means, standard deviations and numbers of readings; a CSV file names the group of each row. The estimate is the mean of all readings.\n\nbetween = \"include\" (default): the variance between groups, (MS_between − MS_within)/n₀ with n₀ = (N − Σn²/N)/(J − 1), is part of u. Of equally many readings in J groups this is s(group means)/√J with ν = J − 1; of other numbers u² is a combination of both mean squares, and ν follows from Welch–Satterthwaite. Where the variance comes out negative it is zero, and the readings are pooled. \"none\": all readings are of one population, ν = N − 1. \"test\": as \"include\" if the F test at the level `significance` (0.05) finds a difference, else as \"none\". An F test that finds nothing does not prove that there is nothing: \"include\" is the cautious choice.\n\nof = \"single\" gives the reproducibility of one later reading in any group, of = 3 that of the mean of three in one group.\n\nLists in lists of lists, or two group columns, are nested: readings in subgroups of groups, with the expected mean squares of unbalanced designs. A difference that is not there simplifies the design, and its sum of squares is pooled.\n\nFigures for claims: V.anova.ss_between, df_, ms_, the same of within, F, p, F_critical, F(0.95), F(0.975), F(0.99), n_0, s_means, s_a and s_b (roots of the mean squares), s_B (between groups), s_R (reproducibility), r_squared, residual_sd; of nested groups ss_groups, ss_subgroups, F_groups, F_subgroups, s_groups, s_subgroups, s_within and so on.",
+    },
+    Concept {
         name: "claim",
         aliases: &["claims"],
         title: "figures that somebody states, compared and never used",
@@ -48,16 +54,28 @@ pub(super) const CONCEPTS: &[Concept] = &[
         text: "A file with several [measurand.NAME] gives, besides each result, the covariance and the correlation of all of them.\n\nTwo factors describe the joint coverage region for the GUM result: k_p of the ellipsoid, and k_q for simultaneous intervals y_j ± k_q·u_j (JCGM 102, 6.5). Both are larger than the k of a single measurand. For finite degrees of freedom the ellipsoid follows from Hotelling's T², and ν of the covariance matrix from the formula of Willink and Hall (2002). Monte Carlo gives the same factors from its trials and, for two or three measurands, the area or volume of the smallest region (7.7).\n\nWhere one measurand is a linear function of the others there is no such region, and the report says so.",
     },
     Concept {
+        name: "conformity",
+        aliases: &["risk", "decision rule", "guard band", "tolerance", "符合性", "合格判定"],
+        title: "decision rules and risks (JCGM 106, ISO/IEC 17025 7.8.6)",
+        text: "[conformity] states the tolerance and the decision rule. The acceptance limits follow from the rule: on the tolerance limits (simple), inside by a guard band w (guarded-acceptance; ILAC-G8 with w = U), outside (guarded-rejection), or both, undecided between (non-binary; ISO 14253-1 with 95 %; JJF 1094 where U > MPEV/3).\n\np_c is the probability that the measured item conforms, from the result alone or, where `process` says what is known of the items, by Bayes' theorem. Its complement is the specific consumer's risk of an accepted item; p_c itself the specific producer's risk of a rejected one.\n\nR_C and R_P are probabilities over all items of the process: that an item does not conform and is accepted, and that it conforms and is rejected. cpfa is R_C over the probability of acceptance. C_m = T/(4u); TUR = T/(2U) = MPEV/U.",
+    },
+    Concept {
         name: "degrees-of-freedom",
         aliases: &["welch-satterthwaite", "ws", "effective degrees of freedom", "freedom_refused", "few_degrees_of_freedom", "自由度"],
         title: "how well u itself is known (GUM G.4)",
-        text: "n readings give ν = n − 1. A component whose u is uncertain by Δu/u (`reliability`) has ν = ½(Δu/u)^-2 (GUM G.4.2). Most Type B components have ν = ∞.\n\nν_eff of u(y) follows from the Welch–Satterthwaite formula, u⁴(y) / Σ u_i⁴(y)/ν_i (GUM G.4.1), which holds for independent terms. Correlated components that share one ν, such as joint readings, count as one term with that ν (Willink 2007). For correlated components with different finite ν no formula is valid: gumption refuses to invent one, says which components it concerns, and takes the smallest ν for k.\n\nMonte Carlo needs no ν_eff: components with finite ν are drawn from t distributions.",
+        text: "n readings give ν = n − 1. A component whose u is uncertain by Δu/u (`reliability`) has ν = ½(Δu/u)^-2 (GUM G.4.2). Most Type B components have ν = ∞.\n\nν_eff of u(y) follows from the Welch–Satterthwaite formula, u⁴(y) / Σ u_i⁴(y)/ν_i (GUM G.4.1), which holds for independent terms. Correlated components that share one ν, such as joint readings, count as one term with that ν (Willink 2007). For correlated components with different finite ν no formula is valid: gumption refuses to invent one, says which components it concerns, and takes the smallest ν for k.\n\nThe elements of a vector whose uncertainty is one statement share its ν: they are one term, too.\n\nMonte Carlo needs no ν_eff: readings and stated standard uncertainties with finite ν are drawn from t distributions, elements that share one ν from a multivariate one. Limits with a shape (a rectangle, say) and finite ν are drawn as they are stated; their ν counts for the GUM method only, and a remark says so.",
+    },
+    Concept {
+        name: "detection-limit",
+        aliases: &["detection", "decision threshold", "characteristic limits", "iso 11929", "探测限", "判断限"],
+        title: "decision threshold and detection limit (ISO 11929)",
+        text: "A net effect that cannot be negative is recognised where y is above the decision threshold y* = k_{1−α}·u(0), which is exceeded with probability α where there is none. The detection limit y# = y* + k_{1−β}·u(y#) is the smallest value that is recognised with probability 1 − β. Both need u of a measurement that finds another value: the input that `gross` names takes the estimate that gives it, counts follow as their square root, relative uncertainties in proportion. Where u grows as fast as the value there is no detection limit.\n\nBest estimate and coverage interval are those of the normal distribution of the result, cut off at zero. With Monte Carlo, threshold and limit are also found from the quantiles of the simulated results (ISO 11929-2).",
     },
     Concept {
         name: "exit-codes",
         aliases: &["exit", "exit code"],
         title: "what the program returns to the shell",
-        text: "0: everything was evaluated. 1: a budget was read but gives no result (the model has no value at the estimates, or every trial failed). 2: a file or an argument is wrong. With several files the others are still printed, and the worst code is returned.",
+        text: "0: everything was evaluated. 1: a budget was read but gives no result (the model has no value at the estimates, or every trial failed), or a conformity assessment finds an item not conforming, or an example of `gumption verify` failed. 2: a file or an argument is wrong. With several files the others are still printed, and the worst code is returned.",
     },
     Concept {
         name: "findings",
@@ -82,6 +100,12 @@ pub(super) const CONCEPTS: &[Concept] = &[
         aliases: &["mc", "mcm", "propagation of distributions", "蒙特卡洛"],
         title: "propagation of distributions (JCGM 101)",
         text: "Every input is drawn from its distribution, the model is evaluated, and this is repeated, a million times unless the file says otherwise. Mean and standard deviation of the results are estimate and u (7.6); their order gives the coverage intervals (7.7). Neither derivatives nor degrees of freedom are needed.\n\nThe same seed gives the same result to the last bit, whatever the number of threads.",
+    },
+    Concept {
+        name: "outliers",
+        aliases: &["outlier", "grubbs", "dixon", "outlier_test", "离群值", "粗大误差"],
+        title: "readings that do not belong to the others",
+        text: "outlier_test beside `readings` examines the most outlying of them, on either side, and reports. It never removes: that is for somebody who knows what happened when the reading was taken.\n\n\"grubbs\": largest deviation from the mean in units of s, two-sided at the level `significance` (0.05); three readings or more (ISO 5725-2, GB/T 4883). \"dixon\": gap beside the outermost reading over the range: r10 for 3 to 7 readings, r11 to 10, r21 to 13, r22 to 30; two-sided, critical values from the exact distribution. \"4d\": four mean deviations of the other readings. \"3s\": three standard deviations, for 11 readings or more, because fewer cannot reach that far.\n\nFigures for claims: V.outlier.place, value, statistic, critical, p.",
     },
     Concept {
         name: "resolution",
@@ -123,7 +147,7 @@ pub(super) const CONCEPTS: &[Concept] = &[
         name: "type-a",
         aliases: &["repeatability", "type a evaluation", "A类"],
         title: "standard uncertainty from readings (GUM 4.2)",
-        text: "n readings with the experimental standard deviation s: u = s/√n for their mean, with ν = n − 1. of = \"single\" takes u = s, for one later reading; of = 3 takes s/√3, for the mean of three. `pooled` replaces s and its ν by those of earlier work. `autocorrelated` divides by the effective number of independent readings.\n\nIn Monte Carlo the mean of n readings has a scaled and shifted t distribution (JCGM 101, 6.4.9), whose standard deviation is √(ν/(ν − 2)) times s/√n: the two methods therefore differ a little for few readings. t_scale = \"standard-deviation\" in [conventions] gives the t distribution the standard deviation s/√n instead.",
+        text: "n readings with the experimental standard deviation s: u = s/√n for their mean, with ν = n − 1. of = \"single\" takes u = s, for one later reading; of = 3 takes s/√3, for the mean of three. `pooled` replaces s and its ν by those of earlier work. `type = \"A\"` says of a stated `u` that it was evaluated from readings.\n\nReadings that follow each other may be correlated (GUM 4.2.7). The report gives the lag-1 coefficient of ten readings or more, with a remark where independent readings would hardly show it (beyond 2/√n). `autocorrelated` divides by the effective number of independent readings, n/(1 + 2 Σ (1 − k/n) ρ_k), with the ρ_k summed up to the last lag before the first that lies below 2/√n.\n\nAll sums are formed with twice the digits of a double, and a reading is the decimal that is written: readings that agree in their first twelve digits lose nothing. See `gumption explain anova` for readings in groups and `gumption explain outliers` for tests.\n\nIn Monte Carlo the mean of n readings has a scaled and shifted t distribution (JCGM 101, 6.4.9), whose standard deviation is √(ν/(ν − 2)) times s/√n: the two methods therefore differ a little for few readings. t_scale = \"standard-deviation\" in [conventions] gives the t distribution the standard deviation s/√n instead.",
     },
     Concept {
         name: "type-b",
@@ -142,5 +166,11 @@ pub(super) const CONCEPTS: &[Concept] = &[
         aliases: &["clause 8", "validated", "open verdict", "d_low", "d_high", "验证"],
         title: "whether Monte Carlo confirms GUM (JCGM 101, clause 8)",
         text: "The GUM interval y ± U_p is compared with the probabilistically symmetric Monte Carlo interval, end by end: d_low and d_high are the absolute differences. GUM is validated when both are at most δ, half a unit of the last significant digit of u(y), taken with two digits and with one. The verdict at the digits that the profile reports decides which result the statement uses.\n\nThe ends of the Monte Carlo interval scatter themselves; where a difference is within two standard errors of δ the verdict is open, and the report says how many trials would settle it. JCGM 101, 8.2 recommends a run that is stable to δ/5, so a verdict with two digits may need trials = \"adaptive\" or 10⁷ trials. As long as it is open the statement uses the GUM result. With k fixed (JJF, NIST) the interval compared is not ± U but the one for the p of the profile; see `gumption explain statement` for what follows.",
+    },
+    Concept {
+        name: "verification",
+        aliases: &["verify", "17025", "ISO/IEC 17025", "dossier", "software validation", "验证报告"],
+        title: "published examples held against their figures (ISO/IEC 17025, 7.11.2)",
+        text: "`gumption verify` evaluates the published examples that the program carries with it and puts each published figure beside the one obtained, with the tolerance and the verdict; the last line is `N passed, M failed`. `--report DIR` writes verification.md and verification.json for the file of the laboratory: version, platform, seeds, date, every figure, its source and how it was compared.\n\nWith files or folders it does the same for your own budgets with claims. A claim with confidence = \"low\" is shown and decides nothing.",
     },
 ];

@@ -4,7 +4,7 @@ use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 
 use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Profile, Trials};
-use gumption::propagate::{self, Evaluation, MonteCarloChoice, Options};
+use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
 use gumption::report::{self, Language, Page, Report};
 use serde_json::Value;
 
@@ -137,11 +137,18 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
     let mut rows = Vec::with_capacity(loaded.rows.len());
     for budget::Row { label, budget } in loaded.rows {
         match propagate::evaluate(&budget, &options(args, &budget)) {
-            Ok(evaluation) => rows.push(Row {
-                label,
-                budget,
-                evaluation,
-            }),
+            Ok(evaluation) => {
+                let rejected =
+                    |found: &ConformityResult| found.verdict == Some(Verdict::NotConforming);
+                if evaluation.conformity.iter().any(rejected) {
+                    *worst = (*worst).max(Outcome::Negative);
+                }
+                rows.push(Row {
+                    label,
+                    budget,
+                    evaluation,
+                });
+            }
             Err(error) => {
                 let row = label.map(|l| format!(", {l}")).unwrap_or_default();
                 output::warn(&format!(
@@ -238,17 +245,11 @@ fn parse_trials(text: &str) -> Result<Trials, String> {
     Ok(Trials::Fixed(number as u64))
 }
 
-/// Columns of the terminal that the report goes to, if it goes to one.
+/// Columns of the page: a file is as wide as pages usually are.
 fn page_width(args: &Args) -> usize {
-    /// Where nobody says otherwise, and at most: longer lines are hard to read.
-    const USUAL: usize = 100;
-    let stated = std::env::var("COLUMNS").ok().and_then(|c| c.parse().ok());
-    let terminal = || terminal_size::terminal_size_of(stdout()).map(|(w, _)| usize::from(w.0));
     match &args.output {
-        Some(_) => USUAL,
-        None => stated
-            .or_else(terminal)
-            .map_or(USUAL, |columns: usize| columns.clamp(NARROWEST, 120)),
+        Some(_) => output::USUAL_WIDTH,
+        None => output::page_width(),
     }
 }
 
@@ -259,14 +260,11 @@ fn parse_profile(text: &str) -> Result<&'static Profile, String> {
     })
 }
 
-/// Narrower pages cannot hold a budget table.
-const NARROWEST: usize = 60;
-
 fn parse_width(text: &str) -> Result<usize, String> {
     let width: usize = text
         .parse()
         .map_err(|_| "write a number of columns, such as 100".to_string())?;
-    Ok(width.clamp(NARROWEST, 200))
+    Ok(width.clamp(output::NARROWEST, 200))
 }
 
 #[cfg(test)]

@@ -1,11 +1,13 @@
 //! Subcommands, exit codes and output.
 
 mod concepts;
+mod date;
 mod eval;
 mod explain;
 mod new;
 mod output;
 mod schema;
+mod verify;
 
 use std::process::ExitCode;
 
@@ -16,7 +18,7 @@ use clap::{Parser, Subcommand};
 enum Outcome {
     /// All went well: 0.
     Done,
-    /// A budget was read but has no value or no result: 1.
+    /// A budget was read but has no value or no result, an example failed, or an item does not conform: 1.
     Negative,
     /// A file or an argument is wrong: 2.
     BadInput,
@@ -35,7 +37,7 @@ impl From<Outcome> for ExitCode {
     version,
     propagate_version = true,
     max_term_width = 100,
-    after_help = "Exit codes: 0 all went well, 1 a budget gives no result, 2 a file or an argument is wrong.\n\nStart with `gumption new my-budget.toml`, edit the file, then `gumption eval my-budget.toml`."
+    after_help = "Exit codes: 0 all went well, 1 a budget gives no result, an example failed or an item does not conform, 2 a file or an argument is wrong.\n\nStart with `gumption new my-budget.toml`, edit the file, then `gumption eval my-budget.toml`."
 )]
 struct Cli {
     #[command(subcommand)]
@@ -46,6 +48,8 @@ struct Cli {
 enum Command {
     /// Evaluate budget files: budget table, GUM and Monte Carlo, statement for the certificate
     Eval(eval::Args),
+    /// Hold published examples, or your own files with claims, against their figures
+    Verify(verify::Args),
     /// Write a commented budget file to start from
     New(new::Args),
     /// Print the JSON Schema of budget files or of the JSON output
@@ -58,6 +62,7 @@ enum Command {
 pub(crate) fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Eval(args) => eval::run(&args),
+        Command::Verify(args) => verify::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Explain(args) => explain::run(&args),

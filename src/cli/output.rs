@@ -29,17 +29,37 @@ pub(super) fn warn(text: &str) {
 
 /// Replaces a file as a whole: readers see the old content or the new one, never half of it.
 pub(super) fn replace(path: &Path, text: &str) -> Outcome {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".{}.tmp", std::process::id()));
-    let beside: PathBuf = path.with_file_name(name);
-    let written = std::fs::write(&beside, text).and_then(|()| std::fs::rename(&beside, path));
-    match written {
+    replace_all(&[(path.to_path_buf(), text.to_string())])
+}
+
+/// Replaces several files, all of them or, where one cannot be written, none.
+pub(super) fn replace_all(files: &[(PathBuf, String)]) -> Outcome {
+    let beside: Vec<PathBuf> = files.iter().map(|(path, _)| beside(path)).collect();
+    let write_all = || {
+        for ((path, text), beside) in files.iter().zip(&beside) {
+            std::fs::write(beside, text).map_err(|error| (path, error))?;
+        }
+        for ((path, _), beside) in files.iter().zip(&beside) {
+            std::fs::rename(beside, path).map_err(|error| (path, error))?;
+        }
+        Ok(())
+    };
+    match write_all() {
         Ok(()) => Outcome::Done,
-        Err(error) => {
-            let _ = std::fs::remove_file(&beside);
+        Err((path, error)) => {
+            for path in &beside {
+                let _ = std::fs::remove_file(path);
+            }
             complain(&format!("cannot write {}: {error}", path.display()))
         }
     }
+}
+
+/// Where a file is written before it takes its place.
+fn beside(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(format!(".{}.tmp", std::process::id()));
+    path.with_file_name(name)
 }
 
 /// Writes a file that must not exist yet; one that cannot be completed is removed again.
@@ -61,6 +81,26 @@ pub(super) fn create(path: &Path, text: &str) -> Outcome {
             complain(&format!("cannot write {}: {error}", path.display()))
         }
     }
+}
+
+/// Columns of a page that nobody has stated.
+pub(super) const USUAL_WIDTH: usize = 100;
+
+/// Narrower pages cannot hold a budget table.
+pub(super) const NARROWEST: usize = 60;
+
+/// Columns of the terminal that standard output goes to, if it goes to one.
+pub(super) fn page_width() -> usize {
+    /// Longer lines are hard to read.
+    const WIDEST: usize = 120;
+    let stated = std::env::var("COLUMNS").ok().and_then(|c| c.parse().ok());
+    let terminal =
+        || terminal_size::terminal_size_of(std::io::stdout()).map(|(w, _)| usize::from(w.0));
+    stated
+        .or_else(terminal)
+        .map_or(USUAL_WIDTH, |columns: usize| {
+            columns.clamp(NARROWEST, WIDEST)
+        })
 }
 
 /// Whether a stream may be coloured: a terminal, and the user has not said no (no-color.org).

@@ -19,6 +19,8 @@ enum Which {
     Evaluation,
     /// What `gumption eval --save` writes
     Result,
+    /// The output of `gumption verify --json`
+    Verification,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
@@ -26,6 +28,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Budget => budget::schema(),
         Which::Evaluation => report::schema(),
         Which::Result => budget::result_schema(),
+        Which::Verification => report::verification_schema(),
     };
     output::print(&format!("{schema:#}\n"))
 }

@@ -195,3 +195,58 @@ impl PartialOrd for Dd {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(got: Dd, expected: Dd) {
+        let error = ((got - expected) / expected).abs();
+        assert!(error.value() < 1e-30, "{got:?} instead of {expected:?}");
+    }
+
+    /// A number with 106 bits, from whole numbers.
+    fn whole(x: i128) -> Dd {
+        let high = x as f64;
+        Dd {
+            high,
+            low: (x - high as i128) as f64,
+        }
+    }
+
+    #[test]
+    fn against_whole_numbers() {
+        let (a, b) = (123_456_789_012_345_678_i128, -987_654_321_098_765_i128);
+        close(whole(a) + whole(b), whole(a + b));
+        close(whole(a) - whole(b), whole(a - b));
+        close(whole(a) * whole(b), whole(a * b));
+        close(whole(a * b) / whole(b), whole(a));
+        close(whole(a * a).sqrt(), whole(a));
+        assert!(whole(a) > whole(a - 1) && whole(b).abs() == whole(-b));
+    }
+
+    #[test]
+    fn decimals_are_what_they_say() {
+        close(Dd::from_decimal(0.1) * 10.0.into(), Dd::ONE);
+        close(
+            Dd::from_decimal(-6.860120914) * 1e9.into(),
+            Dd::from(-6_860_120_914.0),
+        );
+        close(Dd::from_decimal(1.5e-20) * 1e20.into(), Dd::from(1.5));
+        for x in [0.0, 3.0, -1e300, 1.25e-300, f64::INFINITY] {
+            assert_eq!(Dd::from_decimal(x), Dd::from(x));
+        }
+        for x in [0.3, 1.0 / 3.0, std::f64::consts::PI * 1e-30] {
+            assert_eq!(Dd::from_decimal(x).value(), x);
+        }
+    }
+
+    #[test]
+    fn a_third_to_thirty_digits() {
+        let third = Dd::ONE / Dd::from(3.0);
+        let rest = third + third + third - Dd::ONE;
+        assert!(rest.abs().value() < 1e-31);
+        assert!(Dd::from(-1.0).sqrt().value().is_nan());
+        assert_eq!(Dd::ZERO.sqrt(), Dd::ZERO);
+    }
+}

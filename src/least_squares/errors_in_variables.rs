@@ -207,13 +207,15 @@ impl<'a> UncertainPredictors<'a> {
             factor.lower(multipliers.as_mut_slice());
             factor.upper(multipliers.as_mut_slice());
             let change = across * multipliers - &shifts;
+            let k = prepared.block.points.len();
             let done = change
                 .iter()
                 .zip(&shifts)
                 .enumerate()
                 .all(|(index, (change, shift))| {
                     let u = prepared.v_xx[(index, index)].sqrt();
-                    change.abs() <= 1e-14 * (shift.abs() + u)
+                    let x = self.problem.x[(prepared.block.points[index % k], index / k)];
+                    change.abs() <= 1e-13 * (shift.abs() + u) + 4.0 * f64::EPSILON * x.abs()
                 });
             let moved = (!done && step < MOST_INNER_STEPS)
                 .then(|| {

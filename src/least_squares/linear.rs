@@ -38,6 +38,13 @@ pub(super) fn solve(problem: &Problem) -> Result<Solution, Failure> {
     }
 }
 
+/// In double-double arithmetic and in f64.
+#[cfg(test)]
+pub(super) fn in_both_precisions(problem: &Problem) -> Result<(Solution, Solution), Failure> {
+    let long = Fit::<Dd>::new(problem, ROUNDING_OF_EXACT)?.solution()?;
+    Ok((long, Fit::<f64>::new(problem, ROUNDING)?.solution()?))
+}
+
 struct Fit<'a, T> {
     problem: &'a Problem<'a>,
     whitener: Whitener<T>,

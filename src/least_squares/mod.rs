@@ -41,6 +41,8 @@ mod nonlinear;
 mod polynomial;
 mod problem;
 mod solution;
+#[cfg(test)]
+mod tests;
 mod whiten;
 
 pub use dd::Dd;

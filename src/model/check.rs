@@ -62,7 +62,7 @@ pub struct Check<'r> {
 impl<'r> Check<'r> {
     // --- names of the file -------------------------------------------------------------------
 
-    fn symbols(&mut self, symbols: &[Symbol]) {
+    pub fn symbols(&mut self, symbols: &[Symbol]) {
         for (index, symbol) in symbols.iter().enumerate() {
             let name = &symbol.name;
             self.l.place = Place::Symbol(index);
@@ -222,6 +222,11 @@ impl<'r> Check<'r> {
                 }
             }
         }
+    }
+
+    /// A statement before the one that is looked at.
+    pub fn preceding(&mut self, statement: Statement) {
+        self.statement(statement, Place::Shared, false, true);
     }
 
     fn define(&mut self, name: &Name, binding: Binding, index: usize) {
@@ -476,7 +481,7 @@ fn defined_name(statement: &Statement) -> Option<&Name> {
 }
 
 /// The unknowns of the `solve` calls in an expression.
-fn unknowns(body: &Expr) -> Vec<String> {
+pub fn unknowns(body: &Expr) -> Vec<String> {
     let mut found = Vec::new();
     let mut open = vec![body];
     while let Some(e) = open.pop() {

@@ -50,6 +50,40 @@ pub fn blocks(graph: &Graph, inputs: usize) -> Vec<Option<usize>> {
     out
 }
 
+/// Whether no operation is nonlinear in what depends on the given inputs.
+pub fn affine(graph: &Graph, inputs: &[usize]) -> bool {
+    let mut moves = vec![false; graph.ops.len()];
+    for (i, op) in graph.ops.iter().enumerate() {
+        let moved = |id: Id| moves[id as usize];
+        let (linear, own) = match *op {
+            Op::Input(place) => (true, inputs.contains(&(place as usize))),
+            Op::Constant(_) | Op::Unknown(_) => (true, false),
+            Op::Unary(row, a) => (!moved(a) || row.name == "-", moved(a)),
+            Op::Binary(row, a, b) => {
+                let linear = match row.name {
+                    "+" | "-" => true,
+                    "*" => !(moved(a) && moved(b)),
+                    "/" => !moved(b),
+                    _ => !(moved(a) || moved(b)),
+                };
+                (linear, moved(a) || moved(b))
+            }
+            Op::Select(c, a, b) => (!moved(c), moved(a) || moved(b)),
+            Op::Power(a, _) => (!moved(a), false),
+            Op::Solve(_) => {
+                let mut any = false;
+                graph.operands(*op, |a| any |= moved(a));
+                (!any, false)
+            }
+        };
+        if !linear {
+            return false;
+        }
+        moves[i] = own;
+    }
+    true
+}
+
 /// Disjoint sets with path halving.
 struct Sets {
     parent: Vec<usize>,

@@ -76,7 +76,9 @@ impl Check<'_> {
             self.l.place = Place::Entry(index);
             self.l.report(reserved(measurand.name, 0..0));
         }
-        if self.l.symbol(measurand.name).is_some() {
+        // An input may be reported as it is: `y1`, a parameter of a fit.
+        let itself = text.trim() == measurand.name;
+        if self.l.symbol(measurand.name).is_some() && !itself {
             self.l.place = Place::Entry(index);
             let name = measurand.name;
             self.l.report(

@@ -25,6 +25,7 @@ mod lower;
 mod measurand;
 mod notice;
 mod operation;
+mod outline;
 mod parser;
 mod printer;
 mod reductions;
@@ -44,6 +45,7 @@ pub use block::BlockRunner;
 pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
 pub use notice::{Notice, Office};
+pub use outline::{Outline, outline};
 
 use jet::Jet;
 
@@ -245,6 +247,11 @@ impl Model {
             }
         }
         used
+    }
+
+    /// Whether every output is an affine function of these inputs while the others are held.
+    pub fn is_affine_in(&self, inputs: &[usize]) -> bool {
+        interaction::affine(&self.graph, inputs)
     }
 
     /// Which of the request's symbols no measurand depends on.

@@ -167,6 +167,8 @@ impl Draft {
             conformity: Vec::new(),
             detection: Vec::new(),
             claims: Vec::new(),
+            analyses: Vec::new(),
+            fits: Vec::new(),
             figures: Vec::new(),
             remarks: Vec::new(),
             chain: Default::default(),

@@ -8,7 +8,7 @@ use super::{
     Basis, Clause8, Finding, FindingKind, Freedom, Gum, MeasurandResult, MissingMoments,
     MonteCarlo, Validation,
 };
-use crate::budget::{Budget, CoverageRule, Group, Law, Owner};
+use crate::budget::{Budget, CoverageRule, FitVerdict, Group, Law, Owner};
 use crate::model::Notice;
 
 /// Poles and ends of domains are looked for within this many standard uncertainties.
@@ -97,7 +97,8 @@ impl Evidence<'_> {
         let of_model = self.of_model();
         let doubtful = |kind: &FindingKind| !matches!(kind, FindingKind::Extrapolated { .. });
         let doubtful_model = of_model.iter().any(doubtful);
-        let mut findings = whole(of_model);
+        let mut findings = whole(self.of_fits());
+        findings.extend(whole(of_model));
         findings.extend(whole(self.of_run()));
         if doubtful_model && self.monte_carlo.is_none() {
             findings.extend(whole([FindingKind::NeedsMonteCarlo]));
@@ -112,6 +113,27 @@ impl Evidence<'_> {
             }));
         }
         findings
+    }
+
+    /// What the fits say about their data.
+    fn of_fits(&self) -> Vec<FindingKind> {
+        let mut kinds = Vec::new();
+        for fit in &self.budget.fits {
+            let name = fit.name.clone();
+            match fit.lack_of_fit {
+                Some(test) if test.verdict() == FitVerdict::Rejected => {
+                    kinds.push(FindingKind::LackOfFit { fit: name, test });
+                }
+                Some(test) if test.verdict() == FitVerdict::TooSmall => {
+                    kinds.push(FindingKind::ResidualsTooSmall { fit: name, test });
+                }
+                _ if fit.parameters.iter().any(|parameter| parameter.u == 0.0) => {
+                    kinds.push(FindingKind::ExactFit { fit: name });
+                }
+                _ => {}
+            }
+        }
+        kinds
     }
 
     fn of_model(&self) -> Vec<FindingKind> {

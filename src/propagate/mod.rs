@@ -17,6 +17,7 @@ mod second_order;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod tolerance;
 mod validation;
 
 pub use claims::{Comparison, Method, compare_claims};
@@ -29,7 +30,7 @@ pub use monte_carlo::{Consequence, MissingMoments, Side};
 
 use nalgebra::DMatrix;
 
-use crate::budget::{Adaptive, Budget, MonteCarloSettings, NamedFigure};
+use crate::budget::{Adaptive, Budget, LackOfFit, MonteCarloSettings, NamedFigure};
 use crate::model::Notice;
 use gum::Linear;
 use monte_carlo::{GumForMc, McOutcome};
@@ -417,6 +418,25 @@ pub enum FindingKind {
         /// The operation.
         what: Notice,
     },
+    /// The data contradict the curve of a fit.
+    LackOfFit {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// The residuals of a fit are smaller than the stated uncertainties of its data let expect.
+    ResidualsTooSmall {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// A fit passes through all its points, so that its residuals tell no uncertainty.
+    ExactFit {
+        /// Name of the fit.
+        fit: String,
+    },
     /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
     Asymmetric,
 }
@@ -510,6 +530,7 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
     });
     let mut figures = budget.figures.clone();
     figures.extend(decisions.figures(budget));
+    figures.extend(tolerance::figures(budget, &results, run.as_ref()));
     Ok(Evaluation {
         results,
         joint,

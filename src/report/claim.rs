@@ -92,7 +92,7 @@ pub(super) fn label(report: &Report<'_>, what: &Figure) -> String {
     }
 }
 
-fn method(method: Method, language: Language) -> &'static str {
+pub(super) fn method(method: Method, language: Language) -> &'static str {
     match method {
         Method::Gum => language.word(Word::Gum),
         Method::SecondOrder => language.pick("GUM, second order", "GUM 二阶"),

@@ -6,14 +6,18 @@ use crate::quantity::Rounding;
 use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{exact, probability};
-use super::{Report, budget_table, claim, comparison, joint, remarks, statement};
+use super::{
+    Report, analyses, budget_table, claim, comparison, decisions, fits, joint, remarks, statement,
+};
 
 /// All blocks of a report.
 pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
     let l = report.language;
     let mut blocks = heading(report);
     blocks.extend(model(report));
+    blocks.extend(taken(report));
     blocks.extend(budget_table::constants(report));
+    blocks.extend(fits::blocks(report));
     let several = report.evaluation.results.len() > 1;
     for m in 0..report.evaluation.results.len() {
         let name = report.measurand(m).0;
@@ -31,7 +35,9 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
         blocks.extend(comparison::blocks(report, m));
     }
     blocks.extend(joint::blocks(report));
+    blocks.extend(decisions::blocks(report));
     blocks.extend(budget_table::origins(report));
+    blocks.extend(analyses::blocks(report));
     blocks.extend(budget_table::correlated(report));
     blocks.extend(claim::blocks(report));
     let remarks = remarks::remarks(report);
@@ -83,10 +89,15 @@ fn model(report: &Report<'_>) -> Vec<Block> {
     for output in report.budget.model.outputs() {
         // Several measurands of one model share their first statements.
         for line in output.equation.lines() {
-            if !lines.iter().any(|l| l == line) {
+            // A parameter of a fit that is reported as it is needs no equation.
+            let itself = line == format!("{0} = {0}", output.name);
+            if !itself && !lines.iter().any(|l| l == line) {
                 lines.push(line.to_string());
             }
         }
+    }
+    if lines.is_empty() {
+        return Vec::new();
     }
     let mut blocks = vec![
         Block::Section(report.language.word(Word::Model).to_string()),
@@ -104,6 +115,39 @@ fn model(report: &Report<'_>) -> Vec<Block> {
         blocks.push(Block::Fields(words));
     }
     blocks
+}
+
+/// Results of other files that are inputs here.
+fn taken(report: &Report<'_>) -> Vec<Block> {
+    let l = report.language;
+    let results = &report.budget.chain.taken;
+    if results.is_empty() {
+        return Vec::new();
+    }
+    let fields = results.iter().map(|taken| {
+        let row = taken.row.iter().map(|row| format!("[{row}]"));
+        let what = format!("{}{}", taken.measurand, row.collect::<String>());
+        let file = &taken.file;
+        let mut words = l.pick(format!("{what} of {file}"), format!("{file} 的 {what}"));
+        if !taken.title.is_empty() {
+            words.push_str(&format!("; {}", taken.title));
+        }
+        match &taken.equation {
+            Some(equation) => {
+                let lines: Vec<&str> = equation.lines().collect();
+                words.push_str(&format!("; {}", lines.join("; ")));
+            }
+            None => words.push_str(l.pick("; saved, in linear form", "；已保存的线性形式")),
+        }
+        (taken.input.clone(), words)
+    });
+    vec![
+        Block::Section(
+            l.pick("Results of other budgets", "引用的其他评定结果")
+                .to_string(),
+        ),
+        Block::Fields(fields.collect()),
+    ]
 }
 
 /// Profile, what the file changed in it, and the version.

@@ -9,18 +9,20 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use crate::budget::{
-    Adaptive, Claim, Component, Confidence, CoverageRule, DofRule, Evaluation as Kind, Input, Law,
-    OutputShape, Owner, TScale,
+    Adaptive, Claim, Component, Confidence, Conformity, CoverageRule, Detection, DofRule,
+    Evaluation as Kind, Input, Interval, Law, OutputShape, Owner, TScale,
 };
 use crate::propagate::{
-    Basis, Clause8, Contribution, Coverage, CoverageBasis, Freedom, Gum, JointResult,
-    MeasurandResult, Method, MonteCarlo, Run, Validation, compare_claims,
+    Basis, Clause8, ConformityResult, Contribution, Coverage, CoverageBasis, DetectionResult,
+    Freedom, Gum, JointResult, MeasurandResult, Method, MonteCarlo, Run, Validation,
+    compare_claims,
 };
 use crate::quantity::Rounding;
 
+use super::fits_json::{self, FitJson};
 use super::language::Language;
 use super::schema::{Describe, record};
-use super::{Report, claim, remarks, statement};
+use super::{Report, analyses, claim, decisions, remarks, statement};
 
 /// Name and version of the format; the number changes when a field changes its meaning or goes.
 pub const FORMAT: &str = "gumption-evaluation/1";
@@ -56,15 +58,15 @@ impl Describe for Number {
     }
 }
 
-fn number(x: f64) -> Number {
+pub(super) fn number(x: f64) -> Number {
     Number(x)
 }
 
-fn numbers(xs: &[f64]) -> Vec<Number> {
+pub(super) fn numbers(xs: &[f64]) -> Vec<Number> {
     xs.iter().copied().map(Number).collect()
 }
 
-fn matrix(m: &DMatrix<f64>) -> Vec<Vec<Number>> {
+pub(super) fn matrix(m: &DMatrix<f64>) -> Vec<Vec<Number>> {
     m.row_iter()
         .map(|row| row.iter().copied().map(Number).collect())
         .collect()
@@ -91,12 +93,22 @@ record! {
         components: Vec<ComponentJson<'a>>,
         /// Correlated components.
         correlated: Vec<GroupJson>,
+        /// Analyses of readings; their numbers are among `figures`, under their names.
+        analyses: Vec<AnalysisJson<'a>>,
+        /// Results of other files that are inputs here.
+        taken_results: Vec<TakenJson<'a>>,
         /// Exactly known quantities.
         constants: Vec<ConstantJson<'a>>,
+        /// Least-squares fits whose parameters are inputs.
+        fits: Vec<FitJson<'a>>,
         /// Joint result of several measurands.
         joint: Option<JointJson>,
         /// How the Monte Carlo method was run.
         monte_carlo_run: Option<RunJson>,
+        /// Conformity assessments.
+        conformity: Vec<ConformityJson<'a>>,
+        /// Characteristic limits.
+        detection: Vec<DetectionJson<'a>>,
         /// Figures of analyses (fits, groups of readings, conformity …) by name.
         figures: Vec<FigureJson<'a>>,
         /// Comparison with claims.
@@ -301,6 +313,18 @@ record! {
 }
 
 record! {
+    /// An analysis of the readings behind a component.
+    AnalysisJson<'a> {
+        /// Name of the component, with which the names of its figures begin.
+        component: &'a str,
+        /// What it is: readings, anova, nested-anova, outlier-grubbs, outlier-dixon, outlier-4d, outlier-3s.
+        kind: &'a str,
+        /// What was done with the differences between groups, and between subgroups (included, negative, not-significant, ignored), or whether an outlier was found (outlier, none).
+        verdicts: Vec<&'a str>,
+    }
+}
+
+record! {
     /// An input quantity.
     InputJson<'a> {
         /// Name.
@@ -413,6 +437,24 @@ record! {
 }
 
 record! {
+    /// A result of another file.
+    TakenJson<'a> {
+        /// Name that the model uses for it.
+        name: &'a str,
+        /// The file, as the budget names it.
+        file: &'a str,
+        /// Row of its series.
+        row: Option<&'a str>,
+        /// Its measurand.
+        measurand: &'a str,
+        /// Title of that file.
+        title: &'a str,
+        /// Defining statements there; null for a saved result, which is taken over in linear form.
+        equation: Option<&'a str>,
+    }
+}
+
+record! {
     /// Joint result (JCGM 102).
     JointJson {
         /// Covariance matrix, GUM.
@@ -477,6 +519,90 @@ record! {
         delta: Vec<Number>,
         /// Whether the results are stable to it.
         reached: bool,
+    }
+}
+
+record! {
+    /// A conformity assessment (JCGM 106).
+    ConformityJson<'a> {
+        /// Its name; its figures begin with it.
+        name: &'a str,
+        /// Measurand.
+        measurand: &'a str,
+        /// Tolerance limits, lower and upper; infinite where there is none.
+        tolerance: Vec<Number>,
+        /// Acceptance limits; null where no value is accepted.
+        acceptance: Option<Vec<Number>>,
+        /// Values outside of these limits are rejected.
+        rejection: Vec<Number>,
+        /// Decision: conforming, not_conforming, undecided; null in planning.
+        verdict: Option<&'static str>,
+        /// Conformance probability, with the knowledge of the process where there is some.
+        conformance_probability: Option<Number>,
+        /// Its complement.
+        nonconformance_probability: Option<Number>,
+        /// Conformance probability from the GUM result alone.
+        from_measurement: Option<Number>,
+        /// Conformance probability as the fraction of the Monte Carlo trials.
+        from_trials: Option<Number>,
+        /// Measurement capability index C_m.
+        capability: Option<Number>,
+        /// Test uncertainty ratio.
+        test_uncertainty_ratio: Option<Number>,
+        /// Risks over all items of the process.
+        global: Option<GlobalJson>,
+    }
+}
+
+record! {
+    /// Risks over all items of a process.
+    GlobalJson {
+        /// Probability that an item conforms.
+        in_tolerance: Number,
+        /// Probability that an item is accepted.
+        accepted: Number,
+        /// Global consumer's risk.
+        consumer: Number,
+        /// Global producer's risk.
+        producer: Number,
+        /// Probability that an accepted item does not conform.
+        false_acceptance: Number,
+        /// Probability that a rejected item conforms.
+        false_rejection: Number,
+    }
+}
+
+record! {
+    /// Characteristic limits (ISO 11929).
+    DetectionJson<'a> {
+        /// Measurand.
+        measurand: &'a str,
+        /// Probability of recognising an effect that is not there.
+        alpha: Number,
+        /// Probability of missing an effect at the detection limit.
+        beta: Number,
+        /// Decision threshold.
+        decision_threshold: Option<Number>,
+        /// Detection limit; null where there is none.
+        detection_limit: Option<Number>,
+        /// Decision threshold, Monte Carlo.
+        monte_carlo_decision_threshold: Option<Number>,
+        /// Detection limit, Monte Carlo.
+        monte_carlo_detection_limit: Option<Number>,
+        /// Whether the effect is recognised.
+        recognised: Option<bool>,
+        /// Whether the detection limit is at most the guideline value.
+        suitable: Option<bool>,
+        /// Best estimate of the non-negative measurand.
+        best_estimate: Number,
+        /// Its standard uncertainty.
+        best_standard_uncertainty: Number,
+        /// Limits of the symmetric coverage interval.
+        symmetric_interval: Vec<Number>,
+        /// Limits of the shortest coverage interval.
+        shortest_interval: Vec<Number>,
+        /// Coverage probability of both.
+        coverage_probability: Number,
     }
 }
 
@@ -614,6 +740,31 @@ impl<'a> Document<'a> {
                     degrees_of_freedom: g.dof.map(Number),
                 })
                 .collect(),
+            analyses: budget
+                .analyses
+                .iter()
+                .map(|analysis| {
+                    let (kind, verdicts) = analyses::codes(&analysis.found);
+                    AnalysisJson {
+                        component: &analysis.name,
+                        kind,
+                        verdicts,
+                    }
+                })
+                .collect(),
+            taken_results: budget
+                .chain
+                .taken
+                .iter()
+                .map(|taken| TakenJson {
+                    name: &taken.input,
+                    file: &taken.file,
+                    row: taken.row.as_deref(),
+                    measurand: &taken.measurand,
+                    title: &taken.title,
+                    equation: taken.equation.as_deref(),
+                })
+                .collect(),
             constants: budget
                 .constants
                 .iter()
@@ -625,8 +776,11 @@ impl<'a> Document<'a> {
                     reference: c.reference.as_deref(),
                 })
                 .collect(),
+            fits: budget.fits.iter().map(fits_json::fit).collect(),
             joint: evaluation.joint.as_ref().map(joint),
             monte_carlo_run: evaluation.run.as_ref().map(run),
+            conformity: conformity(report),
+            detection: detection(report),
             figures: evaluation
                 .figures
                 .iter()
@@ -968,6 +1122,63 @@ fn run(run: &Run) -> RunJson {
             reached: a.reached,
         }),
     }
+}
+
+fn conformity<'a>(report: &Report<'a>) -> Vec<ConformityJson<'a>> {
+    let ends = |interval: Interval| numbers(&[interval.lower, interval.upper]);
+    let pairs = report.budget.conformity.iter();
+    let pairs = pairs.zip(&report.evaluation.conformity);
+    let one = |(stated, found): (&'a Conformity, &ConformityResult)| ConformityJson {
+        name: &stated.name,
+        measurand: report.measurand(stated.measurand).0,
+        tolerance: ends(stated.tolerance),
+        acceptance: found.acceptance.map(ends),
+        rejection: ends(found.rejection),
+        verdict: found.verdict.map(decisions::verdict_code),
+        conformance_probability: found.conformance.and_then(|c| c.probability).map(Number),
+        nonconformance_probability: found.conformance.and_then(|c| c.complement).map(Number),
+        from_measurement: found.conformance.map(|c| Number(c.from_measurement)),
+        from_trials: found.conformance.and_then(|c| c.from_trials).map(Number),
+        capability: found.capability.map(Number),
+        test_uncertainty_ratio: found.test_uncertainty_ratio.map(Number),
+        global: found.global.map(|risk| GlobalJson {
+            in_tolerance: number(risk.in_tolerance),
+            accepted: number(risk.accepted),
+            consumer: number(risk.consumer),
+            producer: number(risk.producer),
+            false_acceptance: number(risk.false_acceptance),
+            false_rejection: number(risk.false_rejection),
+        }),
+    };
+    pairs.map(one).collect()
+}
+
+fn detection<'a>(report: &Report<'a>) -> Vec<DetectionJson<'a>> {
+    let pairs = report.budget.detection.iter();
+    let pairs = pairs.zip(&report.evaluation.detection);
+    let one = |(stated, found): (&Detection, &DetectionResult)| DetectionJson {
+        measurand: report.measurand(stated.measurand).0,
+        alpha: number(stated.alpha),
+        beta: number(stated.beta),
+        decision_threshold: found.limits.map(|l| Number(l.decision_threshold)),
+        detection_limit: found
+            .limits
+            .and_then(|l| l.detection_limit.value())
+            .map(Number),
+        monte_carlo_decision_threshold: found.from_trials.map(|l| Number(l.decision_threshold)),
+        monte_carlo_detection_limit: found
+            .from_trials
+            .and_then(|l| l.detection_limit.value())
+            .map(Number),
+        recognised: found.recognised(),
+        suitable: found.suitable(stated),
+        best_estimate: number(found.best.value),
+        best_standard_uncertainty: number(found.best.u),
+        symmetric_interval: numbers(&found.best.symmetric),
+        shortest_interval: numbers(&found.best.shortest),
+        coverage_probability: number(found.best.coverage_probability),
+    };
+    pairs.map(one).collect()
 }
 
 fn claim_json<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> ClaimJson<'a> {

@@ -3,11 +3,15 @@
 //! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
 //! composed once; [`json`] is the machine form.
 
+mod analyses;
 mod budget_table;
 mod claim;
 mod comparison;
 mod compose;
+mod decisions;
 mod document;
+mod fits;
+mod fits_json;
 mod how;
 mod joint;
 mod json;
@@ -22,6 +26,7 @@ mod series;
 mod statement;
 mod table;
 mod text;
+mod verification;
 
 #[cfg(test)]
 mod fixtures;
@@ -37,6 +42,10 @@ pub use schema::schema;
 pub use series::{series_markdown, series_text};
 pub use statement::statement;
 pub use text::{Page, text};
+pub use verification::{
+    Detail, FORMAT as VERIFICATION_FORMAT, json as verification_json,
+    markdown as verification_markdown, schema as verification_schema, text as verification_text,
+};
 
 use crate::budget::Budget;
 use crate::propagate::{Evaluation, FindingKind};

@@ -2,6 +2,7 @@
 
 use crate::propagate::{Basis, EvaluationError, FindingKind, is_residue};
 
+use super::fits::test_figures;
 use super::language::Language;
 use super::number::{aligned, freedom, grouped, probability, significant};
 use super::{Report, moments};
@@ -57,6 +58,9 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::PhaseWraps { .. } => "phase_wraps",
         FindingKind::CoarseStep { .. } => "coarse_step",
         FindingKind::Extrapolated { .. } => "extrapolated",
+        FindingKind::LackOfFit { .. } => "lack_of_fit",
+        FindingKind::ResidualsTooSmall { .. } => "residuals_too_small",
+        FindingKind::ExactFit { .. } => "exact_fit",
         FindingKind::Asymmetric => "asymmetric",
     }
 }
@@ -135,6 +139,17 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             "A table is used beyond its ends: {}. The last straight line of the table was continued, with no allowance for what the quantity does out there. Extend the table, or add a component for the extrapolation.",
             what.english(),
         ),
+        FindingKind::LackOfFit { fit, test } => format!(
+            "The curve of the fit {fit} does not describe its data ({}): deviations as large come about in fewer than one of twenty cases if curve and uncertainties are right. The uncertainties of its parameters do not cover that. Look at the residuals for a pattern or a single wrong point; try another formula, or state larger uncertainties of the data.",
+            test_figures(Language::English, test),
+        ),
+        FindingKind::ResidualsTooSmall { fit, test } => format!(
+            "The data of the fit {fit} lie closer to the curve than their stated uncertainties let expect ({}). Perhaps these are too large, or contain a part that all points have in common: state that as a component with common = true.",
+            test_figures(Language::English, test),
+        ),
+        FindingKind::ExactFit { fit } => format!(
+            "The curve of the fit {fit} passes through all its points, so that the residuals tell no uncertainty of its parameters: they enter as exact. State the uncertainties of the data."
+        ),
         FindingKind::Asymmetric => "The distribution of the output is asymmetric, so that the probabilistically symmetric and the shortest coverage interval differ. Do not write the result as estimate ± U; state the interval.".to_string(),
     }
 }
@@ -197,6 +212,17 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         FindingKind::Extrapolated { what } => format!(
             "表的使用超出其范围（{}）。计算时延长了表的最后一段直线，未计入该量在表外变化的影响。请扩展表的范围，或为外推增加一个分量。",
             what.chinese(),
+        ),
+        FindingKind::LackOfFit { fit, test } => format!(
+            "拟合 {fit} 的曲线与数据不符（{}）：若曲线和不确定度正确，出现如此大偏差的机会不到二十分之一。参数的不确定度不包含这一影响。请检查残差是否有规律或个别点有误，改用其他公式，或给出更大的数据不确定度。",
+            test_figures(Language::Chinese, test),
+        ),
+        FindingKind::ResidualsTooSmall { fit, test } => format!(
+            "拟合 {fit} 的数据比所给不确定度的预期更接近曲线（{}）。不确定度可能偏大，或含有各点共有的部分：请将该部分写成 common = true 的分量。",
+            test_figures(Language::Chinese, test),
+        ),
+        FindingKind::ExactFit { fit } => format!(
+            "拟合 {fit} 的曲线通过所有数据点，残差不能给出参数的不确定度，参数按精确值处理。请给出数据的不确定度。"
         ),
         FindingKind::Asymmetric => "输出量的分布不对称，概率对称包含区间与最短包含区间不同。不要写成估计值 ± U 的形式，应给出包含区间。".to_string(),
     }

@@ -13,14 +13,15 @@ use super::language::Language;
 use super::number::{
     NONE, STYLE, at_place, exact, freedom, grouped, print, probability, significant,
 };
-use super::{Report, difference_symbol, symbol};
+use super::{Report, decisions, difference_symbol, symbol};
 
-/// One sentence (or a few) per measurand, and one for the correlation of several.
+/// One sentence (or a few) per measurand, one for the correlation of several, and one per decision.
 pub fn statement(report: &Report<'_>) -> Vec<String> {
     let mut sentences: Vec<String> = (0..report.evaluation.results.len())
         .map(|m| of_measurand(report, m))
         .collect();
     sentences.extend(correlations(report));
+    sentences.extend(decisions::sentences(report));
     sentences
 }
 

@@ -18,6 +18,7 @@ pub fn budget(text: &str) -> Budget {
 
 /// Both methods, as the text says.
 #[track_caller]
+#[allow(dead_code, reason = "not every test file needs it")]
 pub fn evaluate(text: &str) -> Evaluation {
     evaluation_of(&budget(text), MonteCarloChoice::AsBudget)
 }

@@ -35,6 +35,31 @@ pub fn levels() -> Vec<Level> {
     plainer
 }
 
+/// The name of an instruction set, as processors' makers write it.
+pub fn name(level: Level) -> &'static str {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    {
+        if level.as_avx512().is_some() {
+            return "AVX-512";
+        }
+        if level.as_avx2().is_some() {
+            return "AVX2";
+        }
+        if level.as_sse4_2().is_some() {
+            return "SSE4.2";
+        }
+        if level.as_sse2().is_some() {
+            return "SSE2";
+        }
+    }
+    #[cfg(target_arch = "aarch64")]
+    if level.as_neon().is_some() {
+        return "NEON";
+    }
+    let _ = level;
+    "portable"
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -46,5 +71,8 @@ mod tests {
         let mut unique = names.clone();
         unique.dedup();
         assert_eq!(names, unique);
+        let mut called: Vec<&str> = levels().into_iter().map(name).collect();
+        called.dedup();
+        assert_eq!(called.len(), names.len());
     }
 }

@@ -322,8 +322,10 @@ impl<'a> Merge<'a> {
         } in &theirs.terms
         {
             let identity = &budget.chain.components[*component];
-            let index = self.component(taken, identity, &budget.components[*component], place)?;
-            self.register.act(place, index, *coefficient);
+            let own = self.component(taken, identity, &budget.components[*component], place)?;
+            let follows = budget.follows(index, *component);
+            self.register.follow(place, own, *coefficient, follows);
+            self.register.act(place, own, *coefficient);
         }
         Ok(place)
     }

@@ -109,7 +109,7 @@ impl Checker<'_> {
         };
         let (name, source) = self.results.get(measurand).cloned()?;
         let (_, entry) = entries(&file.measurand).get(source)?;
-        let unit = self.unit(&entry.value.unit)?;
+        let unit = self.measurand_unit(&name, &entry.value.unit)?;
         let mut reading = Reading {
             table,
             name: &name,
@@ -393,6 +393,9 @@ impl Checker<'_> {
                 let tolerance = reading.tolerance(|t| &t.figures);
                 let half = self.half_digit(stated);
                 reading.push(Figure::Named(name.clone()), stated.value, half, tolerance);
+                continue;
+            }
+            if self.scatters.iter().any(|fit| fit.withholds(name)) {
                 continue;
             }
             let help = match nearest(name, known()) {

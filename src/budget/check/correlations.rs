@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::Checker;
 use super::draft::show;
+use super::fits::Fitted;
 use super::groups::connected;
 use super::register::Register;
 use crate::budget::Group;
@@ -45,9 +46,15 @@ struct Side {
 
 impl Checker<'_> {
     /// The groups of correlated components.
-    pub(super) fn groups(&mut self, file: &FileTable, register: &mut Register) -> Vec<Group> {
+    pub(super) fn groups(
+        &mut self,
+        file: &FileTable,
+        fitted: &[Fitted],
+        register: &mut Register,
+    ) -> Vec<Group> {
         let mut statements = Vec::new();
         let mut groups = self.joint_groups(file, register, &mut statements);
+        groups.extend(self.fit_groups(fitted, register));
         let before = self.faults.len();
         for stated in file
             .correlation
@@ -62,7 +69,7 @@ impl Checker<'_> {
         if self.faults.len() > before {
             return groups;
         }
-        for members in connected(&statements, register.components.len()) {
+        for members in connected(&statements, &register.families, register.components.len()) {
             groups.extend(self.group(members, &statements, register));
         }
         groups
@@ -220,6 +227,9 @@ impl Checker<'_> {
     }
 
     fn side(&mut self, name: &Stated<String>, register: &Register) -> Option<Side> {
+        if let Some(taken) = register.taken_as(&name.value) {
+            return self.refuse(taken.not_to_be_correlated(name));
+        }
         let Some(members) = register.lookup(&name.value) else {
             if register.incomplete && name.value.contains(['.', '[']) {
                 return None;

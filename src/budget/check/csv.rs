@@ -4,23 +4,47 @@ use std::io::ErrorKind;
 use std::ops::Range;
 
 use super::Checker;
-use crate::budget::faults::{CSV, MISSING_KEY, NOT_UTF8, UNREADABLE_FILE};
+use crate::budget::faults::{CSV, MISSING_KEY, NOT_UTF8, UNREADABLE_FILE, VECTOR};
 use crate::budget::table::Stated;
 use crate::budget::tables::ColumnTable;
 use crate::budget::variants::Numbers;
 use crate::fault::{Fault, nearest};
+use crate::statistics::Dd;
 
 impl Checker<'_> {
     /// The numbers themselves.
     pub(super) fn numbers(&mut self, numbers: &Stated<Numbers>) -> Option<Vec<f64>> {
+        let exact = self.exact_numbers(numbers)?;
+        Some(exact.into_iter().map(Dd::value).collect())
+    }
+
+    /// The numbers as the decimals that are written.
+    pub(super) fn exact_numbers(&mut self, numbers: &Stated<Numbers>) -> Option<Vec<Dd>> {
         match &numbers.value {
-            Numbers::List(list) => Some(list.iter().map(|number| number.value).collect()),
+            Numbers::List(list) => Some(self.exact(list)),
+            Numbers::Lists(_) => self.refuse(
+                Fault::new(VECTOR, numbers.span.clone(), "several lists of readings for a single quantity")
+                    .label("lists in a list")
+                    .help("readings in groups are `groups = [[…], […]]`; the elements of a vector have `values`, and a list of readings each"),
+            ),
             Numbers::Column(table) if table.refused => None,
             Numbers::Column(table) => self.column(table, &numbers.span),
         }
     }
 
-    fn column(&mut self, table: &ColumnTable, place: &Range<usize>) -> Option<Vec<f64>> {
+    /// Numbers of the file with all their decimals.
+    pub(super) fn exact(&self, list: &[Stated<f64>]) -> Vec<Dd> {
+        list.iter().map(|number| self.decimal(number)).collect()
+    }
+
+    fn decimal(&self, number: &Stated<f64>) -> Dd {
+        let text = self.text.get(number.span.clone()).unwrap_or_default();
+        Dd::parse(&text.replace('_', ""))
+            .filter(|decimal| decimal.value() == number.value)
+            .unwrap_or(Dd::from(number.value))
+    }
+
+    fn column(&mut self, table: &ColumnTable, place: &Range<usize>) -> Option<Vec<Dd>> {
         let (Some(file), Some(column)) = (&table.file, &table.column) else {
             let missing = if table.file.is_none() {
                 "file"
@@ -37,6 +61,39 @@ impl Checker<'_> {
                 .help("write { file = \"readings.csv\", column = \"name\" }"),
             );
         };
+        let rows = self.csv_fields(file, &[column])?;
+        (2..)
+            .zip(&rows)
+            .map(|(line, fields)| {
+                let field = fields.first().map_or("", String::as_str);
+                self.csv_number(file, column, line, field)
+            })
+            .collect()
+    }
+
+    /// A field of a column as a number.
+    pub(super) fn csv_number(
+        &mut self,
+        file: &Stated<String>,
+        column: &Stated<String>,
+        line: usize,
+        field: &str,
+    ) -> Option<Dd> {
+        Dd::parse(field).or_else(|| {
+            let message = format!(
+                "line {line} of {} has \"{field}\" in column \"{}\", not a number",
+                file.value, column.value
+            );
+            self.csv_fault(column, message)
+        })
+    }
+
+    /// The fields of some columns, row by row.
+    pub(super) fn csv_fields(
+        &mut self,
+        file: &Stated<String>,
+        columns: &[&Stated<String>],
+    ) -> Option<Vec<Vec<String>>> {
         let text = self.csv_text(file)?;
         let mut reader = ::csv::ReaderBuilder::new()
             .trim(::csv::Trim::All)
@@ -49,56 +106,56 @@ impl Checker<'_> {
                 .collect(),
             Err(error) => return self.csv_fault(file, format!("{}: {error}", file.value)),
         };
-        let Some(index) = names.iter().position(|name| *name == column.value) else {
-            let near = nearest(&column.value, names.iter().map(String::as_str));
-            let separated = names
-                .first()
-                .filter(|only| names.len() == 1 && only.contains([';', '\t']));
-            let help = match (near, separated) {
-                (_, Some(only)) => format!(
-                    "its only column is \"{only}\": save the file with commas between the columns and decimal points"
-                ),
-                (Some(near), None) => format!(
-                    "did you mean \"{near}\"? Its columns are: {}",
-                    names.join(", ")
-                ),
-                (None, None) => format!("its columns are: {}", names.join(", ")),
-            };
-            return self.refuse(
-                Fault::new(
-                    CSV,
-                    column.span.clone(),
-                    format!("{} has no column \"{}\"", file.value, column.value),
-                )
-                .label("no such column")
-                .help(help),
-            );
-        };
-        let mut numbers = Vec::new();
-        for (row, record) in reader.records().enumerate() {
+        let places: Vec<Option<usize>> = columns
+            .iter()
+            .map(|column| self.csv_place(file, column, &names))
+            .collect();
+        let places = places.into_iter().collect::<Option<Vec<usize>>>()?;
+        let mut rows = Vec::new();
+        for record in reader.records() {
             let record = match record {
                 Ok(record) => record,
                 Err(error) => return self.csv_fault(file, format!("{}: {error}", file.value)),
             };
-            let field = record.get(index).unwrap_or_default();
-            match field
-                .parse::<f64>()
-                .ok()
-                .filter(|number| number.is_finite())
-            {
-                Some(number) => numbers.push(number),
-                None => {
-                    let message = format!(
-                        "line {} of {} has \"{field}\" in column \"{}\", not a number",
-                        row + 2,
-                        file.value,
-                        column.value
-                    );
-                    return self.csv_fault(column, message);
-                }
-            }
+            let field = |place: &usize| record.get(*place).unwrap_or_default().to_string();
+            rows.push(places.iter().map(field).collect());
         }
-        Some(numbers)
+        Some(rows)
+    }
+
+    /// Where a column is among the names of the first line.
+    fn csv_place(
+        &mut self,
+        file: &Stated<String>,
+        column: &Stated<String>,
+        names: &[String],
+    ) -> Option<usize> {
+        if let Some(place) = names.iter().position(|name| *name == column.value) {
+            return Some(place);
+        }
+        let near = nearest(&column.value, names.iter().map(String::as_str));
+        let separated = names
+            .first()
+            .filter(|only| names.len() == 1 && only.contains([';', '\t']));
+        let help = match (near, separated) {
+            (_, Some(only)) => format!(
+                "its only column is \"{only}\": save the file with commas between the columns and decimal points"
+            ),
+            (Some(near), None) => format!(
+                "did you mean \"{near}\"? Its columns are: {}",
+                names.join(", ")
+            ),
+            (None, None) => format!("its columns are: {}", names.join(", ")),
+        };
+        self.refuse(
+            Fault::new(
+                CSV,
+                column.span.clone(),
+                format!("{} has no column \"{}\"", file.value, column.value),
+            )
+            .label("no such column")
+            .help(help),
+        )
     }
 
     fn csv_text(&mut self, file: &Stated<String>) -> Option<String> {

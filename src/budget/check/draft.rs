@@ -6,7 +6,7 @@ use super::Checker;
 use crate::budget::faults::{DOF, NOT_POSITIVE};
 use crate::budget::table::Stated;
 use crate::budget::tables::ComponentTable;
-use crate::budget::{Certificate, Evaluation, Follows, TScale};
+use crate::budget::{Certificate, Evaluation, Finding, Follows, TScale};
 use crate::distribution::Distribution;
 use crate::fault::Fault;
 use crate::quantity::Unit;
@@ -29,6 +29,8 @@ pub(super) struct Context<'a> {
 pub(super) enum Kind {
     Repeatability,
     Resolution,
+    /// Scatter of the data about the fit of this number.
+    Scatter(usize),
     Other,
 }
 
@@ -47,6 +49,8 @@ pub(super) struct Draft {
     pub how: String,
     /// Where the statement puts the quantity.
     pub location: Location,
+    /// What its readings say.
+    pub findings: Vec<Finding>,
     pub kind: Kind,
     /// How its uncertainty follows the estimate.
     pub follows: Option<Follows>,
@@ -85,6 +89,8 @@ pub(super) struct Core {
     pub dof: f64,
     pub how: String,
     pub location: Location,
+    /// What its readings say.
+    pub findings: Vec<Finding>,
 }
 
 impl Core {
@@ -95,6 +101,7 @@ impl Core {
             dof: f64::INFINITY,
             how: how.into(),
             location: Location::None,
+            findings: Vec::new(),
         }
     }
 }

@@ -71,7 +71,8 @@ impl Checker<'_> {
         let stated = entries(&file.measurand);
         if stated.is_empty() {
             let refused = file.refused && file.present.iter().any(|(key, _)| *key == "measurand");
-            if refused || file.unknown {
+            // A fit that was refused would have given the measurands.
+            if refused || file.unknown || file.present.iter().any(|(key, _)| *key == "fit") {
                 return None;
             }
             let end = self.text.trim_end().len();
@@ -83,7 +84,7 @@ impl Checker<'_> {
         }
         let units: Vec<_> = stated
             .iter()
-            .map(|(_, entry)| self.unit(&entry.value.unit))
+            .map(|(name, entry)| self.measurand_unit(name, &entry.value.unit))
             .collect();
         let unread = register.entries.iter().any(|entry| entry.unit.is_none())
             || units.iter().any(Option::is_none)
@@ -100,8 +101,15 @@ impl Checker<'_> {
             .zip(&units)
             .map(|((name, entry), unit)| MeasurandSource {
                 name,
-                model: entry.value.model.as_ref().map(|text| text.value.as_str()),
-                unit: entry.value.unit.as_ref().and(unit.clone()),
+                model: match &entry.value.model {
+                    Some(text) => Some(text.value.as_str()),
+                    // A measurand that is called like a parameter of a fit reports it.
+                    None => self.parameter_unit(name).map(|_| name.as_str()),
+                },
+                unit: match self.parameter_unit(name) {
+                    Some(_) => unit.clone(),
+                    None => entry.value.unit.as_ref().and(unit.clone()),
+                },
             })
             .collect();
         let symbols = symbols(constants, register);
@@ -116,6 +124,7 @@ impl Checker<'_> {
             Ok(model) => {
                 if !self.hidden_names {
                     self.unused(file, &model, constants.len(), register);
+                    self.unused_fits(file, &model, constants.len(), register);
                 }
                 self.scaled_twice(&model);
                 self.no_inputs(&model, register);
@@ -168,7 +177,7 @@ impl Checker<'_> {
         }
     }
 
-    fn in_formula(&self, fault: Fault, text: Option<&Stated<String>>) -> Fault {
+    pub(super) fn in_formula(&self, fault: Fault, text: Option<&Stated<String>>) -> Fault {
         let Some(text) = text else {
             return fault.moved(|_| 0..0);
         };
@@ -251,7 +260,16 @@ impl Checker<'_> {
     }
 
     fn unused(&mut self, file: &FileTable, model: &Model, constants: usize, register: &Register) {
+        let parameters = constants..constants + self.parameters.len();
         for index in model.unused_symbols() {
+            // Of a fit, all parameters come together.
+            if parameters.contains(&index) {
+                continue;
+            }
+            let constant = entries(&file.constant).get(index);
+            if constant.is_some_and(|(name, _)| self.used_by_fits.contains(name)) {
+                continue;
+            }
             let place = self.symbol_place(index, file, constants, register);
             let (kind, name) = if index < constants {
                 (

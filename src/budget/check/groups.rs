@@ -26,7 +26,11 @@ impl Checker<'_> {
             .collect();
         let r: Vec<f64> = own.iter().map(|statement| statement.r).collect();
         let correlation = matrix(&members, &own, &r);
-        let smallest = smallest_eigenvalue(&correlation);
+        // Without a statement only a common ν joins them, and the matrix is the identity.
+        let smallest = match own.is_empty() {
+            true => 1.0,
+            false => smallest_eigenvalue(&correlation),
+        };
         if smallest < -ROUNDING {
             return self.refuse(contradiction(&members, &own, &r, smallest));
         }
@@ -93,6 +97,9 @@ impl Checker<'_> {
         for (i, a) in components.iter().enumerate() {
             for (j, b) in components.iter().enumerate().skip(i + 1) {
                 let r = correlation[(i, j)].clamp(-1.0, 1.0);
+                if r == 0.0 {
+                    continue;
+                }
                 match latent_correlation(&a.distribution, &b.distribution, r) {
                     Ok(rho) => {
                         latent[(i, j)] = rho;
@@ -134,8 +141,12 @@ fn scale(distribution: &Distribution) -> f64 {
     }
 }
 
-/// The sets of components that statements connect, each in ascending order.
-pub(super) fn connected(statements: &[Statement], components: usize) -> Vec<Vec<usize>> {
+/// The sets of components that statements or a common ν connect, each in ascending order.
+pub(super) fn connected(
+    statements: &[Statement],
+    families: &[Vec<usize>],
+    components: usize,
+) -> Vec<Vec<usize>> {
     let mut root: Vec<usize> = (0..components).collect();
     let find = |root: &[usize], mut index: usize| {
         while root[index] != index {
@@ -143,8 +154,14 @@ pub(super) fn connected(statements: &[Statement], components: usize) -> Vec<Vec<
         }
         index
     };
-    for (a, b, _) in statements.iter().flat_map(|statement| &statement.pairs) {
-        let (a, b) = (find(&root, *a), find(&root, *b));
+    let stated = statements
+        .iter()
+        .flat_map(|statement| statement.pairs.iter().map(|(a, b, _)| (*a, *b)));
+    let related = families
+        .iter()
+        .flat_map(|family| family.windows(2).map(|pair| (pair[0], pair[1])));
+    for (a, b) in stated.chain(related) {
+        let (a, b) = (find(&root, a), find(&root, b));
         root[a.max(b)] = a.min(b);
     }
     let all = (0..components)

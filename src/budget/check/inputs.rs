@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::draft::{Context, Draft, Location, show};
 use super::register::{InputEntry, Register};
-use super::type_a::{all_equal, mean_and_squares};
+use super::type_a::all_equal;
 use super::ways::{Way, expectation, locates};
 use super::{Checker, entries};
 use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS};
@@ -57,7 +57,8 @@ impl Checker<'_> {
                 .values
                 .as_ref()
                 .map(|list| list.value.iter().map(|value| value.value).collect());
-            let values: Option<Vec<f64>> = values;
+            let values: Option<Vec<f64>> = values.or_else(|| self.element_means(table));
+            let vector = values.is_some();
             let count = values.as_ref().map_or(1, Vec::len);
             for element in 0..count {
                 register.inputs.push(blank(
@@ -79,7 +80,7 @@ impl Checker<'_> {
                 name: name.clone(),
                 place: stated.key.clone(),
                 places: start..start + count,
-                vector: table.values.is_some(),
+                vector,
                 unit,
                 formula: None,
             });
@@ -254,11 +255,16 @@ impl Checker<'_> {
         }
         if found.is_empty() {
             // Readings that tell the scatter of a single one still tell where the quantity is.
-            for entry in list.iter().filter(|entry| entry.way == Way::Readings) {
-                let numbers = self.numbers(entry.table.readings.as_ref()?)?;
-                if !numbers.is_empty() {
-                    found.push((mean_and_squares(&numbers).0, entry.place.clone()));
-                }
+            let of_readings = [Way::Readings, Way::Groups, Way::GroupSummary];
+            for entry in list.iter().filter(|entry| of_readings.contains(&entry.way)) {
+                let context = Context {
+                    owner: name,
+                    value: None,
+                    unit,
+                    place: entry.place.clone(),
+                };
+                let mean = self.mean_of_readings(entry.table, entry.way, &context)?;
+                found.push((mean, entry.place.clone()));
             }
         }
         match found.as_slice() {
@@ -275,6 +281,21 @@ impl Checker<'_> {
                     .help("add `value`: the estimate that is reported"),
             ),
         }
+    }
+
+    /// The mean of readings, whatever they are evaluated for.
+    fn mean_of_readings(
+        &mut self,
+        table: &ComponentTable,
+        way: Way,
+        context: &Context<'_>,
+    ) -> Option<f64> {
+        let of_mean = ComponentTable {
+            of: None,
+            ..table.clone()
+        };
+        let location = self.draft(&of_mean, way, context)?.location;
+        expectation(location)
     }
 
     /// The common value of readings that do not scatter beside a stated resolution: their scatter is

@@ -16,7 +16,7 @@ use crate::budget::tables::{FileTable, JointTable};
 use crate::budget::{Evaluation, Group, Owner, TScale};
 use crate::fault::{Fault, nearest};
 
-type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
+pub(super) type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
 
 impl Checker<'_> {
     /// Notes the inputs whose uncertainty a covariance matrix states, before they are read.
@@ -113,6 +113,9 @@ impl Checker<'_> {
         let mut places: Vec<(usize, Stated<String>)> = Vec::new();
         let mut complete = true;
         for name in &names.value {
+            if let Some(taken) = register.taken_as(&name.value) {
+                return self.refuse(taken.not_to_be_correlated(name));
+            }
             let entry = register
                 .entries
                 .iter()
@@ -176,12 +179,22 @@ impl Checker<'_> {
 
     /// A square symmetric matrix with one row for each input.
     fn matrix(&mut self, stated: &Matrix, size: usize) -> Option<DMatrix<f64>> {
+        self.symmetric(stated, size, "inputs")
+    }
+
+    /// A square symmetric matrix with one row for each of so many `what`.
+    pub(super) fn symmetric(
+        &mut self,
+        stated: &Matrix,
+        size: usize,
+        what: &str,
+    ) -> Option<DMatrix<f64>> {
         if let Some(row) = stated.value.iter().find(|row| row.value.len() != size) {
             return self.refuse(
                 Fault::new(
                     JOINT,
                     row.span.clone(),
-                    format!("a row of {} numbers for {size} inputs", row.value.len()),
+                    format!("a row of {} numbers for {size} {what}", row.value.len()),
                 )
                 .label(format!("expected {size} numbers")),
             );
@@ -191,7 +204,7 @@ impl Checker<'_> {
                 Fault::new(
                     JOINT,
                     stated.span.clone(),
-                    format!("{} rows for {size} inputs", stated.value.len()),
+                    format!("{} rows for {size} {what}", stated.value.len()),
                 )
                 .label(format!("expected {size} rows")),
             );
@@ -274,6 +287,7 @@ impl Checker<'_> {
                 evaluation: Evaluation::TypeB,
                 how: "√ of the variance in the covariance matrix".into(),
                 location: Location::None,
+                findings: Vec::new(),
                 kind: Kind::Other,
                 follows: None,
                 certificate: None,

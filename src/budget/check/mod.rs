@@ -4,6 +4,7 @@
 //! once. What depends on a refused part is left out silently: it would only repeat the first fault.
 
 mod amounts;
+mod anova;
 mod certificates;
 mod chain;
 mod claims;
@@ -14,6 +15,7 @@ mod correlations;
 mod csv;
 mod detection;
 mod draft;
+mod fits;
 mod formulas;
 mod given;
 mod groups;
@@ -23,7 +25,6 @@ mod names;
 mod register;
 mod resolution;
 mod results;
-mod series;
 mod shapes;
 mod sources;
 mod specification;
@@ -40,9 +41,12 @@ use super::shelf::Shelf;
 use super::table::Stated;
 use super::tables::FileTable;
 use super::values::Named;
-use super::{Budget, Component, Conventions, Heading, NamedFigure, Owner, Remark, Row, TScale};
+use super::{
+    Budget, Component, Conventions, Heading, MonteCarloSettings, NamedFigure, Owner, Remark, Row,
+    TScale, Trials,
+};
 use crate::fault::Fault;
-use crate::quantity::UnitTable;
+use crate::quantity::{Unit, UnitTable};
 
 /// Where a budget comes from, and with it the files that it names.
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +80,12 @@ struct Checker<'a> {
     date: Option<String>,
     faults: Vec<Fault>,
     remarks: Vec<Remark>,
+    /// What the fits of the file say about the scatter of their responses.
+    scatters: Vec<fits::Scatter>,
+    /// Parameters of fits with their units.
+    parameters: Vec<(String, Option<Unit>)>,
+    /// Names that the formulas of fits use.
+    used_by_fits: Vec<String>,
     /// Figures of the analyses of the file's data.
     figures: Vec<NamedFigure>,
     /// Names of figures that only the evaluation will give.
@@ -105,24 +115,31 @@ impl Checker<'_> {
     }
 }
 
+/// One evaluation: the file itself, or with the values of a row of its series in place.
+pub(super) struct Variant {
+    pub label: Option<String>,
+    pub file: FileTable,
+}
+
 /// The budgets of a file: one, or one for each row of its series.
 ///
 /// # Errors
 /// All faults, in no particular order.
 pub(super) fn rows(
-    file: &FileTable,
+    variants: Vec<Variant>,
     text: &str,
     origin: Origin<'_>,
 ) -> Result<(Heading, Vec<Row>), Vec<Fault>> {
     let mut faults = Vec::new();
-    let heading = heading(file);
-    let variants = series::variants(file, &mut faults);
+    let heading = variants
+        .first()
+        .map(|variant| heading(&variant.file))
+        .unwrap_or_default();
+    let several = variants.len() > 1;
     let mut rows = Vec::new();
     for (index, variant) in variants.into_iter().enumerate() {
-        let row = file.series.as_ref().map(|_| {
-            let number = || (index + 1).to_string();
-            variant.label.clone().unwrap_or_else(number)
-        });
+        let number = || several.then(|| (index + 1).to_string());
+        let row = variant.label.clone().or_else(number);
         match budget(&variant.file, text, origin, &heading, row.as_deref()) {
             Ok(budget) => rows.push(Row {
                 label: variant.label,
@@ -194,6 +211,9 @@ fn budget(
         date: heading.date.clone(),
         faults,
         remarks: Vec::new(),
+        scatters: Vec::new(),
+        parameters: Vec::new(),
+        used_by_fits: Vec::new(),
         figures: Vec::new(),
         awaited_figures: Vec::new(),
         results: Vec::new(),
@@ -221,14 +241,19 @@ impl Checker<'_> {
         let mut register = register::Register::default();
         self.joint_estimates(file, &mut register);
         self.sources(shared(file), &mut register);
+        let fitted = self.fits(file, &constants, &mut register);
+        let file = &self.reporting_fits(file);
         self.inputs(file, resolution, &mut register);
         self.unused_sources(shared(file), &register);
-        let mut groups = self.groups(file, &mut register);
+        let mut groups = self.groups(file, &fitted, &mut register);
         let chain = self.chain(file, row, &mut register, &mut groups);
         let model = self.model(file, &constants, &register);
         self.results = formulas::results(file, model.as_ref());
         let conformity = self.conformity(file, &register);
         let detection = self.detection(file, &register);
+        self.await_tolerances(file, &monte_carlo);
+        let found = register.analyses.iter().flat_map(|one| one.figures());
+        self.figures.extend(found);
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -243,11 +268,27 @@ impl Checker<'_> {
             following: register.following,
             conformity,
             detection,
+            fits: fitted.into_iter().map(|found| found.fit).collect(),
             claims,
+            analyses: register.analyses,
             figures: std::mem::take(&mut self.figures),
             remarks: std::mem::take(&mut self.remarks),
             chain,
         })
+    }
+}
+
+impl Checker<'_> {
+    /// Names the figures of JCGM 101, 7.9 that an evaluation will give.
+    fn await_tolerances(&mut self, file: &FileTable, monte_carlo: &MonteCarloSettings) {
+        for (name, _) in entries(&file.measurand) {
+            let tolerances = [1, 2].map(|digits| NamedFigure::tolerance(name, digits));
+            self.awaited_figures.extend(tolerances);
+        }
+        if matches!(monte_carlo.trials, Trials::Adaptive { .. }) {
+            let batches = [NamedFigure::LEAST_BATCH, NamedFigure::BATCH];
+            self.awaited_figures.extend(batches.map(String::from));
+        }
     }
 }
 
@@ -266,6 +307,7 @@ fn names_hidden(file: &FileTable) -> bool {
             "constant",
             file.constant.as_ref().map(|named| named.value.refused),
         )
+        || refused("fit", file.fit.as_ref().map(|named| named.value.refused))
         || refused("model", file.model.as_ref().map(|_| false))
 }
 

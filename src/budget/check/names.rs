@@ -78,7 +78,7 @@ impl Checker<'_> {
         }
     }
 
-    fn check_name(&mut self, name: &str, place: &Range<usize>, kind: &str) {
+    pub(super) fn check_name(&mut self, name: &str, place: &Range<usize>, kind: &str) {
         if !is_identifier(name) {
             self.hidden_names = true;
             let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) {

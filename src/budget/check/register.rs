@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::draft::Draft;
+use super::draft::{Draft, Kind};
 use super::results::{Formula, Taken};
-use crate::budget::{Component, Following, Follows, Input, Owner, Term};
+use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
 use crate::distribution::Distribution;
 use crate::quantity::Unit;
 
@@ -44,6 +44,12 @@ pub(super) struct Register {
     pub taken: Vec<Taken>,
     /// Readings behind a Type A component.
     pub readings: HashMap<usize, Vec<f64>>,
+    /// Analyses of readings.
+    pub analyses: Vec<Analysis>,
+    /// Elements of vectors that share one standard deviation of finite ν.
+    pub families: Vec<Vec<usize>>,
+    /// Components that are the scatter of data about a fit: the number of the fit, the component.
+    pub scatter: Vec<(usize, usize)>,
     /// Inputs whose uncertainty a covariance matrix states.
     pub by_matrix: Vec<String>,
     /// Components whose effect follows the estimate of an input.
@@ -67,6 +73,15 @@ impl Register {
         } else {
             format!("{owner_name}.{}", draft.label)
         };
+        let analysed = draft.findings.into_iter().map(|found| Analysis {
+            name: name.clone(),
+            unit: unit.clone(),
+            found,
+        });
+        self.analyses.extend(analysed);
+        if let Kind::Scatter(fit) = draft.kind {
+            self.scatter.push((fit, self.components.len()));
+        }
         self.components.push(Component {
             name,
             label: draft.label,
@@ -137,6 +152,12 @@ impl Register {
                 coefficient,
             }),
         }
+    }
+
+    /// What an input of this name takes over from another file.
+    pub fn taken_as(&self, name: &str) -> Option<&Taken> {
+        let named = |taken: &&Taken| self.entries[taken.entry].name == name;
+        self.taken.iter().find(named)
     }
 
     /// The components behind a name: an input, an element, a source, or a component.

@@ -33,6 +33,20 @@ pub(super) struct Taken {
     pub place: Range<usize>,
 }
 
+impl Taken {
+    /// The fault of a correlation that is stated for such an input.
+    pub(super) fn not_to_be_correlated(&self, name: &Stated<String>) -> Fault {
+        Fault::new(
+            FROM,
+            name.span.clone(),
+            format!("{} is a result of {}, and no correlation of it can be stated", name.value, self.file),
+        )
+        .label("what it has in common with others follows from its components")
+        .related(self.place.clone(), "the other file")
+        .help("use a common budget or a common [source] in the other files; for a bare coefficient state the result as an input with `value` and `u`")
+    }
+}
+
 /// A result of another file.
 #[derive(Debug, Clone)]
 pub(super) enum Result {
@@ -348,31 +362,39 @@ impl Checker<'_> {
                 .label("cannot be used as it is")
                 .help("its faults are listed after those of this file"),
             Missing::Circle(files) => {
-                let mut names: Vec<String> = files
+                let names: Vec<String> = files
                     .iter()
                     .chain(files.first())
                     .map(|file| file.file_name().unwrap_or_default().display().to_string())
                     .collect();
-                if names.len() == 2 {
-                    names.truncate(1);
-                }
-                fault(
-                    FROM_CIRCLE,
-                    format!("{name} needs the result of this file itself"),
-                )
-                .label(format!("a circle: {}", names.join(" uses ")))
-                .help("a result cannot depend on itself: put what both need into a third file")
+                let (message, label) = if names.len() == 2 {
+                    (
+                        "a budget uses its own result".into(),
+                        "this file itself".into(),
+                    )
+                } else {
+                    let circle = format!("a circle: {}", names.join(" uses "));
+                    (
+                        format!("{name} needs the result of this file itself"),
+                        circle,
+                    )
+                };
+                fault(FROM_CIRCLE, message)
+                    .label(label)
+                    .help("a result cannot depend on itself: put what both need into a third file")
             }
+            Missing::Unfit(_) if name.ends_with(".toml") => fault(
+                SAVED_RESULT,
+                format!("{name} is a budget, not a file of saved results"),
+            )
+            .label("expected a file that `gumption eval --save` wrote")
+            .help(format!("for another budget write budget = \"{name}\"")),
             Missing::Unfit(why) => fault(
                 SAVED_RESULT,
                 format!("{name} holds no saved results: {why}"),
             )
             .label("expected a file that `gumption eval --save` wrote")
-            .help(if name.ends_with(".toml") {
-                format!("for another budget write budget = \"{name}\"")
-            } else {
-                format!("write it with: gumption eval BUDGET --save {name}")
-            }),
+            .help(format!("write it with: gumption eval BUDGET --save {name}")),
             Missing::Folder => fault(UNREADABLE_FILE, format!("{name} is a folder, not a file"))
                 .label("expected a file"),
             Missing::Unreadable(error) => {

@@ -1,5 +1,7 @@
 //! Checks of whole small files; published numbers where there are any.
 
+mod type_a;
+
 use std::path::Path;
 
 use crate::budget::{Budget, Figure, Law, Rejection, TScale, read};

@@ -1,26 +1,61 @@
 //! Type A evaluation: uncertainty from repeated readings (GUM 4.2).
 
+use std::ops::Range;
+
 use super::Checker;
 use super::draft::{Context, Core, Location, show};
-use crate::budget::faults::{MISSING_KEY, MODIFIER, NO_SCATTER, SERIAL, TOO_FEW_READINGS};
+use crate::budget::faults::{
+    MISSING_KEY, MODIFIER, NO_SCATTER, OUTLIER_TEST, PROBABILITY, SERIAL, TOO_FEW_READINGS,
+    TWO_WAYS,
+};
 use crate::budget::table::Stated;
-use crate::budget::tables::{ComponentTable, PooledTable};
+use crate::budget::tables::{ComponentTable, OutlierWord, PooledTable};
 use crate::budget::variants::{Numbers, ReadingsOf};
+use crate::budget::{Finding, Outlier, Statistics};
 use crate::distribution::Distribution;
 use crate::fault::Fault;
+use crate::statistics::{Dd, OutlierTest, Series, pooled};
 
 /// Mean and sum of squared deviations, by two passes.
 pub(super) fn mean_and_squares(readings: &[f64]) -> (f64, f64) {
-    let n = readings.len() as f64;
-    let rough = readings.iter().sum::<f64>() / n;
-    // The second pass removes the rounding of the first.
-    let mean = rough + readings.iter().map(|x| x - rough).sum::<f64>() / n;
-    (mean, readings.iter().map(|x| (x - mean) * (x - mean)).sum())
+    let readings: Vec<Dd> = readings.iter().copied().map(Dd::from).collect();
+    let series = Series::new(&readings);
+    (series.mean(), series.squares())
 }
 
 /// Whether readings all have the same value, up to the rounding of their mean.
 pub(super) fn all_equal(readings: &[f64]) -> bool {
     readings.windows(2).all(|pair| pair[0] == pair[1])
+}
+
+/// Fewer readings say nothing about their serial correlation.
+const FEWEST_FOR_SERIAL: usize = 10;
+
+/// Level of significance where none is stated.
+const SIGNIFICANCE: f64 = 0.05;
+
+/// What readings say of themselves.
+fn statistics(series: &Series, readings: &[Dd], effective: Option<f64>) -> Statistics {
+    let values = || readings.iter().map(|reading| reading.value());
+    Statistics {
+        n: series.count(),
+        mean: series.mean(),
+        s: series.standard_deviation(),
+        min: values().fold(f64::INFINITY, f64::min),
+        max: values().fold(f64::NEG_INFINITY, f64::max),
+        lag1: series.autocorrelation(1),
+        lag_limit: series.serial_limit(),
+        effective,
+    }
+}
+
+/// A Type A component before its distribution is made.
+pub(super) struct Evaluated {
+    pub u: f64,
+    pub dof: f64,
+    pub how: String,
+    pub mean: Option<f64>,
+    pub findings: Vec<Finding>,
 }
 
 impl Checker<'_> {
@@ -30,15 +65,20 @@ impl Checker<'_> {
         let Some(readings) = &table.readings else {
             return self.pooled_alone(table.pooled.as_ref()?, table, context);
         };
-        let numbers = self.numbers(readings)?;
+        let numbers = self.exact_numbers(readings)?;
+        let plain: Vec<f64> = numbers.iter().map(|number| number.value()).collect();
         if let Some(pooled) = &table.pooled {
-            return self.pooled(pooled, &numbers, of, readings, context);
+            let findings = match plain.len() > 1 && !all_equal(&plain) {
+                true => self.describe(&numbers, None, readings, table)?,
+                false => Vec::new(),
+            };
+            return self.pooled(pooled, &numbers, of, readings, context, findings);
         }
         if numbers.len() < 2 {
             return self.refuse(too_few(readings, numbers.len(), context));
         }
-        if all_equal(&numbers) {
-            return self.refuse(no_scatter(readings, &numbers, context));
+        if all_equal(&plain) {
+            return self.refuse(no_scatter(readings, &plain, context));
         }
         if table
             .autocorrelated
@@ -47,55 +87,193 @@ impl Checker<'_> {
         {
             return self.autocorrelated(&numbers, of, readings, table);
         }
+        let series = Series::new(&numbers);
         let n = numbers.len() as f64;
-        let (mean, squares) = mean_and_squares(&numbers);
-        let s = (squares / (n - 1.0)).sqrt();
+        let s = series.standard_deviation();
         let (m, words) = averaged(of, n);
-        let u = s / m.sqrt();
-        let how = format!("{words}, s = {}, n = {n}", show(s));
-        self.scattered(u, n - 1.0, how, Location::Mean(mean), readings, of)
+        if of == ReadingsOf::Mean && table.autocorrelated.is_none() {
+            self.serial_remark(&series, context);
+        }
+        let evaluated = Evaluated {
+            u: s / m.sqrt(),
+            dof: n - 1.0,
+            how: format!("{words}, s = {}, n = {n}", show(s)),
+            mean: Some(series.mean()),
+            findings: self.describe(&numbers, None, readings, table)?,
+        };
+        self.scattered(evaluated, &readings.key, of)
     }
 
-    fn scattered(
+    /// The statistics of readings, and the test for an outlier if one is asked for.
+    fn describe(
         &mut self,
-        u: f64,
-        dof: f64,
-        how: String,
-        location: Location,
-        place: &Stated<Numbers>,
+        numbers: &[Dd],
+        effective: Option<f64>,
+        readings: &Stated<Numbers>,
+        table: &ComponentTable,
+    ) -> Option<Vec<Finding>> {
+        let series = Series::new(numbers);
+        let mut findings = vec![Finding::Readings(statistics(&series, numbers, effective))];
+        if let Some(test) = &table.outlier_test {
+            findings.push(self.outlier(numbers, test, readings, table)?);
+        } else if let Some(significance) = &table.significance {
+            return self.refuse(
+                Fault::new(
+                    MODIFIER,
+                    significance.key.clone(),
+                    "a level of significance without a test",
+                )
+                .label("no meaning here")
+                .help("add outlier_test = \"grubbs\" or \"dixon\", or leave it out"),
+            );
+        }
+        Some(findings)
+    }
+
+    fn outlier(
+        &mut self,
+        numbers: &[Dd],
+        stated: &Stated<OutlierWord>,
+        readings: &Stated<Numbers>,
+        table: &ComponentTable,
+    ) -> Option<Finding> {
+        let (test, leveled) = match stated.value {
+            OutlierWord::Grubbs => (OutlierTest::Grubbs, true),
+            OutlierWord::Dixon => (OutlierTest::Dixon, true),
+            OutlierWord::FourD => (OutlierTest::FourMeanDeviations, false),
+            OutlierWord::ThreeS => (OutlierTest::ThreeSigma, false),
+        };
+        let (fewest, most) = test.counts();
+        let (n, word) = (numbers.len(), stated.value.word());
+        if n < fewest || n > most {
+            let range = match most {
+                usize::MAX => format!("{fewest} or more"),
+                _ => format!("{fewest} to {most}"),
+            };
+            return self.refuse(
+                Fault::new(
+                    OUTLIER_TEST,
+                    stated.span.clone(),
+                    format!("the test \"{word}\" is not for {n} readings"),
+                )
+                .label(format!("for {range} readings"))
+                .related(readings.key.clone(), format!("{n} readings"))
+                .help("\"grubbs\" is for any number of readings from 3 on"),
+            );
+        }
+        if let (false, Some(significance)) = (leveled, &table.significance) {
+            return self.refuse(
+                Fault::new(
+                    OUTLIER_TEST,
+                    significance.key.clone(),
+                    format!("the test \"{word}\" has no level of significance"),
+                )
+                .label("no meaning here")
+                .related(stated.key.clone(), "the test")
+                .help("leave it out, or choose \"grubbs\" or \"dixon\""),
+            );
+        }
+        let significance = self.significance(table)?;
+        let suspect = test.run(numbers, significance);
+        Some(Finding::Outlier(Outlier {
+            test,
+            significance: leveled.then_some(significance),
+            value: numbers.get(suspect.place)?.value(),
+            suspect,
+        }))
+    }
+
+    /// The level of significance of a test.
+    pub(super) fn significance(&mut self, table: &ComponentTable) -> Option<f64> {
+        let Some(stated) = &table.significance else {
+            return Some(SIGNIFICANCE);
+        };
+        if stated.value > 0.0 && stated.value < 1.0 {
+            return Some(stated.value);
+        }
+        self.refuse(
+            Fault::new(
+                PROBABILITY,
+                stated.span.clone(),
+                format!("a level of significance of {}", stated.value),
+            )
+            .label("expected a number between 0 and 1")
+            .help("write 0.05 for 5 %"),
+        )
+    }
+
+    /// Remarks on readings that are no independent ones (GUM 4.2.7).
+    fn serial_remark(&mut self, series: &Series, context: &Context<'_>) {
+        let (rho, limit) = (series.autocorrelation(1), series.serial_limit());
+        if series.count() < FEWEST_FOR_SERIAL || rho.abs() <= limit {
+            return;
+        }
+        let owner = context.owner;
+        let (rho, limit) = (coefficient(rho), coefficient(limit));
+        let (en, zh) = match rho.starts_with('-') {
+            false => (
+                "s/√n is then too small. Write autocorrelated = true, or model the drift",
+                "此时 s/√n 偏小；可写 autocorrelated = true，或在模型中修正漂移",
+            ),
+            true => (
+                "They alternate; look for a periodic disturbance",
+                "读数交替变化，请检查是否存在周期性干扰",
+            ),
+        };
+        self.remark(
+            format!("{owner}: successive readings are correlated (lag-1 coefficient {rho}, beyond ±{limit}; GUM 4.2.7). {en}."),
+            format!("{owner}：相邻读数相关（一阶自相关系数 {rho}，超出 ±{limit}；GUM 4.2.7）。{zh}。"),
+        );
+    }
+
+    /// The component with its t distribution.
+    pub(super) fn scattered(
+        &mut self,
+        evaluated: Evaluated,
+        place: &Range<usize>,
         of: ReadingsOf,
     ) -> Option<Core> {
-        let distribution = self.t_or_normal(u, dof, &place.key)?;
-        let location = if of == ReadingsOf::Mean {
-            location
-        } else {
-            Location::None
-        };
+        let Evaluated {
+            u,
+            dof,
+            how,
+            mean,
+            findings,
+        } = evaluated;
+        let distribution = self.t_or_normal(u, dof, place)?;
+        let mean = mean.filter(|_| of == ReadingsOf::Mean);
         Some(Core {
             distribution,
             u,
             dof,
             how,
-            location,
+            location: mean.map_or(Location::None, Location::Mean),
+            findings,
         })
     }
 
     fn pooled(
         &mut self,
         pooled: &Stated<PooledTable>,
-        numbers: &[f64],
+        numbers: &[Dd],
         of: ReadingsOf,
         readings: &Stated<Numbers>,
         context: &Context<'_>,
+        findings: Vec<Finding>,
     ) -> Option<Core> {
         if numbers.is_empty() {
             return self.refuse(too_few(readings, 0, context));
         }
         let (s, dof) = self.pooled_numbers(pooled, context)?;
-        let (mean, _) = mean_and_squares(numbers);
         let (m, words) = averaged(of, numbers.len() as f64);
-        let how = format!("{words}, pooled s = {}", show(s));
-        self.scattered(s / m.sqrt(), dof, how, Location::Mean(mean), readings, of)
+        let evaluated = Evaluated {
+            u: s / m.sqrt(),
+            dof,
+            how: format!("{words}, pooled s = {}", show(s)),
+            mean: Some(Series::new(numbers).mean()),
+            findings,
+        };
+        self.scattered(evaluated, &readings.key, of)
     }
 
     fn pooled_alone(
@@ -120,20 +298,19 @@ impl Checker<'_> {
                 );
             }
         };
-        let u = s / m.sqrt();
-        let distribution = self.t_or_normal(u, dof, &pooled.key)?;
         let how = if m == 1.0 {
             format!("pooled s = {}", show(s))
         } else {
             format!("s/√{m}, pooled s = {}", show(s))
         };
-        Some(Core {
-            distribution,
-            u,
+        let evaluated = Evaluated {
+            u: s / m.sqrt(),
             dof,
             how,
-            location: Location::None,
-        })
+            mean: None,
+            findings: Vec::new(),
+        };
+        self.scattered(evaluated, &pooled.key, ReadingsOf::Single)
     }
 
     fn pooled_numbers(
@@ -141,6 +318,9 @@ impl Checker<'_> {
         pooled: &Stated<PooledTable>,
         context: &Context<'_>,
     ) -> Option<(f64, f64)> {
+        if let Some(readings) = &pooled.value.readings {
+            return self.pooled_readings(&pooled.value, readings, context);
+        }
         let (Some(s), Some(dof)) = (&pooled.value.s, &pooled.value.dof) else {
             if pooled.value.refused {
                 return None;
@@ -157,12 +337,55 @@ impl Checker<'_> {
         Some((s?, dof?))
     }
 
-    /// u of the mean of serially correlated readings: the variance of the mean is
-    /// σ²/n·(1 + 2Σ(1 − k/n)ρ_k), summed up to the last lag before the estimated ρ_k first falls
-    /// below its own standard deviation under independence (1/√n, doubled).
+    /// A standard deviation pooled over earlier series.
+    fn pooled_readings(
+        &mut self,
+        table: &PooledTable,
+        stated: &Stated<Vec<Stated<Vec<Stated<f64>>>>>,
+        context: &Context<'_>,
+    ) -> Option<(f64, f64)> {
+        let other = table.present.iter().find(|(key, _)| *key != "readings");
+        if let Some((key, span)) = other {
+            return self.refuse(
+                Fault::new(
+                    TWO_WAYS,
+                    span.clone(),
+                    format!("the pooled standard deviation has readings and `{key}`"),
+                )
+                .label("stated again here")
+                .related(stated.key.clone(), "s and ν follow from these readings")
+                .help(format!("leave out `{key}`, or the readings")),
+            );
+        }
+        let lists: Vec<Vec<Dd>> = stated
+            .value
+            .iter()
+            .map(|list| self.exact(&list.value))
+            .collect();
+        let plenty: Vec<Series> = lists
+            .iter()
+            .filter(|list| list.len() > 1)
+            .map(|list| Series::new(list))
+            .collect();
+        let (s, dof) = pooled(&plenty);
+        if plenty.is_empty() || s == 0.0 {
+            return self.refuse(
+                Fault::new(
+                    TOO_FEW_READINGS,
+                    stated.span.clone(),
+                    format!("the earlier readings of {} do not scatter", context.owner),
+                )
+                .label("at least one series of two different readings is needed"),
+            );
+        }
+        Some((s, dof))
+    }
+
+    /// u of the mean of serially correlated readings (GUM 4.2.7): see [`Series::serial`]. ν is that of
+    /// so many independent readings.
     fn autocorrelated(
         &mut self,
-        numbers: &[f64],
+        numbers: &[Dd],
         of: ReadingsOf,
         readings: &Stated<Numbers>,
         table: &ComponentTable,
@@ -182,7 +405,7 @@ impl Checker<'_> {
                 .help("leave out `autocorrelated`"),
             );
         }
-        if numbers.len() < 10 {
+        if numbers.len() < FEWEST_FOR_SERIAL {
             return self.refuse(
                 Fault::new(
                     SERIAL,
@@ -192,12 +415,12 @@ impl Checker<'_> {
                         numbers.len()
                     ),
                 )
-                .label("at least 10 are needed"),
+                .label(format!("at least {FEWEST_FOR_SERIAL} are needed")),
             );
         }
         let n = numbers.len() as f64;
-        let (mean, squares) = mean_and_squares(numbers);
-        let factor = inflation(numbers, mean, squares);
+        let series = Series::new(numbers);
+        let factor = series.serial().factor;
         let effective = n / factor;
         if effective < 2.0 {
             return self.refuse(
@@ -214,38 +437,29 @@ impl Checker<'_> {
             );
         }
         // E Σ(x − x̄)² = σ²(n − factor), because the mean takes up factor/n of the variance.
-        let sigma = (squares / (n - factor)).sqrt();
-        let u = sigma / effective.sqrt();
-        let how = format!(
-            "s/√n_eff, s = {}, n = {n}, n_eff = {}",
-            show(sigma),
-            show(effective)
-        );
-        self.scattered(u, effective - 1.0, how, Location::Mean(mean), readings, of)
+        let sigma = (series.squares() / (n - factor)).sqrt();
+        let evaluated = Evaluated {
+            u: sigma / effective.sqrt(),
+            dof: effective - 1.0,
+            how: format!(
+                "s/√n_eff, s = {}, n = {n}, n_eff = {}",
+                show(sigma),
+                show(effective)
+            ),
+            mean: Some(series.mean()),
+            findings: self.describe(numbers, Some(effective), readings, table)?,
+        };
+        self.scattered(evaluated, &readings.key, of)
     }
 }
 
-/// By what serial correlation multiplies the variance of the mean; at least 1.
-fn inflation(readings: &[f64], mean: f64, squares: f64) -> f64 {
-    let n = readings.len();
-    let limit = 2.0 / (n as f64).sqrt();
-    let sum: f64 = (1..=n / 4)
-        .map(|lag| {
-            let products: f64 = readings
-                .iter()
-                .zip(&readings[lag..])
-                .map(|(a, b)| (a - mean) * (b - mean))
-                .sum();
-            (lag, products / squares)
-        })
-        .take_while(|(_, rho)| *rho > limit)
-        .map(|(lag, rho)| (1.0 - lag as f64 / n as f64) * rho)
-        .sum();
-    1.0 + 2.0 * sum
+/// A correlation coefficient with two decimals.
+fn coefficient(r: f64) -> String {
+    format!("{r:.2}")
 }
 
 /// How many readings the reported value averages, and u in words.
-fn averaged(of: ReadingsOf, n: f64) -> (f64, String) {
+pub(super) fn averaged(of: ReadingsOf, n: f64) -> (f64, String) {
     match of {
         ReadingsOf::Mean => (n, "s/√n".into()),
         ReadingsOf::Single => (1.0, "s".into()),
@@ -288,32 +502,5 @@ mod tests {
     fn mean_and_squares_survive_a_large_offset() {
         let (mean, squares) = mean_and_squares(&[1e9 + 1.0, 1e9 + 2.0, 1e9 + 3.0]);
         assert_eq!((mean, squares), (1e9 + 2.0, 2.0));
-    }
-
-    #[test]
-    fn alternating_readings_are_not_deflated() {
-        let readings: Vec<f64> = (0..40).map(|i| f64::from(i % 2)).collect();
-        let (mean, squares) = mean_and_squares(&readings);
-        assert_eq!(inflation(&readings, mean, squares), 1.0);
-    }
-
-    #[test]
-    fn doubled_readings_are_worth_about_half() {
-        // Every reading twice: ρ_1 is about ½, higher lags about 0, so the factor is about 2.
-        let mut state = 1_u64;
-        let mut noise = move || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (state >> 33) as f64
-        };
-        let readings: Vec<f64> = (0..2000)
-            .flat_map(|_| {
-                let reading = noise();
-                [reading, reading]
-            })
-            .collect();
-        let (mean, squares) = mean_and_squares(&readings);
-        assert!((inflation(&readings, mean, squares) - 2.0).abs() < 0.1);
     }
 }

@@ -1,7 +1,7 @@
 //! Vector inputs: one error for each element, or one that all share.
 
 use super::Checker;
-use super::draft::{Context, Location};
+use super::draft::{Context, Draft, Location, show};
 use super::inputs::{Entry, Piece, element_name, single};
 use super::register::Register;
 use super::ways::{Way, locates};
@@ -9,12 +9,16 @@ use crate::budget::Owner;
 use crate::budget::faults::VECTOR;
 use crate::budget::table::Stated;
 use crate::budget::tables::{ComponentTable, InputTable};
-use crate::budget::variants::Amounts;
+use crate::budget::variants::{Amounts, Numbers};
 use crate::fault::Fault;
 use crate::quantity::Unit;
+use crate::statistics::Series;
 
 /// Elements of a vector. More of them would keep the Monte Carlo method busy for hours.
 const MOST_ELEMENTS: usize = 10_000;
+
+/// Elements that are drawn together for their common ν; the effort grows with their square.
+const LARGEST_FAMILY: usize = 200;
 
 impl Checker<'_> {
     pub(super) fn vector(
@@ -118,7 +122,13 @@ impl Checker<'_> {
             }
             return Some(());
         }
-        if locates(entry.way) && !single(entry.table) && entry.way != Way::Distribution {
+        let listed = entry.table.readings.as_ref();
+        let by_element = listed.is_some_and(|stated| matches!(stated.value, Numbers::Lists(_)));
+        if locates(entry.way)
+            && !single(entry.table)
+            && !by_element
+            && entry.way != Way::Distribution
+        {
             return self.refuse(
                 Fault::new(
                     VECTOR,
@@ -127,7 +137,7 @@ impl Checker<'_> {
                 )
                 .label("not for a vector")
                 .help(
-                    "state a deviation: `u`, `half_width`, `step`, readings with of = \"single\" …",
+                    "state a deviation (`u`, `half_width`, `step` …), or readings for each element: readings = [[…], […]]",
                 ),
             );
         }
@@ -140,6 +150,7 @@ impl Checker<'_> {
             .is_some_and(|stated| stated.value);
         let mut first: Option<(usize, f64)> = None;
         let mut label = None;
+        let mut family = Vec::new();
         for (element, value) in values.iter().enumerate() {
             // A fraction of zero is zero: this element has no such doubt.
             if relative && *value == 0.0 {
@@ -165,6 +176,8 @@ impl Checker<'_> {
                     .label("only symmetric deviations for a vector"),
                 );
             }
+            self.other_mean(name, element, *value, &draft);
+            let dof = draft.dof;
             let label = label.get_or_insert_with(|| another(labels, &draft.label));
             draft.label.clone_from(label);
             let follows = draft.follows;
@@ -184,6 +197,12 @@ impl Checker<'_> {
                         draft,
                         alone,
                     );
+                    if !common && dof.is_finite() {
+                        family.push(component);
+                    }
+                    if let Some(readings) = self.readings_of(entry.table, element) {
+                        register.readings.insert(component, readings);
+                    }
                     first = Some((component, u));
                     register.follow(start + element, component, 1.0, follows);
                     register.act(start + element, component, 1.0);
@@ -194,29 +213,108 @@ impl Checker<'_> {
             register.follow(start + element, component, sign * coefficient, follows);
             register.act(start + element, component, sign * coefficient);
         }
+        if of_element(entry.table, 0).is_none() && entry.way != Way::Distribution {
+            self.family(name, family, register);
+        }
         Some(())
     }
 
+    /// Elements whose u comes from one statement share the doubt about it: they have one ν together.
+    fn family(&mut self, name: &str, family: Vec<usize>, register: &mut Register) {
+        match family.len() {
+            0 | 1 => {}
+            2..=LARGEST_FAMILY => register.families.push(family),
+            count => self.remark(
+                format!("{name}: ν is taken for each of the {count} elements by itself, although they share one u; more than {LARGEST_FAMILY} are not evaluated together."),
+                format!("{name}：{count} 个元素虽共用一个 u，但自由度按各元素独立处理；超过 {LARGEST_FAMILY} 个元素时不作联合评定。"),
+            ),
+        }
+    }
+
+    /// The readings of one element.
+    fn readings_of(&self, table: &ComponentTable, element: usize) -> Option<Vec<f64>> {
+        let Numbers::Lists(lists) = &table.readings.as_ref()?.value else {
+            return None;
+        };
+        let list = lists.get(element)?;
+        (table.pooled.is_none()).then(|| list.value.iter().map(|reading| reading.value).collect())
+    }
+
+    /// Remarks on a stated value that is not the mean of the element's readings.
+    fn other_mean(&mut self, name: &str, element: usize, value: f64, draft: &Draft) {
+        let Location::Mean(mean) = draft.location else {
+            return;
+        };
+        if (mean - value).abs() <= 1e-9 * draft.u {
+            return;
+        }
+        let name = element_name(name, element);
+        let (value, mean) = (show(value), show(mean));
+        self.remark(
+            format!(
+                "{name}: the stated value {value} is used; the mean of its readings is {mean}."
+            ),
+            format!("{name}：采用给出的值 {value}；读数的平均值为 {mean}。"),
+        );
+    }
+
+    /// The means of an input that has no `values` but a list of readings for each element.
+    pub(super) fn element_means(&mut self, table: &InputTable) -> Option<Vec<f64>> {
+        if table.value.is_some() || table.present.iter().any(|(key, _)| *key == "values") {
+            return None;
+        }
+        let components = table.components.as_ref().map(|list| &list.value);
+        let inner = components.into_iter().flatten().map(|item| &item.value);
+        let lists = inner
+            .chain(std::iter::once(&table.component))
+            .find_map(|component| match &component.readings.as_ref()?.value {
+                Numbers::Lists(lists) => Some(lists),
+                _ => None,
+            })?;
+        let means = lists.iter().map(|list| {
+            let readings = self.exact(&list.value);
+            Series::new(&readings).mean()
+        });
+        Some(means.collect())
+    }
+
     /// Checks that lists for elements are as long as the vector.
-    fn one_for_each(&mut self, name: &str, table: &ComponentTable, length: usize) -> Option<()> {
-        for (key, stated) in [("u", &table.u), ("half_width", &table.half_width)] {
-            let Some(Stated {
+    pub(super) fn one_for_each(
+        &mut self,
+        name: &str,
+        table: &ComponentTable,
+        length: usize,
+    ) -> Option<()> {
+        let amounts = |stated: &Option<Stated<Amounts>>| match stated {
+            Some(Stated {
                 value: Amounts::Each(list),
                 span,
                 ..
-            }) = stated
-            else {
+            }) => Some((list.len(), span.clone())),
+            _ => None,
+        };
+        let readings = match &table.readings {
+            Some(Stated {
+                value: Numbers::Lists(lists),
+                span,
+                ..
+            }) => Some((lists.len(), span.clone())),
+            _ => None,
+        };
+        for (key, found) in [
+            ("u", amounts(&table.u)),
+            ("half_width", amounts(&table.half_width)),
+            ("readings", readings),
+        ] {
+            let Some((entries, span)) = found else {
                 continue;
             };
-            if list.len() != length {
+            if entries != length {
                 return self.refuse(
                     Fault::new(
                         VECTOR,
-                        span.clone(),
-                        format!(
-                            "`{key}` has {} entries, {name} has {length} values",
-                            list.len()
-                        ),
+                        span,
+                        format!("`{key}` has {entries} entries, {name} has {length} values"),
                     )
                     .label(format!("expected {length} entries"))
                     .help("state one for each element, or a single one for all"),
@@ -227,7 +325,7 @@ impl Checker<'_> {
     }
 
     /// Whether the component is a fraction of the value alone.
-    fn acts_in_proportion(&mut self, entry: &Entry<'_>, unit: &Unit) -> bool {
+    pub(super) fn acts_in_proportion(&mut self, entry: &Entry<'_>, unit: &Unit) -> bool {
         let table = entry.table;
         let stated = table.relative.as_ref().is_some_and(|stated| stated.value);
         let certificate = table
@@ -247,7 +345,7 @@ impl Checker<'_> {
 }
 
 /// The component as it stands for one element, if it lists an amount for each.
-fn of_element(table: &ComponentTable, element: usize) -> Option<ComponentTable> {
+pub(super) fn of_element(table: &ComponentTable, element: usize) -> Option<ComponentTable> {
     let one = |stated: &Option<Stated<Amounts>>| {
         let amount = stated.as_ref()?.of_element(element)?;
         Some(amount.map(|amount| Amounts::One(amount.clone())))
@@ -261,7 +359,24 @@ fn of_element(table: &ComponentTable, element: usize) -> Option<ComponentTable> 
             })
         )
     };
-    (listed(&table.u) || listed(&table.half_width)).then(|| ComponentTable {
+    let readings = |stated: &Option<Stated<Numbers>>| match stated {
+        Some(Stated {
+            value: Numbers::Lists(lists),
+            ..
+        }) => lists
+            .get(element)
+            .map(|list| list.map(|list| Numbers::List(list.clone()))),
+        other => other.clone(),
+    };
+    let by_readings = matches!(
+        table.readings,
+        Some(Stated {
+            value: Numbers::Lists(_),
+            ..
+        })
+    );
+    (by_readings || listed(&table.u) || listed(&table.half_width)).then(|| ComponentTable {
+        readings: readings(&table.readings),
         u: one(&table.u),
         half_width: one(&table.half_width),
         ..table.clone()

@@ -3,11 +3,12 @@
 use std::ops::Range;
 
 use super::Checker;
-use super::draft::{Context, Core, Draft, Kind, Location};
+use super::draft::{Context, Core, Draft, Kind, Location, show};
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::faults::{MISSING_KEY, MODIFIER, NO_DOUBT, TWO_WAYS};
-use crate::budget::tables::{CertificateTable, ComponentTable};
+use crate::budget::tables::{CertificateTable, ComponentTable, TypeWord};
 use crate::budget::{Certificate, Evaluation, Follows};
+use crate::distribution::Distribution as Shape;
 use crate::fault::Fault;
 
 /// How a component states its uncertainty.
@@ -19,6 +20,8 @@ pub(super) enum Way {
     PlusMinus,
     Certificate,
     Readings,
+    Groups,
+    GroupSummary,
     Pooled,
     Specification,
     Step,
@@ -28,15 +31,16 @@ pub(super) enum Way {
     Distribution,
     Count,
     Successes,
+    ResidualOf,
 }
 
 use Way::{
-    Bits, Count, Distribution, HalfWidth, Limits, PlusMinus, Pooled, Readings, Sample, Source,
-    Specification, Step, Successes, U,
+    Bits, Count, Distribution, GroupSummary, Groups, HalfWidth, Limits, PlusMinus, Pooled,
+    Readings, ResidualOf, Sample, Source, Specification, Step, Successes, U,
 };
 
 /// Which ways a modifier goes with, and what to say otherwise.
-const MODIFIERS: [(&str, &[Way], &str); 16] = [
+const MODIFIERS: [(&str, &[Way], &str); 20] = [
     (
         "prior",
         &[Count, Successes],
@@ -81,8 +85,8 @@ const MODIFIERS: [(&str, &[Way], &str); 16] = [
     ),
     (
         "of",
-        &[Readings, Pooled],
-        "`of` goes with `readings` or `pooled`",
+        &[Readings, Groups, GroupSummary, Pooled, ResidualOf],
+        "`of` goes with `readings`, `groups`, `pooled` or `residual_of`",
     ),
     (
         "pooled",
@@ -93,6 +97,26 @@ const MODIFIERS: [(&str, &[Way], &str); 16] = [
         "autocorrelated",
         &[Readings],
         "`autocorrelated` goes with `readings`",
+    ),
+    (
+        "between",
+        &[Groups, GroupSummary],
+        "`between` goes with `groups` or `group_summary`",
+    ),
+    (
+        "significance",
+        &[Readings, Groups, GroupSummary],
+        "`significance` goes with `groups`, or with `readings` and their `outlier_test`",
+    ),
+    (
+        "outlier_test",
+        &[Readings],
+        "`outlier_test` goes with `readings`",
+    ),
+    (
+        "type",
+        WITH_TYPE,
+        "the type follows from the way the uncertainty is stated",
     ),
     ("sensitivity", &[Source], "`sensitivity` goes with `source`"),
     (
@@ -127,6 +151,16 @@ const WITH_DOF: &[Way] = &[
     Bits,
     Distribution,
 ];
+const WITH_TYPE: &[Way] = &[
+    U,
+    HalfWidth,
+    Limits,
+    PlusMinus,
+    Way::Certificate,
+    Specification,
+    Distribution,
+    Sample,
+];
 const WITH_GUM_U: &[Way] = &[
     U,
     HalfWidth,
@@ -158,6 +192,7 @@ fn label(way: Way) -> &'static str {
         HalfWidth | Limits | PlusMinus => "limits",
         Way::Certificate => "certificate",
         Readings | Pooled => "repeatability",
+        Groups | GroupSummary => "groups",
         Specification => "specification",
         Step => "resolution",
         Bits => "quantisation",
@@ -166,6 +201,7 @@ fn label(way: Way) -> &'static str {
         Distribution => "distribution",
         Count => "count",
         Successes => "proportion",
+        ResidualOf => "scatter of a reading",
     }
 }
 
@@ -173,7 +209,7 @@ fn label(way: Way) -> &'static str {
 pub(super) fn locates(way: Way) -> bool {
     matches!(
         way,
-        Limits | Readings | Sample | Distribution | Count | Successes
+        Limits | Readings | Groups | GroupSummary | Sample | Distribution | Count | Successes
     )
 }
 
@@ -195,6 +231,8 @@ fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)>
         "minus" if !has("plus") => Some(PlusMinus),
         "certificate" if expanded => Some(Way::Certificate),
         "readings" => Some(Readings),
+        "groups" => Some(Groups),
+        "group_summary" => Some(GroupSummary),
         "pooled" if !has("readings") => Some(Pooled),
         "specification" => Some(Specification),
         "step" => Some(Step),
@@ -204,6 +242,7 @@ fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)>
         "distribution" if full => Some(Distribution),
         "count" => Some(Count),
         "successes" => Some(Successes),
+        "residual_of" => Some(ResidualOf),
         _ => None,
     };
     table
@@ -317,10 +356,12 @@ impl Checker<'_> {
         }
         let core = match way {
             Readings | Pooled => self.type_a(table, context),
+            Groups | GroupSummary => self.grouped(table, way, context),
             U | HalfWidth | Limits | PlusMinus | Way::Certificate | Specification | Step | Bits => {
                 self.type_b(table, way, context)
             }
             Sample | Distribution | Count | Successes => self.given(table, way, context),
+            ResidualOf => self.residual_of(table, context),
             Source => None,
         }?;
         self.finish(table, way, context, core)
@@ -369,10 +410,12 @@ impl Checker<'_> {
             .as_ref()
             .map(|stated| self.certificate(&stated.value, context));
         let kind = match way {
-            Readings | Pooled => Kind::Repeatability,
+            Readings | Groups | GroupSummary | Pooled => Kind::Repeatability,
             Step | Bits => Kind::Resolution,
+            ResidualOf => self.fit_named(table).map_or(Kind::Other, Kind::Scatter),
             _ => Kind::Other,
         };
+        self.limits_without_freedom(&core, context);
         let name = table.name.as_ref().map(|name| name.value.clone());
         Some(Draft {
             label: name.unwrap_or_else(|| label(way).to_string()),
@@ -380,13 +423,15 @@ impl Checker<'_> {
             distribution: core.distribution,
             u: core.u,
             dof: core.dof,
-            evaluation: if kind == Kind::Repeatability {
-                Evaluation::TypeA
-            } else {
-                Evaluation::TypeB
+            evaluation: match table.kind.as_ref().map(|word| word.value) {
+                Some(TypeWord::A) => Evaluation::TypeA,
+                Some(TypeWord::B) => Evaluation::TypeB,
+                None if matches!(kind, Kind::Repeatability | Kind::Scatter(_)) => Evaluation::TypeA,
+                None => Evaluation::TypeB,
             },
             how: core.how,
             location: core.location,
+            findings: core.findings,
             kind,
             follows: None,
             certificate,
@@ -397,6 +442,19 @@ impl Checker<'_> {
                 .next()
                 .map_or(context.place.clone(), |(_, _, key)| key),
         })
+    }
+
+    /// Remarks on finite ν of a shape that has no place for it.
+    fn limits_without_freedom(&mut self, core: &Core, context: &Context<'_>) {
+        let shape = &core.distribution;
+        if core.dof.is_infinite() || matches!(shape, Shape::StudentT { .. }) {
+            return;
+        }
+        let (owner, dof) = (context.owner, show(core.dof));
+        self.remark(
+            format!("{owner}: ν = {dof} enters the effective degrees of freedom of the GUM method only. Monte Carlo draws the stated shape as exactly known, and its interval does not widen for the doubt about u."),
+            format!("{owner}：自由度 ν = {dof} 仅用于 GUM 法的有效自由度；蒙特卡洛法按给定的分布抽样，其包含区间不因 u 的不可靠性而加宽。"),
+        );
     }
 
     fn certificate(&mut self, table: &CertificateTable, context: &Context<'_>) -> Certificate {

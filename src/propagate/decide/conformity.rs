@@ -433,7 +433,7 @@ mod tests {
             (10.0, 0.05, 11.0, 1.0),
             (10.0, 1.0, 20.0, 0.5),
             (10.0, 3.0, 10.49, 1e-4),
-            (10.0, 1e-3, 10.3, 1e-3),
+            (10.0, 1e-3, 10.003, 1e-3),
         ] {
             let process = Distribution::Normal { mean, sd };
             let fixed = |_: f64| u;
@@ -451,6 +451,24 @@ mod tests {
                 close(found.1, outside, 1e-9);
             }
         }
+    }
+
+    #[test]
+    fn process_and_measurement_that_exclude_one_another() {
+        let process = Distribution::Uniform {
+            lower: 0.0,
+            upper: 1.0,
+        };
+        let fixed = |_: f64| 0.01;
+        let kernel = Kernel {
+            u: &fixed,
+            dof: NORMAL,
+        };
+        let tolerance = Interval {
+            lower: 0.0,
+            upper: 0.5,
+        };
+        assert_eq!(posterior(&process, tolerance, &kernel, 2.0), None);
     }
 
     /// A process so wide that it says nothing leaves the result of the measurement; one with heavy tails does no harm.

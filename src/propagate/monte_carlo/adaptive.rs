@@ -48,11 +48,15 @@ pub(super) struct Target {
     pub(super) p: f64,
 }
 
-/// Trials of a batch, JCGM 101 7.9.4 b): max(J, 10⁴), J the smallest whole number ≥ 100/(1 − p).
-pub(super) fn batch_size(p: f64) -> u64 {
+/// J, the smallest whole number ≥ 100/(1 − p), JCGM 101 7.9.4 b).
+pub(crate) fn least_batch(p: f64) -> u64 {
     // A quotient that should be whole may come out a little above: 100/(1 − 0.95) = 2000.0000000000018.
-    let j = (100.0 / (1.0 - p) * (1.0 - 1e-12)).ceil();
-    (j as u64).max(10_000)
+    (100.0 / (1.0 - p) * (1.0 - 1e-12)).ceil() as u64
+}
+
+/// Trials of a batch, JCGM 101 7.9.4 b): max(J, 10⁴).
+pub(crate) fn batch_size(p: f64) -> u64 {
+    least_batch(p).max(10_000)
 }
 
 /// Runs batches until the target is reached or the maximum is; the store then holds the trials to be

@@ -36,6 +36,7 @@ use nalgebra::DMatrix;
 use super::{EvaluationError, MonteCarlo, Regions, Run};
 use crate::budget::{Budget, MonteCarloSettings, Trials};
 use adaptive::Target;
+pub(crate) use adaptive::{batch_size, least_batch};
 use engine::{Layout, Source, simulate};
 pub use existence::{Consequence, MissingMoments, Side};
 use existence::{Tail, Verdict};

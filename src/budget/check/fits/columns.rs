@@ -1,0 +1,448 @@
+//! `[fit.NAME.data]`: the observed values and their errors.
+
+use std::ops::Range;
+
+use super::super::Checker;
+use super::super::draft::{Context, Draft, Location};
+use super::super::entries;
+use super::super::inputs::{Entry, Piece, single};
+use super::super::register::{Register, SourceEntry};
+use super::super::vectors::of_element;
+use super::super::ways::{Way, locates};
+use crate::budget::Owner;
+use crate::budget::faults::{
+    FIT, FIT_COLUMNS, FIT_ERRORS, MISSING_KEY, NOT_POSITIVE, TWO_WAYS, VECTOR,
+};
+use crate::budget::table::Stated;
+use crate::budget::tables::{FitColumnTable, FitTable};
+use crate::budget::variants::Numbers;
+use crate::fault::Fault;
+use crate::least_squares::Spread;
+use crate::quantity::Unit;
+
+/// Points of a fit. More of them would need more memory than is good for a budget.
+const MOST_POINTS: usize = 10_000;
+
+/// A column with its values.
+pub(super) struct Column<'f> {
+    pub name: &'f str,
+    /// Place of its name.
+    pub key: Range<usize>,
+    pub unit: Unit,
+    pub values: Vec<f64>,
+    pub table: &'f FitColumnTable,
+    /// Place of the column as a whole.
+    pub place: Range<usize>,
+}
+
+/// Why a column is in doubt.
+pub(super) struct ColumnErrors {
+    /// Errors of the single values.
+    pub spread: Spread,
+    /// Causes that act on all points together.
+    pub common: Vec<Common>,
+}
+
+/// A component that acts on all points: how each of them follows it.
+pub(super) struct Common {
+    pub component: usize,
+    pub coefficients: Vec<f64>,
+}
+
+impl ColumnErrors {
+    /// Standard uncertainties of the single values.
+    pub fn u(&self) -> Option<Vec<f64>> {
+        match &self.spread {
+            Spread::Exact => None,
+            Spread::Each(u) => Some(u.clone()),
+            Spread::Matrix(v) => Some(v.diagonal().iter().map(|v| v.sqrt()).collect()),
+        }
+    }
+}
+
+impl Checker<'_> {
+    /// The columns of a fit, all of one length.
+    pub(super) fn fit_columns<'f>(
+        &mut self,
+        name: &str,
+        stated: &'f Stated<FitTable>,
+    ) -> Option<Vec<Column<'f>>> {
+        let table = &stated.value;
+        let Some(data) = &table.data else {
+            if table.refused {
+                return None;
+            }
+            return self.refuse(
+                Fault::new(FIT, stated.key.clone(), format!("the fit {name} has no data"))
+                    .label("`data` is missing")
+                    .help(format!(
+                        "add for example:\n[fit.{name}.data]\nx = {{ values = [1.0, 2.0, 3.0] }}\ny = {{ values = [2.1, 3.9, 6.2], u = 0.1 }}"
+                    )),
+            );
+        };
+        let mut columns = Vec::new();
+        let mut complete = !data.value.refused;
+        for (column, stated) in entries(&table.data) {
+            self.check_name(column, &stated.key, "column");
+            match self.fit_column(column, stated) {
+                Some(column) => columns.push(column),
+                None => complete = false,
+            }
+        }
+        let first = columns.first()?;
+        let (length, place, named) = (first.values.len(), first.key.clone(), first.name);
+        for other in &columns[1..] {
+            if other.values.len() != length {
+                complete = false;
+                self.faults.push(
+                    Fault::new(
+                        FIT_COLUMNS,
+                        other.key.clone(),
+                        format!(
+                            "{} has {} values, {named} has {length}",
+                            other.name,
+                            other.values.len()
+                        ),
+                    )
+                    .label("a point has one value in every column")
+                    .related(place.clone(), format!("{length} values")),
+                );
+            }
+        }
+        complete.then_some(columns)
+    }
+
+    fn fit_column<'f>(
+        &mut self,
+        name: &'f str,
+        stated: &'f Stated<FitColumnTable>,
+    ) -> Option<Column<'f>> {
+        let table = &stated.value;
+        let hidden = table.unknown || table.present.iter().any(|(key, _)| *key == "unit");
+        let unit = match &table.unit {
+            None if hidden => None,
+            stated => self.unit(stated),
+        };
+        let Some(numbers) = &table.values else {
+            if table.refused {
+                return None;
+            }
+            return self.refuse(
+                Fault::new(
+                    MISSING_KEY,
+                    stated.span.clone(),
+                    format!("the column {name} has no values"),
+                )
+                .label("`values` is missing")
+                .help("write values = [1.0, 2.0], or values = { file = \"data.csv\", column = \"x\" }"),
+            );
+        };
+        let values = self.numbers(numbers)?;
+        if values.is_empty() || values.len() > MOST_POINTS {
+            return self.refuse(
+                Fault::new(
+                    FIT_COLUMNS,
+                    numbers.span.clone(),
+                    format!("{name} has {} values", values.len()),
+                )
+                .label(format!("expected 1 to {MOST_POINTS}")),
+            );
+        }
+        Some(Column {
+            name,
+            key: stated.key.clone(),
+            unit: unit?,
+            values,
+            table,
+            place: stated.span.clone(),
+        })
+    }
+
+    /// Why the values of a column are in doubt. Independent reasons are summed in quadrature; what acts on
+    /// all points is kept apart.
+    pub(super) fn fit_errors(
+        &mut self,
+        owner: &str,
+        column: &Column<'_>,
+        register: &mut Register,
+    ) -> Option<ColumnErrors> {
+        let table = column.table;
+        let n = column.values.len();
+        let mut variance = vec![0.0; n];
+        let mut known = false;
+        let mut common = Vec::new();
+        let bare = table.components.is_none() && table.component.present.is_empty();
+        if !bare {
+            let name = format!("{owner}.{}", column.name);
+            let before = self.faults.len();
+            let list = self.ways(
+                &name,
+                &table.components,
+                &table.component,
+                &column.place,
+                &column.unit,
+            )?;
+            let mut drafts: Vec<(Draft, Vec<f64>)> = Vec::new();
+            for entry in &list {
+                match self.fit_cause(&name, entry, column, register) {
+                    Some(Cause::Independent(u)) => {
+                        known = true;
+                        for (sum, u) in variance.iter_mut().zip(u) {
+                            *sum += u * u;
+                        }
+                    }
+                    Some(Cause::Common(draft, coefficients)) => drafts.push((*draft, coefficients)),
+                    Some(Cause::Shared(causes)) => common.extend(causes),
+                    None => {}
+                }
+            }
+            if self.faults.len() > before {
+                return None;
+            }
+            common.extend(self.enter_common(&name, column, drafts, register));
+        }
+        if table.component.present.is_empty() {
+            // Nothing stands beside the matrix or the weights but further reasons.
+        } else if let Some(key) = table
+            .covariance
+            .as_ref()
+            .map(|stated| ("covariance", &stated.key))
+            .or(table
+                .weights
+                .as_ref()
+                .map(|stated| ("weights", &stated.key)))
+        {
+            let (own, span) = &table.component.present[0];
+            return self.refuse(
+                Fault::new(
+                    TWO_WAYS,
+                    key.1.clone(),
+                    format!("the uncertainty of {} is stated twice, by `{own}` and by `{}`", column.name, key.0),
+                )
+                .label("stated again here")
+                .related(span.clone(), "first stated here")
+                .help(format!(
+                    "keep one; another reason for doubt stands in components = [{{ name = \"…\", {own} = … }}]"
+                )),
+            );
+        }
+        if let Some(weights) = &table.weights {
+            known = true;
+            for (sum, v) in variance.iter_mut().zip(self.fit_weights(column, weights)?) {
+                *sum += v;
+            }
+        }
+        let spread = match &table.covariance {
+            Some(covariance) => {
+                let mut matrix = self.symmetric(covariance, n, "values")?;
+                for (i, v) in variance.iter().enumerate() {
+                    matrix[(i, i)] += v;
+                }
+                Spread::Matrix(matrix)
+            }
+            None if known => Spread::Each(variance.into_iter().map(f64::sqrt).collect()),
+            None => Spread::Exact,
+        };
+        Some(ColumnErrors { spread, common })
+    }
+
+    /// Variances 1/w.
+    fn fit_weights(&mut self, column: &Column<'_>, stated: &Stated<Numbers>) -> Option<Vec<f64>> {
+        let weights = self.numbers(stated)?;
+        if weights.len() != column.values.len() {
+            return self.refuse(
+                Fault::new(
+                    FIT_COLUMNS,
+                    stated.span.clone(),
+                    format!(
+                        "{} weights for the {} values of {}",
+                        weights.len(),
+                        column.values.len(),
+                        column.name
+                    ),
+                )
+                .label(format!("expected {}", column.values.len())),
+            );
+        }
+        if let Some(place) = weights.iter().position(|w| *w <= 0.0) {
+            let span = match &stated.value {
+                Numbers::List(list) => list[place].span.clone(),
+                Numbers::Lists(_) | Numbers::Column(_) => stated.span.clone(),
+            };
+            return self.refuse(
+                Fault::new(
+                    NOT_POSITIVE,
+                    span,
+                    format!(
+                        "weight {} of {} is {}",
+                        place + 1,
+                        column.name,
+                        weights[place]
+                    ),
+                )
+                .label("must be greater than zero")
+                .help("a weight is 1/u²; leave out points that are not to count"),
+            );
+        }
+        Some(weights.into_iter().map(|w| 1.0 / w).collect())
+    }
+
+    /// One reason for doubt of a column.
+    fn fit_cause(
+        &mut self,
+        name: &str,
+        entry: &Entry<'_>,
+        column: &Column<'_>,
+        register: &mut Register,
+    ) -> Option<Cause> {
+        if entry.way == Way::Source {
+            return self.fit_source(name, entry, column, register);
+        }
+        if locates(entry.way) && !single(entry.table) && entry.way != Way::Distribution {
+            return self.refuse(
+                Fault::new(
+                    VECTOR,
+                    entry.place.clone(),
+                    format!("this component would state one estimate for all values of {name}"),
+                )
+                .label("not for a column")
+                .help("state a deviation: `u`, `half_width`, `step` …"),
+            );
+        }
+        self.one_for_each(name, entry.table, column.values.len())?;
+        let relative = self.acts_in_proportion(entry, &column.unit);
+        let mut first: Option<Draft> = None;
+        let mut u = Vec::new();
+        for (element, value) in column.values.iter().enumerate() {
+            // A fraction of zero is zero.
+            if relative && *value == 0.0 {
+                u.push(0.0);
+                continue;
+            }
+            let context = Context {
+                owner: name,
+                value: Some(*value),
+                unit: &column.unit,
+                place: entry.place.clone(),
+            };
+            let draft = match of_element(entry.table, element) {
+                Some(table) => self.draft(&table, entry.way, &context)?,
+                None => self.draft(entry.table, entry.way, &context)?,
+            };
+            if !matches!(draft.location, Location::None | Location::Mean(_)) {
+                return self.refuse(
+                    Fault::new(
+                        VECTOR,
+                        entry.place.clone(),
+                        format!("this component would move the values of {name}"),
+                    )
+                    .label("only symmetric deviations for a column"),
+                );
+            }
+            u.push(draft.u * if relative { value.signum() } else { 1.0 });
+            first.get_or_insert(draft);
+        }
+        let Some(first) = first else {
+            return Some(Cause::Independent(u));
+        };
+        let common = entry.table.common.as_ref();
+        if common.is_some_and(|stated| stated.value) {
+            let coefficients = u.iter().map(|u| u / first.u).collect();
+            return Some(Cause::Common(Box::new(first), coefficients));
+        }
+        if first.dof.is_finite() {
+            return self.refuse(
+                Fault::new(
+                    FIT_ERRORS,
+                    first.stated.clone(),
+                    format!("the uncertainties of {name} have {} degrees of freedom", first.dof),
+                )
+                .label("the fit takes stated uncertainties as known")
+                .help("leave out the degrees of freedom; if only the ratios of the uncertainties are known, write scale = \"residuals\" for the fit"),
+            );
+        }
+        Some(Cause::Independent(u.into_iter().map(f64::abs).collect()))
+    }
+
+    /// A shared cause that acts on every value.
+    fn fit_source(
+        &mut self,
+        name: &str,
+        entry: &Entry<'_>,
+        column: &Column<'_>,
+        register: &mut Register,
+    ) -> Option<Cause> {
+        let mut causes: Vec<Common> = Vec::new();
+        for (element, value) in column.values.iter().enumerate() {
+            let context = Context {
+                owner: name,
+                value: Some(*value),
+                unit: &column.unit,
+                place: entry.place.clone(),
+            };
+            for piece in self.shared_pieces(entry, &context, register)? {
+                let Piece::Shared {
+                    component,
+                    coefficient,
+                    ..
+                } = piece
+                else {
+                    continue;
+                };
+                let known = causes.iter().position(|cause| cause.component == component);
+                let place = known.unwrap_or_else(|| {
+                    causes.push(Common {
+                        component,
+                        coefficients: vec![0.0; column.values.len()],
+                    });
+                    causes.len() - 1
+                });
+                causes[place].coefficients[element] += coefficient;
+            }
+        }
+        Some(Cause::Shared(causes))
+    }
+
+    /// Enters the components that all values of a column have in common.
+    fn enter_common(
+        &mut self,
+        name: &str,
+        column: &Column<'_>,
+        causes: Vec<(Draft, Vec<f64>)>,
+        register: &mut Register,
+    ) -> Vec<Common> {
+        if causes.is_empty() {
+            return Vec::new();
+        }
+        let (mut drafts, coefficients): (Vec<Draft>, Vec<Vec<f64>>) = causes.into_iter().unzip();
+        self.label_uniquely(name, &mut drafts);
+        let mut source = SourceEntry {
+            name: name.to_string(),
+            unit: Some(column.unit.clone()),
+            components: Vec::new(),
+            used: true,
+        };
+        let mut common = Vec::new();
+        for (draft, coefficients) in drafts.into_iter().zip(coefficients) {
+            let owner = Owner::Source(name.to_string());
+            let component = register.add(owner, name, &column.unit, draft, false);
+            source.components.push(component);
+            common.push(Common {
+                component,
+                coefficients,
+            });
+        }
+        register.sources.push(source);
+        common
+    }
+}
+
+/// A reason for doubt of a column.
+enum Cause {
+    /// Of each value by itself: standard uncertainties.
+    Independent(Vec<f64>),
+    /// Of all values together.
+    Common(Box<Draft>, Vec<f64>),
+    /// `[source.NAME]`s, entered already.
+    Shared(Vec<Common>),
+}

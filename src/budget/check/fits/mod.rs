@@ -1,0 +1,359 @@
+//! `[fit.NAME]`: least squares as an input of the budget.
+//!
+//! The parameters become inputs under their own names. What the fit finds of their covariance is one
+//! component for each of them, all in one group: normal for stated uncertainties of the data, multivariate t
+//! with ν = n − p where the residuals tell the scatter. Causes common to all points reach the parameters
+//! through ∂parameter/∂datum, as components of their own.
+
+mod columns;
+mod failures;
+mod formula;
+mod residual;
+mod solution;
+#[cfg(test)]
+mod tests;
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use nalgebra::DMatrix;
+
+use super::draft::{Draft, Kind, Location, show};
+use super::register::{InputEntry, Register};
+use super::{Checker, entries, shared};
+use crate::budget::faults::{NAME_TWICE, UNUSED};
+use crate::budget::fit::Fit;
+use crate::budget::table::Stated;
+use crate::budget::tables::{FileTable, FitTable, MeasurandTable};
+use crate::budget::values::Named;
+use crate::budget::{Constant, Evaluation, Group, Input, Owner};
+use crate::fault::Fault;
+use crate::model::Model;
+use crate::quantity::Unit;
+
+use columns::ColumnErrors;
+use formula::Parameter;
+
+pub(super) use residual::Scatter;
+
+/// A fit that was found, and where its parameters went.
+pub(super) struct Fitted {
+    pub fit: Fit,
+    /// Components of the parameters, in their order; none where they are exact.
+    members: Vec<usize>,
+    /// Their correlation coefficients.
+    correlation: DMatrix<f64>,
+    /// Place of the name of the fit.
+    place: Range<usize>,
+}
+
+impl Checker<'_> {
+    /// Reads `[fit.NAME]` and enters the parameters as inputs.
+    pub(super) fn fits(
+        &mut self,
+        file: &FileTable,
+        constants: &[Constant],
+        register: &mut Register,
+    ) -> Vec<Fitted> {
+        let mut taken = names(file);
+        let mut fitted = Vec::new();
+        for (name, stated) in entries(&file.fit) {
+            self.check_name(name, &stated.key, "fit");
+            // Claims may name figures of a fit that was refused.
+            let found = self.fit(name, stated, constants, file, register, &mut taken);
+            self.scatters.push(Scatter::of(name, found.as_ref()));
+            register.incomplete |= found.is_none();
+            fitted.extend(found);
+        }
+        fitted
+    }
+
+    fn fit(
+        &mut self,
+        name: &str,
+        stated: &Stated<FitTable>,
+        constants: &[Constant],
+        file: &FileTable,
+        register: &mut Register,
+        taken: &mut HashMap<String, Range<usize>>,
+    ) -> Option<Fitted> {
+        let Some(columns) = self.fit_columns(name, stated) else {
+            // The names of its parameters are not known.
+            self.hidden_names = true;
+            return None;
+        };
+        let formula = match self.fit_formula(name, stated, &columns, constants, file) {
+            Ok(formula) => formula,
+            Err(parameters) => {
+                self.hidden_names |= parameters.is_empty();
+                self.parameters(name, &parameters, register, taken);
+                return None;
+            }
+        };
+        let start = self.parameters(name, &formula.parameters, register, taken);
+        let order: Vec<usize> = std::iter::once(formula.response)
+            .chain(formula.predictors.iter().copied())
+            .collect();
+        let errors: Option<Vec<ColumnErrors>> = order
+            .iter()
+            .map(|index| self.fit_errors(name, &columns[*index], register))
+            .collect();
+        let columns: Vec<_> = order.iter().map(|index| &columns[*index]).collect();
+        let solved = self.fit_solution(name, stated, &formula, &columns, &errors?)?;
+        let fit = solved.into_fit(name, stated, &formula, &columns, start, register);
+        self.figures.extend(fit.figures());
+        Some(self.enter_fit(fit, stated, register))
+    }
+
+    /// Enters the parameters as inputs, without estimates as yet; gives the place of the first.
+    fn parameters(
+        &mut self,
+        fit: &str,
+        parameters: &[Parameter],
+        register: &mut Register,
+        taken: &mut HashMap<String, Range<usize>>,
+    ) -> usize {
+        let first = register.inputs.len();
+        for parameter in parameters {
+            let name = &parameter.name;
+            self.check_name(name, &parameter.place, "parameter");
+            if let Some(other) = taken.insert(name.clone(), parameter.place.clone()) {
+                self.faults.push(
+                    Fault::new(
+                        NAME_TWICE,
+                        parameter.place.clone(),
+                        format!("the name {name} is used twice"),
+                    )
+                    .label(format!("a parameter of the fit {fit}"))
+                    .related(other, "first used here")
+                    .help("parameters of fits, inputs, constants and sources need different names"),
+                );
+            }
+            let place = register.inputs.len();
+            register.inputs.push(Input {
+                name: name.clone(),
+                description: parameter.description.clone(),
+                group: None,
+                unit: parameter.unit.clone().unwrap_or_else(Unit::one),
+                estimate: f64::NAN,
+                terms: Vec::new(),
+            });
+            register.entries.push(InputEntry {
+                name: name.clone(),
+                place: parameter.place.clone(),
+                places: place..place + 1,
+                vector: false,
+                unit: parameter.unit.clone(),
+                formula: None,
+            });
+            self.parameters.push((name.clone(), parameter.unit.clone()));
+        }
+        first
+    }
+
+    /// Enters what the fit found of the parameters' covariance.
+    fn enter_fit(
+        &mut self,
+        fit: Fit,
+        stated: &Stated<FitTable>,
+        register: &mut Register,
+    ) -> Fitted {
+        let dof = if fit.stated {
+            f64::INFINITY
+        } else {
+            fit.dof as f64
+        };
+        let how = match (fit.stated, fit.weighted) {
+            (true, _) => format!(
+                "least squares, n = {}, u of the data as stated",
+                fit.points()
+            ),
+            (false, false) => format!(
+                "least squares, n = {}, s = {}",
+                fit.points(),
+                show(fit.residual_sd.unwrap_or_default())
+            ),
+            (false, true) => format!(
+                "least squares, n = {}, u of the data times {}",
+                fit.points(),
+                show(fit.residual_sd.unwrap_or_default())
+            ),
+        };
+        let exact = fit.parameters.iter().any(|parameter| parameter.u == 0.0);
+        let mut members = Vec::new();
+        for parameter in fit.parameters.iter().filter(|_| !exact) {
+            let Some(distribution) = self.t_or_normal(parameter.u, dof, &stated.key) else {
+                break;
+            };
+            let alone = register.inputs[parameter.input].terms.is_empty();
+            let draft = Draft {
+                label: "fit".into(),
+                named: None,
+                distribution,
+                u: parameter.u,
+                dof,
+                evaluation: if fit.stated {
+                    Evaluation::TypeB
+                } else {
+                    Evaluation::TypeA
+                },
+                how: how.clone(),
+                location: Location::None,
+                findings: Vec::new(),
+                kind: Kind::Other,
+                follows: None,
+                certificate: None,
+                reference: fit.reference.clone(),
+                place: stated.span.clone(),
+                stated: stated.key.clone(),
+            };
+            let owner = Owner::Input(parameter.input);
+            let component = register.add(owner, &parameter.name, &parameter.unit, draft, alone);
+            register.act(parameter.input, component, 1.0);
+            members.push(component);
+        }
+        Fitted {
+            correlation: fit.correlation.clone(),
+            fit,
+            members,
+            place: stated.key.clone(),
+        }
+    }
+
+    /// The groups of correlated components that fits make: their parameters, and the scatter of further
+    /// readings, which has the same residual standard deviation and so the same ν.
+    pub(super) fn fit_groups(&mut self, fitted: &[Fitted], register: &Register) -> Vec<Group> {
+        let mut groups = Vec::new();
+        for found in fitted {
+            let scatter = register
+                .scatter
+                .iter()
+                .filter(|(fit, _)| self.scatters[*fit].is(&found.fit.name))
+                .map(|(_, component)| *component);
+            let members: Vec<usize> = found.members.iter().copied().chain(scatter).collect();
+            if members.len() < 2 {
+                continue;
+            }
+            let own = found.members.len();
+            let correlation = DMatrix::from_fn(members.len(), members.len(), |i, j| {
+                if i < own && j < own {
+                    found.correlation[(i, j)]
+                } else {
+                    f64::from(u8::from(i == j))
+                }
+            });
+            groups.extend(self.join(members, correlation, register, &found.place));
+        }
+        groups
+    }
+
+    /// Reports fits that no measurand depends on.
+    pub(super) fn unused_fits(
+        &mut self,
+        file: &FileTable,
+        model: &Model,
+        constants: usize,
+        register: &Register,
+    ) {
+        let unused = model.unused_symbols();
+        let parameters = self.parameters.len();
+        let idle = |name: &str| {
+            let place = register.entries[..parameters]
+                .iter()
+                .position(|entry| entry.name == name);
+            place.is_none_or(|place| unused.contains(&(constants + place)))
+        };
+        let scatters = self.scatters.clone();
+        for (index, ((name, stated), scatter)) in
+            entries(&file.fit).iter().zip(&scatters).enumerate()
+        {
+            let used = scatter.parameters.iter().any(|parameter| !idle(parameter))
+                || register.scatter.iter().any(|(fit, _)| *fit == index);
+            if scatter.parameters.is_empty() || used {
+                continue;
+            }
+            self.faults.push(
+                Fault::new(
+                    UNUSED,
+                    stated.key.clone(),
+                    format!("no measurand depends on the fit {name}"),
+                )
+                .label("not used in any model")
+                .help(format!(
+                    "use {} in a model, or remove the fit; without any [measurand] its parameters are reported",
+                    scatter.parameters.join(" or ")
+                )),
+            );
+        }
+    }
+
+    /// The file with the parameters of its fits as measurands where it states none.
+    pub(super) fn reporting_fits(&self, file: &FileTable) -> FileTable {
+        let mut file = file.clone();
+        let none = entries(&file.measurand).is_empty()
+            && !file.present.iter().any(|(key, _)| *key == "measurand");
+        if !none || self.parameters.is_empty() {
+            return file;
+        }
+        let Some(first) = entries(&file.fit).first().map(|(_, stated)| stated.clone()) else {
+            return file;
+        };
+        let at = |value| Stated {
+            value,
+            span: first.span.clone(),
+            key: first.key.clone(),
+        };
+        let described: HashMap<String, Stated<String>> = entries(&file.fit)
+            .iter()
+            .filter_map(|(_, fit)| fit.value.parameters.as_ref())
+            .flat_map(|stated| &stated.value.0.entries)
+            .filter_map(|(name, entry)| Some((name.clone(), entry.value.description.clone()?)))
+            .collect();
+        let measurands = self.parameters.iter().map(|(name, _)| {
+            let table = MeasurandTable {
+                description: described.get(name).cloned(),
+                ..MeasurandTable::default()
+            };
+            (name.clone(), at(table))
+        });
+        file.measurand = Some(Stated {
+            value: Named {
+                entries: measurands.collect(),
+                refused: false,
+            },
+            span: first.span.clone(),
+            key: first.key.clone(),
+        });
+        file
+    }
+
+    /// The unit of a measurand: as stated, or that of the parameter which it reports.
+    pub(super) fn measurand_unit(
+        &mut self,
+        name: &str,
+        stated: &Option<Stated<String>>,
+    ) -> Option<Unit> {
+        match (stated, self.parameter_unit(name)) {
+            (None, Some(unit)) => Some(unit.clone()),
+            _ => self.unit(stated),
+        }
+    }
+
+    /// The unit of a parameter of a fit that is reported as it is.
+    pub(super) fn parameter_unit(&self, name: &str) -> Option<&Unit> {
+        let (_, unit) = self.parameters.iter().find(|(own, _)| own == name)?;
+        unit.as_ref()
+    }
+}
+
+/// Names that formulas may use already. A measurand may be called like the parameter that it reports.
+fn names(file: &FileTable) -> HashMap<String, Range<usize>> {
+    let mut names = HashMap::new();
+    let constants = entries(&file.constant).iter().map(|(n, s)| (n, &s.key));
+    let inputs = entries(&file.input).iter().map(|(n, s)| (n, &s.key));
+    let sources = shared(file).iter().map(|(n, s)| (n, &s.key));
+    for (name, place) in constants.chain(inputs).chain(sources) {
+        names.insert(name.clone(), place.clone());
+    }
+    names
+}

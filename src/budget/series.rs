@@ -1,0 +1,497 @@
+//! `[series]`: the same budget for a table of values.
+//!
+//! A column names a place of the file, and each row puts its own values there: the rows are files of their own
+//! that are read as if somebody had written them, so that a column may be any number that a budget can state.
+
+use toml::Spanned;
+use toml::de::{DeArray, DeString, DeTable, DeValue};
+
+use super::faults::{SERIES, UNKNOWN_NAME};
+use super::table::{Raw, Stated, Table};
+use super::tables::{FileTable, SeriesTable};
+use super::values::{Cell, amount_parts};
+use crate::fault::{Fault, nearest};
+
+/// One row: its label, and the file with its values in place.
+pub(super) struct Variant<'t> {
+    pub label: Option<String>,
+    pub table: DeTable<'t>,
+}
+
+/// What a column sets.
+enum Column {
+    Label,
+    /// The keys that lead to a value.
+    Path(Vec<String>),
+}
+
+/// The tables of named entries that a column may leave out: `X` is `input.X.value`.
+const OWNERS: [&str; 3] = ["input", "constant", "source"];
+
+/// The file once for each row of its series; nothing where the series is faulty.
+pub(super) fn variants<'t>(
+    file: &DeTable<'t>,
+    stated: &Stated<SeriesTable>,
+    faults: &mut Vec<Fault>,
+) -> Vec<Variant<'t>> {
+    let before = faults.len();
+    let table = &stated.value;
+    let (Some(columns), Some(rows)) = (&table.columns, &table.rows) else {
+        if !table.refused {
+            faults.push(incomplete(stated));
+        }
+        return Vec::new();
+    };
+    let kinds: Vec<Option<Column>> = columns
+        .value
+        .iter()
+        .map(|name| column(file, name, faults))
+        .collect();
+    if rows.value.is_empty() {
+        faults.push(
+            Fault::new(SERIES, rows.span.clone(), "the series has no rows")
+                .label("nothing to evaluate"),
+        );
+    }
+    let raw = raw_rows(file);
+    let mut variants = Vec::new();
+    for (row, cells) in rows.value.iter().zip(raw) {
+        if row.value.len() != kinds.len() {
+            faults.push(
+                Fault::new(
+                    SERIES,
+                    row.span.clone(),
+                    format!(
+                        "a row of {} entries for {} columns",
+                        row.value.len(),
+                        kinds.len()
+                    ),
+                )
+                .label(format!("expected {} entries", kinds.len()))
+                .related(columns.span.clone(), "the columns"),
+            );
+            continue;
+        }
+        let mut variant = Variant {
+            label: None,
+            table: file.clone(),
+        };
+        variant.table.remove("series");
+        for ((kind, name), (cell, raw)) in kinds
+            .iter()
+            .zip(&columns.value)
+            .zip(row.value.iter().zip(cells))
+        {
+            match kind {
+                Some(Column::Label) => variant.label = Some(label(&cell.value)),
+                Some(Column::Path(path)) => set(&mut variant.table, path, name, cell, raw, faults),
+                None => {}
+            }
+        }
+        variants.push(variant);
+    }
+    if faults.len() > before {
+        variants.clear();
+    }
+    variants
+}
+
+fn incomplete(stated: &Stated<SeriesTable>) -> Fault {
+    let missing = if stated.value.columns.is_none() {
+        "columns"
+    } else {
+        "rows"
+    };
+    Fault::new(
+        SERIES,
+        stated.span.clone(),
+        format!("the series has no `{missing}`"),
+    )
+    .label(format!("`{missing}` is missing"))
+}
+
+/// The cells as the file has them.
+fn raw_rows<'a, 't>(file: &'a DeTable<'t>) -> Vec<&'a DeArray<'t>> {
+    let Some(DeValue::Table(series)) = file.get("series").map(Spanned::get_ref) else {
+        return Vec::new();
+    };
+    let Some(DeValue::Array(rows)) = series.get("rows").map(Spanned::get_ref) else {
+        return Vec::new();
+    };
+    rows.iter()
+        .filter_map(|row| match row.get_ref() {
+            DeValue::Array(cells) => Some(cells),
+            _ => None,
+        })
+        .collect()
+}
+
+fn label(cell: &Cell) -> String {
+    match cell {
+        Cell::Text(text) => text.clone(),
+        Cell::Number(number) => number.to_string(),
+    }
+}
+
+/// The place that a column names: `label`, an input or a constant, or a path such as `X.dof`,
+/// `conventions.coverage_probability` or `claim.figures."line.slope"`.
+fn column(file: &DeTable<'_>, name: &Stated<String>, faults: &mut Vec<Fault>) -> Option<Column> {
+    let wanted = name.value.as_str();
+    if wanted == "label" {
+        return Some(Column::Label);
+    }
+    let mut path = segments(wanted);
+    for owner in OWNERS {
+        let Some(entry) = entry(file, owner, &path[0]) else {
+            continue;
+        };
+        path.insert(0, owner.to_string());
+        if path.len() > 2 {
+            return Some(Column::Path(path));
+        }
+        if let Some(values) = values(entry) {
+            faults.push(
+                Fault::new(SERIES, name.span.clone(), format!("{wanted} is a vector"))
+                    .label("a column sets one number")
+                    .related(values, "its values")
+                    .help(format!("name an element: \"{wanted}.values.1\"")),
+            );
+            return None;
+        }
+        // A constant may be a bare number.
+        if matches!(entry.get_ref(), DeValue::Table(_)) {
+            path.push("value".into());
+        }
+        return Some(Column::Path(path));
+    }
+    if path.len() > 1 && FileTable::keys().contains(&path[0].as_str()) && path[0] != "series" {
+        return Some(Column::Path(path));
+    }
+    faults.push(unknown_column(file, name, &path));
+    None
+}
+
+fn unknown_column(file: &DeTable<'_>, name: &Stated<String>, path: &[String]) -> Fault {
+    let fault = Fault::new(
+        UNKNOWN_NAME,
+        name.span.clone(),
+        format!("no input or constant is called {}", path[0]),
+    )
+    .label("unknown column");
+    let known = known_names(file, path.len());
+    match nearest(&path[0], known.iter().map(String::as_str)) {
+        Some(near) => {
+            let whole: Vec<&str> = std::iter::once(near)
+                .chain(path[1..].iter().map(String::as_str))
+                .collect();
+            fault.help(format!("did you mean \"{}\"?", whole.join(".")))
+        }
+        None => fault.help(
+            "columns are inputs, constants, `label`, or other numbers of the file by their path, such as `claim.value`",
+        ),
+    }
+}
+
+/// What a path of so many parts may begin with.
+fn known_names(file: &DeTable<'_>, parts: usize) -> Vec<String> {
+    let mut names: Vec<String> = OWNERS
+        .iter()
+        .filter_map(|owner| match file.get(*owner)?.get_ref() {
+            DeValue::Table(table) => Some(table.keys().map(|key| key.get_ref().to_string())),
+            _ => None,
+        })
+        .flatten()
+        .collect();
+    if parts == 1 {
+        names.push("label".into());
+    } else {
+        names.extend(FileTable::keys().into_iter().map(String::from));
+    }
+    names
+}
+
+/// The parts of a path; a part in quotes may contain points.
+fn segments(path: &str) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    let mut quoted = false;
+    for c in path.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            '.' if !quoted => parts.push(String::new()),
+            _ => parts.last_mut().expect("never empty").push(c),
+        }
+    }
+    parts
+}
+
+fn entry<'a, 't>(file: &'a DeTable<'t>, owner: &str, name: &str) -> Option<&'a Raw<'t>> {
+    match file.get(owner)?.get_ref() {
+        DeValue::Table(table) => table.get(name),
+        _ => None,
+    }
+}
+
+/// Where an entry states the values of a vector.
+fn values(entry: &Raw<'_>) -> Option<std::ops::Range<usize>> {
+    match entry.get_ref() {
+        DeValue::Table(table) => table
+            .get_key_value("values")
+            .map(|(key, _)| key.span().clone()),
+        _ => None,
+    }
+}
+
+/// Puts the cell of a row in its place, and makes the tables that lead there.
+fn set<'t>(
+    table: &mut DeTable<'t>,
+    path: &[String],
+    name: &Stated<String>,
+    cell: &Stated<Cell>,
+    raw: &Raw<'t>,
+    faults: &mut Vec<Fault>,
+) {
+    if let (Cell::Text(text), Some("value")) = (&cell.value, path.last().map(String::as_str)) {
+        faults.push(
+            Fault::new(
+                SERIES,
+                cell.span.clone(),
+                format!("the text {text:?} where a number is expected"),
+            )
+            .label("expected a number in the unit of the input"),
+        );
+        return;
+    }
+    let Some((first, rest)) = path.split_first() else {
+        return;
+    };
+    if let Err(message) = set_in_table(table, first, rest, name, raw) {
+        let fault = Fault::new(UNKNOWN_NAME, name.span.clone(), message).label("unknown column");
+        if !faults.contains(&fault) {
+            faults.push(fault);
+        }
+    }
+}
+
+fn set_in_table<'t>(
+    table: &mut DeTable<'t>,
+    key: &str,
+    rest: &[String],
+    name: &Stated<String>,
+    cell: &Raw<'t>,
+) -> Result<(), String> {
+    let key = named_component(table, key);
+    let key = key.as_slice();
+    let (first, further) = key.split_first().expect("a path is never empty");
+    let further: Vec<String> = further.iter().chain(rest).cloned().collect();
+    if !table.contains_key(first.as_str()) {
+        let place = name.span.clone();
+        let key: Spanned<DeString<'t>> = Spanned::new(place.clone(), first.clone().into());
+        table.insert(key, Spanned::new(place, DeValue::Table(DeTable::new())));
+        if further.is_empty() {
+            return replace(table.get_mut(first.as_str()), cell);
+        }
+    }
+    match table.get_mut(first.as_str()) {
+        slot if further.is_empty() => replace(slot, cell),
+        Some(value) => set_in_value(value, &further, name, cell),
+        None => Ok(()),
+    }
+}
+
+/// `V.calibration` is the component of that name in the list of V's components.
+fn named_component(table: &DeTable<'_>, key: &str) -> Vec<String> {
+    let listed = match table.get("components").map(Spanned::get_ref) {
+        Some(DeValue::Array(list)) if !table.contains_key(key) => {
+            list.iter().any(|entry| is_called(entry, key))
+        }
+        _ => false,
+    };
+    let prefix = listed.then(|| "components".to_string());
+    prefix.into_iter().chain([key.to_string()]).collect()
+}
+
+fn is_called(entry: &Raw<'_>, name: &str) -> bool {
+    let DeValue::Table(table) = entry.get_ref() else {
+        return false;
+    };
+    matches!(table.get("name").map(Spanned::get_ref), Some(DeValue::String(text)) if text == name)
+}
+
+fn replace<'t>(slot: Option<&mut Raw<'t>>, cell: &Raw<'t>) -> Result<(), String> {
+    let Some(slot) = slot else { return Ok(()) };
+    // A constant that is a text with a unit keeps its unit.
+    let unit = match (slot.get_ref(), cell.get_ref()) {
+        (DeValue::String(text), DeValue::Integer(_) | DeValue::Float(_)) => {
+            amount_parts(text).map(|(_, unit)| unit.to_string())
+        }
+        _ => None,
+    };
+    *slot = match unit {
+        None => cell.clone(),
+        Some(unit) => {
+            let place = slot.span();
+            let key = |name: &'static str| Spanned::new(place.clone(), DeString::from(name));
+            let mut amount = DeTable::new();
+            amount.insert(key("value"), cell.clone());
+            let unit = DeValue::String(unit.into());
+            amount.insert(key("unit"), Spanned::new(place.clone(), unit));
+            Spanned::new(place, DeValue::Table(amount))
+        }
+    };
+    Ok(())
+}
+
+fn set_in_value<'t>(
+    value: &mut Raw<'t>,
+    path: &[String],
+    name: &Stated<String>,
+    cell: &Raw<'t>,
+) -> Result<(), String> {
+    let Some((first, rest)) = path.split_first() else {
+        return Ok(());
+    };
+    match value.get_mut() {
+        DeValue::Table(table) => set_in_table(table, first, rest, name, cell),
+        DeValue::Array(list) => {
+            let count = list.len();
+            let chosen = match first.parse::<usize>() {
+                Ok(number) => number.checked_sub(1).map(|index| (index, rest)),
+                Err(_) => match list.iter().position(|entry| is_called(entry, first)) {
+                    Some(index) => Some((index, rest)),
+                    // Without a number the first of several claims is meant.
+                    None => Some((0, path)),
+                },
+            };
+            let Some((entry, rest)) =
+                chosen.and_then(|(index, rest)| Some((list.get_mut(index)?, rest)))
+            else {
+                return Err(format!(
+                    "there is no entry {first} for the column \"{}\": the list has {count}",
+                    name.value
+                ));
+            };
+            if rest.is_empty() {
+                replace(Some(entry), cell)
+            } else if matches!(entry.get_ref(), DeValue::Table(_)) {
+                set_in_value(entry, rest, name, cell)
+            } else {
+                Err(format!(
+                    "the column \"{}\" leads to a list of numbers; name one by its place, counted from 1",
+                    name.value
+                ))
+            }
+        }
+        _ => Err(format!(
+            "the column \"{}\" goes beyond a number or text of the file, at `{first}`",
+            name.value
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::segments;
+    use crate::budget::{Budget, Figure, read};
+
+    const FILE: &str = r#"
+[measurand.Y]
+model = "c * X + V"
+unit = "V"
+[constant]
+c = "2 V"
+[input.X]
+value = 1
+u = 0.1
+[input.V]
+value = 1
+unit = "V"
+components = [
+  { name = "scatter", readings = [1, 2, 3] },
+  { name = "calibration", certificate = { U = 0.2, k = 2 } },
+]
+[[claim]]
+k = 2
+[[claim]]
+method = "second-order"
+inputs."V.scatter" = { u = 0.5 }
+"#;
+
+    fn with(columns: &str, rows: &str) -> String {
+        format!("{FILE}[series]\ncolumns = [{columns}]\nrows = [{rows}]\n")
+    }
+
+    #[track_caller]
+    fn rows(columns: &str, cells: &str) -> Vec<Budget> {
+        match read(&with(columns, cells), "budget.toml", Path::new("")) {
+            Ok(loaded) => loaded.rows.into_iter().map(|row| row.budget).collect(),
+            Err(rejection) => panic!("{}", rejection.render(false)),
+        }
+    }
+
+    fn message(columns: &str, cells: &str) -> String {
+        match read(&with(columns, cells), "budget.toml", Path::new("")) {
+            Ok(_) => panic!("accepted"),
+            Err(rejection) => rejection.render(false),
+        }
+    }
+
+    #[test]
+    fn a_column_may_be_any_number_of_the_file() {
+        let found = rows(
+            r#""X.dof", "conventions.coverage_probability", "V.calibration.certificate.U""#,
+            "[4, 0.9, 0.4], [9, 0.99, 0.6]",
+        );
+        assert_eq!(found[0].components[0].dof, 4.0);
+        assert_eq!(found[1].components[0].dof, 9.0);
+        assert_eq!(found[1].conventions.coverage_probability, 0.99);
+        let calibration = |budget: &Budget| {
+            let component = budget.components.iter().find(|c| c.name == "V.calibration");
+            component.expect("a component of that name").u
+        };
+        assert_eq!([calibration(&found[0]), calibration(&found[1])], [0.2, 0.3]);
+    }
+
+    #[test]
+    fn an_element_of_a_list_is_named_by_its_place() {
+        let found = rows(
+            r#""V.components.1.readings.3", "claim.k", "claim.2.inputs.\"V.scatter\".u""#,
+            "[3, 2, 0.58], [6, 3, 1.53]",
+        );
+        assert!((found[1].components[1].u - (7.0f64 / 3.0).sqrt()).abs() < 1e-12);
+        let factor = found[1].claims[0].figure(&Figure::CoverageFactor);
+        assert_eq!(factor, Some(3.0));
+        assert_eq!(found[1].claims[1].figures[0].value, 1.53);
+        assert!(message(r#""V.components.1.readings.4""#, "[1]").contains("the list has 3"));
+    }
+
+    #[test]
+    fn a_constant_keeps_its_unit() {
+        let found = rows(r#""c", "input.X.value""#, "[3, 5]");
+        assert_eq!(found[0].constants[0].values, [3.0]);
+        assert_eq!(found[0].constants[0].unit.symbol, "V");
+        assert_eq!(found[0].inputs[0].estimate, 5.0);
+    }
+
+    #[test]
+    fn an_unknown_path_is_answered_with_the_nearest() {
+        assert!(message(r#""X.dfo""#, "[1]").contains("did you mean `dof`?"));
+        assert!(message(r#""x.dof""#, "[1]").contains("did you mean \"X.dof\"?"));
+        assert!(
+            message(r#""conventoins.digits""#, "[1]")
+                .contains("did you mean \"conventions.digits\"?")
+        );
+        assert!(message(r#""X.value.deeper""#, "[1]").contains("goes beyond a number"));
+        assert!(message(r#""X""#, "[\"much\"]").contains("where a number is expected"));
+    }
+
+    #[test]
+    fn a_part_in_quotes_may_contain_points() {
+        assert_eq!(segments("a.b"), ["a", "b"]);
+        assert_eq!(
+            segments("claim.figures.\"line.slope\""),
+            ["claim", "figures", "line.slope"]
+        );
+    }
+}

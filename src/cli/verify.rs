@@ -1,0 +1,187 @@
+//! `gumption verify`: published examples held against their published figures.
+
+use std::io::{IsTerminal, stderr, stdout};
+use std::path::{Path, PathBuf};
+
+use gumption::budget::Files;
+use gumption::propagate::Options;
+use gumption::report::{self, Detail, Language, Page};
+use gumption::verify::{Environment, Example, LIBRARY, Problem, Verification};
+
+use super::{Outcome, date, output};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Budget files with claims, or folders of them [default: the published examples inside the program]
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Write the dossier for the file of the laboratory: verification.md and verification.json
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
+    /// Print JSON: exact numbers, stable names (`gumption schema verification`)
+    #[arg(long, conflicts_with = "quiet")]
+    json: bool,
+    /// Print examples that failed and the closing lines only
+    #[arg(long, short)]
+    quiet: bool,
+    /// Language: en or zh
+    #[arg(long, value_name = "LANG", default_value = "en")]
+    lang: Language,
+    /// Date of the dossier, as 2026-01-31 [default: SOURCE_DATE_EPOCH, else today (UTC)]
+    #[arg(long, value_name = "DATE", value_parser = date::parse)]
+    date: Option<String>,
+    /// Worker threads; results do not depend on it [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+}
+
+/// A file to verify: where it is, and how the report calls it.
+struct Candidate {
+    path: PathBuf,
+    name: String,
+}
+
+pub(super) fn run(args: &Args) -> Outcome {
+    let day = match args.date.clone().map_or_else(date::today, Ok) {
+        Ok(day) => day,
+        Err(message) => return output::complain(&message),
+    };
+    let (files, candidates) = match candidates(&args.files) {
+        Ok(found) => found,
+        Err(message) => return output::complain(&message),
+    };
+    let verification = verify(files, &candidates, args, day);
+    let written = match &args.report {
+        Some(folder) => write_dossier(folder, &verification, args.lang),
+        None => Outcome::Done,
+    };
+    let text = if args.json {
+        let value = report::verification_json(&verification, args.lang);
+        format!("{value:#}\n")
+    } else {
+        let detail = if args.quiet {
+            Detail::Failed
+        } else {
+            Detail::All
+        };
+        let page = Page {
+            width: output::page_width(),
+            styled: output::may_style(&stdout()),
+        };
+        report::verification_text(&verification, args.lang, detail, page)
+    };
+    outcome(&verification)
+        .max(written)
+        .max(output::print(&text))
+}
+
+/// The library inside the program, or what the user names.
+fn candidates(files: &[PathBuf]) -> Result<(Files<'static>, Vec<Candidate>), String> {
+    if files.is_empty() {
+        let budgets = LIBRARY.iter().filter(|(name, _)| name.ends_with(".toml"));
+        let candidates = budgets.map(|(name, _)| Candidate {
+            path: PathBuf::from(name),
+            name: (*name).to_string(),
+        });
+        return Ok((Files::Library(LIBRARY), candidates.collect()));
+    }
+    let mut candidates = Vec::new();
+    for path in files {
+        if path.is_dir() {
+            let before = candidates.len();
+            below(path, &mut candidates)
+                .map_err(|error| format!("cannot read the folder {}: {error}", path.display()))?;
+            if candidates.len() == before {
+                return Err(format!(
+                    "there is no budget (*.toml) in the folder {}",
+                    path.display()
+                ));
+            }
+        } else {
+            candidates.push(candidate(path.clone()));
+        }
+    }
+    Ok((Files::Disk, candidates))
+}
+
+fn candidate(path: PathBuf) -> Candidate {
+    let name = path.display().to_string();
+    Candidate { path, name }
+}
+
+/// The budgets in a folder and in those inside it, by name.
+fn below(folder: &Path, candidates: &mut Vec<Candidate>) -> std::io::Result<()> {
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder)? {
+        paths.push(entry?.path());
+    }
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            below(&path, candidates)?;
+        } else if path.extension().is_some_and(|e| e == "toml") {
+            candidates.push(candidate(path));
+        }
+    }
+    Ok(())
+}
+
+fn verify(files: Files<'_>, candidates: &[Candidate], args: &Args, day: String) -> Verification {
+    let mut options = Options::default();
+    if let Some(threads) = args.threads {
+        options.threads = usize::from(threads);
+    }
+    let progress = stderr().is_terminal();
+    let mut examples = Vec::new();
+    let mut without_claims = Vec::new();
+    for (index, Candidate { path, name }) in candidates.iter().enumerate() {
+        if progress {
+            output::warn(&format!(
+                "\r\x1b[K{}/{} {name}",
+                index + 1,
+                candidates.len()
+            ));
+        }
+        match Example::evaluate(files, path, name, &options) {
+            Some(example) => examples.push(example),
+            None => without_claims.push(name.clone()),
+        }
+    }
+    if progress {
+        output::warn("\r\x1b[K");
+    }
+    Verification {
+        environment: Environment::here(day),
+        examples,
+        without_claims,
+    }
+}
+
+/// A file with faults is bad input, as everywhere; a figure that differs is a negative verdict.
+fn outcome(verification: &Verification) -> Outcome {
+    let refused = |example: &Example| matches!(example.rows, Err(Problem::Refused(_)));
+    if verification.examples.iter().any(refused) {
+        Outcome::BadInput
+    } else if verification.counts().failed > 0 {
+        Outcome::Negative
+    } else {
+        Outcome::Done
+    }
+}
+
+fn write_dossier(folder: &Path, verification: &Verification, language: Language) -> Outcome {
+    if let Err(error) = std::fs::create_dir_all(folder) {
+        return output::complain(&format!(
+            "cannot create the folder {}: {error}",
+            folder.display()
+        ));
+    }
+    let json = report::verification_json(verification, language);
+    output::replace_all(&[
+        (
+            folder.join("verification.md"),
+            report::verification_markdown(verification, language),
+        ),
+        (folder.join("verification.json"), format!("{json:#}\n")),
+    ])
+}

@@ -151,7 +151,9 @@ fn verdict(comparison: &Comparison, claim: Option<&Claim>, language: Language) -
         let tolerance = comparison.claimed.tolerance;
         let counts = matches!(comparison.claimed.what, Figure::Validated(_));
         return if comparison.is_near() && tolerance > 0.0 && !counts {
-            let within = significant(tolerance, 2);
+            // Three digits: what the subtraction of decimals leaves behind them is not the file's.
+            let within = format!("{tolerance:.2e}").parse().unwrap_or(tolerance);
+            let within = exact(within);
             language.pick(
                 format!("agrees within {within}"),
                 format!("在 {within} 内一致"),

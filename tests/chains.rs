@@ -363,6 +363,28 @@ fn a_budget_that_changed_since_its_result_was_saved_is_noticed() {
     );
 }
 
+/// Another version of the program may round otherwise; that is no change of the file.
+#[test]
+fn another_rounding_is_no_change() {
+    let result = saved(&[("vi.toml", READINGS)], "vi.toml");
+    let mut document: serde_json::Value = serde_json::from_str(&result).expect("JSON");
+    for component in document["components"].as_array_mut().expect("a list") {
+        let u = component["standard_uncertainty"]
+            .as_f64()
+            .expect("a number");
+        component["standard_uncertainty"] = (u * (1.0 + 3e-14)).into();
+    }
+    let rounded = document.to_string();
+    let quotient = quotient("budget = \"vi.toml\"", "result = \"vi.json\"");
+    let files = [
+        ("vi.toml", READINGS),
+        ("vi.json", rounded.as_str()),
+        ("r.toml", &quotient),
+    ];
+    let found = gum(&load(&files, "r.toml"));
+    close(found.results[0].gum.freedom.value(), 4.0, 1e-9);
+}
+
 #[test]
 fn faults_of_the_other_file_are_shown_after_those_of_this_one() {
     let top = "[measurand.d]\nmodel = \"a\"\nunit = \"g\"\n[input.a]\nfrom = { budget = \"sub/bad.toml\" }\n";

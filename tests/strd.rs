@@ -59,19 +59,6 @@ impl Response for Formula {
     }
 }
 
-trait Seed {
-    fn derivative(self, place: usize) -> Self;
-}
-
-impl Seed for Number {
-    fn derivative(mut self, place: usize) -> Self {
-        let mut slopes = nalgebra::SVector::<f64, 16>::zeros();
-        slopes[place] = 1.0;
-        self.eps = num_dual::Derivative::some(slopes);
-        self
-    }
-}
-
 /// Correct digits: −lg of the relative error, of the absolute one where nothing is to come out.
 fn digits(got: f64, expected: f64) -> f64 {
     if got == expected {

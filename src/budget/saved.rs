@@ -131,6 +131,9 @@ pub(crate) struct RemarkEntry {
     pub zh: String,
 }
 
+/// Units that a file defines: names and definitions.
+pub(super) type Definitions = Vec<(String, String)>;
+
 /// Saved results with everything resolved.
 #[derive(Debug)]
 pub(super) struct SavedResults {
@@ -139,7 +142,7 @@ pub(super) struct SavedResults {
     pub members: Vec<Member>,
     pub ensembles: Vec<Arc<Ensemble>>,
     pub remarks: Vec<(Part, Remark)>,
-    pub units: Vec<(Arc<Path>, Vec<(String, String)>)>,
+    pub units: Vec<(Arc<Path>, Definitions)>,
 }
 
 /// One saved result.

@@ -51,10 +51,10 @@ fn check(problem: &Problem, blocks: &[Block]) -> Result<(), Failure> {
         .enumerate()
         .map(|(k, x)| (Observed::X(k), x));
     for (observed, spread) in columns.chain([(Observed::Y, &problem.errors.y)]) {
-        if let Spread::Matrix(v) = spread {
-            if !is_symmetric(v) || Factor::new(v).is_none() {
-                return Err(Failure::Covariance { observed });
-            }
+        if let Spread::Matrix(v) = spread
+            && (!is_symmetric(v) || Factor::new(v).is_none())
+        {
+            return Err(Failure::Covariance { observed });
         }
     }
     for block in blocks {
@@ -252,7 +252,7 @@ impl<'a> UncertainPredictors<'a> {
             if let Some(local) = self.local(prepared.block, parameters, &trial) {
                 let there = prepared.distance(&trial, &(observed - &local.f));
                 let nearer = match (there, distance) {
-                    (Some(there), Some(here)) => there <= here * (1.0 + 1e-14),
+                    (Some(there), Some(here)) => there <= here * (1.0 + 1e-12),
                     _ => true,
                 };
                 if nearer {

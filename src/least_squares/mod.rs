@@ -31,6 +31,15 @@
 //! predictors, that of ISO/TS 28037 clauses 7 to 10 for others. If u is known up to a factor only,
 //! it is multiplied by χ²/ν.
 
+#![allow(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "negated comparisons turn NaN away"
+)]
+#![allow(
+    clippy::needless_range_loop,
+    reason = "matrix formulas are read by their indices"
+)]
+
 mod dd;
 mod derivatives;
 mod errors_in_variables;

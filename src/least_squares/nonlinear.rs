@@ -341,7 +341,7 @@ impl<'a> Search<'a> {
             *scale = scale.max(length);
         }
         let model = Model::new(&self.linear, &self.scales);
-        // Thirty attempts shrink the region by far more than 2⁵³.
+        // Sixty attempts shrink the region by at least 2⁶⁰.
         for _ in 0..60 {
             let (step, damping) = model.within(self.region, self.damping);
             self.damping = damping;
@@ -368,9 +368,11 @@ impl<'a> Search<'a> {
             } else {
                 0.0
             };
-            self.resize(ratio, actual, length, &predicted);
             let small = length <= f64::EPSILON * scaled_length(&self.scales, &self.at);
-            let flat = actual.abs() <= f64::EPSILON && predicted.whole <= f64::EPSILON;
+            // χ² is too coarse for so little; but a short step may promise little far away.
+            let flat = predicted.whole <= f64::EPSILON
+                && (self.damping == 0.0 || actual.abs() <= f64::EPSILON);
+            self.resize(ratio, actual, length, &predicted);
             if let Some(there) = there.filter(|_| ratio >= 1e-4 && chi_squared.is_finite()) {
                 self.at = trial;
                 self.linear = there;

@@ -177,10 +177,10 @@ impl Problem<'_> {
         for (k, spread) in self.errors.x.iter().enumerate() {
             check_spread(spread, Observed::X(k), true)?;
         }
-        if let Some(correlation) = &self.errors.correlation {
-            if let Some(point) = correlation.iter().position(|r| !(r.abs() <= 1.0)) {
-                return Err(Failure::Correlation { point });
-            }
+        if let Some(correlation) = &self.errors.correlation
+            && let Some(point) = correlation.iter().position(|r| !(r.abs() <= 1.0))
+        {
+            return Err(Failure::Correlation { point });
         }
         Ok(())
     }

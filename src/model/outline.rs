@@ -164,6 +164,10 @@ fn without(term: &Expr, parameter: &str, parameters: &[String]) -> Option<Expr> 
     };
     match &term.node {
         Node::Name(_) if is_it(term) => Some(one(&term.span)),
+        Node::Minus(inner) => Some(Expr {
+            span: term.span.clone(),
+            node: Node::Minus(Box::new(without(inner, parameter, parameters)?)),
+        }),
         Node::Chain { first, rest }
             if rest
                 .iter()

@@ -1,5 +1,7 @@
 //! Readings in groups: analysis of variance (GUM H.5).
 
+use std::ops::Range;
+
 use super::Checker;
 use super::draft::{Context, Core, show};
 use super::type_a::Evaluated;
@@ -12,13 +14,14 @@ use crate::budget::{Anova, Finding, NestedAnova};
 use crate::fault::Fault;
 use crate::statistics::{Dd, Group, Nested, Of, OneWay, Policy, Uncertainty, Verdict};
 
-use std::ops::Range;
-
 /// Groups, or groups of subgroups.
 enum Design {
     OneWay(Vec<Group>),
     Nested(Vec<Vec<Group>>),
 }
+
+/// Things under the names that a column gives them, in the order in which they occur.
+type Labelled<T> = Vec<(String, T)>;
 
 /// How the file wants them evaluated.
 struct Request<'c> {
@@ -247,7 +250,7 @@ impl Checker<'_> {
         }
         let columns: Vec<&Stated<String>> = std::iter::once(column).chain(names).collect();
         let rows = self.csv_fields(file, &columns)?;
-        let mut groups: Vec<(String, Vec<(String, Vec<Dd>)>)> = Vec::new();
+        let mut groups: Labelled<Labelled<Vec<Dd>>> = Vec::new();
         for (line, fields) in (2..).zip(rows) {
             let mut fields = fields.into_iter();
             let reading = fields.next().unwrap_or_default();
@@ -255,7 +258,7 @@ impl Checker<'_> {
             let group = entry(&mut groups, fields.next().unwrap_or_default());
             entry(group, fields.next().unwrap_or_default()).push(reading);
         }
-        let cells = |cells: &[(String, Vec<Dd>)]| -> Vec<Group> {
+        let cells = |cells: &Labelled<Vec<Dd>>| -> Vec<Group> {
             cells.iter().map(|(_, list)| Group::new(list)).collect()
         };
         Some(if names.len() == 2 {
@@ -335,7 +338,7 @@ impl Checker<'_> {
 }
 
 /// The list under a name, made when it is not there yet.
-fn entry<T: Default>(list: &mut Vec<(String, T)>, name: String) -> &mut T {
+fn entry<T: Default>(list: &mut Labelled<T>, name: String) -> &mut T {
     let place = list.iter().position(|(other, _)| *other == name);
     let place = place.unwrap_or_else(|| {
         list.push((name, T::default()));

@@ -5,6 +5,8 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
+use serde_json::Value;
+
 use super::Checker;
 use super::register::Register;
 use super::results::{Formula, Result, Taken};
@@ -44,7 +46,7 @@ impl Checker<'_> {
         let mut merge = Merge::new(&part, file, register, groups);
         for one in &taken {
             if let Err(stale) = merge.take(one) {
-                self.faults.push(stale);
+                self.faults.push(*stale);
             }
         }
         let Merge {
@@ -175,7 +177,7 @@ impl<'a> Merge<'a> {
         }
     }
 
-    fn take(&mut self, taken: &Taken) -> std::result::Result<(), Fault> {
+    fn take(&mut self, taken: &Taken) -> std::result::Result<(), Box<Fault>> {
         match &taken.result {
             Result::Budget {
                 loaded,
@@ -192,7 +194,7 @@ impl<'a> Merge<'a> {
         loaded: &Loaded,
         row: usize,
         output: usize,
-    ) -> std::result::Result<(), Fault> {
+    ) -> std::result::Result<(), Box<Fault>> {
         let budget = &loaded.rows[row].budget;
         let needed = budget.model.inputs_of(output);
         let mut places = vec![0; budget.model.inputs()];
@@ -220,7 +222,7 @@ impl<'a> Merge<'a> {
             taken,
             &budget.chain.ensembles,
             &budget.chain.remarks,
-            budget.chain.units.iter().map(|(file, units)| (file, units)),
+            budget.chain.units.iter(),
         )
     }
 
@@ -229,7 +231,7 @@ impl<'a> Merge<'a> {
         taken: &Taken,
         saved: &SavedResults,
         result: usize,
-    ) -> std::result::Result<(), Fault> {
+    ) -> std::result::Result<(), Box<Fault>> {
         let found = &saved.results[result];
         let entry = &self.register.entries[taken.entry];
         let (name, place) = (entry.name.clone(), entry.places.start);
@@ -262,7 +264,7 @@ impl<'a> Merge<'a> {
         ensembles: &[Arc<Ensemble>],
         remarks: &[(Part, Remark)],
         units: impl Iterator<Item = (&'u Arc<Path>, &'u Vec<(String, String)>)>,
-    ) -> std::result::Result<(), Fault> {
+    ) -> std::result::Result<(), Box<Fault>> {
         for ensemble in ensembles {
             match self.chain.ensembles.iter().find(|own| own.meets(ensemble)) {
                 None => self.chain.ensembles.push(Arc::clone(ensemble)),
@@ -302,7 +304,7 @@ impl<'a> Merge<'a> {
         taken: &Taken,
         budget: &Budget,
         index: usize,
-    ) -> std::result::Result<usize, Fault> {
+    ) -> std::result::Result<usize, Box<Fault>> {
         let identity = &budget.chain.inputs[index];
         if let Some(place) = self.inputs.get(identity) {
             return Ok(*place);
@@ -337,7 +339,7 @@ impl<'a> Merge<'a> {
         identity: &Identity,
         theirs: &Component,
         place: usize,
-    ) -> std::result::Result<usize, Fault> {
+    ) -> std::result::Result<usize, Box<Fault>> {
         if let Some(index) = self.components.get(identity) {
             let own = &self.register.components[*index];
             return if same_component(own, theirs) {
@@ -398,30 +400,77 @@ fn rename(
     }
 }
 
-/// Whether two files mean the same thing by a component.
-fn same_component(a: &Component, b: &Component) -> bool {
-    a.u == b.u
-        && a.dof == b.dof
-        && a.distribution == b.distribution
-        && a.unit.dimension == b.unit.dimension
-        && a.unit.factor.ratio(b.unit.factor) == 1.0
+/// Figures that differ by no more are the same: another version of the program may sum in another order,
+/// while a change of the file is larger.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether two numbers are the same but for rounding; `scale` is the size that matters where both are small.
+fn near(a: f64, b: f64, scale: f64) -> bool {
+    a == b || (a - b).abs() <= ROUNDING * a.abs().max(b.abs()).max(scale)
 }
 
+/// Whether two files mean the same thing by a component.
+fn same_component(a: &Component, b: &Component) -> bool {
+    near(a.u, b.u, 0.0)
+        && near(a.dof, b.dof, 0.0)
+        && same_distribution(&a.distribution, &b.distribution, a.u)
+        && a.unit.dimension == b.unit.dimension
+        && near(a.unit.factor.ratio(b.unit.factor), 1.0, 0.0)
+}
+
+/// Whether two distributions are of one kind and have the same parameters.
+fn same_distribution(a: &Distribution, b: &Distribution, u: f64) -> bool {
+    match (serde_json::to_value(a), serde_json::to_value(b)) {
+        (Ok(a), Ok(b)) => same_value(&a, &b, u),
+        _ => a == b,
+    }
+}
+
+fn same_value(a: &Value, b: &Value, scale: f64) -> bool {
+    match (a, b) {
+        (Value::Number(x), Value::Number(y)) => match (x.as_f64(), y.as_f64()) {
+            (Some(x), Some(y)) => near(x, y, scale),
+            _ => x == y,
+        },
+        (Value::Array(x), Value::Array(y)) => {
+            x.len() == y.len() && x.iter().zip(y).all(|(x, y)| same_value(x, y, scale))
+        }
+        (Value::Object(x), Value::Object(y)) => {
+            let same =
+                |(key, x): (&String, &Value)| y.get(key).is_some_and(|y| same_value(x, y, scale));
+            x.len() == y.len() && x.iter().all(same)
+        }
+        _ => a == b,
+    }
+}
+
+/// Whether two files correlate the same components alike.
 fn same_group(a: &Ensemble, b: &Ensemble) -> bool {
     let names = |e: &Ensemble| -> Vec<Identity> {
         let members = e.members.iter();
         members.map(|member| member.identity.clone()).collect()
     };
-    names(a) == names(b) && a.correlation == b.correlation && a.law == b.law && a.dof == b.dof
+    let matrices = a.correlation.iter().zip(&b.correlation);
+    let dof = match (a.dof, b.dof) {
+        (Some(a), Some(b)) => near(a, b, 0.0),
+        (a, b) => a == b,
+    };
+    // Scales and latent correlations follow from the components and these.
+    names(a) == names(b)
+        && a.correlation.shape() == b.correlation.shape()
+        && matrices.into_iter().all(|(a, b)| near(*a, *b, 1.0))
+        && std::mem::discriminant(&a.law) == std::mem::discriminant(&b.law)
+        && dof
 }
 
-fn stale(file: &Path, what: &str, place: &Range<usize>) -> Fault {
+fn stale(file: &Path, what: &str, place: &Range<usize>) -> Box<Fault> {
     let file = file.file_name().unwrap_or_default().display();
-    Fault::new(
+    let fault = Fault::new(
         SAVED_STALE,
         place.clone(),
-        format!("{file} has changed since the result was saved: {what} is not what it was"),
+        format!("{file} has changed since the result was saved, in {what}"),
     )
     .label("does not fit the rest of this budget")
-    .help(format!("evaluate {file} again and save its results anew"))
+    .help(format!("evaluate {file} again and save its results anew"));
+    Box::new(fault)
 }

@@ -131,8 +131,8 @@ impl Checker<'_> {
             return None;
         }
         let (result, file) = match (&from.value.budget, &from.value.result) {
-            (Some(budget), None) => (self.from_budget(budget, from)?, budget.value.clone()),
-            (None, Some(result)) => (self.from_saved(result, from)?, result.value.clone()),
+            (Some(budget), None) => (self.budget_result(budget, from)?, budget.value.clone()),
+            (None, Some(result)) => (self.saved_result(result, from)?, result.value.clone()),
             (budget, _) => {
                 let fault = Fault::new(
                     FROM,
@@ -215,7 +215,7 @@ impl Checker<'_> {
         false
     }
 
-    fn from_budget(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
+    fn budget_result(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
         let path = self.origin.directory.join(&file.value);
         if path
             .extension()
@@ -264,7 +264,7 @@ impl Checker<'_> {
         })
     }
 
-    fn from_saved(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
+    fn saved_result(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
         let path = self.origin.directory.join(&file.value);
         let saved = match self.origin.shelf.saved(&path) {
             Ok(saved) => saved,

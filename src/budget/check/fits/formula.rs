@@ -761,20 +761,21 @@ impl Checker<'_> {
 
 /// A fault of the formula in the words of a fit: its left side is a column, not a measurand.
 fn of_the_fit(mut fault: Fault, column: &str) -> Fault {
-    let reword = |text: &str| {
-        text.replace("for the measurand", &format!("for the column {column}"))
-            .replace(
-                "the measurand's unit",
-                &format!("the unit of the column {column}"),
-            )
-            .replace(
-                "an input or constant of the file",
-                "a column, parameter or constant",
-            )
-    };
-    fault.message = reword(&fault.message);
-    fault.help = fault.help.as_deref().map(reword);
+    fault.message = reworded(&fault.message, column);
+    fault.help = fault.help.map(|help| reworded(&help, column));
     fault
+}
+
+fn reworded(text: &str, column: &str) -> String {
+    text.replace("for the measurand", &format!("for the column {column}"))
+        .replace(
+            "the measurand's unit",
+            &format!("the unit of the column {column}"),
+        )
+        .replace(
+            "an input or constant of the file",
+            "a column, parameter or constant",
+        )
 }
 
 fn polynomial_equation(y: &str, x: &str, parameters: &[Parameter], lowest: usize) -> String {

@@ -634,11 +634,4 @@ pub enum EvaluationError {
         /// Its name.
         measurand: String,
     },
-    /// More Monte Carlo trials were asked for than can be kept for the order statistics.
-    TooManyTrials {
-        /// How many were asked for.
-        asked: u64,
-        /// How many are possible with this number of measurands.
-        most: u64,
-    },
 }

@@ -118,7 +118,7 @@ impl<'a, S: Source> Collector<'a, S> {
         while self.chunks < chunks {
             let end = match self.held {
                 Held::Columns(_) => chunks.min(self.chunks + PILOT / CHUNK),
-                Held::Sieved(_) => chunks.min(2 * self.chunks.min(MOST_CHUNKS) + self.chunks),
+                Held::Sieved(_) => chunks.min(self.chunks + self.chunks.min(MOST_CHUNKS)),
             };
             let next = self.chunks..end;
             if let Held::Sieved(sieved) = &mut self.held {

@@ -214,7 +214,10 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
             if n > 0 {
                 table.rows.push(Row::Rule);
             }
-            table.rows.push(Row::Across(title(report, claim)));
+            let title = title(report, claim);
+            if !title.is_empty() {
+                table.rows.push(Row::Across(title));
+            }
         }
         let mut before: Option<&Figure> = None;
         for comparison in comparisons.iter().filter(|c| c.claim == n) {
@@ -248,7 +251,11 @@ fn words(claim: &Claim) -> impl Iterator<Item = &str> {
 fn title(report: &Report<'_>, claim: &Claim) -> String {
     let last = report.evaluation.results.len().saturating_sub(1);
     let name = report.measurand(claim.measurand.min(last)).0;
-    let all: Vec<&str> = std::iter::once(name).chain(words(claim)).collect();
+    // Figures of an analysis bear their owner's name.
+    let analysis = |what: &Figure| matches!(what, Figure::Named(_));
+    let own = !(claim.figures.iter()).all(|figure| analysis(&figure.what));
+    let name = own.then_some(name);
+    let all: Vec<&str> = name.into_iter().chain(words(claim)).collect();
     all.join(report.language.pick("; ", "；"))
 }
 

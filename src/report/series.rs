@@ -266,7 +266,10 @@ impl Series<'_> {
             }
         }
         if groups.len() > 1 {
-            for (stem, members) in groups.iter().filter(|(_, members)| members.len() > 1) {
+            // Labels that are numbers have nothing in common.
+            let repeated =
+                |(stem, members): &&(&str, Vec<usize>)| !stem.is_empty() && members.len() > 1;
+            for (stem, members) in groups.iter().filter(repeated) {
                 table.push(self.statistics(format!("{stem} …"), members));
             }
         }
@@ -309,6 +312,10 @@ fn mean_and_deviation(xs: &[f64]) -> [Cell; 2] {
     }
     let squares: f64 = xs.iter().map(|x| (x - mean).powi(2)).sum();
     let s = (squares / (n - 1.0)).sqrt();
+    // What rounding leaves of equal numbers is no deviation.
+    if s <= 1e-14 * mean.abs() {
+        return [aligned(mean, mean, 8).into(), "0".into()];
+    }
     [
         aligned(mean, s, 2).into(),
         significant(s, TABLE_DIGITS).into(),

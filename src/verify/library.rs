@@ -90,6 +90,8 @@ pub const LIBRARY: &[(&str, &[u8])] = library![
     "mass/weight-10kg-kessel.toml",
     "mass/working-standards.toml",
     "optics/camera-back-projection.toml",
+    "optics/camera-calibration.toml",
+    "optics/camera-target.csv",
     "radiation/alpha-activity-iso11929-1a.toml",
     "radiation/film-thickness-xrf.toml",
     "radiation/net-count-iso11929-4-6.toml",

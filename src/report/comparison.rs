@@ -64,7 +64,7 @@ fn table(report: &Report<'_>, measurand: usize, result: &MeasurandResult) -> Tab
         unit => l.pick(format!("in {unit}"), format!("单位：{unit}")),
     };
     let mut table = Table::new([
-        (head.as_str(), ColumnKind::Words),
+        (head.as_str(), ColumnKind::Wrapped),
         (l.word(Word::Gum), ColumnKind::Numbers),
         (l.word(Word::MonteCarlo), ColumnKind::Numbers),
     ]);

@@ -124,18 +124,21 @@ fn taken(report: &Report<'_>) -> Vec<Block> {
     if results.is_empty() {
         return Vec::new();
     }
+    let stop = l.pick("; ", "；");
     let fields = results.iter().map(|taken| {
         let row = taken.row.iter().map(|row| format!("[{row}]"));
         let what = format!("{}{}", taken.measurand, row.collect::<String>());
         let file = &taken.file;
         let mut words = l.pick(format!("{what} of {file}"), format!("{file} 的 {what}"));
         if !taken.title.is_empty() {
-            words.push_str(&format!("; {}", taken.title));
+            words.push_str(stop);
+            words.push_str(&taken.title);
         }
         match &taken.equation {
             Some(equation) => {
                 let lines: Vec<&str> = equation.lines().collect();
-                words.push_str(&format!("; {}", lines.join("; ")));
+                words.push_str(stop);
+                words.push_str(&lines.join(stop));
             }
             None => words.push_str(l.pick("; saved, in linear form", "；已保存的线性形式")),
         }

@@ -133,7 +133,10 @@ impl Assessment<'_> {
                     )
                 },
             );
-            row(label, format!("{both}; {alone} {by_gum}{trials}"));
+            row(
+                label,
+                [both, format!("{alone} {by_gum}{trials}")].join(l.pick("; ", "；")),
+            );
         } else {
             row(label, format!("p_c = {by_gum}{trials}"));
         }
@@ -379,8 +382,9 @@ impl Assessment<'_> {
         }
         let pair = rule.align(estimate, expanded);
         format!(
-            "{}, U = {}",
+            "{}{}U = {}",
             with_unit(&print(&pair.estimate), symbol(self.unit)),
+            self.l.pick(", ", "，"),
             with_unit(&print(&pair.uncertainty), self.deviations())
         )
     }
@@ -410,6 +414,7 @@ impl Limits<'_> {
             probability(self.stated.alpha),
             probability(self.stated.beta),
         );
+        let comma = l.pick(", ", "，");
         let of_trials = |text: Option<String>| match text {
             None => String::new(),
             Some(text) => l.pick(
@@ -437,7 +442,7 @@ impl Limits<'_> {
                 let by_trials = of_trials(trials.map(|t| self.value(t.decision_threshold)));
                 row(
                     l.pick("Decision threshold", "判断限"),
-                    format!("y* = {threshold}, α = {alpha}{by_trials}"),
+                    format!("y* = {threshold}{comma}α = {alpha}{by_trials}"),
                 );
                 let by_trials = trials.and_then(|t| t.detection_limit.value());
                 let by_trials = of_trials(by_trials.map(|y| self.value(y)));
@@ -445,7 +450,7 @@ impl Limits<'_> {
                     l.pick("Detection limit", "探测限"),
                     match limits.detection_limit {
                         DetectionLimit::Found(y) => {
-                            format!("y# = {}, β = {beta}{by_trials}", self.value(y))
+                            format!("y# = {}{comma}β = {beta}{by_trials}", self.value(y))
                         }
                         DetectionLimit::Missing { relative } => self.no_limit(relative),
                     },
@@ -476,7 +481,7 @@ impl Limits<'_> {
         row(
             l.pick("Best estimate", "最佳估计值"),
             format!(
-                "ŷ = {}, u(ŷ) = {}",
+                "ŷ = {}{comma}u(ŷ) = {}",
                 self.beside(best.value, best.u),
                 with_unit(
                     &significant(best.u, TABLE_DIGITS),

@@ -8,10 +8,13 @@ use super::language::{Language, Word};
 use super::number::{STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, significant};
 use super::statement::coefficient;
 use super::table::{Cell, Column, ColumnKind, Table};
-use super::{Report, difference_symbol, symbol};
+use super::{Report, difference_symbol, joint, symbol};
 
 /// Points up to which the data stand in the report, beside the curve.
 const MOST_POINTS: usize = 25;
+
+/// Parameters up to which their correlation coefficients stand in the report.
+const MOST_CORRELATED: usize = 12;
 
 /// One section for each fit.
 pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
@@ -36,6 +39,12 @@ fn section(l: Language, fit: &Fit) -> Vec<Block> {
     ));
     blocks.push(Block::Paragraph(data(l, fit)));
     blocks.push(Block::Table(parameters(l, fit).without_empty_columns()));
+    let names: Vec<&str> = fit.parameters.iter().map(|p| p.name.as_str()).collect();
+    if (3..=MOST_CORRELATED).contains(&names.len()) {
+        let of = l.pick("parameters of the fit", "拟合参数");
+        let matrix = joint::matrix(l, &names, &fit.correlation, of);
+        blocks.push(Block::Table(matrix));
+    }
     blocks.push(Block::Fields(quality(l, fit)));
     blocks.extend(verdict(l, fit).map(Block::Paragraph));
     if fit.points() <= MOST_POINTS {
@@ -101,11 +110,11 @@ fn data(l: Language, fit: &Fit) -> String {
     text
 }
 
-/// Estimates, standard uncertainties and correlation coefficients.
+/// Estimates and standard uncertainties.
 fn parameters(l: Language, fit: &Fit) -> Table {
     let column = |head: String, kind| Column { head, kind };
     let caused = fit.parameters.iter().any(|p| p.combined_u > p.u);
-    let mut columns = vec![
+    let columns = vec![
         column(l.pick("parameter", "参数").into(), ColumnKind::Names),
         column(l.word(Word::Estimate).into(), ColumnKind::Numbers),
         column(l.word(Word::Unit).into(), ColumnKind::Words),
@@ -115,23 +124,12 @@ fn parameters(l: Language, fit: &Fit) -> Table {
             ColumnKind::Numbers,
         ),
     ];
-    /// Wider matrices than this stand in the machine form only.
-    const MOST: usize = 6;
-    let matrix = fit.parameters.len() > 1 && fit.parameters.len() <= MOST;
-    if matrix {
-        for parameter in &fit.parameters {
-            columns.push(column(
-                format!("r({}, ·)", parameter.name),
-                ColumnKind::Numbers,
-            ));
-        }
-    }
     let mut table = Table {
         columns,
         rows: Vec::new(),
     };
-    for (i, parameter) in fit.parameters.iter().enumerate() {
-        let mut cells: Vec<Cell> = vec![
+    for parameter in &fit.parameters {
+        table.push(vec![
             parameter.name.clone().into(),
             aligned(parameter.estimate, parameter.u, TABLE_DIGITS).into(),
             symbol(&parameter.unit).into(),
@@ -141,19 +139,25 @@ fn parameters(l: Language, fit: &Fit) -> Table {
             } else {
                 Cell::Empty
             },
-        ];
-        if matrix {
-            for j in 0..fit.parameters.len() {
-                cells.push(coefficient(fit.correlation[(i, j)]).into());
-            }
-        }
-        table.push(cells);
+        ]);
     }
     table
 }
 
+/// How closely the curve follows the data; the correlation coefficient of two parameters.
 fn quality(l: Language, fit: &Fit) -> Vec<(String, String)> {
     let mut fields = Vec::new();
+    if let [first, second] = fit.parameters.as_slice() {
+        fields.push((
+            l.pick("correlation coefficient", "相关系数").to_string(),
+            format!(
+                "r({}, {}) = {}",
+                first.name,
+                second.name,
+                coefficient(fit.correlation[(0, 1)])
+            ),
+        ));
+    }
     let freedom_of = format!(
         "ν = n − p = {} − {} = {}",
         fit.points(),

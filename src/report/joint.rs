@@ -16,17 +16,14 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     };
     let l = report.language;
     let mut blocks = vec![Block::Section(l.word(Word::Joint).to_string())];
-    blocks.push(Block::Table(matrix(
-        report,
-        &joint.correlation,
-        l.word(Word::Gum),
-    )));
+    let names: Vec<&str> = (0..report.evaluation.results.len())
+        .map(|m| report.measurand(m).0)
+        .collect();
+    let gum = matrix(l, &names, &joint.correlation, l.word(Word::Gum));
+    blocks.push(Block::Table(gum));
     if let Some(correlation) = &joint.monte_carlo_correlation {
-        blocks.push(Block::Table(matrix(
-            report,
-            correlation,
-            l.word(Word::MonteCarlo),
-        )));
+        let trials = matrix(l, &names, correlation, l.word(Word::MonteCarlo));
+        blocks.push(Block::Table(trials));
     }
     if joint.degenerate {
         blocks.push(Block::Paragraph(
@@ -50,31 +47,24 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
     blocks
 }
 
-fn matrix(report: &Report<'_>, correlation: &DMatrix<f64>, head: &str) -> Table {
-    let n = report.evaluation.results.len();
-    let name = |i: usize| report.measurand(i).0.to_string();
-    let label =
-        [report.language.word(Word::Correlation), head].join(report.language.pick(", ", "，"));
-    let mut columns = vec![Column {
-        head: label,
-        kind: ColumnKind::Words,
-    }];
-    columns.extend((0..n).map(|i| Column {
-        head: name(i),
-        kind: ColumnKind::Numbers,
-    }));
+/// A correlation matrix; `of` says of what or by which method.
+pub(super) fn matrix(l: Language, names: &[&str], correlation: &DMatrix<f64>, of: &str) -> Table {
+    let label = [l.word(Word::Correlation), of].join(l.pick(", ", "，"));
+    let column = |head: &str, kind| Column {
+        head: head.to_string(),
+        kind,
+    };
+    let mut columns = vec![column(&label, ColumnKind::Names)];
+    columns.extend(names.iter().map(|name| column(name, ColumnKind::Numbers)));
     let mut table = Table {
         columns,
         rows: Vec::new(),
     };
-    for i in 0..n {
-        let mut cells: Vec<Cell> = vec![name(i).into()];
-        cells.extend((0..n).map(|j| {
-            Cell::Text(
-                correlation
-                    .get((i, j))
-                    .map_or_else(String::new, |r| coefficient(*r)),
-            )
+    for (i, name) in names.iter().enumerate() {
+        let mut cells: Vec<Cell> = vec![(*name).into()];
+        cells.extend((0..names.len()).map(|j| match correlation.get((i, j)) {
+            Some(r) => coefficient(*r).into(),
+            None => Cell::Empty,
         }));
         table.push(cells);
     }

@@ -11,7 +11,6 @@ mod compose;
 mod decisions;
 mod document;
 mod fits;
-mod fits_json;
 mod how;
 mod joint;
 mod json;

@@ -202,7 +202,7 @@ impl Series<'_> {
         let difference_head = match ten {
             0 => l.pick("difference", "差值").to_string(),
             _ => format!(
-                "{}/{}",
+                "{} ({})",
                 l.pick("difference", "差值"),
                 STYLE.power(ten).trim_start_matches('×')
             ),
@@ -213,7 +213,7 @@ impl Series<'_> {
             (l.word(Word::Claimed), ColumnKind::Numbers),
             (l.word(Word::Obtained), ColumnKind::Numbers),
             (difference_head.as_str(), ColumnKind::Numbers),
-            (l.pick("agrees", "一致"), ColumnKind::Words),
+            (l.pick("agrees", "一致"), ColumnKind::Wrapped),
         ]);
         for (report, claims) in self.rows.iter().zip(&self.judged) {
             for (n, comparison) in claims.iter().enumerate() {

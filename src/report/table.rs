@@ -1,5 +1,7 @@
 //! Tables: one description, fitted to a terminal's width or left natural for Markdown.
 
+use std::borrow::Cow;
+
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// Spaces between columns, and what is left of them on a narrow page.
@@ -111,8 +113,66 @@ impl Table {
     }
 
     /// The lines of the table within `width` columns of the terminal where that is possible: the
-    /// head, a rule, the rows.
+    /// head, a rule, the rows. A matrix that is wider continues below, a blank line between.
     pub(super) fn lines(&self, width: usize) -> Vec<String> {
+        let parts: Vec<Vec<String>> = self
+            .bands(width)
+            .iter()
+            .map(|band| band.drawn(width))
+            .collect();
+        parts.join(&[String::new()][..])
+    }
+
+    /// The table in pieces that fit the page: a matrix (names, then numbers only) in as many as it
+    /// takes, each with the names; any other table as it is.
+    fn bands(&self, page: usize) -> Vec<Cow<'_, Table>> {
+        /// Fewer columns are no matrix.
+        const LEAST: usize = 4;
+        /// Width that the head over the names keeps.
+        const BROKEN_HEAD: usize = 14;
+        let matrix = self.columns.len() > LEAST
+            && (self.columns.iter().enumerate())
+                .all(|(i, column)| (i == 0) == (column.kind != ColumnKind::Numbers));
+        let mut widths = self.natural();
+        if !matrix || total(&widths, NARROW_GAP) <= page {
+            return vec![Cow::Borrowed(self)];
+        }
+        // The head over the names may go on several lines.
+        widths[0] = widths[0].min(self.natural_body()[0].max(BROKEN_HEAD));
+        let mut bands = Vec::new();
+        let mut band = vec![0];
+        let mut used = widths[0];
+        for (i, width) in widths.iter().enumerate().skip(1) {
+            if used + GAP + width > page && band.len() > 1 {
+                bands.push(Cow::Owned(self.selected(&band)));
+                band = vec![0];
+                used = widths[0];
+            }
+            used += GAP + width;
+            band.push(i);
+        }
+        bands.push(Cow::Owned(self.selected(&band)));
+        bands
+    }
+
+    /// Some of the columns.
+    fn selected(&self, columns: &[usize]) -> Table {
+        let rows = self.rows.iter().map(|row| match row {
+            Row::Cells(cells) => Row::Cells(
+                columns
+                    .iter()
+                    .map(|i| cells.get(*i).cloned().unwrap_or(Cell::Empty))
+                    .collect(),
+            ),
+            other => other.clone(),
+        });
+        Table {
+            columns: columns.iter().map(|i| self.columns[*i].clone()).collect(),
+            rows: rows.collect(),
+        }
+    }
+
+    fn drawn(&self, width: usize) -> Vec<String> {
         let (widths, gap) = self.fitted(width);
         let full = total(&widths, gap);
         let rule = "─".repeat(full);
@@ -223,7 +283,7 @@ impl Table {
     fn draw_heads(&self, widths: &[usize], gap: usize, lines: &mut Vec<String>) {
         let texts = self.columns.iter().zip(widths);
         let texts = texts.map(|(column, width)| match column.kind {
-            ColumnKind::Numbers => wrapped(&column.head, *width),
+            ColumnKind::Numbers | ColumnKind::Names => wrapped(&column.head, *width),
             kind => Cell::Text(column.head.clone()).set(kind, *width),
         });
         self.side_by_side(texts.collect(), widths, gap, lines);
@@ -332,7 +392,7 @@ fn cut(text: &str, width: usize) -> String {
     kept
 }
 
-/// A name on lines of at most `width`, broken behind `_`, `.` or a space where there is one; further
+/// A name on lines of at most `width`, broken behind `_`, `.`, `-` or a space where there is one; further
 /// lines are set in a little.
 fn broken(text: &str, width: usize) -> Vec<String> {
     const INDENT: &str = "    ";
@@ -346,7 +406,7 @@ fn broken(text: &str, width: usize) -> Vec<String> {
             seam = None;
         }
         line.push(c);
-        if matches!(c, '_' | '.' | ' ') && !line.trim_start().is_empty() {
+        if matches!(c, '_' | '.' | '-' | ' ') && !line.trim_start().is_empty() {
             seam = Some(line.len());
         }
     }
@@ -465,6 +525,37 @@ mod tests {
                 .iter()
                 .any(|l| l.trim() == "divided by the root of three"),
             "{lines:#?}"
+        );
+    }
+
+    #[test]
+    fn a_wide_matrix_continues_below() {
+        let mut table = Table::new([
+            ("", ColumnKind::Names),
+            ("alpha", ColumnKind::Numbers),
+            ("beta", ColumnKind::Numbers),
+            ("gamma", ColumnKind::Numbers),
+            ("delta", ColumnKind::Numbers),
+        ]);
+        table.push(vec![
+            "alpha".into(),
+            "1.00".into(),
+            "0.20".into(),
+            "0.30".into(),
+            "0.40".into(),
+        ]);
+        assert_eq!(table.lines(40).len(), 3);
+        assert_eq!(
+            table.lines(20),
+            [
+                "       alpha  beta",
+                "──────────────────",
+                "alpha   1.00  0.20",
+                "",
+                "       gamma  delta",
+                "───────────────────",
+                "alpha   0.30   0.40",
+            ]
         );
     }
 

@@ -85,7 +85,9 @@ fn draw_block(block: &Block, page: Page, lines: &mut Vec<String>) {
             }
         }
         Block::Paragraph(text) => hanging("  ", text, page, lines),
-        Block::Formula(formulas) => lines.extend(formulas.iter().map(|f| format!("    {f}"))),
+        Block::Formula(formulas) => formulas
+            .iter()
+            .for_each(|formula| equation(formula, page, lines)),
         Block::Table(table) => lines.extend(
             table
                 .lines(page.width.saturating_sub(2))
@@ -103,6 +105,18 @@ fn draw_block(block: &Block, page: Page, lines: &mut Vec<String>) {
                 lines.push(page.dim(&line));
             }
         }
+    }
+}
+
+/// A formula, its further lines set in.
+fn equation(formula: &str, page: Page, lines: &mut Vec<String>) {
+    const INDENT: &str = "    ";
+    // As much as the first line has of its own, and as much again for the further ones.
+    let own = formula.len() - formula.trim_start().len();
+    let width = page.width.saturating_sub(2 * INDENT.len() + own).max(20);
+    for (i, line) in wrapped(formula.trim_start(), width).iter().enumerate() {
+        let further = if i == 0 { "" } else { INDENT };
+        lines.push(format!("{INDENT}{}{further}{line}", &formula[..own]));
     }
 }
 

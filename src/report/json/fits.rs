@@ -2,8 +2,8 @@
 
 use crate::budget::{Fit, FitVerdict, LackOfFitTest};
 
-use super::json::{Number, matrix, number, numbers};
-use super::schema::record;
+use super::{Number, matrix, number, numbers};
+use crate::report::schema::record;
 
 record! {
     /// A least-squares fit whose parameters are inputs.

@@ -1,0 +1,291 @@
+//! The whole document, and its short parts.
+
+use super::claims::ClaimJson;
+use super::decisions::{ConformityJson, DetectionJson};
+use super::fits::FitJson;
+use super::joint::JointJson;
+use super::result::MeasurandJson;
+use super::understood::{
+    AnalysisJson, ComponentJson, ConstantJson, Conventions, GroupJson, Heading, InputJson,
+    TakenJson,
+};
+use crate::budget::{Adaptive, Law};
+use crate::propagate::Run;
+use crate::report::{Report, analyses, language::Language, remarks, schema::record, statement};
+
+use super::{
+    FORMAT, Number, claims, decisions, fits, joint, matrix, number, numbers, result, understood,
+};
+
+record! {
+    /// One evaluated budget.
+    Document<'a> {
+        /// Name and version of this format.
+        format: &'a str,
+        /// Program that wrote it, with its version.
+        generator: String,
+        /// Row of a series.
+        label: Option<&'a str>,
+        /// What the file says about the measurement besides numbers.
+        heading: Heading<'a>,
+        /// Conventions on which guides differ.
+        conventions: Conventions<'a>,
+        /// Results, one per measurand.
+        measurands: Vec<MeasurandJson<'a>>,
+        /// Input quantities in the order of the file; contributions are in the same order.
+        inputs: Vec<InputJson<'a>>,
+        /// Elementary components of the inputs; contributions are in the same order.
+        components: Vec<ComponentJson<'a>>,
+        /// Correlated components.
+        correlated: Vec<GroupJson>,
+        /// Analyses of readings; their numbers are among `figures`, under their names.
+        analyses: Vec<AnalysisJson<'a>>,
+        /// Results of other files that are inputs here.
+        taken_results: Vec<TakenJson<'a>>,
+        /// Exactly known quantities.
+        constants: Vec<ConstantJson<'a>>,
+        /// Least-squares fits whose parameters are inputs.
+        fits: Vec<FitJson<'a>>,
+        /// Joint result of several measurands.
+        joint: Option<JointJson>,
+        /// How the Monte Carlo method was run.
+        monte_carlo_run: Option<RunJson>,
+        /// Conformity assessments.
+        conformity: Vec<ConformityJson<'a>>,
+        /// Characteristic limits.
+        detection: Vec<DetectionJson<'a>>,
+        /// Figures of analyses (fits, groups of readings, conformity …) by name.
+        figures: Vec<FigureJson<'a>>,
+        /// Comparison with claims.
+        claims: Vec<ClaimJson<'a>>,
+        /// What must be known before the figures are used.
+        findings: Vec<FindingJson>,
+        /// Remarks on the budget.
+        remarks: Vec<RemarkJson<'a>>,
+        /// The sentences for the certificate.
+        statement: StatementJson,
+    }
+}
+
+record! {
+    /// A Monte Carlo run.
+    RunJson {
+        /// Trials.
+        trials: u64,
+        /// Seed.
+        seed: u64,
+        /// Coverage probability of the intervals.
+        coverage_probability: Number,
+        /// What an adaptive run reached.
+        adaptive: Option<AdaptiveJson>,
+    }
+}
+
+record! {
+    /// An adaptive run.
+    AdaptiveJson {
+        /// Procedure: stein, jcgm101.
+        procedure: String,
+        /// Significant digits of u asked for.
+        digits: u64,
+        /// Numerical tolerance of each measurand.
+        delta: Vec<Number>,
+        /// Whether the results are stable to it.
+        reached: bool,
+    }
+}
+
+record! {
+    /// A figure of an analysis.
+    FigureJson<'a> {
+        /// Its name, as claims write it.
+        name: &'a str,
+        /// The number.
+        value: Number,
+        /// Its unit.
+        unit: &'a str,
+    }
+}
+
+record! {
+    /// A finding.
+    FindingJson {
+        /// Measurand; null for the whole budget.
+        measurand: Option<String>,
+        /// Kind of finding.
+        kind: String,
+        /// Sentence in the language of the report.
+        message: String,
+    }
+}
+
+record! {
+    /// A remark in both languages.
+    RemarkJson<'a> {
+        /// English.
+        en: &'a str,
+        /// Chinese.
+        zh: &'a str,
+    }
+}
+
+record! {
+    /// Sentences for the certificate.
+    StatementJson {
+        /// English.
+        en: Vec<String>,
+        /// Chinese.
+        zh: Vec<String>,
+    }
+}
+
+impl<'a> Document<'a> {
+    pub(super) fn new(report: &Report<'a>) -> Self {
+        let budget = report.budget;
+        let evaluation = report.evaluation;
+        let heading = &budget.heading;
+        Document {
+            format: FORMAT,
+            generator: format!("gumption {}", env!("CARGO_PKG_VERSION")),
+            label: report.label,
+            heading: Heading {
+                title: &heading.title,
+                method: heading.method.as_deref(),
+                object: heading.object.as_deref(),
+                author: heading.author.as_deref(),
+                date: heading.date.as_deref(),
+                reference: heading.reference.as_deref(),
+                note: heading.note.as_deref(),
+            },
+            conventions: understood::conventions(&budget.conventions),
+            measurands: evaluation
+                .results
+                .iter()
+                .enumerate()
+                .map(|(m, r)| result::measurand(report, m, r))
+                .collect(),
+            inputs: budget.inputs.iter().map(understood::input).collect(),
+            components: budget
+                .components
+                .iter()
+                .map(|c| understood::component(c, &budget.inputs))
+                .collect(),
+            correlated: budget
+                .groups
+                .iter()
+                .map(|g| GroupJson {
+                    members: g.members.iter().map(|m| *m as u64).collect(),
+                    correlation: matrix(&g.correlation),
+                    law: match g.law {
+                        Law::Normal => "normal",
+                        Law::StudentT { .. } => "t",
+                        Law::GaussianCopula { .. } => "gaussian-copula",
+                    }
+                    .to_string(),
+                    degrees_of_freedom: g.dof.map(Number),
+                })
+                .collect(),
+            analyses: budget
+                .analyses
+                .iter()
+                .map(|analysis| {
+                    let (kind, verdicts) = analyses::codes(&analysis.found);
+                    AnalysisJson {
+                        component: &analysis.name,
+                        kind,
+                        verdicts,
+                    }
+                })
+                .collect(),
+            taken_results: budget
+                .chain
+                .taken
+                .iter()
+                .map(|taken| TakenJson {
+                    name: &taken.input,
+                    file: &taken.file,
+                    row: taken.row.as_deref(),
+                    measurand: &taken.measurand,
+                    title: &taken.title,
+                    equation: taken.equation.as_deref(),
+                })
+                .collect(),
+            constants: budget
+                .constants
+                .iter()
+                .map(|c| ConstantJson {
+                    name: &c.name,
+                    values: numbers(&c.values),
+                    unit: &c.unit.symbol,
+                    description: c.description.as_deref(),
+                    reference: c.reference.as_deref(),
+                })
+                .collect(),
+            fits: budget.fits.iter().map(fits::fit).collect(),
+            joint: evaluation.joint.as_ref().map(joint::joint),
+            monte_carlo_run: evaluation.run.as_ref().map(run),
+            conformity: decisions::conformity(report),
+            detection: decisions::detection(report),
+            figures: evaluation
+                .figures
+                .iter()
+                .map(|f| FigureJson {
+                    name: &f.name,
+                    value: number(f.value),
+                    unit: &f.unit.symbol,
+                })
+                .collect(),
+            claims: budget
+                .claims
+                .iter()
+                .enumerate()
+                .map(|(index, c)| claims::claim(report, index, c))
+                .collect(),
+            findings: evaluation
+                .findings
+                .iter()
+                .map(|f| FindingJson {
+                    measurand: f.measurand.map(|m| report.measurand(m).0.to_string()),
+                    kind: remarks::code(&f.kind).to_string(),
+                    message: remarks::finding_sentence(report, f.measurand, &f.kind),
+                })
+                .collect(),
+            remarks: budget
+                .remarks
+                .iter()
+                .map(|r| RemarkJson {
+                    en: &r.en,
+                    zh: &r.zh,
+                })
+                .collect(),
+            statement: StatementJson {
+                en: statement(&Report {
+                    language: Language::English,
+                    ..*report
+                }),
+                zh: statement(&Report {
+                    language: Language::Chinese,
+                    ..*report
+                }),
+            },
+        }
+    }
+}
+
+fn run(run: &Run) -> RunJson {
+    RunJson {
+        trials: run.trials,
+        seed: run.seed,
+        coverage_probability: number(run.coverage_probability),
+        adaptive: run.adaptive.as_ref().map(|a| AdaptiveJson {
+            procedure: match a.procedure {
+                Adaptive::Stein => "stein",
+                Adaptive::Jcgm101 => "jcgm101",
+            }
+            .to_string(),
+            digits: u64::from(a.digits),
+            delta: numbers(&a.delta),
+            reached: a.reached,
+        }),
+    }
+}

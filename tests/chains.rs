@@ -363,6 +363,34 @@ fn a_budget_that_changed_since_its_result_was_saved_is_noticed() {
     );
 }
 
+/// The parameters of a fit carry their covariance and their common ν along.
+#[test]
+fn parameters_of_a_fit_stay_correlated() {
+    let fit = r#"
+        [fit.line]
+        model = "b = y1 + y2*t"
+        [fit.line.data]
+        t = { values = [1, 2, 3, 4, 5, 6], unit = "K" }
+        b = { values = [2.1, 3.9, 6.2, 7.8, 10.1, 12.2], unit = "mV" }
+        [fit.line.parameters]
+        y1 = { unit = "mV" }
+        y2 = { unit = "mV/K" }
+    "#;
+    let value = "[measurand.v]\nmodel = \"y1 + y2 * 7.5 'K'\"\nunit = \"mV\"\n";
+    let direct = format!("{value}{fit}");
+    let direct = gum(&load(&[("direct.toml", &direct)], "direct.toml"));
+    let result = saved(&[("fit.toml", fit)], "fit.toml");
+    for from in ["budget = \"fit.toml\"", "result = \"fit.json\""] {
+        let top = format!(
+            "{value}[input.y1]\nfrom = {{ {from}, measurand = \"y1\" }}\n[input.y2]\nfrom = {{ {from}, measurand = \"y2\" }}\n"
+        );
+        let files = [("fit.toml", fit), ("fit.json", &result), ("top.toml", &top)];
+        let found = gum(&load(&files, "top.toml"));
+        same(&found, &direct);
+        close(found.results[0].gum.freedom.value(), 4.0, 1e-9);
+    }
+}
+
 /// Another version of the program may round otherwise; that is no change of the file.
 #[test]
 fn another_rounding_is_no_change() {

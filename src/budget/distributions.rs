@@ -217,7 +217,7 @@ impl FromToml for DistributionEntry {
         match value.get_ref() {
             DeValue::String(text) => shape(text, value, reader).map(DistributionEntry::Shape),
             DeValue::Table(table) => {
-                let other_names = table.keys().find_map(|key| other_name(key));
+                let other_names = table.keys().find_map(other_name);
                 match other_names {
                     Some(fault) => reader.refuse(fault),
                     None => DistributionTable::read(value, reader)

@@ -217,27 +217,6 @@ DETECTION "B0504" "characteristic limits cannot be found from this"
 "`[detection]` names in `gross` the input that carries the value of the measurand, such as the gross counts; `alpha` and \
 `beta` are probabilities below one half."
 
-FROM "B0701" "where an input comes from is not clear"
-"`from` names another `budget`, or the file of a saved `result`, and the `measurand` in it. The value and its \
-uncertainty are stated there; beside `from` an input may only state `unit`, `description` and `group`. A further \
-reason for doubt, such as the drift since then, is an input of its own that the model adds."
-
-FROM_REFUSED "B0702" "a budget that this one uses has faults of its own"
-"The other file is checked like this one; its own faults are shown after those of this file."
-
-FROM_CIRCLE "B0703" "budgets use one another in a circle"
-"A result cannot depend on itself. The message lists the files of the circle."
-
-FROM_MEASURAND "B0704" "the other file has no such result"
-"`measurand` is the name of a measurand in the other file, `row` the label (or the number) of a row of its series."
-
-SAVED_RESULT "B0705" "a file does not hold saved results"
-"`from = { result = … }` reads what `gumption eval FILE --save saved.json` wrote (`gumption schema result`). Another \
-budget is read with `from = { budget = … }`."
-
-SAVED_STALE "B0706" "a file has changed since results were saved"
-"A saved result and another file state the same component (the same file and name) differently, so that their \
-correlation is not known. Evaluate the changed budget again and save its results anew."
 FIT "B0601" "a fit says too little or too much"
 "`[fit.NAME]` needs `data` and one formula: `model = \"y = a + b*x\"` with a column of the data on the left, or \
 `polynomial` with `response` and `predictor`. Every name of the formula that is neither a column nor a constant is a \
@@ -269,6 +248,28 @@ values, and check that the formula can describe the data."
 RESIDUAL_OF "B0608" "the scatter of a fit cannot be used here"
 "`residual_of` is the scatter of a further reading as seen from the residuals of a fit. The fit must leave the scatter of its \
 response to the residuals, without stated uncertainties; else the uncertainty of the reading is known already."
+
+FROM "B0701" "where an input comes from is not clear"
+"`from` names another `budget`, or the file of a saved `result`, and the `measurand` in it. The value and its \
+uncertainty are stated there; beside `from` an input may only state `unit`, `description` and `group`. A further \
+reason for doubt, such as the drift since then, is an input of its own that the model adds."
+
+FROM_REFUSED "B0702" "a budget that this one uses has faults of its own"
+"The other file is checked like this one; its own faults are shown after those of this file."
+
+FROM_CIRCLE "B0703" "budgets use one another in a circle"
+"A result cannot depend on itself. The message lists the files of the circle."
+
+FROM_MEASURAND "B0704" "the other file has no such result"
+"`measurand` is the name of a measurand in the other file, `row` the label (or the number) of a row of its series."
+
+SAVED_RESULT "B0705" "a file does not hold saved results"
+"`from = { result = … }` reads what `gumption eval FILE --save saved.json` wrote (`gumption schema result`). Another \
+budget is read with `from = { budget = … }`."
+
+SAVED_STALE "B0706" "a file has changed since results were saved"
+"A saved result and another file state the same component (the same file and name) differently, so that their \
+correlation is not known. Evaluate the changed budget again and save its results anew."
 }
 
 #[cfg(test)]

@@ -153,7 +153,7 @@ words! {
 table! {
     /// How the Monte Carlo method is run.
     MonteCarloTable "[monte_carlo]" {
-        /// Number of trials (default 1000000), or "adaptive".
+        /// Number of trials, or "adaptive". When left out 1000000, or 10000000 where these leave the verdict of JCGM 101 clause 8 open.
         trials: TrialsEntry,
         /// Adaptive procedure.
         procedure: ProcedureWord,

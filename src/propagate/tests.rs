@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::*;
-use crate::budget::{CoverageRule, Trials};
+use crate::budget::CoverageRule;
 use crate::distribution::Distribution;
 
 const INF: f64 = f64::INFINITY;
@@ -418,25 +418,6 @@ fn no_value_and_no_derivative() {
         kinds(&evaluation)
             .iter()
             .any(|kind| matches!(kind, FindingKind::FailedTrials { .. }))
-    );
-}
-
-#[test]
-fn more_trials_than_can_be_kept_are_refused() {
-    let budget = Draft::new()
-        .normal("a", 1.0, 0.1, INF)
-        .budget(0.95, &[("y", "a"), ("z", "2 * a")]);
-    let with = |trials| Options {
-        monte_carlo: MonteCarloChoice::With(MonteCarloSettings { seed: 1, trials }),
-        threads: 2,
-    };
-    let asked = 100_000_001;
-    assert_eq!(
-        evaluate(&budget, &with(Trials::Fixed(asked))).unwrap_err(),
-        EvaluationError::TooManyTrials {
-            asked,
-            most: 100_000_000
-        }
     );
 }
 

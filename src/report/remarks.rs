@@ -365,12 +365,6 @@ pub fn failure(error: &EvaluationError, language: Language) -> String {
         (EvaluationError::AllTrialsFailed { measurand }, Language::Chinese) => {
             format!("所有蒙特卡洛试验都没有得到 {measurand} 的有限值。请核对输入量的分布和公式。")
         }
-        (EvaluationError::TooManyTrials { asked, most }, Language::English) => format!(
-            "{asked} Monte Carlo trials were asked for, but at most {most} can be run for this budget, because every model value is kept for the coverage intervals. Ask for fewer: after 10^7 trials the ends of a 95 % interval are already known to about a thousandth of u."
-        ),
-        (EvaluationError::TooManyTrials { asked, most }, Language::Chinese) => format!(
-            "要求的蒙特卡洛试验次数为 {asked}，而此不确定度评定最多可运行 {most} 次，因为包含区间需要保存全部模型值。请减少试验次数。"
-        ),
     }
 }
 

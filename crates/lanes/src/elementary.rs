@@ -100,6 +100,13 @@ pub fn exp(x: f64) -> f64 {
     add_three(1.0, r, tail) * power_of_two(half) * power_of_two(k - half)
 }
 
+/// eˣ for 0 ≤ x ≤ 700, within 1.5 ulp.
+#[inline(always)]
+pub(crate) fn exp_positive(x: f64) -> f64 {
+    let (k, r, tail) = exp_parts(x);
+    (1.0 + (r + tail)) * power_of_two(k)
+}
+
 /// eˣ − 1, accurate for small x too.
 #[inline(always)]
 pub fn expm1(x: f64) -> f64 {
@@ -240,6 +247,28 @@ pub(crate) fn sin_cos_turns(v: f64) -> (f64, f64) {
         sin_cos_core(rest * std::f64::consts::TAU, 0.0),
         shifted.to_bits(),
     )
+}
+
+/// sin πw for |w| ≤ ½, within 2 ulp.
+#[inline(always)]
+pub(crate) fn sin_half_turns(w: f64) -> f64 {
+    /// ∓1/(2n + 1)!
+    const SERIES: [f64; 11] = [
+        -0.166_666_666_666_666_66,
+        0.008_333_333_333_333_333,
+        -0.000_198_412_698_412_698_4,
+        2.755_731_922_398_589e-6,
+        -2.505_210_838_544_172e-8,
+        1.605_904_383_682_161_3e-10,
+        -7.647_163_731_819_816e-13,
+        2.811_457_254_345_520_6e-15,
+        -8.220_635_246_624_33e-18,
+        1.957_294_106_339_126_3e-20,
+        -3.868_170_170_630_684e-23,
+    ];
+    let x = w * std::f64::consts::PI;
+    let z = x * x;
+    (z * x).mul_add(horner(z, SERIES), x)
 }
 
 /// sin x for |x| ≤ [`REDUCIBLE`].

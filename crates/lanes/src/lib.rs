@@ -12,6 +12,7 @@
 //! | [`elementary`] | `exp`, `ln`, `sin`, `cos` as branch-free polynomial kernels |
 //! | [`ops`] | arithmetic and functions on whole blocks |
 //! | [`sampler`] | blocks of draws from the distributions of JCGM 101, 6.4, and others |
+//! | [`bins`] | counts in equal bins, and the values of chosen ones |
 //! | [`moments`] | sums of powers, extremes and the count of trials that have no finite value |
 //!
 //! Every kernel takes the [`Level`] first. A small Monte Carlo evaluation of y = x₁², x₁ normal:
@@ -36,6 +37,7 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod bins;
 pub mod elementary;
 pub mod generator;
 pub mod level;

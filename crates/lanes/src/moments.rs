@@ -14,23 +14,81 @@ const PARTIALS: usize = 16;
 ///
 /// An origin near the mean keeps the digits that a sum of raw powers would cancel.
 pub fn accumulate(level: Level, x: &Block, origin: f64) -> [f64; 4] {
-    dispatch!(level, _ => power_sums(x, origin)).map(pairwise)
+    let mut sums = PowerSums::default();
+    sums.add(level, x, [origin, 1.0]);
+    sums.totals()
+}
+
+/// Sums of the first four powers over many blocks.
+#[derive(Debug, Clone, Default)]
+pub struct PowerSums([[f64; PARTIALS]; 4]);
+
+impl PowerSums {
+    /// Adds the powers of d = (x − origin)·factor of every lane.
+    pub fn add(&mut self, level: Level, x: &Block, [origin, factor]: [f64; 2]) {
+        dispatch!(level, _ => {
+            // A copy, which the compiler keeps in registers through the loop.
+            let mut sums = self.0;
+            for row in x.0.as_chunks::<PARTIALS>().0 {
+                add_powers(&mut sums, row, [origin, factor]);
+            }
+            self.0 = sums;
+        })
+    }
+
+    /// As [`PowerSums::add`], of one number.
+    pub fn add_one(&mut self, x: f64, [origin, factor]: [f64; 2]) {
+        let d = (x - origin) * factor;
+        let d2 = d * d;
+        for (sum, power) in self.0.iter_mut().zip([d, d2, d2 * d, d2 * d2]) {
+            sum[0] += power;
+        }
+    }
+
+    /// The four sums.
+    pub fn totals(&self) -> [f64; 4] {
+        self.0.map(pairwise)
+    }
 }
 
 #[inline(always)]
-fn power_sums(x: &Block, origin: f64) -> [[f64; PARTIALS]; 4] {
-    let mut sums = [[0.0; PARTIALS]; 4];
-    for row in x.0.as_chunks::<PARTIALS>().0 {
-        for (lane, &x) in row.iter().enumerate() {
-            let d = x - origin;
-            let d2 = d * d;
-            sums[0][lane] += d;
-            sums[1][lane] += d2;
-            sums[2][lane] = d2.mul_add(d, sums[2][lane]);
-            sums[3][lane] = d2.mul_add(d2, sums[3][lane]);
-        }
+fn add_powers(sums: &mut [[f64; PARTIALS]; 4], row: &[f64; PARTIALS], [origin, factor]: [f64; 2]) {
+    for (lane, &x) in row.iter().enumerate() {
+        let d = (x - origin) * factor;
+        let d2 = d * d;
+        sums[0][lane] += d;
+        sums[1][lane] += d2;
+        sums[2][lane] = d2.mul_add(d, sums[2][lane]);
+        sums[3][lane] = d2.mul_add(d2, sums[3][lane]);
     }
-    sums
+}
+
+/// Σ a·b.
+pub fn dot(level: Level, a: &Block, b: &Block) -> f64 {
+    pairwise(dispatch!(level, _ => {
+        let mut sums = [0.0; PARTIALS];
+        let rows = a.0.as_chunks::<PARTIALS>().0.iter().zip(b.0.as_chunks::<PARTIALS>().0);
+        for (a, b) in rows {
+            for lane in 0..PARTIALS {
+                sums[lane] = f64::mul_add(a[lane], b[lane], sums[lane]);
+            }
+        }
+        sums
+    }))
+}
+
+/// Whether no lane holds NaN or an infinity.
+pub fn all_finite(level: Level, x: &Block) -> bool {
+    dispatch!(level, _ => {
+        let mut sums = [0.0; PARTIALS];
+        for row in x.0.as_chunks::<PARTIALS>().0 {
+            for (sum, x) in sums.iter_mut().zip(row) {
+                // Zero times a finite number is zero, times any other NaN.
+                *sum += 0.0 * x;
+            }
+        }
+        sums.iter().all(|sum| *sum == 0.0)
+    })
 }
 
 /// Neighbours are added, then neighbouring pairs, and so on.

@@ -21,10 +21,10 @@
 //! the default. The batch results of 10⁴ trials are very nearly normal; the results printed are those of
 //! all trials together, which differ from the mean over batches by less than their error.
 
-use super::engine::{Layout, Source, simulate};
+use super::collect::Collector;
+use super::engine::{Layout, Source};
 use super::interval::symmetric_ends;
 use super::moments::{Moments, Pivot};
-use super::store::Store;
 use crate::budget::Adaptive;
 use crate::propagate::AdaptiveRun;
 use crate::propagate::validation::numerical_tolerance;
@@ -32,6 +32,9 @@ use crate::special::student_t_upper_quantile;
 
 /// Batches of Stein's first stage.
 const FIRST_STAGE: u64 = 10;
+
+/// Most batches that are drawn before they are judged.
+const AHEAD: u64 = 64;
 
 /// α: probability that any of the results is further than δ from its true value.
 const RISK: f64 = 0.05;
@@ -59,22 +62,19 @@ pub(crate) fn batch_size(p: f64) -> u64 {
     least_batch(p).max(10_000)
 }
 
-/// Runs batches until the target is reached or the maximum is; the store then holds the trials to be
-/// used.
+/// Runs batches until the target is reached or the maximum is; the collector then holds the trials to
+/// be used.
 pub(super) fn run<S: Source>(
-    source: &S,
+    collector: &mut Collector<S>,
+    layout: Layout,
     pivots: &[Pivot],
     target: Target,
-    threads: usize,
-) -> (Store, AdaptiveRun) {
-    let layout = Layout::new(batch_size(target.p).min(target.max));
+) -> AdaptiveRun {
     let mut experiment = Experiment {
-        source,
+        collector,
         layout,
         pivots,
-        threads,
         target,
-        store: Store::new(source.outputs()),
         batches: 0,
         most: (target.max / layout.batch()).max(1),
     };
@@ -82,75 +82,65 @@ pub(super) fn run<S: Source>(
         Adaptive::Jcgm101 => experiment.jcgm101(),
         Adaptive::Stein => experiment.stein(),
     };
-    let delta = experiment.deltas(experiment.batches);
-    let run = AdaptiveRun {
+    AdaptiveRun {
         procedure: target.procedure,
         digits: target.digits,
-        delta,
+        delta: experiment.deltas(),
         reached,
-    };
-    (experiment.store, run)
+    }
 }
 
 /// y, u, y_low and y_high of one output in one batch.
 type Results = [f64; 4];
 
+/// A batch whose trials are at hand, but not yet taken over.
+struct Batch {
+    number: u64,
+    /// Per chunk and output.
+    values: Vec<Vec<Vec<f64>>>,
+}
+
 /// Batches that have been run, and how to run more.
-struct Experiment<'s, S> {
-    source: &'s S,
+struct Experiment<'e, 's, S> {
+    collector: &'e mut Collector<'s, S>,
     layout: Layout,
-    pivots: &'s [Pivot],
-    threads: usize,
+    pivots: &'e [Pivot],
     target: Target,
-    store: Store,
     batches: u64,
     /// Largest number of batches.
     most: u64,
 }
 
-impl<S: Source> Experiment<'_, S> {
-    /// Runs batches until there are `batches`.
-    fn extend(&mut self, batches: u64) {
-        if batches > self.batches {
-            let new = self.batches..batches;
-            simulate(
-                self.source,
-                self.layout,
-                new,
-                self.pivots,
-                self.threads,
-                &mut self.store,
-            );
-            self.batches = batches;
-        }
+impl<S: Source> Experiment<'_, '_, S> {
+    /// Draws the next batches.
+    fn draw(&self, batches: u64) -> Vec<Batch> {
+        let numbers = self.batches..self.batches + batches;
+        let chunks = self.layout.chunks(numbers.clone());
+        let mut values = self.collector.draw(chunks).into_iter();
+        let each = self.layout.chunks(0..1).end as usize;
+        numbers
+            .map(|number| Batch {
+                number,
+                values: values.by_ref().take(each).collect(),
+            })
+            .collect()
     }
 
-    /// Forgets all but the first `batches`.
-    fn truncate(&mut self, batches: u64) {
-        let chunks = self.layout.chunks(0..batches).end as usize;
-        self.store
-            .truncate(chunks, (batches * self.layout.batch()) as usize);
-        self.batches = batches;
+    /// Takes over the trials of the next batch.
+    fn accept(&mut self, batch: Batch) {
+        let chunks = self.layout.chunks(batch.number..batch.number + 1);
+        self.collector.commit(chunks, batch.values);
+        self.batches = batch.number + 1;
     }
 
-    fn moments(&self, output: usize, batches: std::ops::Range<u64>) -> Moments {
-        let chunks = self.layout.chunks(batches);
-        self.store
-            .moments_of_chunks(output, chunks.start as usize, chunks.end as usize)
-            .unwrap_or(Moments::empty(self.pivots[output]))
-    }
-
-    /// The results of every output in one batch.
-    fn results(&self, batch: u64) -> Vec<Results> {
-        let trials = self.layout.batch() as usize;
-        let start = batch as usize * trials;
-        self.store
-            .columns()
-            .iter()
-            .enumerate()
-            .map(|(output, column)| {
-                let moments = self.moments(output, batch..batch + 1);
-                let mut values = column[start..start + trials].to_vec();
+    /// The results of every output in one batch, and its moments.
+    fn results(&self, batch: &Batch) -> (Vec<Results>, Vec<Moments>) {
+        let pairs = self.pivots.iter().enumerate();
+        pairs
+            .map(|(output, pivot)| {
+                let chunks = batch.values.iter().map(|chunk| chunk[output].as_slice());
+                let mut values = chunks.collect::<Vec<_>>().concat();
+                let moments = Moments::of(&values, *pivot);
                 values.retain(|v| v.is_finite());
                 let [low, high] = symmetric_ends(&mut values, self.target.p);
                 let mean = if moments.count() > 0 {
@@ -158,41 +148,44 @@ impl<S: Source> Experiment<'_, S> {
                 } else {
                     f64::NAN
                 };
-                [mean, moments.sd(), low, high]
+                ([mean, moments.sd(), low, high], moments)
             })
-            .collect()
+            .unzip()
     }
 
-    /// δ of every output from u(y) of the first `batches` together (7.9.4 i and j).
-    fn deltas(&self, batches: u64) -> Vec<f64> {
-        (0..self.source.outputs())
-            .map(|o| numerical_tolerance(self.moments(o, 0..batches).sd(), self.target.digits))
-            .collect()
+    /// δ of every output from u(y) of all trials together (7.9.4 i and j).
+    fn deltas(&self) -> Vec<f64> {
+        let moments = self.collector.moments();
+        let tolerance = |m: &Moments| numerical_tolerance(m.sd(), self.target.digits);
+        moments.iter().map(tolerance).collect()
     }
 
     /// JCGM 101 7.9.4. Batches are drawn several at a time to occupy all threads, but judged one by
     /// one; what was drawn beyond the stop is thrown away.
     fn jcgm101(&mut self) -> bool {
-        let mut scatter = Scatter::new(self.source.outputs());
+        let mut scatter = Scatter::new(self.pivots.len());
         let mut pooled: Vec<Moments> = self.pivots.iter().map(|p| Moments::empty(*p)).collect();
-        for batch in 0..self.most {
-            if batch == self.batches {
-                self.extend((batch + (batch / 4).max(8)).min(self.most));
-            }
-            scatter.add(&self.results(batch));
-            for (output, all) in pooled.iter_mut().enumerate() {
-                *all = all.merge(&self.moments(output, batch..batch + 1));
-            }
-            let stable = |(output, all): (usize, &Moments)| {
-                let delta = numerical_tolerance(all.sd(), self.target.digits);
-                scatter
-                    .output(output)
-                    .iter()
-                    .all(|s| 2.0 * s.error_of_mean() <= delta)
-            };
-            if batch > 0 && pooled.iter().enumerate().all(stable) {
-                self.truncate(batch + 1);
-                return true;
+        while self.batches < self.most {
+            let ahead = (self.batches / 8)
+                .clamp(2, AHEAD)
+                .min(self.most - self.batches);
+            for batch in self.draw(ahead) {
+                let (results, moments) = self.results(&batch);
+                self.accept(batch);
+                scatter.add(&results);
+                for (all, moments) in pooled.iter_mut().zip(&moments) {
+                    *all = all.merge(moments);
+                }
+                let stable = |(output, all): (usize, &Moments)| {
+                    let delta = numerical_tolerance(all.sd(), self.target.digits);
+                    scatter
+                        .output(output)
+                        .iter()
+                        .all(|s| 2.0 * s.error_of_mean() <= delta)
+                };
+                if self.batches > 1 && pooled.iter().enumerate().all(stable) {
+                    return true;
+                }
             }
         }
         false
@@ -202,18 +195,18 @@ impl<S: Source> Experiment<'_, S> {
     /// have come out with another power of ten; s stays that of the first stage, on which the
     /// guarantee rests.
     fn stein(&mut self) -> bool {
-        self.extend(FIRST_STAGE.min(self.most));
+        let mut scatter = Scatter::new(self.pivots.len());
+        for batch in self.draw(FIRST_STAGE.min(self.most)) {
+            scatter.add(&self.results(&batch).0);
+            self.accept(batch);
+        }
         if self.batches < 2 {
             return false;
         }
-        let mut scatter = Scatter::new(self.source.outputs());
-        for batch in 0..self.batches {
-            scatter.add(&self.results(batch));
-        }
-        let quantities = (4 * self.source.outputs()) as f64;
+        let quantities = (4 * self.pivots.len()) as f64;
         let t = student_t_upper_quantile(RISK / (2.0 * quantities), (self.batches - 1) as f64);
         loop {
-            let deltas = self.deltas(self.batches);
+            let deltas = self.deltas();
             let wanted = deltas
                 .iter()
                 .enumerate()
@@ -226,7 +219,9 @@ impl<S: Source> Experiment<'_, S> {
             if self.batches == self.most {
                 return false;
             }
-            self.extend(wanted.min(self.most));
+            self.batches = wanted.min(self.most);
+            self.collector
+                .extend(self.layout.chunks(0..self.batches).end);
         }
     }
 }
@@ -294,22 +289,35 @@ impl Scatter {
 
 #[cfg(test)]
 mod tests {
-    use super::super::interval::{Ordered, Ranks};
     use super::super::samples::Sampled;
+    use super::super::{McOutcome, Question};
     use super::*;
+    use crate::budget::{MonteCarloSettings, Trials};
+    use crate::propagate::MonteCarlo;
 
-    fn target(procedure: Adaptive, digits: u8, max: u64) -> Target {
-        Target {
-            procedure,
-            digits,
-            max,
+    fn adapt(
+        source: &Sampled,
+        (procedure, digits, max): (Adaptive, u8, u64),
+        threads: usize,
+    ) -> (McOutcome, AdaptiveRun) {
+        let settings = MonteCarloSettings {
+            seed: 1,
+            trials: Trials::Adaptive {
+                procedure,
+                digits,
+                max,
+            },
+        };
+        let question = Question {
+            settings: &settings,
             p: 0.95,
-        }
-    }
-
-    fn adapt(source: &Sampled, target: Target, threads: usize) -> (Store, AdaptiveRun) {
-        let pivots = vec![Pivot::new(0.0, 1.0); source.outputs()];
-        run(source, &pivots, target, threads)
+            pivots: vec![Pivot::new(0.0, 1.0); source.outputs()],
+            heavy: vec![None; source.outputs()],
+            threads,
+        };
+        let outcome = question.ask(source).unwrap();
+        let adaptive = outcome.run.adaptive.clone().unwrap();
+        (outcome, adaptive)
     }
 
     #[test]
@@ -326,13 +334,11 @@ mod tests {
         let truth = [0.0, u, -1.959_963_985 * u, 1.959_963_985 * u];
         let good = (0..runs).filter(|&seed| {
             let source = Sampled::new(1000 + seed, 1, move |s, y| y[0] = u * s.normal());
-            let (store, adaptive) = adapt(&source, target(procedure, 2, 2_000_000), 2);
+            let (mut outcome, adaptive) = adapt(&source, (procedure, 2, 2_000_000), 2);
             assert!(adaptive.reached && adaptive.delta == [0.05], "{adaptive:?}");
-            let moments = store.moments(0).unwrap();
-            let values = store.into_columns().remove(0);
-            let ranks = Ranks::new(values.len(), 0.95);
-            let [low, high] = Ordered::new(&values, ranks.last, 1).symmetric(ranks);
-            let found = [moments.mean(), moments.sd(), low, high];
+            let y = outcome.outputs.remove(0);
+            let [low, high] = y.symmetric;
+            let found = [y.estimate.unwrap(), y.u.unwrap(), low, high];
             found.iter().zip(truth).all(|(a, b)| (a - b).abs() <= 0.05)
         });
         good.count() as f64 / runs as f64
@@ -350,12 +356,16 @@ mod tests {
     fn the_number_of_trials_does_not_depend_on_threads() {
         let source = Sampled::normal(4, 2);
         for procedure in [Adaptive::Stein, Adaptive::Jcgm101] {
-            let one = adapt(&source, target(procedure, 2, 3_000_000), 1);
+            let results = |outcome: &McOutcome| -> Vec<_> {
+                let figures = |y: &MonteCarlo| (y.estimate, y.u, y.symmetric, y.shortest);
+                outcome.outputs.iter().map(figures).collect()
+            };
+            let one = adapt(&source, (procedure, 2, 3_000_000), 1);
             for threads in [2, 3, 8] {
-                let many = adapt(&source, target(procedure, 2, 3_000_000), threads);
+                let many = adapt(&source, (procedure, 2, 3_000_000), threads);
                 assert_eq!(one.1, many.1);
-                assert_eq!(one.0.columns(), many.0.columns());
-                assert_eq!(one.0.moments(1), many.0.moments(1));
+                assert_eq!(results(&one.0), results(&many.0));
+                assert_eq!(one.0.covariance, many.0.covariance);
             }
         }
     }
@@ -365,9 +375,9 @@ mod tests {
         let source = Sampled::normal(4, 1);
         for procedure in [Adaptive::Stein, Adaptive::Jcgm101] {
             for (max, trials) in [(55_000, 50_000), (10_000, 10_000), (3000, 3000)] {
-                let (store, adaptive) = adapt(&source, target(procedure, 3, max), 2);
+                let (outcome, adaptive) = adapt(&source, (procedure, 3, max), 2);
                 assert!(!adaptive.reached, "{procedure:?} {max}");
-                assert_eq!(store.trials(), trials);
+                assert_eq!(outcome.run.trials, trials);
             }
         }
     }
@@ -376,17 +386,20 @@ mod tests {
     fn nothing_uncertain_is_reached_at_once() {
         let source = Sampled::new(1, 1, |_, y| y[0] = 2.5);
         for (procedure, trials) in [(Adaptive::Stein, 100_000), (Adaptive::Jcgm101, 20_000)] {
-            let (store, adaptive) = adapt(&source, target(procedure, 2, 1_000_000), 2);
+            let (outcome, adaptive) = adapt(&source, (procedure, 2, 1_000_000), 2);
             assert!(adaptive.reached);
-            assert_eq!((adaptive.delta[0], store.trials()), (0.0, trials));
+            assert_eq!((adaptive.delta[0], outcome.run.trials), (0.0, trials));
         }
     }
 
     #[test]
-    fn failing_trials_never_count_as_stable() {
-        let source = Sampled::new(1, 1, |_, y| y[0] = f64::NAN);
+    fn failing_batches_never_count_as_stable() {
+        // Values in the very first trials only.
+        let source = Sampled::new(1, 1, |s, y| {
+            y[0] = if s.uniform() < 1e-5 { 1.0 } else { f64::NAN }
+        });
         for procedure in [Adaptive::Stein, Adaptive::Jcgm101] {
-            let (_, adaptive) = adapt(&source, target(procedure, 2, 200_000), 2);
+            let (_, adaptive) = adapt(&source, (procedure, 2, 1_000_000), 2);
             assert!(!adaptive.reached);
         }
     }
@@ -398,10 +411,10 @@ mod tests {
             y[0] = 1.05 * s.normal();
             y[1] = 9.3 * s.normal();
         });
-        let (store, adaptive) = adapt(&source, target(Adaptive::Stein, 2, 5_000_000), 2);
+        let (outcome, adaptive) = adapt(&source, (Adaptive::Stein, 2, 5_000_000), 2);
         assert_eq!(adaptive.delta, [0.05, 0.05]);
         // t_9(1 − 0.05/16) = 3.5; end of interval 2.67·9.3/100 per batch: (3.5·0.248/0.05)² ≈ 300.
-        let batches = store.trials() / 10_000;
+        let batches = outcome.run.trials / 10_000;
         assert!((80..900).contains(&batches), "{batches}");
     }
 }

@@ -1,6 +1,6 @@
 //! Trials of a budget's model.
 
-use gumption_lanes::{Block, LANES};
+use gumption_lanes::Block;
 
 use super::engine::Source;
 use super::joint_draw::{JointDraw, Scratch};
@@ -29,7 +29,6 @@ pub(super) struct Worker<'b> {
     runner: BlockRunner<'b>,
     scratch: Scratch,
     inputs: Vec<Block>,
-    outputs: Vec<Block>,
 }
 
 impl<'b> Source for BudgetSource<'b> {
@@ -44,26 +43,15 @@ impl<'b> Source for BudgetSource<'b> {
             runner: BlockRunner::new(self.model),
             scratch: self.draw.scratch(),
             inputs: vec![Block::ZERO; self.model.inputs()],
-            outputs: vec![Block::ZERO; self.outputs()],
         }
     }
 
-    fn draw(&self, worker: &mut Worker<'b>, chunk: u64, columns: &mut [&mut [f64]]) {
-        let Worker {
-            runner,
-            scratch,
-            inputs,
-            outputs,
-        } = worker;
-        self.draw.start(scratch, chunk);
-        let trials = columns.first().map_or(0, |column| column.len());
-        for start in (0..trials).step_by(LANES) {
-            self.draw.next(scratch, inputs);
-            runner.run(inputs, outputs);
-            let end = trials.min(start + LANES);
-            for (column, block) in columns.iter_mut().zip(outputs.iter()) {
-                column[start..end].copy_from_slice(&block.0[..end - start]);
-            }
-        }
+    fn start(&self, worker: &mut Worker<'b>, chunk: u64) {
+        self.draw.start(&mut worker.scratch, chunk);
+    }
+
+    fn next(&self, worker: &mut Worker<'b>, outputs: &mut [Block]) {
+        self.draw.next(&mut worker.scratch, &mut worker.inputs);
+        worker.runner.run(&worker.inputs, outputs);
     }
 }

@@ -3,14 +3,12 @@
 //! A chunk is the unit of randomness: its streams are seeded from (seed, chunk, component), so any
 //! chunk can be drawn by any thread, or again later. Everything that is summed is summed within a
 //! chunk first and then over chunks in their order; results are therefore the same bits for any
-//! number of threads. Every chunk is drawn into its own place among the trials that are kept, so
-//! that nothing is copied and no thread waits for another.
+//! number of threads. Trials go block by block from a [`Source`] to a [`Sink`] and are not kept.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use super::moments::{Moments, Pivot};
-use super::store::Store;
+use gumption_lanes::{Block, LANES};
 
 /// Most trials in a chunk: 64 blocks of 256.
 pub(super) const CHUNK: u64 = 1 << 14;
@@ -26,9 +24,23 @@ pub(super) trait Source: Sync {
     /// Scratch space for one thread.
     fn worker(&self) -> Self::Worker;
 
-    /// Fills each column with the first values of that output in `chunk`; all columns are of one
-    /// length.
-    fn draw(&self, worker: &mut Self::Worker, chunk: u64, columns: &mut [&mut [f64]]);
+    /// Begins a chunk.
+    fn start(&self, worker: &mut Self::Worker, chunk: u64);
+
+    /// The next trials of the chunk, one block per output.
+    fn next(&self, worker: &mut Self::Worker, outputs: &mut [Block]);
+}
+
+/// Takes trials in; every thread has one of its own.
+pub(super) trait Sink: Send {
+    /// What a chunk leaves behind.
+    type Chunk: Send;
+
+    /// The next trials of a chunk: the first `lanes` lanes of one block per output.
+    fn take(&mut self, outputs: &[Block], lanes: usize);
+
+    /// Ends a chunk.
+    fn close(&mut self) -> Self::Chunk;
 }
 
 /// How trials are cut: batches (the "applications of MCM" of JCGM 101 7.9.4) of whole chunks, the last
@@ -68,55 +80,45 @@ impl Layout {
     }
 }
 
-/// Draws `batches` on `threads` threads and adds them to what `store` holds.
-pub(super) fn simulate<S: Source>(
+/// Draws some chunks on `threads` threads. Returns what every chunk left behind, in their order, and
+/// the sinks, in no order: what these hold must not depend on which of them took which chunk.
+pub(super) fn simulate<S: Source, K: Sink>(
     source: &S,
     layout: Layout,
-    batches: Range<u64>,
-    pivots: &[Pivot],
+    chunks: Range<u64>,
     threads: usize,
-    store: &mut Store,
-) {
-    let sizes = layout
-        .chunks(batches)
-        .map(|chunk| (chunk, layout.trials_in(chunk)));
-    let moments = {
-        let mut free = store.extend(sizes.clone().map(|(_, trials)| trials).sum());
-        let pieces: Vec<_> = sizes
-            .map(|(chunk, trials)| (chunk, split_off(&mut free, trials)))
-            .collect();
-        parallel_map(
-            pieces,
-            threads,
-            || source.worker(),
-            |worker, (chunk, mut columns)| {
-                source.draw(worker, chunk, &mut columns);
-                let pairs = columns.iter().zip(pivots);
-                pairs.map(|(c, pivot)| Moments::of(c, *pivot)).collect()
-            },
-        )
+    sink: impl Fn() -> K + Sync,
+) -> (Vec<K::Chunk>, Vec<K>) {
+    let scratch = || {
+        let outputs = vec![Block::ZERO; source.outputs()];
+        (source.worker(), outputs, sink())
     };
-    store.add_moments(moments);
-}
-
-/// The first `count` places of every column; the columns keep the rest.
-fn split_off<'c>(columns: &mut [&'c mut [f64]], count: usize) -> Vec<&'c mut [f64]> {
-    let first = |column: &mut &'c mut [f64]| {
-        let (first, rest) = std::mem::take(column).split_at_mut(count);
-        *column = rest;
-        first
-    };
-    columns.iter_mut().map(first).collect()
+    parallel_map(
+        chunks.collect(),
+        threads,
+        scratch,
+        |(worker, outputs, sink), chunk| {
+            source.start(worker, chunk);
+            let trials = layout.trials_in(chunk);
+            for start in (0..trials).step_by(LANES) {
+                source.next(worker, outputs);
+                sink.take(outputs, LANES.min(trials - start));
+            }
+            sink.close()
+        },
+        |(_, _, sink)| sink,
+    )
 }
 
 /// `task` of every item on several threads, each with a scratch space; results in the order of the
-/// items.
-pub(super) fn parallel_map<I: Send, W, T: Send>(
+/// items, and what `finish` makes of the scratch spaces in no order.
+pub(super) fn parallel_map<I: Send, W, T: Send, R: Send>(
     items: Vec<I>,
     threads: usize,
     scratch: impl Fn() -> W + Sync,
     task: impl Fn(&mut W, I) -> T + Sync,
-) -> Vec<T> {
+    finish: impl Fn(W) -> R + Sync,
+) -> (Vec<T>, Vec<R>) {
     let helpers = threads.clamp(1, items.len().max(1)) - 1;
     let queue = Mutex::new(items.into_iter().enumerate());
     let work = || {
@@ -128,26 +130,30 @@ pub(super) fn parallel_map<I: Send, W, T: Send>(
             let Some((index, item)) = next else { break };
             done.push((index, task(&mut scratch, item)));
         }
-        done
+        (done, finish(scratch))
     };
-    let mut done = std::thread::scope(|scope| {
+    let (mut done, rest) = std::thread::scope(|scope| {
         let helpers: Vec<_> = (0..helpers).map(|_| scope.spawn(work)).collect();
-        let mut done = work();
+        let (mut done, own) = work();
+        let mut rest = vec![own];
         for helper in helpers {
             match helper.join() {
-                Ok(theirs) => done.extend(theirs),
+                Ok((theirs, other)) => {
+                    done.extend(theirs);
+                    rest.push(other);
+                }
                 Err(panic) => std::panic::resume_unwind(panic),
             }
         }
-        done
+        (done, rest)
     });
     done.sort_unstable_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, result)| result).collect()
+    let done = done.into_iter().map(|(_, result)| result).collect();
+    (done, rest)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::Sampled;
     use super::*;
 
     #[test]
@@ -161,38 +167,20 @@ mod tests {
     }
 
     #[test]
-    fn any_number_of_threads_gives_the_same_bits() {
-        let source = Sampled::normal(7, 2);
-        let pivots = [Pivot::new(0.0, 1.0); 2];
-        let run = |threads| {
-            let mut store = Store::new(2);
-            simulate(
-                &source,
-                Layout::new(150_001),
-                0..2,
-                &pivots,
-                threads,
-                &mut store,
-            );
-            assert_eq!(store.trials(), 300_002);
-            let bits: Vec<Vec<u64>> = store
-                .columns()
-                .iter()
-                .map(|c| c.iter().map(|v| v.to_bits()).collect())
-                .collect();
-            let moments: Vec<_> = (0..2).map(|o| store.moments(o)).collect();
-            (bits, moments)
-        };
-        let one = run(1);
-        for threads in [2, 3, 8, 100] {
-            assert_eq!(run(threads), one, "{threads} threads");
-        }
-    }
-
-    #[test]
     fn parallel_map_keeps_order() {
         let items: Vec<usize> = (0..50).collect();
         let squares: Vec<usize> = (0..50).map(|i| i * i).collect();
-        assert_eq!(parallel_map(items, 4, || (), |_, i| i * i), squares);
+        let (done, counts) = parallel_map(
+            items,
+            4,
+            || 0,
+            |count, i| {
+                *count += 1;
+                i * i
+            },
+            |count| count,
+        );
+        assert_eq!(done, squares);
+        assert_eq!((counts.len(), counts.iter().sum::<i32>()), (4, 50));
     }
 }

@@ -10,7 +10,7 @@
 //! from the largest deviations on either side.
 
 use super::heavy::HeavyComponent;
-use super::interval::Ordered;
+use super::interval::Ranked;
 
 /// A moment of order r is called unsettled when ten times the trials would not even halve its error:
 /// 1 − r/α < lg 2, that is α < r/(1 − lg 2).
@@ -97,7 +97,7 @@ impl Tail {
     }
 
     /// Judges both ends of a sample by its √M most extreme values there.
-    pub(super) fn heavier(sample: &Ordered) -> Tail {
+    pub(super) fn heavier(sample: &impl Ranked) -> Tail {
         let lower = Tail::of(sample, Side::Lower);
         let upper = Tail::of(sample, Side::Upper);
         if lower.at_most < upper.at_most {
@@ -110,7 +110,7 @@ impl Tail {
     /// Existence has the benefit of the doubt: two standard errors (α/√k) are added. And a power law
     /// shows the same α at every depth. Where it is clearly larger further out, by four standard
     /// errors, the tail only begins wide (rare outliers of a much wider but light-tailed kind).
-    fn of(sample: &Ordered, side: Side) -> Tail {
+    fn of(sample: &impl Ranked, side: Side) -> Tail {
         let k = Tail::reach(sample.count());
         if k < FEWEST || k >= sample.depth() {
             return Tail {
@@ -145,7 +145,7 @@ impl Tail {
 }
 
 /// Hill's estimate of the tail index from the k most extreme deviations from the median.
-fn hill(sample: &Ordered, side: Side, k: usize) -> f64 {
+fn hill(sample: &impl Ranked, side: Side, k: usize) -> f64 {
     let deviation = |i: usize| match side {
         Side::Lower => sample.median() - sample.at(i),
         Side::Upper => sample.at(sample.count() + 1 - i) - sample.median(),
@@ -243,6 +243,7 @@ impl Tail {
 
 #[cfg(test)]
 mod tests {
+    use super::super::interval::Ordered;
     use super::super::samples::Stream;
     use super::*;
 

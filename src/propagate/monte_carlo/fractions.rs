@@ -1,7 +1,9 @@
 //! Fractions of the trials between given limits: conformance probabilities (JCGM 106 clause 7).
 
+use gumption_lanes::Block;
+
 use super::budget_source::BudgetSource;
-use super::engine::{Layout, Source, parallel_map};
+use super::engine::{Layout, Sink, simulate};
 use crate::budget::{Budget, Interval};
 
 /// For every output and interval the fraction of its finite trials inside, with the limits; `None` where no
@@ -14,41 +16,54 @@ pub(crate) fn fractions(
 ) -> Vec<Option<f64>> {
     let source = BudgetSource::new(budget, seed);
     let layout = Layout::new(trials);
-    let chunks: Vec<u64> = layout.chunks(0..1).collect();
-    let counts = parallel_map(
-        chunks,
-        threads,
-        || (source.worker(), vec![Vec::new(); source.outputs()]),
-        |(worker, columns), chunk| {
-            let length = layout.trials_in(chunk);
-            for column in columns.iter_mut() {
-                column.resize(length, 0.0);
-            }
-            let mut places: Vec<&mut [f64]> = columns.iter_mut().map(Vec::as_mut_slice).collect();
-            source.draw(worker, chunk, &mut places);
-            asked
-                .iter()
-                .map(|(output, interval)| count(columns.get(*output), *interval))
-                .collect::<Vec<_>>()
-        },
-    );
+    let sink = || Counter {
+        asked,
+        counts: vec![Count::default(); asked.len()],
+    };
+    let (chunks, _) = simulate(&source, layout, layout.chunks(0..1), threads, sink);
     let sum = |index: usize| {
-        let pairs = counts.iter().filter_map(|chunk| chunk.get(index));
-        pairs.fold((0, 0), |(a, b), (inside, all)| (a + inside, b + all))
+        let counts = chunks.iter().filter_map(|chunk| chunk.get(index));
+        counts.fold(Count::default(), |a, b| Count {
+            inside: a.inside + b.inside,
+            finite: a.finite + b.finite,
+        })
     };
     (0..asked.len())
         .map(sum)
-        .map(|(inside, all)| (all > 0).then(|| inside as f64 / all as f64))
+        .map(|count| (count.finite > 0).then(|| count.inside as f64 / count.finite as f64))
         .collect()
 }
 
-/// Finite values inside, and all finite values.
-fn count(column: Option<&Vec<f64>>, interval: Interval) -> (u64, u64) {
-    let values = column
-        .into_iter()
-        .flatten()
-        .filter(|value| value.is_finite());
-    values.fold((0, 0), |(inside, all), value| {
-        (inside + u64::from(interval.contains(*value)), all + 1)
-    })
+/// Trials of one question.
+#[derive(Debug, Clone, Copy, Default)]
+struct Count {
+    inside: u64,
+    finite: u64,
+}
+
+/// Counts the trials of a chunk.
+struct Counter<'a> {
+    asked: &'a [(usize, Interval)],
+    counts: Vec<Count>,
+}
+
+impl Sink for Counter<'_> {
+    type Chunk = Vec<Count>;
+
+    fn take(&mut self, outputs: &[Block], lanes: usize) {
+        for ((output, interval), count) in self.asked.iter().zip(&mut self.counts) {
+            let values = outputs
+                .get(*output)
+                .map_or(&[][..], |block| &block.0[..lanes]);
+            for value in values.iter().filter(|value| value.is_finite()) {
+                count.inside += u64::from(interval.contains(*value));
+                count.finite += 1;
+            }
+        }
+    }
+
+    fn close(&mut self) -> Vec<Count> {
+        let fresh = vec![Count::default(); self.asked.len()];
+        std::mem::replace(&mut self.counts, fresh)
+    }
 }

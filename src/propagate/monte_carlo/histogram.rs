@@ -1,5 +1,7 @@
 //! The picture of an output distribution.
 
+use gumption_lanes::bins::Grid;
+
 use super::engine::parallel_map;
 use crate::propagate::Histogram;
 
@@ -21,7 +23,14 @@ pub(super) fn histogram(
     let start = (interval[0] - margin).max(least);
     let width = ((interval[1] + margin).min(most) - start) / BINS as f64;
     let parts = values.chunks(PART).collect();
-    let parts = parallel_map(parts, threads, || (), |(), part| count(part, start, width));
+    let parts = parallel_map(
+        parts,
+        threads,
+        || (),
+        |(), part| count(part, start, width),
+        |()| (),
+    )
+    .0;
     let mut counts = vec![0; BINS];
     for part in parts {
         counts.iter_mut().zip(part).for_each(|(all, n)| *all += n);
@@ -30,6 +39,36 @@ pub(super) fn histogram(
         start,
         width,
         counts,
+    }
+}
+
+/// The same from counts in a finer grid, whose edges the bins of the picture keep to.
+pub(super) fn from_grid(
+    grid: &Grid,
+    counts: &[u64],
+    [least, most]: [f64; 2],
+    interval: [f64; 2],
+) -> Histogram {
+    let margin = 0.3 * (interval[1] - interval[0]);
+    let first = grid.bin((interval[0] - margin).max(least));
+    let last = grid.bin((interval[1] + margin).min(most));
+    let step = (last + 1 - first).div_ceil(BINS).max(1);
+    let start = first.min(counts.len().saturating_sub(BINS * step));
+    let inside = counts.iter().skip(start).take(BINS * step);
+    let inside: Vec<u64> = inside.copied().collect();
+    if least == most {
+        let mut counts = vec![0; BINS];
+        counts[0] = inside.iter().sum();
+        return Histogram {
+            start: least,
+            width: 0.0,
+            counts,
+        };
+    }
+    Histogram {
+        start: grid.edge(start),
+        width: step as f64 * grid.width(),
+        counts: inside.chunks(step).map(|bins| bins.iter().sum()).collect(),
     }
 }
 
@@ -64,6 +103,18 @@ mod tests {
             "{:?}",
             h.counts
         );
+    }
+
+    #[test]
+    fn a_finer_grid_gives_a_picture_too() {
+        // Middles −5, −4.99, … of 4096 bins, a count of one in each.
+        let grid = Grid::new(-5.0, 0.01);
+        let h = from_grid(&grid, &[1; 4096], [-5.0, 35.95], [0.0, 20.0]);
+        // From −6 or rather −5 to 26: 3101 bins, 49 in each of the 64.
+        assert_eq!(h.counts, [49; 64]);
+        assert!((h.start + 5.005).abs() < 1e-12 && (h.width - 0.49).abs() < 1e-12);
+        let h = from_grid(&grid, &[1; 4096], [30.0, 35.95], [31.0, 35.0]);
+        assert_eq!((h.counts.len(), h.counts[0]), (64, 10));
     }
 
     #[test]

@@ -67,7 +67,9 @@ impl Ordered {
             threads,
             || [(); 3].map(|()| Picked::new()),
             |room, part| Selected::of(part, cuts, room),
-        );
+            |_| (),
+        )
+        .0;
         let below = parts.iter().map(|part| part.below).sum::<usize>();
         let joined = |of: fn(&Selected) -> &Vec<f64>| -> Vec<f64> {
             parts.iter().flat_map(of).copied().collect()
@@ -99,7 +101,9 @@ impl Ordered {
                 tail.sort_unstable_by(f64::total_cmp);
                 tail
             },
-        );
+            |()| (),
+        )
+        .0;
         let high = tails.pop()?;
         let low = tails.pop()?;
         Some(Ordered {
@@ -120,46 +124,101 @@ impl Ordered {
             high: Vec::new(),
         }
     }
+}
 
+/// Values whose order is known where it matters.
+pub(super) trait Ranked {
     /// How many values.
-    pub(super) fn count(&self) -> usize {
-        self.count
-    }
+    fn count(&self) -> usize;
 
-    /// How many values at either end are in order.
-    pub(super) fn depth(&self) -> usize {
-        self.low.len()
-    }
+    /// How many values at either end count as a tail, which standard errors do not leave.
+    fn depth(&self) -> usize;
+
+    /// y₍rank₎, counted from 1; the rank is one of those that were asked for.
+    fn at(&self, rank: usize) -> f64;
 
     /// The middle value, or the mean of the two in the middle.
-    pub(super) fn median(&self) -> f64 {
-        self.median
-    }
+    fn median(&self) -> f64;
+
+    /// The shortest interval (7.7.3). Among equally short ones, which rounded or discrete values
+    /// give, the one nearest to the symmetric interval.
+    fn shortest(&self, ranks: Ranks) -> [f64; 2];
 
     /// The smallest and the largest value.
-    pub(super) fn range(&self) -> [f64; 2] {
-        [self.at(1), self.at(self.count)]
-    }
-
-    /// y₍rank₎, counted from 1; the rank lies in one of the sorted tails.
-    pub(super) fn at(&self, rank: usize) -> f64 {
-        match self.low.get(rank - 1) {
-            Some(value) => *value,
-            None => self.high[rank - 1 - (self.count - self.high.len())],
-        }
+    fn range(&self) -> [f64; 2] {
+        [self.at(1), self.at(self.count())]
     }
 
     /// The probabilistically symmetric interval (7.7.2).
-    pub(super) fn symmetric(&self, ranks: Ranks) -> [f64; 2] {
+    fn symmetric(&self, ranks: Ranks) -> [f64; 2] {
         [
             self.at(ranks.symmetric),
             self.at(ranks.symmetric + ranks.covered),
         ]
     }
 
-    /// The shortest interval (7.7.3). Among equally short ones, which rounded or discrete values
-    /// give, the one nearest to the symmetric interval.
-    pub(super) fn shortest(&self, ranks: Ranks) -> [f64; 2] {
+    /// Standard error of the order statistic of this rank.
+    ///
+    /// The number of values below the true quantile is binomial with standard deviation
+    /// √(M a (1 − a)), a = rank/M; half the distance between the values so many ranks below and
+    /// above is the standard error, whatever the distribution.
+    fn standard_error(&self, rank: usize) -> f64 {
+        let [below, above] = Around::both(rank, self.count(), self.depth()).map(|around| {
+            let [low, high] = around.ranks.map(|rank| self.at(rank));
+            low + around.fraction * (high - low)
+        });
+        (above - below) / 2.0
+    }
+}
+
+/// A place between two neighbouring ranks.
+pub(super) struct Around {
+    pub(super) ranks: [usize; 2],
+    fraction: f64,
+}
+
+impl Around {
+    /// One standard error below and above a rank, kept inside the tail of that rank.
+    pub(super) fn both(rank: usize, count: usize, depth: usize) -> [Around; 2] {
+        let (first, last) = if rank <= depth {
+            (1, depth)
+        } else {
+            (count - depth + 1, count)
+        };
+        let share = rank as f64 / count as f64;
+        let reach = (count as f64 * share * (1.0 - share)).sqrt();
+        [-reach, reach].map(|offset| {
+            let place = (rank as f64 + offset).clamp(first as f64, last as f64);
+            let below = place.floor() as usize;
+            Around {
+                ranks: [below, (below + 1).min(last)],
+                fraction: place - place.floor(),
+            }
+        })
+    }
+}
+
+impl Ranked for Ordered {
+    fn count(&self) -> usize {
+        self.count
+    }
+
+    fn depth(&self) -> usize {
+        self.low.len()
+    }
+
+    fn at(&self, rank: usize) -> f64 {
+        match self.low.get(rank - 1) {
+            Some(value) => *value,
+            None => self.high[rank - 1 - (self.count - self.high.len())],
+        }
+    }
+
+    fn median(&self) -> f64 {
+        self.median
+    }
+
+    fn shortest(&self, ranks: Ranks) -> [f64; 2] {
         let width = |r: usize| self.at(r + ranks.covered) - self.at(r);
         let mut best = ranks.symmetric;
         let mut least = width(best);
@@ -171,32 +230,6 @@ impl Ordered {
             }
         }
         [self.at(best), self.at(best + ranks.covered)]
-    }
-
-    /// Standard error of the order statistic of this rank.
-    ///
-    /// The number of values below the true quantile is binomial with standard deviation
-    /// √(M a (1 − a)), a = rank/M; half the distance between the values so many ranks below and
-    /// above is the standard error, whatever the distribution.
-    pub(super) fn standard_error(&self, rank: usize) -> f64 {
-        let count = self.count() as f64;
-        let share = rank as f64 / count;
-        let reach = (count * share * (1.0 - share)).sqrt();
-        (self.between(rank, reach) - self.between(rank, -reach)) / 2.0
-    }
-
-    /// The value at a fractional distance from a rank, kept inside the sorted tail of that rank.
-    fn between(&self, rank: usize, offset: f64) -> f64 {
-        let (first, last) = if rank <= self.low.len() {
-            (1, self.low.len())
-        } else {
-            (self.count - self.high.len() + 1, self.count)
-        };
-        let place = (rank as f64 + offset).clamp(first as f64, last as f64);
-        let below = place.floor();
-        let low = self.at(below as usize);
-        let high = self.at((below as usize + 1).min(last));
-        low + (place - below) * (high - low)
     }
 }
 

@@ -5,17 +5,24 @@
 //! | [`joint_draw`] | trials of the input quantities, correlated as the budget says |
 //! | [`budget_source`] | trials of the model |
 //! | [`engine`] | chunks of trials shared among threads, handed on in order |
-//! | [`store`] | the trials, kept |
+//! | [`collect`] | the first trials kept, the others counted and summed |
+//! | [`sieve`] | counts of all values, and the values that matter for their order |
+//! | [`cells`] | which values matter |
+//! | [`resolve`] | exact order statistics, where needed from trials drawn again |
 //! | [`moments`] | mean, standard deviation, skewness, kurtosis |
 //! | [`interval`] | median, symmetric and shortest coverage interval |
 //! | [`existence`] | whether the moments exist at all, judged from the trials |
 //! | [`heavy`] | components that are known to leave the output without moments |
 //! | [`fractions`] | fractions of the trials between given limits |
 //! | [`adaptive`] | how many trials |
-//! | [`region`] | covariance and coverage regions of several outputs |
+//! | [`comoments`] | covariance of several outputs |
+//! | [`region`] | coverage regions of several outputs |
 
 mod adaptive;
 mod budget_source;
+mod cells;
+mod collect;
+mod comoments;
 mod engine;
 mod existence;
 mod factor;
@@ -26,29 +33,28 @@ mod interval;
 mod joint_draw;
 mod moments;
 mod region;
+mod resolve;
 mod sampler;
 #[cfg(test)]
 mod samples;
-mod store;
+mod sieve;
 
 use nalgebra::DMatrix;
 
-use super::{EvaluationError, MonteCarlo, Regions, Run};
+use super::{AdaptiveRun, EvaluationError, Histogram, MonteCarlo, Regions, Run};
 use crate::budget::{Budget, MonteCarloSettings, Trials};
 use adaptive::Target;
 pub(crate) use adaptive::{batch_size, least_batch};
-use engine::{Layout, Source, simulate};
+use cells::Wanted;
+use collect::{Collector, Held, Plan};
+use engine::{Layout, Source};
 pub use existence::{Consequence, MissingMoments, Side};
 use existence::{Tail, Verdict};
 pub(crate) use fractions::fractions;
 use heavy::HeavyComponent;
-use interval::{Ordered, Ranks};
+use interval::{Around, Ordered, Ranked, Ranks};
 use moments::{Moments, Pivot};
-use store::Store;
-
-/// Most model values that are kept, over all outputs (1.6 GB). A fixed number of trials that needs
-/// more is refused; an adaptive run stops there and says so.
-const MOST_VALUES: u64 = 200_000_000;
+use resolve::{Redraw, Resolved};
 
 /// What the GUM found for one output; moments are formed about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -74,20 +80,13 @@ pub(crate) struct McOutcome {
 /// Runs the Monte Carlo method on `threads` threads; the result does not depend on their number.
 ///
 /// # Errors
-/// [`EvaluationError::AllTrialsFailed`] when an output has fewer than two finite values, and
-/// [`EvaluationError::TooManyTrials`] when the values of so many trials cannot be kept.
+/// [`EvaluationError::AllTrialsFailed`] when an output has fewer than two finite values.
 pub(crate) fn run(
     budget: &Budget,
     settings: &MonteCarloSettings,
     gum: &[GumForMc],
     threads: usize,
 ) -> Result<McOutcome, EvaluationError> {
-    let most = most_trials(budget.model.outputs().len());
-    if let Trials::Fixed(asked) = settings.trials
-        && asked > most
-    {
-        return Err(EvaluationError::TooManyTrials { asked, most });
-    }
     let source = budget_source::BudgetSource::new(budget, settings.seed);
     let question = Question {
         settings,
@@ -101,11 +100,6 @@ pub(crate) fn run(
         .map_err(|output| EvaluationError::AllTrialsFailed {
             measurand: budget.model.outputs()[output].name.clone(),
         })
-}
-
-/// Trials whose values can be kept.
-fn most_trials(outputs: usize) -> u64 {
-    (MOST_VALUES / outputs.max(1) as u64).max(1)
 }
 
 /// What is asked of a source of trials.
@@ -122,24 +116,41 @@ struct Question<'a> {
 impl Question<'_> {
     /// Draws the trials and summarises them; the error is the output that has no values.
     fn ask<S: Source>(&self, source: &S) -> Result<McOutcome, usize> {
-        let (store, run) = self.draw(source);
-        let moments: Vec<Moments> = self
-            .pivots
-            .iter()
-            .enumerate()
-            .map(|(output, pivot)| store.moments(output).unwrap_or(Moments::empty(*pivot)))
-            .collect();
+        let layout = self.layout();
+        let ask = |count| self.wanted(count);
+        let mut collector = Collector::new(Plan {
+            source,
+            layout,
+            threads: self.threads,
+            pivots: &self.pivots,
+            p: self.p,
+            ask: &ask,
+        });
+        let adaptive = self.draw(layout, &mut collector);
+        let run = Run {
+            trials: collector.trials(),
+            seed: self.settings.seed,
+            coverage_probability: self.p,
+            adaptive,
+        };
+        let redraw = Redraw {
+            source,
+            layout,
+            chunks: collector.chunks(),
+            threads: self.threads,
+        };
+        let moments = collector.moments();
         if let Some(output) = moments.iter().position(|m| m.count() < 2) {
             return Err(output);
         }
-        let joint = region::joint(store.columns(), self.p);
-        let columns = store.into_columns().into_iter();
-        let (outputs, verdicts): (Vec<_>, Vec<_>) = columns
-            .zip(&moments)
-            .zip(&self.heavy)
-            .map(|((column, moments), heavy)| self.summary(column, moments, heavy.as_ref()))
+        let held = collector.into_held();
+        let (outputs, verdicts): (Vec<_>, Vec<_>) = (0..moments.len())
+            .map(|output| self.summary(output, &held, &moments[output], &redraw))
             .unzip();
-        let joint = joint.filter(|_| verdicts.iter().all(Verdict::has_deviation));
+        let joint = held
+            .joint_moments()
+            .filter(|_| verdicts.iter().all(Verdict::has_deviation))
+            .and_then(|joint| region::joint(&redraw, &joint, self.p));
         let (covariance, correlation, regions) = joint
             .map(|j| (Some(j.covariance), Some(j.correlation), j.regions))
             .unwrap_or_default();
@@ -154,15 +165,19 @@ impl Question<'_> {
         })
     }
 
-    fn draw<S: Source>(&self, source: &S) -> (Store, Run) {
-        let most = most_trials(source.outputs());
-        let (store, adaptive) = match self.settings.trials {
-            Trials::Fixed(trials) => {
-                let trials = trials.clamp(1, most);
-                let mut store = Store::new(source.outputs());
-                let layout = Layout::new(trials);
-                simulate(source, layout, 0..1, &self.pivots, self.threads, &mut store);
-                (store, None)
+    /// How trials are cut.
+    fn layout(&self) -> Layout {
+        match self.settings.trials {
+            Trials::Fixed(trials) | Trials::Decisive { least: trials, .. } => Layout::new(trials),
+            Trials::Adaptive { max, .. } => Layout::new(adaptive::batch_size(self.p).min(max)),
+        }
+    }
+
+    fn draw<S: Source>(&self, layout: Layout, collector: &mut Collector<S>) -> Option<AdaptiveRun> {
+        match self.settings.trials {
+            Trials::Fixed(_) | Trials::Decisive { .. } => {
+                collector.extend(layout.chunks(0..1).end);
+                None
             }
             Trials::Adaptive {
                 procedure,
@@ -172,46 +187,92 @@ impl Question<'_> {
                 let target = Target {
                     procedure,
                     digits,
-                    max: max.clamp(1, most),
+                    max,
                     p: self.p,
                 };
-                let (store, run) = adaptive::run(source, &self.pivots, target, self.threads);
-                (store, Some(run))
+                Some(adaptive::run(collector, layout, &self.pivots, target))
             }
-        };
-        let run = Run {
-            trials: store.trials() as u64,
-            seed: self.settings.seed,
-            coverage_probability: self.p,
-            adaptive,
-        };
-        (store, run)
+        }
+    }
+
+    /// What must be known of the order of so many values.
+    fn wanted(&self, count: u64) -> Wanted {
+        let values = count as usize;
+        let ranks = Ranks::new(values, self.p);
+        let extreme = Tail::reach(values) as u64 + 2;
+        let ends = [ranks.symmetric, ranks.symmetric + ranks.covered];
+        let depth = self.depth(values);
+        let around = ends.into_iter().flat_map(|end| {
+            let [below, above] = Around::both(end, values, depth);
+            [below.ranks, [end; 2], above.ranks]
+        });
+        let mut wanted = vec![
+            [1, extreme.min(count)],
+            [count.div_ceil(2), count / 2 + 1],
+            [(count + 1).saturating_sub(extreme).max(1), count],
+        ];
+        wanted.extend(around.map(|[first, last]| [first as u64, last as u64]));
+        Wanted {
+            ranks: wanted,
+            shortest: Some(ranks),
+            count,
+        }
+    }
+
+    /// How many values at either end count as its tail.
+    fn depth(&self, values: usize) -> usize {
+        let depth = Ranks::new(values, self.p).last.max(Tail::reach(values) + 2);
+        depth.min(values)
     }
 
     /// Everything about one output.
-    fn summary(
+    fn summary<S: Source>(
         &self,
-        mut values: Vec<f64>,
+        output: usize,
+        held: &Held,
         moments: &Moments,
+        redraw: &Redraw<S>,
+    ) -> (MonteCarlo, Verdict) {
+        match held {
+            Held::Columns(columns) => {
+                let mut values = columns[output].clone();
+                values.retain(|value| value.is_finite());
+                let ordered = Ordered::new(&values, self.depth(values.len()), self.threads);
+                let picture = |interval| {
+                    histogram::histogram(&values, ordered.range(), interval, self.threads)
+                };
+                self.results(moments, &ordered, picture, self.heavy[output].as_ref())
+            }
+            Held::Sieved(sieved) => {
+                let sieve = &sieved.sieves[output];
+                let count = sieve.count();
+                let depth = self.depth(count as usize);
+                let resolved = Resolved::new(sieve, &self.wanted(count), depth, output, redraw);
+                let picture = |interval| sieve.histogram(interval);
+                self.results(moments, &resolved, picture, self.heavy[output].as_ref())
+            }
+        }
+    }
+
+    fn results(
+        &self,
+        moments: &Moments,
+        order: &impl Ranked,
+        picture: impl Fn([f64; 2]) -> Histogram,
         heavy: Option<&HeavyComponent>,
     ) -> (MonteCarlo, Verdict) {
-        if moments.failed() > 0 {
-            values.retain(|value| value.is_finite());
-        }
-        let ranks = Ranks::new(values.len(), self.p);
-        let depth = ranks.last.max(Tail::reach(values.len()) + 2);
-        let ordered = Ordered::new(&values, depth, self.threads);
-        let tail = Tail::heavier(&ordered);
+        let ranks = Ranks::new(order.count(), self.p);
+        let tail = Tail::heavier(order);
         let verdict = Verdict::new(heavy, &tail).with_error_of_u(moments.sd_error() / moments.sd());
         let (has_mean, has_deviation) = (verdict.has_mean(), verdict.has_deviation());
-        let symmetric = ordered.symmetric(ranks);
+        let symmetric = order.symmetric(ranks);
         let given = |given: bool, value: f64| given.then_some(value);
         let result = MonteCarlo {
             estimate: given(has_mean, moments.mean()),
             u: given(has_deviation, moments.sd()),
-            median: ordered.median(),
+            median: order.median(),
             symmetric,
-            shortest: ordered.shortest(ranks),
+            shortest: order.shortest(ranks),
             skewness: moments
                 .skewness()
                 .filter(|_| has_deviation && tail.exists(3.0)),
@@ -221,11 +282,11 @@ impl Question<'_> {
             standard_errors: [
                 given(has_deviation, moments.mean_error()).unwrap_or(f64::NAN),
                 given(has_deviation, moments.sd_error()).unwrap_or(f64::NAN),
-                ordered.standard_error(ranks.symmetric),
-                ordered.standard_error(ranks.symmetric + ranks.covered),
+                order.standard_error(ranks.symmetric),
+                order.standard_error(ranks.symmetric + ranks.covered),
             ],
             failed: moments.failed(),
-            histogram: histogram::histogram(&values, ordered.range(), symmetric, self.threads),
+            histogram: picture(symmetric),
         };
         (result, verdict)
     }

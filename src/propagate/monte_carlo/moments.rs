@@ -37,6 +37,11 @@ impl Pivot {
         }
     }
 
+    /// Origin and factor of the coordinates.
+    pub(super) fn coordinates(self) -> [f64; 2] {
+        [self.origin, self.inverse]
+    }
+
     fn inward(self, value: f64) -> f64 {
         (value - self.origin) * self.inverse
     }
@@ -102,6 +107,30 @@ impl Moments {
             sum2: sum2 - rest * rest / finite,
             sum3,
             sum4,
+        }
+    }
+
+    /// From the sums of the first four powers of finite values' distances from the pivot, in its
+    /// coordinates. The pivot has to be near the mean, or digits are lost.
+    pub(super) fn from_sums(pivot: Pivot, count: u64, failed: u64, sums: [f64; 4]) -> Self {
+        if count == 0 {
+            return Moments {
+                failed,
+                ..Moments::empty(pivot)
+            };
+        }
+        let n = count as f64;
+        let [s1, s2, s3, s4] = sums;
+        let mean = s1 / n;
+        let square = mean * mean;
+        Moments {
+            pivot,
+            count,
+            failed,
+            mean,
+            sum2: s2 - s1 * mean,
+            sum3: s3 - 3.0 * mean * s2 + 2.0 * square * s1,
+            sum4: s4 - 4.0 * mean * s3 + 6.0 * square * s2 - 3.0 * square * mean * s1,
         }
     }
 

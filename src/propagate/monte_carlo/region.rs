@@ -2,8 +2,16 @@
 
 use nalgebra::DMatrix;
 
+use gumption_lanes::Block;
+
+use super::cells::Wanted;
+use super::collect::{Collector, Held, Plan};
+use super::comoments::CoMoments;
+use super::engine::{Sink, Source, simulate};
 use super::factor::lower_factor;
-use super::interval::Ranks;
+use super::interval::{Ordered, Ranked, Ranks};
+use super::moments::Pivot;
+use super::resolve::{Redraw, Resolved};
 use crate::propagate::Regions;
 
 /// Joint results of several outputs.
@@ -19,15 +27,14 @@ pub(super) struct Joint {
 /// from the others to better than 10⁻⁵ of its own standard uncertainty.
 const DEGENERATE: f64 = 1e-10;
 
-/// Rows summed on their own before they are added to the total, which keeps long sums accurate.
-const PART: usize = 1 << 14;
-
-/// Joint results from trials, one column per output; trials in which any output failed are left out.
-/// `None` with fewer than two outputs or two complete trials.
-pub(super) fn joint(columns: &[Vec<f64>], p: f64) -> Option<Joint> {
-    let rows = Rows::new(columns)?;
-    let (mean, covariance) = rows.mean_and_covariance();
-    let m = mean.len();
+/// Joint results of outputs whose means and covariances are known, from their trials drawn again;
+/// trials in which any output failed are left out. `None` with fewer than two complete trials.
+pub(super) fn joint<S: Source>(redraw: &Redraw<S>, moments: &CoMoments, p: f64) -> Option<Joint> {
+    if moments.count() < 2 {
+        return None;
+    }
+    let covariance = moments.covariance();
+    let m = covariance.nrows();
     let sd: Vec<f64> = (0..m).map(|j| covariance[(j, j)].sqrt()).collect();
     let correlation = DMatrix::from_fn(m, m, |i, j| {
         let product = sd[i] * sd[j];
@@ -39,7 +46,16 @@ pub(super) fn joint(columns: &[Vec<f64>], p: f64) -> Option<Joint> {
             0.0
         }
     });
-    let regions = regions(&rows, &mean, &sd, &correlation, p);
+    let factor = lower_factor(&correlation);
+    let usable = |j: usize| factor[(j, j)].powi(2) > DEGENERATE && sd[j] > 0.0 && sd[j].is_finite();
+    let regions = (0..m).all(usable).then(|| {
+        let whitening = Whitening {
+            mean: moments.means(),
+            sd,
+            factor,
+        };
+        regions(redraw, &whitening, moments.count(), p)
+    });
     Some(Joint {
         covariance,
         correlation,
@@ -47,162 +63,132 @@ pub(super) fn joint(columns: &[Vec<f64>], p: f64) -> Option<Joint> {
     })
 }
 
-/// The complete trials.
-struct Rows<'a> {
-    columns: &'a [Vec<f64>],
-    /// Indices of complete trials; `None` when all are.
-    complete: Option<Vec<usize>>,
-    count: usize,
+/// 7.7.2 a) and b): L z = y − ȳ, here in units of u(y_j).
+struct Whitening {
+    mean: Vec<f64>,
+    sd: Vec<f64>,
+    factor: DMatrix<f64>,
 }
 
-impl<'a> Rows<'a> {
-    fn new(columns: &'a [Vec<f64>]) -> Option<Self> {
-        if columns.len() < 2 {
-            return None;
-        }
-        let trials = columns.first()?.len();
-        let failed = columns.iter().flatten().any(|value| !value.is_finite());
-        let complete = failed.then(|| {
-            let finite = |row: &usize| columns.iter().all(|c| c[*row].is_finite());
-            (0..trials).filter(finite).collect::<Vec<_>>()
-        });
-        let count = complete.as_ref().map_or(trials, Vec::len);
-        (count >= 2).then_some(Rows {
-            columns,
-            complete,
-            count,
-        })
-    }
-
-    fn row(&self, index: usize) -> usize {
-        self.complete
-            .as_ref()
-            .map_or(index, |complete| complete[index])
-    }
-
-    /// Calls `visit` with every complete trial less `origin`, in order; `pause` after every part.
-    fn for_each(&self, origin: &[f64], mut visit: impl FnMut(&[f64], bool)) {
-        let mut deviation = vec![0.0; self.columns.len()];
-        for index in 0..self.count {
-            let row = self.row(index);
-            for ((d, column), o) in deviation.iter_mut().zip(self.columns).zip(origin) {
-                *d = column[row] - o;
-            }
-            visit(
-                &deviation,
-                (index + 1) % PART == 0 || index + 1 == self.count,
-            );
-        }
-    }
-
-    /// Two passes: the mean from deviations about the first trial, then the covariance about it.
-    fn mean_and_covariance(&self) -> (Vec<f64>, DMatrix<f64>) {
-        let m = self.columns.len();
-        let first = self.row(0);
-        let mut mean: Vec<f64> = self.columns.iter().map(|c| c[first]).collect();
-        let mut sums = Sums::new(m);
-        self.for_each(&mean.clone(), |d, end| {
-            sums.part.iter_mut().zip(d).for_each(|(s, d)| *s += d);
-            sums.close_if(end);
-        });
-        mean.iter_mut()
-            .zip(&sums.total)
-            .for_each(|(y, s)| *y += s / self.count as f64);
-
-        let mut products = Sums::new(m * m);
-        self.for_each(&mean, |d, end| {
-            for i in 0..m {
-                for j in 0..=i {
-                    products.part[i * m + j] += d[i] * d[j];
-                }
-            }
-            products.close_if(end);
-        });
-        let divisor = (self.count - 1) as f64;
-        let covariance = DMatrix::from_fn(m, m, |i, j| {
-            products.total[i.max(j) * m + i.min(j)] / divisor
-        });
-        (mean, covariance)
-    }
-}
-
-/// Totals made of partial sums.
-struct Sums {
-    part: Vec<f64>,
-    total: Vec<f64>,
-}
-
-impl Sums {
-    fn new(n: usize) -> Self {
-        Sums {
-            part: vec![0.0; n],
-            total: vec![0.0; n],
-        }
-    }
-
-    fn close_if(&mut self, end: bool) {
-        if end {
-            self.total
-                .iter_mut()
-                .zip(&self.part)
-                .for_each(|(t, p)| *t += p);
-            self.part.fill(0.0);
+impl Whitening {
+    /// The standardised deviations of a trial, and these decorrelated.
+    fn apply(&self, outputs: &[Block], lane: usize, deviation: &mut [f64], white: &mut [f64]) {
+        for i in 0..self.mean.len() {
+            deviation[i] = (outputs[i].0[lane] - self.mean[i]) / self.sd[i];
+            let known: f64 = (0..i).map(|k| self.factor[(i, k)] * white[k]).sum();
+            white[i] = (deviation[i] - known) / self.factor[(i, i)];
         }
     }
 }
 
-fn regions(
-    rows: &Rows<'_>,
-    mean: &[f64],
-    sd: &[f64],
-    correlation: &DMatrix<f64>,
-    p: f64,
-) -> Option<Regions> {
-    let m = mean.len();
-    let factor = lower_factor(correlation);
-    let usable = |j: usize| factor[(j, j)].powi(2) > DEGENERATE && sd[j] > 0.0 && sd[j].is_finite();
-    if !(0..m).all(usable) {
-        return None;
+/// The trials of a source as distances from the mean: z'z, and the largest |y_j − ȳ_j|/u(y_j).
+struct Distances<'a, S> {
+    source: &'a S,
+    whitening: &'a Whitening,
+}
+
+impl<S: Source> Source for Distances<'_, S> {
+    type Worker = (S::Worker, Vec<Block>, Vec<f64>, Vec<f64>);
+
+    fn outputs(&self) -> usize {
+        2
     }
-    let mut grid = Grid::new(m, rows.count);
-    let mut squares = Vec::with_capacity(rows.count);
-    let mut largest = Vec::with_capacity(rows.count);
-    let mut white = vec![0.0; m];
-    rows.for_each(mean, |deviation, _| {
-        // 7.7.2 a) and b): L z = y − ȳ, here in units of u(y_j), and its length.
-        for i in 0..m {
-            let known: f64 = (0..i).map(|k| factor[(i, k)] * white[k]).sum();
-            white[i] = (deviation[i] / sd[i] - known) / factor[(i, i)];
+
+    fn worker(&self) -> Self::Worker {
+        let m = self.source.outputs();
+        let worker = self.source.worker();
+        (worker, vec![Block::ZERO; m], vec![0.0; m], vec![0.0; m])
+    }
+
+    fn start(&self, (worker, ..): &mut Self::Worker, chunk: u64) {
+        self.source.start(worker, chunk);
+    }
+
+    fn next(&self, (worker, blocks, deviation, white): &mut Self::Worker, out: &mut [Block]) {
+        self.source.next(worker, blocks);
+        let [squares, largest] = out else { return };
+        for (lane, (square, large)) in squares.0.iter_mut().zip(&mut largest.0).enumerate() {
+            self.whitening.apply(blocks, lane, deviation, white);
+            // NaN where any output failed.
+            *square = white.iter().map(|z| z * z).sum::<f64>();
+            *large = if square.is_finite() {
+                deviation.iter().fold(0.0, |most, d| d.abs().max(most))
+            } else {
+                f64::NAN
+            };
         }
-        squares.push(white.iter().map(|z| z * z).sum::<f64>());
-        largest.push(
-            deviation
-                .iter()
-                .zip(sd)
-                .map(|(d, s)| (d / s).abs())
-                .fold(0.0, f64::max),
-        );
-        if let Some(grid) = &mut grid {
-            grid.add(&white);
-        }
-    });
-    let k_ellipsoid = value_of_rank(&mut squares, p).sqrt();
+    }
+}
+
+fn regions<S: Source>(redraw: &Redraw<S>, whitening: &Whitening, count: u64, p: f64) -> Regions {
+    let m = whitening.mean.len();
+    let distances = Distances {
+        source: redraw.source,
+        whitening,
+    };
+    let [square, largest] = values_of_rank(redraw, &distances, p);
+    let k_ellipsoid = square.sqrt();
     // √det V = Π u_j · Π l_jj.
-    let unit: f64 = (0..m).map(|j| sd[j] * factor[(j, j)]).product();
-    let smallest = grid.map(|grid| grid.smallest(p));
-    Some(Regions {
+    let unit: f64 = (0..m)
+        .map(|j| whitening.sd[j] * whitening.factor[(j, j)])
+        .product();
+    let smallest = Cells::new(m, count).and_then(|cells| {
+        let (_, parts) = simulate(
+            redraw.source,
+            redraw.layout,
+            0..redraw.chunks,
+            redraw.threads,
+            || Count::new(whitening, &cells),
+        );
+        cells.smallest(parts, p)
+    });
+    Regions {
         k_ellipsoid,
-        k_rectangle: value_of_rank(&mut largest, p),
+        k_rectangle: largest,
         ellipsoid_volume: unit_ball(m) * k_ellipsoid.powi(m as i32) * unit,
         smallest_volume: smallest.map(|(_, volume)| volume * unit),
         smallest_cells: smallest.map(|(cells, _)| cells),
-    })
+    }
 }
 
-/// 7.7.2 d), 7.7.3 d): the q-th smallest distance, q = pM.
-fn value_of_rank(distances: &mut [f64], p: f64) -> f64 {
-    let q = Ranks::new(distances.len(), p).covered.max(1);
-    *distances.select_nth_unstable_by(q - 1, f64::total_cmp).1
+/// 7.7.2 d), 7.7.3 d): the q-th smallest of both distances, q = pM.
+fn values_of_rank<S: Source>(redraw: &Redraw<S>, distances: &Distances<'_, S>, p: f64) -> [f64; 2] {
+    let rank = |count: u64| Ranks::new(count as usize, p).covered.max(1);
+    let ask = |count: u64| Wanted {
+        ranks: vec![[rank(count) as u64; 2]],
+        shortest: None,
+        count,
+    };
+    let pivots = [Pivot::new(0.0, 1.0); 2];
+    let mut collector = Collector::new(Plan {
+        source: distances,
+        layout: redraw.layout,
+        threads: redraw.threads,
+        pivots: &pivots,
+        p,
+        ask: &ask,
+    });
+    collector.extend(redraw.chunks);
+    let again = Redraw {
+        source: distances,
+        layout: redraw.layout,
+        chunks: redraw.chunks,
+        threads: redraw.threads,
+    };
+    match collector.into_held() {
+        Held::Columns(columns) => [0, 1].map(|output| {
+            let mut values = columns[output].clone();
+            values.retain(|value| value.is_finite());
+            let q = rank(values.len() as u64);
+            Ordered::new(&values, values.len(), 1).at(q)
+        }),
+        Held::Sieved(sieved) => [0, 1].map(|output| {
+            let sieve = &sieved.sieves[output];
+            let wanted = ask(sieve.count());
+            let q = rank(sieve.count());
+            Resolved::new(sieve, &wanted, 1, output, &again).at(q)
+        }),
+    }
 }
 
 /// Volume of the ball of radius 1 in m dimensions: V_m = V_(m−2)·2π/m.
@@ -218,88 +204,145 @@ fn unit_ball(m: usize) -> f64 {
 ///
 /// The standard divides a box along the outputs' own axes. Cells aligned with the ellipsoid have equal
 /// volume too, and follow a strongly correlated pair, where a box would be nearly empty.
-struct Grid {
+struct Cells {
     outputs: usize,
-    cell: f64,
-    keys: Vec<u64>,
+    width: f64,
+    /// Cells along an axis.
+    side: usize,
 }
 
-impl Grid {
-    /// Bits of a cell's place along one axis; three axes fit into a key.
-    const BITS: u32 = 21;
+impl Cells {
+    /// Standard deviations on either side; a trial further out is in no cell.
+    const REACH: f64 = 6.0;
 
     /// For two and three outputs. The width 3.5·M^(−1/(m+2)) standard deviations balances resolution
     /// against counts in a cell (Scott's rule).
-    fn new(outputs: usize, trials: usize) -> Option<Self> {
-        let cell = 3.5 * libm::pow(trials as f64, -1.0 / (outputs as f64 + 2.0));
-        (2..=3).contains(&outputs).then(|| Grid {
+    fn new(outputs: usize, trials: u64) -> Option<Self> {
+        let width = 3.5 * libm::pow(trials as f64, -1.0 / (outputs as f64 + 2.0));
+        let side = (2.0 * Self::REACH / width).ceil() as usize;
+        (2..=3).contains(&outputs).then_some(Cells {
             outputs,
-            cell,
-            keys: Vec::with_capacity(trials),
+            width,
+            side,
         })
     }
 
-    fn add(&mut self, white: &[f64]) {
-        let half = f64::from(1 << (Self::BITS - 1));
-        let key = white.iter().fold(0, |key, z| {
-            let place = ((z / self.cell).floor() + half).clamp(0.0, 2.0 * half - 1.0);
-            (key << Self::BITS) | place as u64
-        });
-        self.keys.push(key);
+    /// The number of the cell of a trial.
+    fn of(&self, white: &[f64]) -> Option<usize> {
+        let half = (self.side / 2) as f64;
+        white.iter().try_fold(0, |cell, z| {
+            let place = (z / self.width).floor() + half;
+            let inside = (0.0..self.side as f64).contains(&place);
+            inside.then(|| cell * self.side + place as usize)
+        })
     }
 
-    /// Number and volume of the fullest cells that together hold a fraction p of the trials.
-    fn smallest(mut self, p: f64) -> (usize, f64) {
-        self.keys.sort_unstable();
-        let mut counts: Vec<usize> = self
-            .keys
-            .chunk_by(|a, b| a == b)
-            .map(<[u64]>::len)
-            .collect();
+    /// Number and volume of the fullest cells that together hold a fraction p of the trials; `None`
+    /// where too many trials are in no cell.
+    fn smallest(&self, parts: Vec<Count>, p: f64) -> Option<(usize, f64)> {
+        let total: u64 = parts.iter().map(|part| part.trials).sum();
+        let sum = |mut a: Vec<u32>, b: Vec<u32>| {
+            a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
+            a
+        };
+        let mut counts = parts.into_iter().map(|part| part.counts).reduce(sum)?;
+        counts.retain(|count| *count > 0);
         counts.sort_unstable_by(|a, b| b.cmp(a));
-        let wanted = p * self.keys.len() as f64;
+        let wanted = p * total as f64;
         let mut held = 0;
-        let mut cells = 0;
-        for count in counts {
-            if held as f64 >= wanted {
-                break;
-            }
-            held += count;
-            cells += 1;
-        }
-        (cells, cells as f64 * self.cell.powi(self.outputs as i32))
+        let cells = counts.iter().position(|count| {
+            held += u64::from(*count);
+            held as f64 >= wanted
+        })? + 1;
+        Some((cells, cells as f64 * self.width.powi(self.outputs as i32)))
     }
+}
+
+/// Counts the trials in each cell.
+struct Count<'a> {
+    whitening: &'a Whitening,
+    cells: &'a Cells,
+    counts: Vec<u32>,
+    trials: u64,
+    deviation: Vec<f64>,
+    white: Vec<f64>,
+}
+
+impl<'a> Count<'a> {
+    fn new(whitening: &'a Whitening, cells: &'a Cells) -> Self {
+        Count {
+            whitening,
+            cells,
+            counts: vec![0; cells.side.pow(cells.outputs as u32)],
+            trials: 0,
+            deviation: vec![0.0; cells.outputs],
+            white: vec![0.0; cells.outputs],
+        }
+    }
+}
+
+impl Sink for Count<'_> {
+    type Chunk = ();
+
+    fn take(&mut self, outputs: &[Block], lanes: usize) {
+        for lane in 0..lanes {
+            let (deviation, white) = (&mut self.deviation, &mut self.white);
+            self.whitening.apply(outputs, lane, deviation, white);
+            if !white.iter().all(|z| z.is_finite()) {
+                continue;
+            }
+            self.trials += 1;
+            if let Some(cell) = self.cells.of(white) {
+                self.counts[cell] += 1;
+            }
+        }
+    }
+
+    fn close(&mut self) {}
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::Stream;
+    use super::super::engine::Layout;
+    use super::super::samples::Sampled;
     use super::*;
 
-    fn columns(
-        trials: usize,
-        outputs: usize,
-        draw: impl Fn(&mut Stream, &mut [f64]),
-    ) -> Vec<Vec<f64>> {
-        let mut stream = Stream::new(17);
-        let mut row = vec![0.0; outputs];
-        let mut columns = vec![Vec::with_capacity(trials); outputs];
-        for _ in 0..trials {
-            draw(&mut stream, &mut row);
-            columns.iter_mut().zip(&row).for_each(|(c, v)| c.push(*v));
-        }
-        columns
+    fn joint(trials: u64, source: &Sampled) -> Joint {
+        let layout = Layout::new(trials);
+        let pivots = vec![Pivot::new(0.0, 1.0); source.outputs()];
+        let mut collector = Collector::new(Plan {
+            source,
+            layout,
+            threads: 2,
+            pivots: &pivots,
+            p: 0.95,
+            ask: &|count| Wanted {
+                ranks: vec![],
+                shortest: None,
+                count,
+            },
+        });
+        let chunks = layout.chunks(0..1).end;
+        collector.extend(chunks);
+        let redraw = Redraw {
+            source,
+            layout,
+            chunks,
+            threads: 2,
+        };
+        let moments = collector.into_held().joint_moments().unwrap();
+        super::joint(&redraw, &moments, 0.95).unwrap()
     }
 
     #[test]
     fn two_normal_outputs_of_jcgm_102_9_2() {
         // Y1 = X1 + X3, Y2 = X2 + X3: r = 0.5, k_p = 2.448, k_q = 2.212.
-        let columns = columns(400_000, 2, |s, y| {
+        let columns = Sampled::new(17, 2, |s, y| {
             let common = s.normal();
             y[0] = s.normal() + common + 1e7;
             y[1] = s.normal() + common;
         });
-        let joint = joint(&columns, 0.95).unwrap();
+        let joint = joint(400_000, &columns);
         assert!((joint.covariance[(0, 0)] - 2.0).abs() < 0.02);
         assert!((joint.covariance[(1, 0)] - 1.0).abs() < 0.02);
         assert!((joint.correlation[(0, 1)] - 0.5).abs() < 0.005);
@@ -321,10 +364,8 @@ mod tests {
     #[test]
     fn three_uniform_outputs() {
         // Cube of side 1: k_q = √3·p^(1/3), smallest region 0.95 of the cube.
-        let columns = columns(400_000, 3, |s, y| {
-            y.iter_mut().for_each(|v| *v = s.uniform())
-        });
-        let regions = joint(&columns, 0.95).unwrap().regions.unwrap();
+        let columns = Sampled::new(17, 3, |s, y| y.iter_mut().for_each(|v| *v = s.uniform()));
+        let regions = joint(400_000, &columns).regions.unwrap();
         assert!((regions.k_rectangle - 3.0_f64.sqrt() * 0.95_f64.cbrt()).abs() < 0.003);
         // Cells that the faces of the cube cut count in full.
         assert!(
@@ -339,11 +380,11 @@ mod tests {
 
     #[test]
     fn strong_correlation_is_no_obstacle() {
-        let columns = columns(200_000, 2, |s, y| {
+        let columns = Sampled::new(17, 2, |s, y| {
             y[0] = s.normal();
             y[1] = y[0] + 1e-3 * s.normal();
         });
-        let regions = joint(&columns, 0.95).unwrap().regions.unwrap();
+        let regions = joint(200_000, &columns).regions.unwrap();
         let area = std::f64::consts::PI * 5.9915 * 1e-3;
         assert!(
             (regions.smallest_volume.unwrap() / area - 1.0).abs() < 0.03,
@@ -353,34 +394,34 @@ mod tests {
 
     #[test]
     fn degenerate_outputs_have_no_region() {
-        let line = columns(1000, 2, |s, y| {
+        let line = Sampled::new(17, 2, |s, y| {
             y[0] = s.normal();
             y[1] = 3.0 - 2.0 * y[0];
         });
-        let joint_line = joint(&line, 0.95).unwrap();
+        let joint_line = joint(1000, &line);
         assert!((joint_line.correlation[(0, 1)] + 1.0).abs() < 1e-12);
         assert!(joint_line.regions.is_none());
-        let constant = columns(1000, 2, |s, y| y.copy_from_slice(&[s.normal(), 4.0]));
-        assert!(joint(&constant, 0.95).unwrap().regions.is_none());
+        let constant = Sampled::new(17, 2, |s, y| y.copy_from_slice(&[s.normal(), 4.0]));
+        assert!(joint(1000, &constant).regions.is_none());
     }
 
     #[test]
     fn incomplete_trials_are_left_out() {
-        let columns = vec![
-            vec![1.0, f64::NAN, 3.0, 5.0],
-            vec![2.0, 0.0, f64::INFINITY, 4.0],
-        ];
-        let joint = joint(&columns, 0.95).unwrap();
-        assert_eq!(joint.covariance[(0, 0)], 8.0);
-        assert_eq!(joint.covariance[(0, 1)], 4.0);
+        let source = Sampled::new(3, 2, |s, y| {
+            y[0] = 2.0 * s.normal();
+            y[1] = if s.uniform() < 0.5 { f64::NAN } else { y[0] };
+        });
+        for trials in [1000, 200_000] {
+            let joint = joint(trials, &source);
+            assert!((joint.correlation[(0, 1)] - 1.0).abs() < 1e-12);
+            assert!((joint.covariance[(0, 1)] - 4.0).abs() < 0.8);
+        }
     }
 
     #[test]
     fn four_outputs_have_an_ellipsoid_but_no_grid() {
-        let columns = columns(100_000, 4, |s, y| {
-            y.iter_mut().for_each(|v| *v = s.normal())
-        });
-        let regions = joint(&columns, 0.95).unwrap().regions.unwrap();
+        let columns = Sampled::new(17, 4, |s, y| y.iter_mut().for_each(|v| *v = s.normal()));
+        let regions = joint(400_000, &columns).regions.unwrap();
         assert!((regions.k_ellipsoid - 3.0802).abs() < 0.02, "{regions:?}");
         assert_eq!(regions.smallest_cells, None);
     }

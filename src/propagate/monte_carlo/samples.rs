@@ -1,6 +1,8 @@
 //! Known samples and parts of budgets for the tests of this chapter; the samples are independent of the
 //! engine's own generators.
 
+use gumption_lanes::{Block, LANES};
+
 use super::engine::Source;
 use crate::budget::{Component, Evaluation, Input, Owner, Term};
 use crate::distribution::Distribution;
@@ -74,22 +76,25 @@ impl Sampled {
 }
 
 impl Source for Sampled {
-    type Worker = Vec<f64>;
+    type Worker = (Stream, Vec<f64>);
 
     fn outputs(&self) -> usize {
         self.outputs
     }
 
-    fn worker(&self) -> Vec<f64> {
-        vec![0.0; self.outputs]
+    fn worker(&self) -> Self::Worker {
+        (Stream::new(0), vec![0.0; self.outputs])
     }
 
-    fn draw(&self, trial: &mut Vec<f64>, chunk: u64, columns: &mut [&mut [f64]]) {
-        let mut stream = Stream::new(self.seed.wrapping_mul(1_000_003).wrapping_add(chunk));
-        for i in 0..columns[0].len() {
-            (self.draw)(&mut stream, trial);
-            for (column, value) in columns.iter_mut().zip(trial.iter()) {
-                column[i] = *value;
+    fn start(&self, (stream, _): &mut Self::Worker, chunk: u64) {
+        *stream = Stream::new(self.seed.wrapping_mul(1_000_003).wrapping_add(chunk));
+    }
+
+    fn next(&self, (stream, trial): &mut Self::Worker, outputs: &mut [Block]) {
+        for lane in 0..LANES {
+            (self.draw)(stream, trial);
+            for (block, value) in outputs.iter_mut().zip(trial.iter()) {
+                block.0[lane] = *value;
             }
         }
     }

@@ -280,3 +280,123 @@ fn standard_errors_are_the_scatter_of_repeated_runs() {
         );
     }
 }
+
+/// JCGM 101 7.7 on a full sort of all values.
+fn by_full_sort(mut y: Vec<f64>, p: f64) -> ([f64; 2], f64, f64) {
+    y.retain(|value| value.is_finite());
+    y.sort_by(f64::total_cmp);
+    let ranks = Ranks::new(y.len(), p);
+    let (r, q) = (ranks.symmetric, ranks.covered);
+    let widths = (1..=ranks.last).map(|r| y[r + q - 1] - y[r - 1]);
+    let median = (y[(y.len() - 1) / 2] + y[y.len() / 2]) / 2.0;
+    (
+        [y[r - 1], y[r + q - 1]],
+        widths.fold(f64::INFINITY, f64::min),
+        median,
+    )
+}
+
+type Draw = fn(&mut Stream) -> f64;
+
+/// Shapes that are hard on counts: without bounds, bounded, in steps, one-sided, with failures.
+const SHAPES: [(&str, Draw); 8] = [
+    ("normal", |s| 1e6 + s.normal()),
+    ("uniform", |s| s.uniform()),
+    ("Cauchy", |s| s.student_t(1.0)),
+    ("exponential", |s| -s.uniform().ln()),
+    ("whole numbers", |s| (3.0 * s.normal()).round()),
+    ("constant", |_| 0.1),
+    ("two values", |s| if s.uniform() < 0.3 { -1.0 } else { 2.0 }),
+    ("roots", |s| s.normal().sqrt()),
+];
+
+#[test]
+fn passing_trials_give_the_results_of_a_full_sort() {
+    const TRIALS: u64 = 300_001;
+    for (name, draw) in SHAPES {
+        let source = Sampled::new(41, 1, move |s, y| y[0] = draw(s));
+        let layout = Layout::new(TRIALS);
+        let chunks = layout.chunks(0..1);
+        let plan = |ask| Plan {
+            source: &source,
+            layout,
+            threads: 1,
+            pivots: &[],
+            p: 0.95,
+            ask,
+        };
+        let ask = |_| unreachable!("nothing is sieved");
+        let all = Collector::new(plan(&ask))
+            .draw(chunks)
+            .into_iter()
+            .flatten()
+            .flatten();
+        let (symmetric, width, median) = by_full_sort(all.collect(), 0.95);
+        for threads in [1, 3] {
+            let settings = fixed(TRIALS);
+            let question = Question {
+                settings: &settings,
+                p: 0.95,
+                pivots: vec![Pivot::new(0.0, 1.0)],
+                heavy: vec![None],
+                threads,
+            };
+            let y = question.ask(&source).unwrap().outputs.remove(0);
+            assert_eq!(y.symmetric, symmetric, "{name}");
+            assert_eq!(y.shortest[1] - y.shortest[0], width, "{name}");
+            assert_eq!(y.median, median, "{name}");
+        }
+    }
+}
+
+/// Where nothing could be kept, the trials are drawn again.
+#[test]
+fn trials_drawn_again_give_the_same_results() {
+    const TRIALS: u64 = 200_000;
+    for (name, draw) in SHAPES {
+        let source = Sampled::new(42, 1, move |s, y| y[0] = draw(s));
+        let settings = fixed(TRIALS);
+        let question = Question {
+            settings: &settings,
+            p: 0.9,
+            pivots: vec![Pivot::new(0.0, 1.0)],
+            heavy: vec![None],
+            threads: 2,
+        };
+        let layout = question.layout();
+        let ask = |count| question.wanted(count);
+        let mut collector = Collector::new(Plan {
+            source: &source,
+            layout,
+            threads: 2,
+            pivots: &question.pivots,
+            p: 0.9,
+            ask: &ask,
+        });
+        let chunks = layout.chunks(0..1).end;
+        collector.extend(chunks);
+        let Held::Sieved(mut sieved) = collector.into_held() else {
+            panic!("{TRIALS} trials are sieved");
+        };
+        let redraw = Redraw {
+            source: &source,
+            layout,
+            chunks,
+            threads: 2,
+        };
+        let sieve = &mut sieved.sieves[0];
+        let wanted = question.wanted(sieve.count());
+        let ranks = Ranks::new(sieve.count() as usize, 0.9);
+        let results = |sieve: &sieve::Sieve| {
+            let order = Resolved::new(sieve, &wanted, ranks.last, 0, &redraw);
+            (
+                order.symmetric(ranks),
+                order.shortest(ranks),
+                order.median(),
+            )
+        };
+        let kept = results(sieve);
+        sieve.keep_nothing();
+        assert_eq!(results(sieve), kept, "{name}");
+    }
+}

@@ -246,3 +246,22 @@ fn libm_agrees_to_one_place() {
         assert_eq!(cos(huge), libm::cos(huge));
     }
 }
+
+#[test]
+fn kernels_of_the_samplers_are_accurate() {
+    for i in 0..=100_000 {
+        let w = f64::from(i) / 100_000.0 - 0.5;
+        let x = w * std::f64::consts::PI;
+        let (found, exact) = (sin_half_turns(w), libm::sin(x));
+        assert!(
+            (found - exact).abs() <= 2.0 * ulp(exact),
+            "sin π·{w}: {found} {exact}"
+        );
+        let x = f64::from(i) * 0.007;
+        let (found, exact) = (exp_positive(x), libm::exp(x));
+        assert!(
+            (found - exact).abs() <= 2.0 * ulp(exact),
+            "exp {x}: {found} {exact}"
+        );
+    }
+}

@@ -1,0 +1,29 @@
+#!/bin/sh
+# Runs gumption beside other ways of doing the same Monte Carlo calculation, in one session on this
+# machine, and writes reports/performance.md.
+#
+#   benches/compare.sh [BASELINES [PYTHON]]
+#
+# BASELINES is a folder with bench_numpy.py, bench_numba.py and bench_suncal.py, which print JSON lines
+# (default ../shared/bench); PYTHON an interpreter that has what they need. What is missing is left out
+# and named in the report.
+set -eu
+cd "$(dirname "$0")/.."
+baselines=${1:-../shared/bench}
+python=${2:-python3}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+cargo build --release --quiet
+cargo bench --bench limits --no-run --quiet
+cargo bench --bench limits --quiet >"$work/limits.jsonl"
+
+for peer in numpy numba suncal; do
+    script=$baselines/bench_$peer.py
+    [ -f "$script" ] || continue
+    (cd "$baselines" && PYTHONDONTWRITEBYTECODE=1 "$python" "bench_$peer.py" throughput --n=1e6,1e7 --runs=3) \
+        >"$work/$peer.jsonl" 2>/dev/null || echo "$peer: not run" >&2
+done
+
+python3 benches/compare.py target/release/gumption "$work" >"$work/performance.md"
+mv "$work/performance.md" reports/performance.md

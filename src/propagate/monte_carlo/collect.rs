@@ -1,0 +1,384 @@
+//! Trials as they come: the first ones are kept, and tell how to take the rest without keeping it.
+
+use std::ops::Range;
+
+use gumption_lanes::bins::{Counter, Grid};
+use gumption_lanes::moments::{PowerSums, all_finite, min_max};
+use gumption_lanes::{Block, LANES, Level, level};
+
+use super::cells::Wanted;
+use super::comoments::CoMoments;
+use super::engine::{CHUNK, Layout, Sink, Source, simulate};
+use super::interval::{Ordered, Ranked};
+use super::moments::{Moments, Pivot};
+use super::sieve::{MOST_KEPT, Sieve};
+
+/// Trials that are kept before the others are sieved.
+pub(super) const PILOT: u64 = 4 * CHUNK;
+
+/// Fewest values that tell which ones will matter.
+const FEWEST: u64 = 1 << 12;
+
+/// Most chunks between two looks at what is to be kept.
+const MOST_CHUNKS: u64 = 1 << 12;
+
+/// Says which order statistics of so many values will be wanted.
+pub(super) type Ask<'a> = dyn Fn(u64) -> Wanted + 'a;
+
+/// How trials are drawn and what is wanted of them.
+pub(super) struct Plan<'a, S> {
+    pub(super) source: &'a S,
+    pub(super) layout: Layout,
+    pub(super) threads: usize,
+    /// Per output.
+    pub(super) pivots: &'a [Pivot],
+    /// p of the intervals.
+    pub(super) p: f64,
+    pub(super) ask: &'a Ask<'a>,
+}
+
+/// What is held of the trials so far.
+pub(super) enum Held {
+    /// All of them, one column per output.
+    Columns(Vec<Vec<f64>>),
+    /// Their counts and sums.
+    Sieved(Box<Sieved>),
+}
+
+impl Held {
+    /// Means and covariances of several outputs.
+    pub(super) fn joint_moments(&self) -> Option<CoMoments> {
+        match self {
+            Held::Sieved(sieved) => sieved.joint.clone(),
+            Held::Columns(columns) => (columns.len() > 1).then(|| CoMoments::of(columns)),
+        }
+    }
+}
+
+/// Counts and sums of trials.
+pub(super) struct Sieved {
+    /// Per output.
+    pub(super) sieves: Vec<Sieve>,
+    /// Per output.
+    pub(super) moments: Vec<Moments>,
+    /// Of several outputs.
+    pub(super) joint: Option<CoMoments>,
+    pivots: Vec<Pivot>,
+}
+
+/// Draws trials and holds what matters of them.
+pub(super) struct Collector<'a, S> {
+    plan: Plan<'a, S>,
+    held: Held,
+    chunks: u64,
+    trials: u64,
+}
+
+impl<'a, S: Source> Collector<'a, S> {
+    /// Nothing drawn yet.
+    pub(super) fn new(plan: Plan<'a, S>) -> Self {
+        let columns = vec![Vec::new(); plan.source.outputs()];
+        Collector {
+            plan,
+            held: Held::Columns(columns),
+            chunks: 0,
+            trials: 0,
+        }
+    }
+
+    /// Trials so far.
+    pub(super) fn trials(&self) -> u64 {
+        self.trials
+    }
+
+    /// Chunks so far.
+    pub(super) fn chunks(&self) -> u64 {
+        self.chunks
+    }
+
+    /// What is held.
+    pub(super) fn into_held(self) -> Held {
+        self.held
+    }
+
+    /// The moments of every output over all trials so far.
+    pub(super) fn moments(&self) -> Vec<Moments> {
+        match &self.held {
+            Held::Columns(columns) => columns
+                .iter()
+                .zip(self.plan.pivots)
+                .map(|(column, pivot)| Moments::of(column, *pivot))
+                .collect(),
+            Held::Sieved(sieved) => sieved.moments.clone(),
+        }
+    }
+
+    /// Draws trials until there are so many chunks.
+    pub(super) fn extend(&mut self, chunks: u64) {
+        while self.chunks < chunks {
+            let end = match self.held {
+                Held::Columns(_) => chunks.min(self.chunks + PILOT / CHUNK),
+                Held::Sieved(_) => chunks.min(self.chunks + self.chunks.min(MOST_CHUNKS)),
+            };
+            let next = self.chunks..end;
+            if let Held::Sieved(sieved) = &mut self.held {
+                let (moments, tallies) = simulate(
+                    self.plan.source,
+                    self.plan.layout,
+                    next.clone(),
+                    self.plan.threads,
+                    || Tally::new(sieved),
+                );
+                sieved.absorb(moments, tallies, self.plan.ask);
+                self.drawn(next);
+            } else {
+                let columns = self.draw(next.clone());
+                self.commit(next, columns);
+            }
+        }
+    }
+
+    /// Draws chunks without taking them over: per chunk and output the values.
+    pub(super) fn draw(&self, chunks: Range<u64>) -> Vec<Vec<Vec<f64>>> {
+        let Plan {
+            source,
+            layout,
+            threads,
+            ..
+        } = self.plan;
+        let keep = || Keep(vec![Vec::new(); source.outputs()]);
+        simulate(source, layout, chunks, threads, keep).0
+    }
+
+    /// Takes over the next chunks, whose values are at hand.
+    pub(super) fn commit(&mut self, chunks: Range<u64>, values: Vec<Vec<Vec<f64>>>) {
+        match &mut self.held {
+            Held::Columns(columns) => {
+                for chunk in values {
+                    for (column, part) in columns.iter_mut().zip(chunk) {
+                        column.extend(part);
+                    }
+                }
+                self.drawn(chunks);
+                if self.trials >= PILOT {
+                    self.sieve();
+                }
+            }
+            Held::Sieved(sieved) => {
+                for chunk in values {
+                    sieved.take(&chunk, self.plan.ask);
+                }
+                self.drawn(chunks);
+            }
+        }
+    }
+
+    fn drawn(&mut self, chunks: Range<u64>) {
+        let sizes = chunks.clone().map(|c| self.plan.layout.trials_in(c) as u64);
+        self.trials += sizes.sum::<u64>();
+        self.chunks = chunks.end;
+    }
+
+    /// From keeping to sieving.
+    fn sieve(&mut self) {
+        let Held::Columns(columns) = &self.held else {
+            return;
+        };
+        let mut sieves = Vec::new();
+        let mut pivots = Vec::new();
+        for (column, pivot) in columns.iter().zip(self.plan.pivots) {
+            let mut finite: Vec<f64> = column.iter().copied().filter(|v| v.is_finite()).collect();
+            if finite.is_empty() {
+                // Anything will do; later trials may have values.
+                finite.push(0.0);
+            }
+            // The moments' own origin need not be the mean; a constant's has to be exact.
+            let median = Ordered::new(&finite, 1, 1).median();
+            pivots.push(Pivot::new(median, Moments::of(&finite, *pivot).sd()));
+            sieves.push(Sieve::new(&finite, self.plan.p));
+        }
+        let outputs = pivots.len();
+        let mut sieved = Sieved {
+            moments: pivots.iter().map(|pivot| Moments::empty(*pivot)).collect(),
+            joint: (outputs > 1).then(|| CoMoments::new(&pivots)),
+            sieves,
+            pivots,
+        };
+        sieved.take(columns, self.plan.ask);
+        self.held = Held::Sieved(Box::new(sieved));
+    }
+}
+
+impl Sieved {
+    /// Takes values that are at hand.
+    fn take(&mut self, columns: &[Vec<f64>], ask: &Ask) {
+        let trials = columns.first().map_or(0, Vec::len);
+        let mut tally = Tally::new(self);
+        let mut blocks = vec![Block::ZERO; columns.len()];
+        let mut moments = Vec::new();
+        for start in (0..trials).step_by(LANES) {
+            let end = trials.min(start + LANES);
+            for (block, column) in blocks.iter_mut().zip(columns) {
+                block.0[..end - start].copy_from_slice(&column[start..end]);
+            }
+            tally.take(&blocks, end - start);
+            if end == trials || end.is_multiple_of(CHUNK as usize) {
+                moments.push(tally.close());
+            }
+        }
+        self.absorb(moments, vec![tally], ask);
+    }
+
+    /// Takes over what some chunks left behind.
+    fn absorb(&mut self, chunks: Vec<ChunkSums>, tallies: Vec<Tally>, ask: &Ask) {
+        for chunk in chunks {
+            for (all, moments) in self.moments.iter_mut().zip(&chunk.moments) {
+                *all = all.merge(moments);
+            }
+            if let (Some(all), Some(joint)) = (&mut self.joint, &chunk.joint) {
+                all.merge(joint);
+            }
+        }
+        for tally in tallies {
+            for (sieve, counts) in self.sieves.iter_mut().zip(tally.outputs) {
+                sieve.absorb(&counts.counter, &counts.picked, counts.range);
+                if counts.overflowed {
+                    sieve.keep_nothing();
+                }
+            }
+        }
+        // From fewer values nothing can be planned; they are few enough to be kept.
+        for sieve in self.sieves.iter_mut().filter(|s| s.count() >= FEWEST) {
+            sieve.plan(&ask(sieve.count()));
+        }
+    }
+}
+
+/// Sums over a chunk.
+pub(super) struct ChunkSums {
+    moments: Vec<Moments>,
+    joint: Option<CoMoments>,
+}
+
+/// Counts and sums of what one thread draws.
+struct Tally {
+    level: Level,
+    outputs: Vec<Output>,
+    joint: Option<CoMoments>,
+}
+
+struct Output {
+    grid: Grid,
+    pivot: Pivot,
+    counter: Counter,
+    picked: Vec<f64>,
+    /// Whether there was more to pick out than can be kept.
+    overflowed: bool,
+    range: [f64; 2],
+    sums: PowerSums,
+    count: u64,
+    failed: u64,
+}
+
+impl Tally {
+    fn new(sieved: &Sieved) -> Self {
+        let output = |(sieve, pivot): (&Sieve, &Pivot)| Output {
+            grid: *sieve.grid(),
+            pivot: *pivot,
+            counter: sieve.counter(),
+            picked: Vec::new(),
+            overflowed: false,
+            range: [f64::INFINITY, f64::NEG_INFINITY],
+            sums: PowerSums::default(),
+            count: 0,
+            failed: 0,
+        };
+        Tally {
+            level: level(),
+            outputs: sieved
+                .sieves
+                .iter()
+                .zip(&sieved.pivots)
+                .map(output)
+                .collect(),
+            joint: sieved.joint.as_ref().map(CoMoments::emptied),
+        }
+    }
+}
+
+impl Output {
+    fn take(&mut self, level: Level, block: &Block, lanes: usize) {
+        if lanes == LANES && all_finite(level, block) {
+            self.counter.add(level, &self.grid, block, &mut self.picked);
+            self.sums.add(level, block, self.pivot.coordinates());
+            let (low, high) = min_max(level, block);
+            self.range = [self.range[0].min(low), self.range[1].max(high)];
+            self.count += LANES as u64;
+            if self.picked.len() > MOST_KEPT {
+                self.overflow();
+            }
+            return;
+        }
+        for &value in &block.0[..lanes] {
+            if value.is_finite() {
+                self.counter.add_one(&self.grid, value, &mut self.picked);
+                self.sums.add_one(value, self.pivot.coordinates());
+                self.range = [self.range[0].min(value), self.range[1].max(value)];
+                self.count += 1;
+            } else {
+                self.failed += 1;
+            }
+        }
+    }
+
+    /// Goes on without picking values out.
+    fn overflow(&mut self) {
+        self.overflowed = true;
+        self.counter.stop_picking();
+        self.picked = Vec::new();
+    }
+
+    fn close(&mut self) -> Moments {
+        let sums = std::mem::take(&mut self.sums).totals();
+        let count = std::mem::take(&mut self.count);
+        let failed = std::mem::take(&mut self.failed);
+        Moments::from_sums(self.pivot, count, failed, sums)
+    }
+}
+
+impl Sink for Tally {
+    type Chunk = ChunkSums;
+
+    fn take(&mut self, outputs: &[Block], lanes: usize) {
+        for (output, block) in self.outputs.iter_mut().zip(outputs) {
+            output.take(self.level, block, lanes);
+        }
+        if let Some(joint) = &mut self.joint {
+            joint.take(self.level, outputs, lanes);
+        }
+    }
+
+    fn close(&mut self) -> ChunkSums {
+        ChunkSums {
+            moments: self.outputs.iter_mut().map(Output::close).collect(),
+            joint: self.joint.as_mut().map(CoMoments::close),
+        }
+    }
+}
+
+/// Keeps everything.
+struct Keep(Vec<Vec<f64>>);
+
+impl Sink for Keep {
+    type Chunk = Vec<Vec<f64>>;
+
+    fn take(&mut self, outputs: &[Block], lanes: usize) {
+        for (column, block) in self.0.iter_mut().zip(outputs) {
+            column.extend_from_slice(&block.0[..lanes]);
+        }
+    }
+
+    fn close(&mut self) -> Vec<Vec<f64>> {
+        self.0.iter_mut().map(std::mem::take).collect()
+    }
+}

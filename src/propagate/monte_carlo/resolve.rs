@@ -1,0 +1,368 @@
+//! From counts to exact order statistics.
+//!
+//! [`super::cells`] says which values decide. They are among those that were kept, or they are drawn
+//! again; where they are too many to be kept at once, they are first counted in a finer grid. The
+//! results are those of a full sort of all values, to the last bit.
+
+use gumption_lanes::bins::{BINS, Grid};
+use gumption_lanes::{Block, LANES};
+
+use super::cells::{Cell, Wanted, cell_of, for_each_pair};
+use super::engine::{Layout, Sink, Source, simulate};
+use super::interval::{Ranked, Ranks};
+use super::sieve::{MOST_KEPT, Sieve};
+
+/// Values that are sorted without a look at finer counts.
+const SORTED: u64 = 1 << 15;
+
+/// Consecutive values between two numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Run {
+    low: f64,
+    high: f64,
+    below: u64,
+    count: u64,
+}
+
+/// Where values can be had again.
+pub(super) trait Again {
+    /// Shows all values to sinks, one per thread.
+    fn show<K: Sink>(&self, sink: impl Fn() -> K + Sync) -> Vec<K>;
+}
+
+/// Trials that are drawn again.
+pub(super) struct Redraw<'s, S> {
+    pub(super) source: &'s S,
+    pub(super) layout: Layout,
+    pub(super) chunks: u64,
+    pub(super) threads: usize,
+}
+
+impl<S: Source> Again for Redraw<'_, S> {
+    fn show<K: Sink>(&self, sink: impl Fn() -> K + Sync) -> Vec<K> {
+        simulate(self.source, self.layout, 0..self.chunks, self.threads, sink).1
+    }
+}
+
+/// The order statistics that were wanted.
+#[derive(Debug)]
+pub(super) struct Resolved {
+    count: u64,
+    depth: u64,
+    /// Ascending, with gaps.
+    cells: Vec<Cell>,
+    /// Per cell the place of its first value, or `None` if all are the same.
+    starts: Vec<Option<usize>>,
+    /// The values of the cells, in order.
+    values: Vec<f64>,
+}
+
+impl Resolved {
+    /// Finds what is wanted of one output's values; `depth` extreme ranks at either end are counted
+    /// as a tail.
+    pub(super) fn new(
+        sieve: &Sieve,
+        wanted: &Wanted,
+        depth: usize,
+        output: usize,
+        again: &impl Again,
+    ) -> Self {
+        let (mut cells, bins) = sieve.cells();
+        let needed = wanted.cells(&cells, 0.0);
+        let chosen = || bins.iter().zip(&needed).filter(|(_, n)| **n);
+        let kept = sieve.kept(chosen().map(|(bin, _)| *bin));
+        let mut runs = runs(&cells, &needed);
+        for run in &mut runs {
+            let at = |rank| bins[cell_of(&cells, rank)];
+            [run.low, run.high] = sieve.span(at(run.below + 1), at(run.below + run.count));
+        }
+        let mut known = Vec::new();
+        let mut memory = kept.map(|values| inside(&runs, values));
+        loop {
+            let total: u64 = runs.iter().map(|run| run.count).sum();
+            let values = match memory.take() {
+                Some(values) => Some(values),
+                None if total <= MOST_KEPT as u64 => Some(gathered(&runs, output, again)),
+                None => None,
+            };
+            if let Some(values) = values.as_ref().filter(|_| total <= SORTED) {
+                return Resolved::sorted(values, &runs, known, wanted.count, depth);
+            }
+            cells = match &values {
+                Some(values) => {
+                    let mut finer = Finer::new(&runs);
+                    values.iter().for_each(|value| finer.add(*value));
+                    finer.cells()
+                }
+                None => {
+                    let finer = again.show(|| Watch::new(output, Finer::new(&runs)));
+                    let sum = finer.into_iter().map(|watch| watch.keeper);
+                    let sum = sum.reduce(Finer::merged);
+                    sum.map_or(Vec::new(), |finer| finer.cells())
+                }
+            };
+            cells.append(&mut known);
+            cells.sort_unstable_by_key(|cell| cell.below);
+            let needed = wanted.cells(&cells, 0.0);
+            let pairs = cells.iter().zip(&needed);
+            known = pairs
+                .filter(|(cell, needed)| **needed && cell.is_known())
+                .map(|(cell, _)| *cell)
+                .collect();
+            let open: Vec<bool> = cells
+                .iter()
+                .zip(needed)
+                .map(|(cell, needed)| needed && !cell.is_known())
+                .collect();
+            runs = self::runs(&cells, &open);
+            let left: u64 = runs.iter().map(|run| run.count).sum();
+            memory = values.map(|values| inside(&runs, &values));
+            if left > total / 2 {
+                // Finer counts would not help much further.
+                let values = memory.unwrap_or_else(|| gathered(&runs, output, again));
+                return Resolved::sorted(&values, &runs, known, wanted.count, depth);
+            }
+        }
+    }
+
+    /// Sorts the values of the runs.
+    fn sorted(
+        values: &[f64],
+        runs: &[Run],
+        known: Vec<Cell>,
+        count: u64,
+        depth: usize,
+    ) -> Resolved {
+        let mut values = inside(runs, values);
+        values.sort_unstable_by(f64::total_cmp);
+        let mut start = 0;
+        let mut cells: Vec<(Cell, Option<usize>)> = Vec::new();
+        for run in runs {
+            let cell = Cell {
+                low: run.low,
+                high: run.high,
+                below: run.below,
+                count: run.count,
+            };
+            cells.push((cell, Some(start)));
+            start += run.count as usize;
+        }
+        cells.extend(known.into_iter().map(|cell| (cell, None)));
+        cells.sort_unstable_by_key(|(cell, _)| cell.below);
+        let (cells, starts) = cells.into_iter().unzip();
+        Resolved {
+            count,
+            depth: depth as u64,
+            cells,
+            starts,
+            values,
+        }
+    }
+
+    fn value(&self, cell: usize, rank: u64) -> f64 {
+        match self.starts[cell] {
+            Some(start) => self.values[start + (rank - 1 - self.cells[cell].below) as usize],
+            None => self.cells[cell].low,
+        }
+    }
+}
+
+impl Ranked for Resolved {
+    fn count(&self) -> usize {
+        self.count as usize
+    }
+
+    fn depth(&self) -> usize {
+        self.depth as usize
+    }
+
+    fn at(&self, rank: usize) -> f64 {
+        let rank = rank as u64;
+        self.value(cell_of(&self.cells, rank), rank)
+    }
+
+    fn median(&self) -> f64 {
+        let lower = self.at(self.count().div_ceil(2));
+        let upper = self.at(self.count() / 2 + 1);
+        lower + (upper - lower) / 2.0
+    }
+
+    fn shortest(&self, ranks: Ranks) -> [f64; 2] {
+        let symmetric = ranks.symmetric as u64;
+        let covered = ranks.covered as u64;
+        let [low, high] = self.symmetric(ranks);
+        let (mut best, mut least) = (symmetric, high - low);
+        let mut interval = [low, high];
+        for_each_pair(&self.cells, ranks, |a, b| {
+            let (low, high) = (&self.cells[a], &self.cells[b]);
+            let first = (low.below + 1).max((high.below + 1).saturating_sub(covered));
+            let last = low.end().min(high.end() - covered).min(ranks.last as u64);
+            let mut consider = |r: u64| {
+                let ends = [self.value(a, r), self.value(b, r + covered)];
+                let width = ends[1] - ends[0];
+                let nearer = r.abs_diff(symmetric) < best.abs_diff(symmetric);
+                if width < least || (width == least && nearer) {
+                    (best, least, interval) = (r, width, ends);
+                }
+            };
+            if self.starts[a].is_none() && self.starts[b].is_none() {
+                consider(symmetric.clamp(first, last));
+            } else {
+                (first..=last).for_each(consider);
+            }
+        });
+        interval
+    }
+}
+
+/// Rows of neighbouring cells that are all chosen.
+fn runs(cells: &[Cell], chosen: &[bool]) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for (cell, _) in cells.iter().zip(chosen).filter(|(_, chosen)| **chosen) {
+        match runs.last_mut() {
+            Some(run) if run.below + run.count == cell.below => {
+                run.high = cell.high;
+                run.count += cell.count;
+            }
+            _ => runs.push(Run {
+                low: cell.low,
+                high: cell.high,
+                below: cell.below,
+                count: cell.count,
+            }),
+        }
+    }
+    runs
+}
+
+/// The run that holds a value.
+fn run_of(runs: &[Run], value: f64) -> Option<usize> {
+    let index = runs.iter().position(|run| value <= run.high)?;
+    (runs[index].low <= value).then_some(index)
+}
+
+/// The values that lie in runs.
+fn inside(runs: &[Run], values: &[f64]) -> Vec<f64> {
+    let mut gather = Gather::new(runs);
+    values.iter().for_each(|value| gather.add(*value));
+    gather.values
+}
+
+/// Takes values one by one.
+trait Keeper: Send {
+    fn add(&mut self, value: f64);
+}
+
+/// Keeps the values of some runs.
+struct Gather {
+    runs: Vec<Run>,
+    values: Vec<f64>,
+}
+
+impl Gather {
+    fn new(runs: &[Run]) -> Self {
+        Gather {
+            runs: runs.to_vec(),
+            values: Vec::new(),
+        }
+    }
+}
+
+impl Keeper for Gather {
+    fn add(&mut self, value: f64) {
+        if run_of(&self.runs, value).is_some() {
+            self.values.push(value);
+        }
+    }
+}
+
+fn gathered(runs: &[Run], output: usize, again: &impl Again) -> Vec<f64> {
+    let parts = again.show(|| Watch::new(output, Gather::new(runs)));
+    parts
+        .into_iter()
+        .flat_map(|watch| watch.keeper.values)
+        .collect()
+}
+
+/// Counts of some runs in finer bins.
+struct Finer {
+    runs: Vec<Run>,
+    /// Per run.
+    grids: Vec<Grid>,
+    /// Per run and bin: count, smallest and largest value.
+    bins: Vec<Vec<(u64, f64, f64)>>,
+}
+
+impl Finer {
+    fn new(runs: &[Run]) -> Self {
+        let grid = |run: &Run| {
+            let steps = (BINS - 1) as f64;
+            let width = run.high / steps - run.low / steps;
+            Grid::new(run.low, width.max(4.0 * f64::MIN_POSITIVE))
+        };
+        Finer {
+            runs: runs.to_vec(),
+            grids: runs.iter().map(grid).collect(),
+            bins: vec![vec![(0, f64::INFINITY, f64::NEG_INFINITY); BINS]; runs.len()],
+        }
+    }
+
+    fn merged(mut self, other: Finer) -> Finer {
+        let theirs = other.bins.iter().flatten();
+        for (all, bin) in self.bins.iter_mut().flatten().zip(theirs) {
+            *all = (all.0 + bin.0, all.1.min(bin.1), all.2.max(bin.2));
+        }
+        self
+    }
+
+    fn cells(&self) -> Vec<Cell> {
+        let mut cells = Vec::new();
+        for (run, bins) in self.runs.iter().zip(&self.bins) {
+            let mut below = run.below;
+            for &(count, low, high) in bins.iter().filter(|(count, ..)| *count > 0) {
+                cells.push(Cell {
+                    low,
+                    high,
+                    below,
+                    count,
+                });
+                below += count;
+            }
+        }
+        cells
+    }
+}
+
+impl Keeper for Finer {
+    fn add(&mut self, value: f64) {
+        if let Some(run) = run_of(&self.runs, value) {
+            let bin = &mut self.bins[run][self.grids[run].bin(value)];
+            *bin = (bin.0 + 1, bin.1.min(value), bin.2.max(value));
+        }
+    }
+}
+
+/// Shows the finite values of one output to a keeper.
+struct Watch<T> {
+    output: usize,
+    keeper: T,
+}
+
+impl<T> Watch<T> {
+    fn new(output: usize, keeper: T) -> Self {
+        Watch { output, keeper }
+    }
+}
+
+impl<T: Keeper> Sink for Watch<T> {
+    type Chunk = ();
+
+    fn take(&mut self, outputs: &[Block], lanes: usize) {
+        let values = &outputs[self.output].0[..lanes.min(LANES)];
+        for value in values.iter().filter(|value| value.is_finite()) {
+            self.keeper.add(*value);
+        }
+    }
+
+    fn close(&mut self) {}
+}

@@ -1,6 +1,6 @@
 //! Least-squares fits: formula, parameters, how well the curve describes the data.
 
-use crate::budget::{Fit, FitVerdict, LackOfFit, LackOfFitTest};
+use crate::budget::{Fit, FitColumn, FitVerdict, LackOfFit, LackOfFitTest};
 use crate::quantity::Decimal;
 
 use super::document::Block;
@@ -313,17 +313,18 @@ fn points(l: Language, fit: &Fit) -> Table {
         columns,
         rows: Vec::new(),
     };
-    // All to the digits that the spread of the residuals has.
+    // All to the digits that the smallest uncertainty has, or the spread of the residuals.
+    let smallest = |c: &FitColumn| {
+        let known = c.u.iter().flatten().copied().filter(|u| *u > 0.0);
+        known.min_by(f64::total_cmp)
+    };
     let rms = (fit.rss() / fit.points().max(1) as f64).sqrt();
-    let of_y = shown_to(&y.values, rms);
+    let of_y = shown_to(&y.values, smallest(y).unwrap_or(rms));
     let of_x: Vec<i32> = adjusted
         .iter()
         .map(|k| {
-            let observed = &predictors[*k].values;
-            let squares: f64 = (observed.iter().enumerate())
-                .map(|(i, x)| (fit.adjusted[(i, *k)] - x).powi(2))
-                .sum();
-            shown_to(observed, (squares / fit.points().max(1) as f64).sqrt())
+            let column = &predictors[*k];
+            shown_to(&column.values, smallest(column).unwrap_or_default())
         })
         .collect();
     let plain = |x: f64, place: i32| Cell::from(at_place(x, place).print_plain(STYLE));

@@ -291,7 +291,9 @@ impl Check<'_> {
             )
             .label(format!("a difference in {}", found.symbol))
             .help(format!(
-                "write `unit = \"{}\"`, or add the difference to a point: `0 '{}' + ({text})`",
+                "a correction has `unit = \"{}\"` even if its value is zero: two quantities on the {} scale that are subtracted leave a difference. Or write `unit = \"{}\"` for `{name}`, or add the difference to a point: `0 '{}' + ({text})`",
+                wanted.difference().symbol,
+                wanted.symbol,
                 wanted.difference().symbol,
                 wanted.symbol
             )),

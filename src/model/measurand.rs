@@ -295,7 +295,9 @@ impl Check<'_> {
             )
             .label(format!("a difference in {}", found.symbol))
             .help(format!(
-                "write `unit = \"{}\"`, or add the difference to a point: `0 '{}' + ({text})`{thermodynamic}",
+                "a correction has `unit = \"{}\"` even if its value is zero: two quantities on the {} scale that are subtracted leave a difference. Or write `unit = \"{}\"` for `{name}`, or add the difference to a point: `0 '{}' + ({text})`{thermodynamic}",
+                wanted.difference().symbol,
+                wanted.symbol,
                 wanted.difference().symbol,
                 wanted.symbol
             )),

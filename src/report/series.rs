@@ -246,7 +246,7 @@ impl Series<'_> {
     }
 
     /// Mean and standard deviation over rows that repeat one another: those whose labels differ in a
-    /// last number only, and all.
+    /// last number only, and all where each row is one of them.
     fn repetitions(&self) -> Table {
         let l = self.rows[0].language;
         let mut table = Table::new([
@@ -265,16 +265,16 @@ impl Series<'_> {
                 None => groups.push((stem, vec![row])),
             }
         }
+        let repeats = |(stem, members): &(&str, Vec<usize>)| !stem.is_empty() && members.len() > 1;
         if groups.len() > 1 {
-            // Labels that are numbers have nothing in common.
-            let repeated =
-                |(stem, members): &&(&str, Vec<usize>)| !stem.is_empty() && members.len() > 1;
-            for (stem, members) in groups.iter().filter(repeated) {
+            for (stem, members) in groups.iter().filter(|group| repeats(group)) {
                 table.push(self.statistics(format!("{stem} …"), members));
             }
         }
-        let everything: Vec<usize> = (0..self.rows.len()).collect();
-        table.push(self.statistics(l.pick("all", "全部").to_string(), &everything));
+        if groups.iter().all(repeats) {
+            let everything: Vec<usize> = (0..self.rows.len()).collect();
+            table.push(self.statistics(l.pick("all", "全部").to_string(), &everything));
+        }
         table.without_empty_columns()
     }
 

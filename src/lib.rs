@@ -68,6 +68,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod budget;
+mod dd;
 pub mod distribution;
 pub mod fault;
 pub mod least_squares;

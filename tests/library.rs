@@ -1,5 +1,5 @@
-//! The library of budgets: every file evaluates, agrees with the published figures it claims, and its report
-//! in `reports/` is the one that the program makes now.
+//! The library of budgets: every file evaluates, and its report in `reports/` is the one that the program makes
+//! now. That the claimed figures agree is tests/verify.rs.
 
 #![allow(
     clippy::disallowed_methods,
@@ -33,38 +33,6 @@ fn gumption(arguments: &[&str], path: &Path) -> String {
         String::from_utf8_lossy(&output.stderr)
     );
     String::from_utf8(output.stdout).expect("reports are UTF-8")
-}
-
-#[test]
-fn every_budget_agrees_with_the_figures_it_claims() {
-    let mut compared = 0;
-    let mut wrong = Vec::new();
-    for path in common::files("budgets", "toml") {
-        let loaded = match budget::load(&path) {
-            Ok(loaded) => loaded,
-            Err(rejection) => {
-                wrong.push(rejection.render(false));
-                continue;
-            }
-        };
-        for row in &loaded.rows {
-            let evaluation = propagate::evaluate(&row.budget, &Options::default())
-                .unwrap_or_else(|error| panic!("{}: {error:?}", common::relative(&path)));
-            for comparison in propagate::compare_claims(&row.budget, &evaluation) {
-                compared += 1;
-                if comparison.decides && !comparison.agrees() {
-                    wrong.push(format!("{} {comparison:?}", common::relative(&path)));
-                }
-            }
-        }
-    }
-    assert!(
-        wrong.is_empty(),
-        "{} of {compared} figures differ:\n  {}",
-        wrong.len(),
-        wrong.join("\n  ")
-    );
-    assert!(compared > 150, "only {compared} figures compared");
 }
 
 #[test]

@@ -90,6 +90,16 @@ fn the_published_examples_pass() {
 }
 
 #[test]
+fn nothing_to_compare_is_no_success() {
+    let place = folder("nothing");
+    let file = claiming(&place, "");
+    let output = gumption(&["verify", &file]);
+    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("nothing to compare"));
+    std::fs::remove_dir_all(place).expect("removed");
+}
+
+#[test]
 fn a_wrong_claim_fails() {
     let place = folder("wrong");
     let file = claiming(&place, "[claim]\nvalue = 1\nu = 0.2\n");

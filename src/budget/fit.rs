@@ -196,6 +196,7 @@ impl Fit {
         push("r_squared".into(), self.r_squared, &one);
         push("condition".into(), self.condition, &one);
         let optional = [
+            ("r", self.correlation_of_data(), &one),
             ("residual_sd", self.residual_sd, of_residual),
             ("chi_squared_per_dof", self.chi_squared_per_dof(), of_sum),
             ("largest_residual", self.farthest().map(|(_, r)| r), &one),
@@ -226,6 +227,22 @@ impl Fit {
             }
         }
         figures
+    }
+
+    /// Correlation coefficient of the data of an unweighted straight line.
+    fn correlation_of_data(&self) -> Option<f64> {
+        let [y, x] = self.columns.as_slice() else {
+            return None;
+        };
+        let line = self.linear && !self.weighted && self.parameters.len() == 2;
+        let sum = |f: &dyn Fn(usize) -> f64| (0..self.points()).map(f).sum::<f64>();
+        let n = self.points() as f64;
+        let mean_x = sum(&|i| x.values[i]) / n;
+        let mean_y = sum(&|i| y.values[i]) / n;
+        let xy = sum(&|i| (x.values[i] - mean_x) * (y.values[i] - mean_y));
+        let xx = sum(&|i| (x.values[i] - mean_x).powi(2));
+        let yy = sum(&|i| (y.values[i] - mean_y).powi(2));
+        (line && xx * yy > 0.0).then(|| xy / (xx * yy).sqrt())
     }
 
     /// Sum of the squares of response − fitted.

@@ -368,6 +368,14 @@ pub struct MonteCarloSettings {
 pub enum Trials {
     /// Exactly this many.
     Fixed(u64),
+    /// `least`, and once more `most` where these leave a verdict of JCGM 101 clause 8 open at the digits that
+    /// are reported.
+    Decisive {
+        /// Enough for most budgets.
+        least: u64,
+        /// Enough for nearly all others.
+        most: u64,
+    },
     /// Until the results are stable to a numerical tolerance, JCGM 101 7.9: δ from `digits`
     /// significant digits of u.
     Adaptive {

@@ -153,7 +153,7 @@ words! {
 table! {
     /// How the Monte Carlo method is run.
     MonteCarloTable "[monte_carlo]" {
-        /// Number of trials (default 1000000), or "adaptive".
+        /// Number of trials, or "adaptive". When left out 1000000, or 10000000 where these leave the verdict of JCGM 101 clause 8 open.
         trials: TrialsEntry,
         /// Adaptive procedure.
         procedure: ProcedureWord,
@@ -257,9 +257,9 @@ table! {
     ComponentTable "a component" {
         /// Its name in the budget table: `calibration`.
         name: String,
-        /// Way: standard uncertainty; of a vector, one for all elements or a list.
+        /// Way: standard uncertainty; of a vector or of the data of a fit, one for all elements, a list or a column of a CSV file.
         u: Amounts,
-        /// Way: half-width a of symmetric limits ±a (rectangular unless `distribution` says otherwise); of a vector, one for all elements or a list.
+        /// Way: half-width a of symmetric limits ±a (rectangular unless `distribution` says otherwise); of a vector or of the data of a fit, one for all elements, a list or a column of a CSV file.
         half_width: Amounts,
         /// Way: lower and upper limit of the quantity itself.
         limits: List<Amount>,

@@ -110,6 +110,8 @@ pub enum Amounts {
     One(Amount),
     /// For the elements, in their order.
     Each(Vec<Stated<Amount>>),
+    /// For the elements, in a column of a CSV file; only beside values of which there are several.
+    Column(Box<ColumnTable>),
 }
 
 impl Stated<Amounts> {
@@ -118,6 +120,7 @@ impl Stated<Amounts> {
         match &self.value {
             Amounts::One(amount) => Some(self.map(|_| amount.clone())),
             Amounts::Each(list) => list.get(element).cloned(),
+            Amounts::Column(_) => None,
         }
     }
 }
@@ -130,12 +133,19 @@ impl FromToml for Amounts {
     fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
         match value.get_ref() {
             DeValue::Array(_) => Vec::read(value, reader).map(Amounts::Each),
+            DeValue::Table(_) => {
+                ColumnTable::read(value, reader).map(|table| Amounts::Column(Box::new(table)))
+            }
             _ => Amount::read(value, reader).map(Amounts::One),
         }
     }
 
     fn schema() -> Value {
-        json!({ "oneOf": [Amount::schema(), Vec::<Stated<Amount>>::schema()] })
+        json!({ "oneOf": [
+            Amount::schema(),
+            Vec::<Stated<Amount>>::schema(),
+            ColumnTable::schema(),
+        ] })
     }
 }
 

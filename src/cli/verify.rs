@@ -73,6 +73,22 @@ pub(super) fn run(args: &Args) -> Outcome {
     outcome(&verification)
         .max(written)
         .max(output::print(&text))
+        .max(missing_claims(args, &verification))
+}
+
+/// Files without claims are named; where nothing else was given, nothing was verified.
+fn missing_claims(args: &Args, verification: &Verification) -> Outcome {
+    let names = verification.without_claims.join(", ");
+    if names.is_empty() || args.files.is_empty() {
+        Outcome::Done
+    } else if verification.examples.is_empty() {
+        output::complain(&format!(
+            "nothing to compare: no [claim] in {names} (docs/budget-file.md, Claims)"
+        ))
+    } else {
+        output::warn(&format!("not counted, since without [claim]: {names}\n"));
+        Outcome::Done
+    }
 }
 
 /// The library inside the program, or what the user names.

@@ -4,7 +4,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 use nalgebra::DMatrix;
 
-use super::dd::Dd;
+use crate::dd::Dd;
 
 /// What the factorisations need of a number.
 pub(super) trait Scalar:

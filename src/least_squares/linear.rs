@@ -5,11 +5,11 @@
 
 use nalgebra::DMatrix;
 
-use super::dd::Dd;
 use super::factor::{Qr, Scalar, dot, square};
 use super::problem::{Problem, Scale, Spread};
 use super::solution::{Failure, Solution};
 use super::whiten::Whitener;
+use crate::dd::Dd;
 
 /// Multiplications beyond which double-double arithmetic would take too long.
 const AFFORDABLE: f64 = 1e8;

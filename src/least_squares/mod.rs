@@ -8,7 +8,6 @@
 //! | `problem` | points, their errors, the response: what is asked |
 //! | `solution` | what is answered, and the ways to fail |
 //! | `polynomial` | the response that is a polynomial in one predictor |
-//! | `dd` | double-double arithmetic |
 //! | `factor` | pivoted Householder QR and Cholesky, in either precision |
 //! | `whiten` | errors of y to unit variance |
 //! | `linear` | responses affine in their parameters, exact predictors |
@@ -40,7 +39,6 @@
     reason = "matrix formulas are read by their indices"
 )]
 
-mod dd;
 mod derivatives;
 mod errors_in_variables;
 mod factor;
@@ -54,7 +52,7 @@ mod solution;
 mod tests;
 mod whiten;
 
-pub use dd::Dd;
+pub use crate::dd::Dd;
 pub use lack_of_fit::{LackOfFit, Replicates, lack_of_fit, replicates};
 pub use polynomial::Polynomial;
 pub use problem::{Errors, Problem, Response, Scale, Spread};

@@ -1,7 +1,7 @@
 //! The response that is a polynomial in one predictor.
 
-use super::dd::Dd;
 use super::problem::Response;
+use crate::dd::Dd;
 
 /// β₀ + β₁ x + … + β_d x^d; without intercept it begins with β₁ x.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::dd::Dd;
 use super::solution::{Failure, Observed};
+use crate::dd::Dd;
 
 /// Observed points and the response to fit to them.
 pub struct Problem<'a> {

@@ -280,6 +280,10 @@ impl Check<'_> {
             return;
         }
         let text = printer::expression(expr);
+        let thermodynamic = match wanted.symbol.as_str() {
+            "°C" => "; from a thermodynamic temperature subtract 273.15 'K' first",
+            _ => "",
+        };
         self.l.report(
             Fault::new(
                 faults::POINT,
@@ -291,7 +295,9 @@ impl Check<'_> {
             )
             .label(format!("a difference in {}", found.symbol))
             .help(format!(
-                "write `unit = \"{}\"`, or add the difference to a point: `0 '{}' + ({text})`",
+                "a correction has `unit = \"{}\"` even if its value is zero: two quantities on the {} scale that are subtracted leave a difference. Or write `unit = \"{}\"` for `{name}`, or add the difference to a point: `0 '{}' + ({text})`{thermodynamic}",
+                wanted.difference().symbol,
+                wanted.symbol,
                 wanted.difference().symbol,
                 wanted.symbol
             )),

@@ -30,7 +30,7 @@ pub use monte_carlo::{Consequence, MissingMoments, Side};
 
 use nalgebra::DMatrix;
 
-use crate::budget::{Adaptive, Budget, LackOfFit, MonteCarloSettings, NamedFigure};
+use crate::budget::{Adaptive, Budget, LackOfFit, MonteCarloSettings, NamedFigure, Trials};
 use crate::model::Notice;
 use gum::Linear;
 use monte_carlo::{GumForMc, McOutcome};
@@ -494,22 +494,20 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         require_derivatives(budget, &linear)?;
     }
     let second_order = second_order::evaluate(budget, &linear);
+    let gums: Vec<Gum> = (0..linear.measurands.len())
+        .map(|measurand| first_order(budget, &linear, measurand))
+        .collect();
     let monte_carlo = settings
-        .map(|settings| monte_carlo::run(budget, settings, &scales(&linear), options.threads))
+        .map(|settings| draw(budget, settings, &gums, options.threads))
         .transpose()?;
-    let results: Vec<MeasurandResult> = second_order
-        .iter()
+    let results: Vec<MeasurandResult> = gums
+        .into_iter()
+        .zip(&second_order)
         .enumerate()
-        .map(|(measurand, outcome)| {
-            let monte_carlo = monte_carlo
-                .as_ref()
-                .and_then(|mc| mc.outputs.get(measurand));
-            both_methods(
-                budget,
-                first_order(budget, &linear, measurand),
-                outcome,
-                monte_carlo,
-            )
+        .map(|(measurand, (gum, second_order))| {
+            let outputs = monte_carlo.as_ref().map(|mc| &mc.outputs);
+            let monte_carlo = outputs.and_then(|outputs| outputs.get(measurand));
+            both_methods(budget, gum, second_order, monte_carlo)
         })
         .collect();
     let joint = joint::evaluate(budget, &linear, monte_carlo.as_ref());
@@ -554,14 +552,37 @@ fn require_derivatives(budget: &Budget, linear: &Linear) -> Result<(), Evaluatio
     Ok(())
 }
 
-fn scales(linear: &Linear) -> Vec<GumForMc> {
-    let pairs = linear.values.iter().zip(&linear.measurands);
-    pairs
-        .map(|(&estimate, measurand)| GumForMc {
-            estimate,
-            u: measurand.u,
+/// Monte Carlo as the settings say; where they leave the number of trials open, with as many as the verdicts of
+/// clause 8 need.
+fn draw(
+    budget: &Budget,
+    settings: &MonteCarloSettings,
+    gums: &[Gum],
+    threads: usize,
+) -> Result<McOutcome, EvaluationError> {
+    let scales: Vec<GumForMc> = gums
+        .iter()
+        .map(|gum| GumForMc {
+            estimate: gum.estimate,
+            u: gum.u,
         })
-        .collect()
+        .collect();
+    let outcome = monte_carlo::run(budget, settings, &scales, threads)?;
+    let Trials::Decisive { most, .. } = settings.trials else {
+        return Ok(outcome);
+    };
+    let open = gums.iter().zip(&outcome.outputs).any(|(gum, mc)| {
+        let both = validation::validate(gum, mc);
+        validation::at(&both, budget.conventions.digits).verdict == Clause8::Undecided
+    });
+    if !open {
+        return Ok(outcome);
+    }
+    let settings = MonteCarloSettings {
+        trials: Trials::Fixed(most),
+        ..settings.clone()
+    };
+    monte_carlo::run(budget, &settings, &scales, threads)
 }
 
 /// The GUM result of one measurand.

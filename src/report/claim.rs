@@ -132,6 +132,22 @@ pub(super) fn number(what: &Figure, value: f64, place: i32, language: Language) 
     }
 }
 
+/// The claimed number with the digits that its source has.
+pub(super) fn published(comparison: &Comparison, l: Language) -> String {
+    let figure = &comparison.claimed;
+    if matches!(figure.what, Figure::Validated(_)) {
+        return number(&figure.what, figure.value, 0, l);
+    }
+    let stated = Decimal::from_f64(figure.value).place();
+    // A tolerance of half a unit tells of zeros at the end: 2.10 ± 0.005.
+    let place = libm::log10(2.0 * figure.tolerance);
+    let half_unit = (place - place.round()).abs() < 1e-6;
+    match (stated, half_unit) {
+        (Some(stated), true) => print(&at_place(figure.value, stated.min(place.round() as i32))),
+        _ => exact(figure.value),
+    }
+}
+
 fn verdict(comparison: &Comparison, claim: Option<&Claim>, language: Language) -> String {
     if comparison.obtained.is_none() {
         return NONE.to_string();
@@ -214,7 +230,10 @@ pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
             if n > 0 {
                 table.rows.push(Row::Rule);
             }
-            table.rows.push(Row::Across(title(report, claim)));
+            let title = title(report, claim);
+            if !title.is_empty() {
+                table.rows.push(Row::Across(title));
+            }
         }
         let mut before: Option<&Figure> = None;
         for comparison in comparisons.iter().filter(|c| c.claim == n) {
@@ -248,7 +267,11 @@ fn words(claim: &Claim) -> impl Iterator<Item = &str> {
 fn title(report: &Report<'_>, claim: &Claim) -> String {
     let last = report.evaluation.results.len().saturating_sub(1);
     let name = report.measurand(claim.measurand.min(last)).0;
-    let all: Vec<&str> = std::iter::once(name).chain(words(claim)).collect();
+    // Figures of an analysis bear their owner's name.
+    let analysis = |what: &Figure| matches!(what, Figure::Named(_));
+    let own = !(claim.figures.iter()).all(|figure| analysis(&figure.what));
+    let name = own.then_some(name);
+    let all: Vec<&str> = name.into_iter().chain(words(claim)).collect();
     all.join(report.language.pick("; ", "；"))
 }
 
@@ -257,10 +280,10 @@ fn push(report: &Report<'_>, table: &mut Table, comparison: &Comparison, before:
     let what = &comparison.claimed.what;
     let repeated = before == Some(what);
     let place = last_place(comparison);
-    let claimed: Cell = match what {
-        _ if repeated => Cell::Empty,
-        Figure::Validated(_) => number(what, comparison.claimed.value, place, l).into(),
-        _ => exact(comparison.claimed.value).into(),
+    let claimed: Cell = if repeated {
+        Cell::Empty
+    } else {
+        published(comparison, l).into()
     };
     let name: Cell = if repeated {
         Cell::Empty

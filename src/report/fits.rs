@@ -1,10 +1,11 @@
 //! Least-squares fits: formula, parameters, how well the curve describes the data.
 
-use crate::budget::{Fit, FitVerdict, LackOfFit, LackOfFitTest};
+use crate::budget::{Fit, FitColumn, FitVerdict, LackOfFit, LackOfFitTest};
+use crate::quantity::Decimal;
 
 use super::document::Block;
 use super::language::{Language, Word};
-use super::number::{TABLE_DIGITS, aligned, at_place, exact, freedom, significant};
+use super::number::{STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, significant};
 use super::statement::coefficient;
 use super::table::{Cell, Column, ColumnKind, Table};
 use super::{Report, difference_symbol, joint, symbol};
@@ -208,7 +209,7 @@ fn shown(p: f64) -> String {
     if p < 0.001 {
         "< 0.001".to_string()
     } else {
-        format!("= {}", at_place(p, -3).print_plain(super::number::STYLE))
+        format!("= {}", at_place(p, -3).print_plain(STYLE))
     }
 }
 
@@ -277,13 +278,32 @@ fn points(l: Language, fit: &Fit) -> Table {
         kind: ColumnKind::Numbers,
     };
     let y = fit.response();
-    let mut columns: Vec<Column> = fit.columns[1..]
+    let predictors = &fit.columns[1..];
+    let mut columns: Vec<Column> = predictors
         .iter()
         .chain([y])
         .map(|c| column(headed(&c.name, symbol(&c.unit))))
         .collect();
-    columns.push(column(l.pick("on the curve", "曲线值").into()));
-    columns.push(column(l.pick("residual", "残差").into()));
+    // Where predictors are in doubt, a point lies beside the curve in both directions: the nearest point of
+    // the curve is shown, and the distance from it as a whole.
+    let adjusted: Vec<usize> = (0..predictors.len())
+        .filter(|k| predictors[*k].u.is_some())
+        .collect();
+    for k in &adjusted {
+        let name = &predictors[*k].name;
+        columns.push(column(
+            l.pick(format!("{name} on the curve"), format!("{name} 曲线值")),
+        ));
+    }
+    if adjusted.is_empty() {
+        columns.push(column(l.pick("on the curve", "曲线值").into()));
+        columns.push(column(l.pick("residual", "残差").into()));
+    } else {
+        columns.push(column(l.pick(
+            format!("{} on the curve", y.name),
+            format!("{} 曲线值", y.name),
+        )));
+    }
     columns.push(column(if fit.weighted {
         l.pick("distance / u", "距离 / u").into()
     } else {
@@ -293,25 +313,59 @@ fn points(l: Language, fit: &Fit) -> Table {
         columns,
         rows: Vec::new(),
     };
-    // Residuals are shown to the digits that their spread has.
+    // All to the digits that the smallest uncertainty has, or the spread of the residuals.
+    let smallest = |c: &FitColumn| {
+        let known = c.u.iter().flatten().copied().filter(|u| *u > 0.0);
+        known.min_by(f64::total_cmp)
+    };
     let rms = (fit.rss() / fit.points().max(1) as f64).sqrt();
+    let of_y = shown_to(&y.values, smallest(y).unwrap_or(rms));
+    let of_x: Vec<i32> = adjusted
+        .iter()
+        .map(|k| {
+            let column = &predictors[*k];
+            shown_to(&column.values, smallest(column).unwrap_or_default())
+        })
+        .collect();
+    let plain = |x: f64, place: i32| Cell::from(at_place(x, place).print_plain(STYLE));
     for i in 0..fit.points() {
-        let mut cells: Vec<Cell> = fit.columns[1..]
+        let mut cells: Vec<Cell> = predictors
             .iter()
             .chain([y])
             .map(|c| exact(c.values[i]).into())
             .collect();
-        cells.push(aligned(fit.fitted[i], rms, 2).into());
-        cells.push(aligned(fit.residuals[i], rms, 2).into());
+        for (k, place) in adjusted.iter().zip(&of_x) {
+            cells.push(plain(fit.adjusted[(i, *k)], *place));
+        }
+        cells.push(plain(fit.fitted[i], of_y));
+        if adjusted.is_empty() {
+            cells.push(plain(fit.residuals[i], of_y));
+        }
         cells.push(match &fit.normalised {
-            Some(normalised) => at_place(normalised[i], -1)
-                .print_plain(super::number::STYLE)
-                .into(),
+            Some(normalised) => plain(normalised[i], -1),
             None => Cell::Empty,
         });
         table.push(cells);
     }
     table
+}
+
+/// The last place to which values are shown beside deviations of this size: two digits of these, but never
+/// digits that are rounding errors of the values.
+fn shown_to(values: &[f64], deviation: f64) -> i32 {
+    /// Digits of a double that can be relied on.
+    const SURE: i32 = 13;
+    let leading = |x: f64| Decimal::from_f64(x).leading_place();
+    let largest = values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let finest = leading(largest).map_or(0, |place| place - SURE);
+    match leading(deviation).map(|place| place - 1) {
+        Some(place) if place >= finest => place,
+        // On the curve to the last digit: as the values are written.
+        _ => values
+            .iter()
+            .filter_map(|x| Decimal::from_f64(*x).place())
+            .fold(0, i32::min),
+    }
 }
 
 /// The point that is farthest from the curve.

@@ -246,7 +246,7 @@ impl Series<'_> {
     }
 
     /// Mean and standard deviation over rows that repeat one another: those whose labels differ in a
-    /// last number only, and all.
+    /// last number only, and all where each row is one of them.
     fn repetitions(&self) -> Table {
         let l = self.rows[0].language;
         let mut table = Table::new([
@@ -265,13 +265,16 @@ impl Series<'_> {
                 None => groups.push((stem, vec![row])),
             }
         }
+        let repeats = |(stem, members): &(&str, Vec<usize>)| !stem.is_empty() && members.len() > 1;
         if groups.len() > 1 {
-            for (stem, members) in groups.iter().filter(|(_, members)| members.len() > 1) {
+            for (stem, members) in groups.iter().filter(|group| repeats(group)) {
                 table.push(self.statistics(format!("{stem} …"), members));
             }
         }
-        let everything: Vec<usize> = (0..self.rows.len()).collect();
-        table.push(self.statistics(l.pick("all", "全部").to_string(), &everything));
+        if groups.iter().all(repeats) {
+            let everything: Vec<usize> = (0..self.rows.len()).collect();
+            table.push(self.statistics(l.pick("all", "全部").to_string(), &everything));
+        }
         table.without_empty_columns()
     }
 
@@ -309,6 +312,10 @@ fn mean_and_deviation(xs: &[f64]) -> [Cell; 2] {
     }
     let squares: f64 = xs.iter().map(|x| (x - mean).powi(2)).sum();
     let s = (squares / (n - 1.0)).sqrt();
+    // What rounding leaves of equal numbers is no deviation.
+    if s <= 1e-14 * mean.abs() {
+        return [aligned(mean, mean, 8).into(), "0".into()];
+    }
     [
         aligned(mean, s, 2).into(),
         significant(s, TABLE_DIGITS).into(),

@@ -265,11 +265,32 @@ impl<'a> Subject<'a> {
     /// A result of Monte Carlo: y ± U where the interval is symmetric about y, else the interval.
     fn monte_carlo_sentence(&self, monte_carlo: &MonteCarlo) -> String {
         let half = monte_carlo.half_width(self.conventions.digits);
+        let fixed = match self.conventions.coverage_factor {
+            CoverageRule::Fixed(k) if !self.conventions.state_probability => Some(k),
+            _ => None,
+        };
         match (half, monte_carlo.estimate, monte_carlo.u) {
-            (Some(half), Some(estimate), Some(u)) if half > 0.0 && u > 0.0 => {
-                self.half_interval(estimate, u, half)
-            }
+            (Some(half), Some(estimate), Some(u)) if half > 0.0 && u > 0.0 => match fixed {
+                Some(k) => self.fixed_multiple(estimate, u, k),
+                None => self.half_interval(estimate, u, half),
+            },
             _ => self.interval(monte_carlo),
+        }
+    }
+
+    /// y and U = k·u with the u of Monte Carlo, where the profile fixes k and names no probability.
+    fn fixed_multiple(&self, estimate: f64, u: f64, k: f64) -> String {
+        let pair = self.conventions.rounding_rule().align(estimate, k * u);
+        let (name, y) = (self.name, self.value(&pair.estimate));
+        let (expanded, u) = (self.amount(&pair.uncertainty), self.small(u));
+        let (k, trials) = (exact(k), self.trials());
+        match self.language {
+            Language::English => format!(
+                "{name} = {y}; U = {expanded}, k = {k}. The expanded uncertainty is the standard uncertainty u = {u}, found by the Monte Carlo method (JCGM 101, {trials} trials), multiplied by the coverage factor. The result of the GUM method was not validated against it."
+            ),
+            Language::Chinese => format!(
+                "{name} = {y}；U = {expanded}，k = {k}。扩展不确定度由蒙特卡洛法（JJF 1059.2，{trials} 次试验）所得的标准不确定度 u = {u} 乘以包含因子得到。GUM 法的结果未通过其验证。"
+            ),
         }
     }
 

@@ -5,6 +5,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::fixtures::{self, Case};
 use super::{Language, Page, Report, json, markdown, schema, series_text, statement, text};
+use crate::budget::CoverageRule;
 
 fn page(width: usize) -> Page {
     Page {
@@ -104,6 +105,24 @@ fn statements_of_every_branch() {
         }
     }
     insta::assert_snapshot!("statements", lines.join("\n"));
+}
+
+/// JJF 1059.1 5.3: U with k = 2, and no probability, also where Monte Carlo is the basis.
+#[test]
+fn a_fixed_factor_without_probability_stays_with_monte_carlo() {
+    let is_half_interval = |case: &Case| {
+        statement(&case.report(Language::English))[0].contains("half the width of the 95 %")
+    };
+    let (_, mut case) = all()
+        .into_iter()
+        .find(|(_, case)| is_half_interval(case))
+        .expect("a fixture");
+    case.budget.conventions.profile = "JJF".into();
+    case.budget.conventions.coverage_factor = CoverageRule::Fixed(2.0);
+    case.budget.conventions.state_probability = false;
+    let sentence = &statement(&case.report(Language::Chinese))[0];
+    assert!(sentence.contains("，k = 2。"), "{sentence}");
+    assert!(!sentence.contains("k_95"), "{sentence}");
 }
 
 /// U and y end at the same decimal place, whatever the profile.

@@ -141,7 +141,7 @@ impl Group {
     /// Experimental standard deviation of its readings; nothing for a single one.
     pub fn standard_deviation(&self) -> Option<f64> {
         let freedom = Dd::from(self.count as f64 - 1.0);
-        (self.count > 1).then(|| (self.squares / freedom).sqrt())
+        (self.count > 1).then(|| (self.squares / freedom).sqrt().value())
     }
 
     /// Variance of a reading, all readings taken as one population, and its degrees of freedom.

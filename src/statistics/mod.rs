@@ -3,20 +3,18 @@
 //!
 //! | chapter | holds |
 //! |---|---|
-//! | `dd` | numbers of twice the precision |
 //! | `readings` | mean, standard deviation, autocorrelation, pooling |
 //! | `anova` | readings in groups |
 //! | `nested` | readings in subgroups of groups |
 //! | `outliers` | tests of the most outlying reading |
 
 mod anova;
-mod dd;
 mod nested;
 mod outliers;
 mod readings;
 
+pub use crate::dd::Dd;
 pub use anova::{Group, Line, Of, OneWay, Policy, Ratio, Uncertainty, Verdict};
-pub use dd::Dd;
 pub use nested::{Nested, Verdicts};
 pub use outliers::{OutlierTest, Suspect};
 pub use readings::{Serial, Series, pooled};

@@ -62,7 +62,7 @@ impl Series {
     /// Experimental standard deviation of a single reading, divisor n - 1 (GUM 4.2.2).
     pub fn standard_deviation(&self) -> f64 {
         let freedom = Dd::from(self.deviations.len() as f64 - 1.0);
-        (self.squares / freedom).sqrt()
+        (self.squares / freedom).sqrt().value()
     }
 
     /// The readings' deviations from their mean.
@@ -113,7 +113,7 @@ impl Series {
 pub fn pooled(series: &[Series]) -> (f64, f64) {
     let squares: Dd = series.iter().map(|one| one.squares).sum();
     let freedom: f64 = series.iter().map(|one| one.count() as f64 - 1.0).sum();
-    ((squares / Dd::from(freedom)).sqrt(), freedom)
+    ((squares / Dd::from(freedom)).sqrt().value(), freedom)
 }
 
 #[cfg(test)]

@@ -17,6 +17,9 @@ use crate::quantity::Rounding;
 
 /// Trials when the file says nothing: 10⁶ gives two stable digits of a 95 % interval (JCGM 101 7.2.3).
 const DEFAULT_TRIALS: u64 = 1_000_000;
+
+/// Trials where those leave the verdict of clause 8 open.
+const DECISIVE_TRIALS: u64 = 10_000_000;
 /// Fewer trials than this give no meaningful interval.
 const FEWEST_TRIALS: u64 = 1000;
 const DEFAULT_MAX_TRIALS: u64 = 100_000_000;
@@ -206,7 +209,12 @@ impl Checker<'_> {
             }) => self.adaptive(table),
             stated => {
                 self.fixed_only(table, stated.as_ref());
-                Trials::Fixed(stated.as_ref().map_or(DEFAULT_TRIALS, fixed))
+                let decisive = Trials::Decisive {
+                    least: DEFAULT_TRIALS,
+                    most: DECISIVE_TRIALS,
+                };
+                let stated = stated.as_ref();
+                stated.map_or(decisive, |stated| Trials::Fixed(fixed(stated)))
             }
         };
         MonteCarloSettings { seed, trials }

@@ -6,8 +6,9 @@ use std::ops::Range;
 use super::Checker;
 use crate::budget::faults::{CSV, MISSING_KEY, NOT_UTF8, UNREADABLE_FILE, VECTOR};
 use crate::budget::table::Stated;
-use crate::budget::tables::ColumnTable;
-use crate::budget::variants::Numbers;
+use crate::budget::tables::{ColumnTable, ComponentTable};
+use crate::budget::values::Amount;
+use crate::budget::variants::{Amounts, Numbers};
 use crate::fault::{Fault, nearest};
 use crate::statistics::Dd;
 
@@ -30,6 +31,42 @@ impl Checker<'_> {
             Numbers::Column(table) if table.refused => None,
             Numbers::Column(table) => self.column(table, &numbers.span),
         }
+    }
+
+    /// A component in which amounts from columns of CSV files stand as lists; `None` if it names no column.
+    pub(super) fn with_columns(&mut self, table: &ComponentTable) -> Option<ComponentTable> {
+        let named = |stated: &Option<Stated<Amounts>>| {
+            matches!(stated.as_ref().map(|s| &s.value), Some(Amounts::Column(_)))
+        };
+        if !named(&table.u) && !named(&table.half_width) {
+            return None;
+        }
+        let mut listed = table.clone();
+        for stated in [&mut listed.u, &mut listed.half_width]
+            .into_iter()
+            .flatten()
+        {
+            let Amounts::Column(column) = &mut stated.value else {
+                continue;
+            };
+            if column.refused {
+                continue;
+            }
+            let Some(numbers) = self.column(column, &stated.span) else {
+                column.refused = true;
+                continue;
+            };
+            let amount = |number: Dd| Stated {
+                value: Amount {
+                    number: number.value(),
+                    unit: None,
+                },
+                span: stated.span.clone(),
+                key: stated.key.clone(),
+            };
+            stated.value = Amounts::Each(numbers.into_iter().map(amount).collect());
+        }
+        Some(listed)
     }
 
     /// Numbers of the file with all their decimals.

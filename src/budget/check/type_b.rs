@@ -83,6 +83,13 @@ impl Checker<'_> {
     ) -> Option<Stated<Amount>> {
         match &stated.value {
             Amounts::One(amount) => Some(stated.map(|_| amount.clone())),
+            // The column was read already, and refused.
+            Amounts::Column(table) if table.refused => None,
+            Amounts::Column(_) => self.refuse(
+                Fault::new(VECTOR, stated.span.clone(), format!("`{key}` of {} is a column of a CSV file", context.owner))
+                    .label("expected one amount")
+                    .help("a column states the uncertainties of the data of a fit, or of the elements of a vector"),
+            ),
             Amounts::Each(_) => self.refuse(
                 Fault::new(VECTOR, stated.span.clone(), format!("`{key}` of {} is a list, but {} is a single quantity", context.owner, context.owner))
                     .label("expected one amount")

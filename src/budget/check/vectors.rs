@@ -141,6 +141,12 @@ impl Checker<'_> {
                 ),
             );
         }
+        let listed = self.with_columns(entry.table);
+        let entry = &Entry {
+            table: listed.as_ref().unwrap_or(entry.table),
+            way: entry.way,
+            place: entry.place.clone(),
+        };
         self.one_for_each(name, entry.table, values.len())?;
         let relative = self.acts_in_proportion(entry, unit);
         let common = entry

@@ -63,8 +63,8 @@ impl Wanted {
     }
 
     /// Which of the cells (ascending, none empty, perhaps with gaps) decide what is wanted.
-    /// Candidates for the shortest interval count if they may be at most `slack` longer than one
-    /// that exists.
+    /// Candidates for the shortest interval count unless they are longer than one that exists by
+    /// more than `slack` times the root of the number of ranks between the two.
     pub(super) fn cells(&self, cells: &[Cell], slack: f64) -> Vec<bool> {
         let mut needed = vec![false; cells.len()];
         for [first, last] in &self.ranks {
@@ -77,12 +77,16 @@ impl Wanted {
             }
         }
         if let Some(ranks) = self.shortest {
-            let mut shortest = f64::INFINITY;
+            let (mut shortest, mut place) = (f64::INFINITY, 0);
             for_each_pair(cells, ranks, |low, high| {
-                shortest = shortest.min(cells[high].high - cells[low].low);
+                let width = cells[high].high - cells[low].low;
+                if width < shortest {
+                    (shortest, place) = (width, cells[low].below);
+                }
             });
-            let limit = shortest + slack;
             for_each_pair(cells, ranks, |low, high| {
+                let away = cells[low].below.abs_diff(place) + cells[low].count;
+                let limit = shortest + slack * (away as f64).sqrt();
                 // NaN, of infinite ends, is no proof either.
                 let longer = cells[high].low - cells[low].high > limit;
                 if !longer {

@@ -42,7 +42,7 @@ pub(super) enum Held {
     /// All of them, one column per output.
     Columns(Vec<Vec<f64>>),
     /// Their counts and sums.
-    Sieved(Sieved),
+    Sieved(Box<Sieved>),
 }
 
 impl Held {
@@ -118,7 +118,7 @@ impl<'a, S: Source> Collector<'a, S> {
         while self.chunks < chunks {
             let end = match self.held {
                 Held::Columns(_) => chunks.min(self.chunks + PILOT / CHUNK),
-                Held::Sieved(_) => chunks.min(2 * self.chunks.min(MOST_CHUNKS) + self.chunks),
+                Held::Sieved(_) => chunks.min(self.chunks + self.chunks.min(MOST_CHUNKS)),
             };
             let next = self.chunks..end;
             if let Held::Sieved(sieved) = &mut self.held {
@@ -205,7 +205,7 @@ impl<'a, S: Source> Collector<'a, S> {
             pivots,
         };
         sieved.take(columns, self.plan.ask);
-        self.held = Held::Sieved(sieved);
+        self.held = Held::Sieved(Box::new(sieved));
     }
 }
 
@@ -222,7 +222,7 @@ impl Sieved {
                 block.0[..end - start].copy_from_slice(&column[start..end]);
             }
             tally.take(&blocks, end - start);
-            if end == trials || end % CHUNK as usize == 0 {
+            if end == trials || end.is_multiple_of(CHUNK as usize) {
                 moments.push(tally.close());
             }
         }

@@ -168,14 +168,14 @@ impl Question<'_> {
     /// How trials are cut.
     fn layout(&self) -> Layout {
         match self.settings.trials {
-            Trials::Fixed(trials) => Layout::new(trials),
+            Trials::Fixed(trials) | Trials::Decisive { least: trials, .. } => Layout::new(trials),
             Trials::Adaptive { max, .. } => Layout::new(adaptive::batch_size(self.p).min(max)),
         }
     }
 
     fn draw<S: Source>(&self, layout: Layout, collector: &mut Collector<S>) -> Option<AdaptiveRun> {
         match self.settings.trials {
-            Trials::Fixed(_) => {
+            Trials::Fixed(_) | Trials::Decisive { .. } => {
                 collector.extend(layout.chunks(0..1).end);
                 None
             }

@@ -13,7 +13,7 @@ use super::interval::{Ranked, Ranks};
 use super::sieve::{MOST_KEPT, Sieve};
 
 /// Values that are sorted without a look at finer counts.
-const SORTED: u64 = 1 << 12;
+const SORTED: u64 = 1 << 15;
 
 /// Consecutive values between two numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,18 +77,18 @@ impl Resolved {
             [run.low, run.high] = sieve.span(at(run.below + 1), at(run.below + run.count));
         }
         let mut known = Vec::new();
-        let mut drawn;
-        let mut memory = kept;
+        let mut memory = kept.map(|values| inside(&runs, values));
         loop {
             let total: u64 = runs.iter().map(|run| run.count).sum();
-            if memory.is_none() && total <= MOST_KEPT as u64 {
-                drawn = gathered(&runs, output, again);
-                memory = Some(&drawn);
-            }
-            if let Some(values) = memory.filter(|_| total <= SORTED) {
+            let values = match memory.take() {
+                Some(values) => Some(values),
+                None if total <= MOST_KEPT as u64 => Some(gathered(&runs, output, again)),
+                None => None,
+            };
+            if let Some(values) = values.as_ref().filter(|_| total <= SORTED) {
                 return Resolved::sorted(values, &runs, known, wanted.count, depth);
             }
-            cells = match memory {
+            cells = match &values {
                 Some(values) => {
                     let mut finer = Finer::new(&runs);
                     values.iter().for_each(|value| finer.add(*value));
@@ -116,13 +116,11 @@ impl Resolved {
                 .collect();
             runs = self::runs(&cells, &open);
             let left: u64 = runs.iter().map(|run| run.count).sum();
+            memory = values.map(|values| inside(&runs, &values));
             if left > total / 2 {
                 // Finer counts would not help much further.
-                drawn = match memory {
-                    Some(values) => values.to_vec(),
-                    None => gathered(&runs, output, again),
-                };
-                return Resolved::sorted(&drawn, &runs, known, wanted.count, depth);
+                let values = memory.unwrap_or_else(|| gathered(&runs, output, again));
+                return Resolved::sorted(&values, &runs, known, wanted.count, depth);
             }
         }
     }
@@ -135,9 +133,7 @@ impl Resolved {
         count: u64,
         depth: usize,
     ) -> Resolved {
-        let mut gather = Gather::new(runs);
-        values.iter().for_each(|value| gather.add(*value));
-        let mut values = gather.values;
+        let mut values = inside(runs, values);
         values.sort_unstable_by(f64::total_cmp);
         let mut start = 0;
         let mut cells: Vec<(Cell, Option<usize>)> = Vec::new();
@@ -243,6 +239,13 @@ fn runs(cells: &[Cell], chosen: &[bool]) -> Vec<Run> {
 fn run_of(runs: &[Run], value: f64) -> Option<usize> {
     let index = runs.iter().position(|run| value <= run.high)?;
     (runs[index].low <= value).then_some(index)
+}
+
+/// The values that lie in runs.
+fn inside(runs: &[Run], values: &[f64]) -> Vec<f64> {
+    let mut gather = Gather::new(runs);
+    values.iter().for_each(|value| gather.add(*value));
+    gather.values
 }
 
 /// Takes values one by one.

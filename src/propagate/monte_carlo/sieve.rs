@@ -78,32 +78,38 @@ impl Sieve {
         let needed = wanted
             .widened()
             .cells(&cells, self.scatter_of_widths(wanted));
+        // Bins between and beyond those that matter may be empty only as yet.
         let mut keeps = vec![false; BINS];
+        let mut next = 0;
+        let mut open = true;
         for (bin, needed) in bins.into_iter().zip(needed) {
-            keeps[bin] = needed;
+            if needed {
+                keeps[if open { next } else { bin }..=bin].fill(true);
+            }
+            (next, open) = (bin + 1, needed);
         }
-        // Bins beside those that matter may be empty yet.
+        if open {
+            keeps[next..].fill(true);
+        }
         for (bin, kept) in self.keeps.iter_mut().enumerate() {
             let near = bin.saturating_sub(1)..(bin + 2).min(BINS);
-            *kept &= near.into_iter().any(|bin| keeps[bin]);
+            *kept &= keeps[near].iter().any(|near| *near);
         }
         let (grid, keeps) = (&self.grid, &self.keeps);
         self.kept.retain(|value| keeps[grid.bin(*value)]);
     }
 
     /// By how much the widths of two candidates for the shortest interval may still change, one
-    /// against the other: their ends move by several standard errors.
+    /// against the other, over the root of the ranks between them: several standard errors of how many
+    /// values lie between their ends.
     fn scatter_of_widths(&self, wanted: &Wanted) -> f64 {
         /// Bins over which a density is averaged.
         const AROUND: usize = 16;
         let Some(ranks) = wanted.shortest else {
             return 0.0;
         };
-        let count = wanted.count as f64;
-        let mut below = 0;
-        let mut place = |rank: usize| {
-            // Both ends are asked for in ascending order, but each from the start.
-            below = 0;
+        let place = |rank: usize| {
+            let mut below = 0;
             self.counts
                 .iter()
                 .position(|n| {
@@ -118,9 +124,7 @@ impl Sieve {
             let around = &self.counts[first..(first + AROUND).min(BINS)];
             around.len() as f64 * self.grid.width() / around.iter().sum::<u64>() as f64
         });
-        // Values in an end of a tail: binomial.
-        let share = ranks.last as f64 / count;
-        6.0 * (2.0 * share * (1.0 - share) * count).sqrt() * per_value[0].max(per_value[1])
+        6.0 * std::f64::consts::SQRT_2 * per_value[0].max(per_value[1])
     }
 
     /// The bins that hold values, as cells, and their numbers.

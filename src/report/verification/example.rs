@@ -155,7 +155,7 @@ fn line(row: &Row, comparison: &Comparison, l: Language) -> Vec<Cell> {
         name(&report, comparison).into(),
         claim::method(comparison.method, l).into(),
         unit(&report, comparison).into(),
-        published(comparison, l).into(),
+        claim::published(comparison, l).into(),
         obtained.into(),
         difference(comparison).map_or(Cell::Empty, |d| significant(d, 2).into()),
         tolerance(comparison, asked, l).into(),
@@ -239,22 +239,6 @@ pub(super) fn unit(report: &Report<'_>, comparison: &Comparison) -> String {
         | Figure::Rectangle
         | Figure::RegionFreedom
         | Figure::Validated(_) => String::new(),
-    }
-}
-
-/// The claimed number with the digits that its source has.
-fn published(comparison: &Comparison, l: Language) -> String {
-    let figure = &comparison.claimed;
-    if matches!(figure.what, Figure::Validated(_)) {
-        return claim::number(&figure.what, figure.value, 0, l);
-    }
-    let stated = Decimal::from_f64(figure.value).place();
-    // A tolerance of half a unit tells of zeros at the end: 2.10 ± 0.005.
-    let place = libm::log10(2.0 * figure.tolerance);
-    let half_unit = (place - place.round()).abs() < 1e-6;
-    match (stated, half_unit) {
-        (Some(stated), true) => print(&at_place(figure.value, stated.min(place.round() as i32))),
-        _ => exact(figure.value),
     }
 }
 

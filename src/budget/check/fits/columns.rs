@@ -309,6 +309,12 @@ impl Checker<'_> {
                 .help("state a deviation: `u`, `half_width`, `step` …"),
             );
         }
+        let listed = self.with_columns(entry.table);
+        let entry = &Entry {
+            table: listed.as_ref().unwrap_or(entry.table),
+            way: entry.way,
+            place: entry.place.clone(),
+        };
         self.one_for_each(name, entry.table, column.values.len())?;
         let relative = self.acts_in_proportion(entry, &column.unit);
         let mut first: Option<Draft> = None;

@@ -13,6 +13,7 @@ use crate::budget::table::Stated;
 use crate::budget::tables::{FileTable, FitParameterTable, FitTable};
 use crate::fault::{Fault, nearest};
 use crate::least_squares::{Polynomial, Response};
+use crate::model::faults::LEFT_SIDE;
 use crate::model::{
     MeasurandSource, Model, ModelFault, Outline, Place, Request, Role, Symbol, compile, outline,
 };
@@ -195,7 +196,7 @@ impl Checker<'_> {
             Ok(outline) => outline,
             Err(faults) => {
                 for fault in faults {
-                    let placed = self.in_formula(fault, Some(text));
+                    let placed = self.in_formula(left_side(fault), Some(text));
                     self.faults.push(placed);
                 }
                 return Err(Vec::new());
@@ -209,6 +210,16 @@ impl Checker<'_> {
                 .span
         };
         let Some((given, given_span)) = &outline.gives else {
+            // `ln(y) = …` reads as the definition of a function.
+            let last = outline.printed.lines().last().unwrap_or_default();
+            if let Some((left, _)) = last.split_once(" = ") {
+                let fault = Fault::new(
+                    LEFT_SIDE,
+                    text.span.clone(),
+                    format!("`{left}` cannot be defined"),
+                );
+                return self.refuse(left_side(fault)).ok_or_else(Vec::new);
+            }
             return self
                 .refuse(
                     Fault::new(
@@ -760,6 +771,19 @@ impl Checker<'_> {
 }
 
 /// A fault of the formula in the words of a fit: its left side is a column, not a measurand.
+/// An expression left of `=`, in words of a fit.
+fn left_side(mut fault: Fault) -> Fault {
+    if fault.code == LEFT_SIDE {
+        fault.message = fault.message.replace("cannot be defined", "is no column");
+        fault.label = "only the name of a column may stand left of `=`".into();
+        fault.help = Some(
+            "solve the formula for a column (a predictor may have the larger uncertainty, too), or give the transformed values a column of their own"
+                .into(),
+        );
+    }
+    fault
+}
+
 fn of_the_fit(mut fault: Fault, column: &str) -> Fault {
     fault.message = reworded(&fault.message, column);
     fault.help = fault.help.map(|help| reworded(&help, column));

@@ -13,6 +13,9 @@ use crate::budget::tables::{FitTable, ScaleWord};
 use crate::fault::Fault;
 use crate::least_squares::{self, Errors, Problem, Scale, Solution, Spread};
 
+/// Residuals of this share of the largest response are what the arithmetic leaves of none.
+const NOISE: f64 = 5e-16;
+
 /// A solution, and the common causes with their action on the parameters.
 pub(super) struct Solved {
     solution: Solution,
@@ -71,10 +74,15 @@ impl Checker<'_> {
                 .map(|parameter| parameter.start)
                 .collect(),
         };
-        let solution = match least_squares::solve(&problem) {
+        let mut solution = match least_squares::solve(&problem) {
             Ok(solution) => solution,
             Err(failure) => return self.fit_failure(name, stated, formula, columns, &failure),
         };
+        if !weighted && solution.residual_sd <= NOISE * problem.y.amax() {
+            solution.covariance.fill(0.0);
+            solution.chi_squared = 0.0;
+            solution.residual_sd = 0.0;
+        }
         let u: Vec<Option<Vec<f64>>> = errors.iter().map(ColumnErrors::u).collect();
         let normalised = normalised(&problem, &solution, &u, scale, weighted);
         Some(Solved {

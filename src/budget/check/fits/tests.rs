@@ -136,3 +136,96 @@ fn figures_have_names() {
     close(figure("line.dof"), 1.0);
     assert!(figure("line.lack_of_fit.p") > 0.05);
 }
+
+/// Data on the curve to the last digit leave nothing to be uncertain of.
+#[test]
+fn exact_data_give_exact_parameters() {
+    let budget = accepted(
+        r#"
+[fit.line]
+model = "y = a + b*x"
+[fit.line.data]
+x = { values = [0, 1, 2, 3] }
+y = { values = [1, 3, 5, 7] }
+[claim]
+figures = { "line.rss" = 0, "line.r" = 1 }
+"#,
+    );
+    close(budget.inputs[0].estimate, 1.0);
+    close(budget.inputs[1].estimate, 2.0);
+    close(budget.fits[0].chi_squared, 0.0);
+    assert!(budget.fits[0].parameters.iter().all(|p| p.u < 1e-14));
+    assert!(budget.fits[0].lack_of_fit.is_none());
+}
+
+/// As many points as parameters: the curve goes through all, and stated uncertainties go over to it.
+#[test]
+fn two_points_tell_a_line() {
+    let budget = accepted(
+        r#"
+[fit.line]
+model = "y = a + b*x"
+[fit.line.data]
+x = { values = [0, 2] }
+y = { values = [1, 4], u = 0.1 }
+"#,
+    );
+    let fit = &budget.fits[0];
+    assert_eq!((fit.dof, fit.residual_sd), (0, None));
+    close(budget.inputs[1].estimate, 1.5);
+    close(fit.parameters[1].u, 0.1 / 2.0_f64.sqrt());
+    close(fit.covariance[(0, 1)], -0.005);
+}
+
+/// Errors of x and y of one point with r, against a search for the minimum of Σ (y − a − bx)²/(u_y² + b²u_x² − 2br u_x u_y).
+#[test]
+fn errors_of_a_point_may_be_correlated() {
+    let budget = accepted(
+        r#"
+[fit.l]
+model = "y = a + b*x"
+correlation = [0.5, 0.5, 0.5, -0.2, 0.9]
+[fit.l.data]
+x = { values = [1, 2, 3, 4, 5], u = 0.3 }
+y = { values = [1.3, 4.1, 6.9, 7.5, 10.2], u = [0.2, 0.2, 0.2, 0.4, 0.4] }
+"#,
+    );
+    let near = |found: f64, expected: f64| assert!((found - expected).abs() < 2e-7, "{found}");
+    near(budget.inputs[0].estimate, -0.470384155);
+    near(budget.inputs[1].estimate, 2.162226189);
+    near(budget.fits[0].chi_squared, 3.852305674);
+}
+
+#[test]
+fn uncertainties_stand_in_a_csv_file() {
+    let text = |u: &str| {
+        CENTRED
+            .replace("\"m\", COMPONENTS", "\"m\", U")
+            .replace('U', u)
+    };
+    let folder = std::env::temp_dir().join(format!("gumption-fit-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder for the test");
+    std::fs::write(folder.join("u.csv"), "u,short\n0.1,1\n0.2,1\n0.3,\n").expect("a file");
+    let read = |u: &str| read(&text(u), "test.toml", &folder);
+    let from_file = read(r#"u = { file = "u.csv", column = "u" }"#).expect("a budget");
+    let listed = centred("u = [0.1, 0.2, 0.3]");
+    let of = |budget: &Budget| budget.fits[0].covariance.clone();
+    assert_eq!(of(&from_file.rows[0].budget), of(&listed));
+    let component = r#"components = [{ half_width = { file = "u.csv", column = "u" } }]"#;
+    let halves = read(component).expect("a budget");
+    close(
+        halves.rows[0].budget.fits[0].covariance[(0, 0)] * 3.0,
+        of(&listed)[(0, 0)],
+    );
+    let refused = |u: &str| match read(u) {
+        Err(rejection) => rejection.render(false),
+        Ok(_) => panic!("{u} is accepted"),
+    };
+    let message = refused(r#"u = { file = "u.csv", column = "short" }"#);
+    assert!(
+        message.contains("line 4 of u.csv has \"\" in column"),
+        "{message}"
+    );
+    assert_eq!(message.matches("error[").count(), 1, "{message}");
+    std::fs::remove_dir_all(&folder).expect("the folder of the test");
+}

@@ -3,7 +3,9 @@
 //! JCGM 102 for several measurands), each validating the other.
 //!
 //! Data flows one way, and the modules stand in that order: text → [`budget`] → [`model`] →
-//! [`propagate`] → [`report`].
+//! [`propagate`] → [`report`]. What a file knows only as data (readings, points of a calibration
+//! line, results of other files) becomes inputs in [`budget`], with [`statistics`] and
+//! [`least_squares`].
 //!
 //! | module | holds |
 //! |---|---|
@@ -15,9 +17,9 @@
 //! | [`least_squares`] | parameters of a response from observed points |
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
 //! | [`budget`] | the file format and the checked budget |
-//! | [`propagate`] | GUM and Monte Carlo evaluation of a budget |
+//! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
 //! | [`verify`] | published examples held against their published figures |
-//! | [`report`] | text, Markdown, JSON and the certificate's sentence |
+//! | [`report`] | text, Markdown, JSON, the certificate's sentence, saved results, the dossier |
 //!
 //! # A tour
 //!

@@ -253,6 +253,22 @@ fn every_function_is_in_the_page_of_the_model_language() {
 }
 
 #[test]
+fn every_finding_is_in_the_page_of_the_results() {
+    let page = read("docs/results.md");
+    let listed = gumption(&["explain", "findings"]);
+    let kinds: Vec<&str> = listed
+        .lines()
+        .filter_map(|line| line.trim_start().split_once("  "))
+        .map(|(kind, _)| kind)
+        .filter(|kind| kind.chars().all(|c| c.is_ascii_lowercase() || c == '_'))
+        .collect();
+    assert!(kinds.len() > 15, "{kinds:?}");
+    for kind in kinds {
+        assert!(names(&page, kind), "docs/results.md says nothing of {kind}");
+    }
+}
+
+#[test]
 fn every_profile_is_in_the_page_of_the_budget_file() {
     let page = read("docs/budget-file.md");
     for profile in budget::PROFILES {

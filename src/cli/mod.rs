@@ -52,7 +52,7 @@ enum Command {
     Verify(verify::Args),
     /// Write a commented budget file to start from
     New(new::Args),
-    /// Print the JSON Schema of budget files or of the JSON output
+    /// Print the JSON Schema of budget files or of what the program writes
     Schema(schema::Args),
     /// Explain a distribution, function, profile, error code or concept
     Explain(explain::Args),

@@ -1,4 +1,4 @@
-//! `gumption schema`: JSON Schema for editors and for readers of the JSON output.
+//! `gumption schema`: JSON Schema for editors and for readers of what the program writes.
 
 use gumption::{budget, report};
 

@@ -727,7 +727,7 @@ pub(super) fn joint() -> Case {
         u: 0.0002,
         dof: f64::INFINITY,
         evaluation: Kind::TypeB,
-        how: "from a sample of 3".to_string(),
+        how: "sample of 3".to_string(),
         certificate: None,
         reference: Some("Manual, p. 12".to_string()),
     });

@@ -92,7 +92,7 @@ fn draw_block(block: &Block, page: Page, lines: &mut Vec<String>) {
             table
                 .lines(page.width.saturating_sub(2))
                 .into_iter()
-                .map(|l| format!("  {l}")),
+                .map(|l| format!("  {l}").trim_end().to_string()),
         ),
         Block::List(items) => items
             .iter()

@@ -86,6 +86,9 @@ pub enum DecisionRule {
     Jjf1094,
 }
 
+/// ISO 14253-1:2017: conformance and non-conformance are to be shown with this probability.
+pub const ISO_14253_PROBABILITY: f64 = 0.95;
+
 /// The distance of an acceptance limit from its tolerance limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Guard {
@@ -108,6 +111,8 @@ pub struct Detection {
     pub alpha: f64,
     /// Probability of missing an effect at the detection limit.
     pub beta: f64,
+    /// Quantiles for α and β that the file states in their place.
+    pub quantiles: [Option<f64>; 2],
     /// Coverage probability 1 − γ of the limits of the coverage interval.
     pub coverage_probability: f64,
     /// A guideline value with which the detection limit is compared.

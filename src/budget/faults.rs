@@ -215,7 +215,7 @@ needs both tolerance limits."
 
 DETECTION "B0504" "characteristic limits cannot be found from this"
 "`[detection]` names in `gross` the input that carries the value of the measurand, such as the gross counts; `alpha` and \
-`beta` are probabilities below one half."
+`beta` are probabilities below one half, or `k_alpha` and `k_beta` the quantiles that belong to them."
 
 FIT "B0601" "a fit says too little or too much"
 "`[fit.NAME]` needs `data` and one formula: `model = \"y = a + b*x\"` with a column of the data on the left, or \

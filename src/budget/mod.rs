@@ -34,7 +34,9 @@ use nalgebra::DMatrix;
 
 pub use analysis::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
-pub use decision::{Conformity, DecisionRule, Detection, Following, Follows, Guard, Interval};
+pub use decision::{
+    Conformity, DecisionRule, Detection, Following, Follows, Guard, ISO_14253_PROBABILITY, Interval,
+};
 pub use files::Files;
 pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};

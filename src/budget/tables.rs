@@ -365,6 +365,8 @@ words! {
         Grubbs "grubbs",
         /// Dixon: gap beside the outermost reading over the range.
         Dixon "dixon",
+        /// Dixon's Q: gap over the whole range for any number of readings.
+        Q "dixon-q",
         /// Four mean deviations of the other readings.
         FourD "4d",
         /// Three standard deviations.
@@ -784,6 +786,10 @@ table! {
         alpha: f64,
         /// Probability of missing an effect at the detection limit (default 0.05).
         beta: f64,
+        /// Quantile for α in its place, as the source rounds it: 1.645 for 5 %.
+        k_alpha: f64,
+        /// Quantile for β in its place, as the source rounds it.
+        k_beta: f64,
         /// Coverage probability of the limits of the coverage interval; that of the conventions when left out.
         coverage_probability: f64,
         /// Guideline value that the detection limit must not exceed.

@@ -109,6 +109,7 @@ fn tested(analysis: &Analysis, outlier: &Outlier, l: Language) -> String {
     let test = match outlier.test {
         OutlierTest::Grubbs => l.pick("Grubbs' test", "格拉布斯检验"),
         OutlierTest::Dixon => l.pick("Dixon's test", "狄克逊检验"),
+        OutlierTest::DixonQ => l.pick("Dixon's Q test", "狄克逊 Q 检验"),
         OutlierTest::FourMeanDeviations => l.pick("Test by four mean deviations", "4d 检验"),
         OutlierTest::ThreeSigma => l.pick("Test by three standard deviations", "3s 检验"),
     };
@@ -340,6 +341,7 @@ pub(super) fn codes(found: &Finding) -> (&'static str, Vec<&'static str>) {
             match found.test {
                 OutlierTest::Grubbs => "outlier-grubbs",
                 OutlierTest::Dixon => "outlier-dixon",
+                OutlierTest::DixonQ => "outlier-dixon-q",
                 OutlierTest::FourMeanDeviations => "outlier-4d",
                 OutlierTest::ThreeSigma => "outlier-3s",
             },

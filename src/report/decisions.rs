@@ -1,7 +1,7 @@
 //! Conformity with a tolerance and characteristic limits: sections of the report, and sentences for the
 //! certificate (ISO/IEC 17025 7.8.6: result, tolerance and decision rule).
 
-use crate::budget::{Conformity, DecisionRule, Detection, Guard, Interval};
+use crate::budget::{Conformity, DecisionRule, Detection, Guard, ISO_14253_PROBABILITY, Interval};
 use crate::propagate::{ConformityResult, DetectionLimit, DetectionResult, Verdict};
 use crate::quantity::{Unit, space_before};
 
@@ -82,11 +82,7 @@ impl Assessment<'_> {
             .acceptance
             .is_some_and(|a| a != self.found.rejection)
         {
-            let outside = self.interval(self.found.rejection, &|x| self.limit(x));
-            row(
-                l.pick("Rejected", "拒绝"),
-                l.pick(format!("not {outside}"), format!("不满足 {outside} 时")),
-            );
+            row(l.pick("Rejected", "拒绝"), self.rejected());
         }
         if let Some(verdict) = self.found.verdict {
             row(l.pick("Measured", "测得值"), self.measured());
@@ -281,6 +277,13 @@ impl Assessment<'_> {
             DecisionRule::Stated(_) => l
                 .pick("stated acceptance limits", "给定的接受限")
                 .to_string(),
+            DecisionRule::GuardedAcceptance(guard @ Guard::Expanded(1.0)) => {
+                let guard = self.guard(guard, "");
+                l.pick(
+                    format!("guarded acceptance, {guard} (ILAC-G8)"),
+                    format!("保护带接受，{guard}（ILAC-G8）"),
+                )
+            }
             DecisionRule::GuardedAcceptance(guard) => {
                 let guard = self.guard(guard, l.pick("conforms", "合格"));
                 l.pick(
@@ -293,6 +296,21 @@ impl Assessment<'_> {
                 l.pick(
                     format!("guarded rejection, {guard}"),
                     format!("保护带拒绝，{guard}"),
+                )
+            }
+            DecisionRule::NonBinary {
+                inner: Guard::Probability(inner),
+                outer: Guard::Probability(outer),
+            } if inner == outer => {
+                let p = probability(inner);
+                let (source, zh) = if inner == ISO_14253_PROBABILITY {
+                    (", as ISO 14253-1", "，同 ISO 14253-1")
+                } else {
+                    ("", "")
+                };
+                l.pick(
+                    format!("non-binary: decided where conformance, or non-conformance, has a probability of at least {p}{source}"),
+                    format!("非二元判定：合格或不合格的概率不小于 {p} 时判定，否则待定{zh}"),
                 )
             }
             DecisionRule::NonBinary { inner, outer } => {
@@ -354,6 +372,23 @@ impl Assessment<'_> {
         }
     }
 
+    /// What lies beyond the limits of rejection.
+    fn rejected(&self) -> String {
+        let Interval { lower, upper } = self.found.rejection;
+        let beyond = |sign: &str, limit: f64| {
+            let number = format!("{sign} {}", self.limit(limit));
+            with_unit(&number, symbol(self.unit))
+        };
+        match (lower.is_finite(), upper.is_finite()) {
+            (true, true) => {
+                [beyond("<", lower), beyond(">", upper)].join(self.l.pick(" or ", " 或 "))
+            }
+            (true, false) => beyond("<", lower),
+            (false, true) => beyond(">", upper),
+            (false, false) => NONE.to_string(),
+        }
+    }
+
     fn interval(&self, interval: Interval, number: &dyn Fn(f64) -> String) -> String {
         let unit = symbol(self.unit);
         let bound =
@@ -410,9 +445,14 @@ impl Limits<'_> {
         let mut fields: Vec<(String, String)> = Vec::new();
         let mut row = |label: &str, text: String| fields.push((label.to_string(), text));
         let gross = &self.report.budget.inputs[self.stated.gross].name;
+        let error = |p: f64, quantile: Option<f64>| match quantile {
+            None => probability(p),
+            Some(k) => format!("{} (k = {})", probability(p), exact(k)),
+        };
+        let [k_alpha, k_beta] = self.stated.quantiles;
         let (alpha, beta) = (
-            probability(self.stated.alpha),
-            probability(self.stated.beta),
+            error(self.stated.alpha, k_alpha),
+            error(self.stated.beta, k_beta),
         );
         let comma = l.pick(", ", "，");
         let of_trials = |text: Option<String>| match text {
@@ -532,13 +572,19 @@ impl Limits<'_> {
         let verdict = self.verdict();
         let limits = self.found.limits.map_or_else(String::new, |limits| {
             let threshold = self.value(limits.decision_threshold);
-            let limit = limits
-                .detection_limit
-                .value()
-                .map_or_else(|| NONE.to_string(), |y| self.value(y));
+            let limit = limits.detection_limit.value().map_or_else(
+                || l.pick("no detection limit", "探测限不存在").to_string(),
+                |y| {
+                    let y = self.value(y);
+                    l.pick(
+                        format!("detection limit y# = {y}"),
+                        format!("探测限 y# = {y}"),
+                    )
+                },
+            );
             l.pick(
-                format!(" (decision threshold y* = {threshold}, detection limit y# = {limit})"),
-                format!("（判断限 y* = {threshold}，探测限 y# = {limit}）"),
+                format!(" (decision threshold y* = {threshold}, {limit})"),
+                format!("（判断限 y* = {threshold}，{limit}）"),
             )
         });
         let p = probability(best.coverage_probability);

@@ -14,6 +14,8 @@ pub enum OutlierTest {
     Grubbs,
     /// Dixon: gap beside the outermost reading over the range (r₁₀, r₁₁, r₂₁, r₂₂ by number of readings).
     Dixon,
+    /// Dixon's Q: r₁₀, the gap over the whole range, for any number of readings.
+    DixonQ,
     /// Four mean deviations of the other readings.
     FourMeanDeviations,
     /// Three standard deviations (Pauta, Raida).
@@ -45,7 +47,7 @@ impl OutlierTest {
     pub fn counts(self) -> (usize, usize) {
         match self {
             OutlierTest::Grubbs => (3, usize::MAX),
-            OutlierTest::Dixon => (3, 30),
+            OutlierTest::Dixon | OutlierTest::DixonQ => (3, 30),
             OutlierTest::FourMeanDeviations => (4, usize::MAX),
             // The largest possible deviation is (n - 1)/√n standard deviations.
             OutlierTest::ThreeSigma => (11, usize::MAX),
@@ -56,7 +58,8 @@ impl OutlierTest {
     pub fn run(self, readings: &[Dd], significance: f64) -> Suspect {
         match self {
             OutlierTest::Grubbs => grubbs(readings, significance),
-            OutlierTest::Dixon => dixon(readings, significance),
+            OutlierTest::Dixon => dixon(Dixon::new(readings.len()), readings, significance),
+            OutlierTest::DixonQ => dixon(Dixon::q(readings.len()), readings, significance),
             OutlierTest::FourMeanDeviations => four_mean_deviations(readings),
             OutlierTest::ThreeSigma => {
                 let (place, statistic) = largest_deviation(readings);
@@ -135,6 +138,14 @@ impl Dixon {
         Dixon { gap, skip, count }
     }
 
+    fn q(count: usize) -> Self {
+        Dixon {
+            gap: 1,
+            skip: 0,
+            count,
+        }
+    }
+
     /// The ratio for the last of readings in ascending (or descending) order.
     fn ratio(self, ordered: &[Dd]) -> f64 {
         let last = ordered[self.count - 1];
@@ -205,10 +216,9 @@ fn binomial_below(limit: usize, count: usize, p: f64) -> f64 {
 }
 
 /// Two-sided, both ends: the larger of both ratios against the critical value for α/2.
-fn dixon(readings: &[Dd], significance: f64) -> Suspect {
+fn dixon(test: Dixon, readings: &[Dd], significance: f64) -> Suspect {
     let mut order: Vec<usize> = (0..readings.len()).collect();
     order.sort_by(|a, b| (readings[*a] - readings[*b]).value().total_cmp(&0.0));
-    let test = Dixon::new(readings.len());
     let ascending: Vec<Dd> = order.iter().map(|place| readings[*place]).collect();
     let descending: Vec<Dd> = ascending.iter().rev().copied().collect();
     let (high, low) = (test.ratio(&ascending), test.ratio(&descending));
@@ -260,6 +270,16 @@ mod tests {
         for (n, critical) in [(3, 0.970), (4, 0.829), (5, 0.710), (6, 0.625), (7, 0.568)] {
             close(critical_ratio(Dixon::new(n), 0.025), critical, 0.003);
         }
+        // The Q test of chemists at 90, 95 and 99 % (Rorabacher 1991).
+        for (n, critical) in [
+            (8, [0.468, 0.526, 0.634]),
+            (10, [0.412, 0.466, 0.568]),
+            (20, [0.300, 0.342, 0.425]),
+        ] {
+            for (probability, critical) in [0.05, 0.025, 0.005].into_iter().zip(critical) {
+                close(critical_ratio(Dixon::q(n), probability), critical, 0.002);
+            }
+        }
         close(critical_ratio(Dixon::new(3), 0.05), 0.941, 0.0006);
         close(critical_ratio(Dixon::new(5), 0.05), 0.642, 0.0006);
         // One-sided 95 %: r11 of 8, r21 of 11, r22 of 14 (Dixon 1953).
@@ -293,6 +313,7 @@ mod tests {
         for test in [
             OutlierTest::Grubbs,
             OutlierTest::Dixon,
+            OutlierTest::DixonQ,
             OutlierTest::FourMeanDeviations,
             OutlierTest::ThreeSigma,
         ] {
@@ -311,7 +332,7 @@ mod tests {
     #[test]
     fn probability_and_critical_value_agree() {
         let values = readings(&[1.0, 2.0, 2.5, 3.0, 9.0]);
-        for test in [OutlierTest::Grubbs, OutlierTest::Dixon] {
+        for test in [OutlierTest::Grubbs, OutlierTest::Dixon, OutlierTest::DixonQ] {
             let p = test.run(&values, 0.05).p.expect("a probability");
             let at = test.run(&values, p);
             close(at.critical, at.statistic, 1e-6);

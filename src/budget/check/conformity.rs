@@ -10,14 +10,11 @@ use crate::budget::faults::{
 use crate::budget::table::Stated;
 use crate::budget::tables::{ConformityTable, FileTable, ProcessTable, RuleWord};
 use crate::budget::values::Amount;
-use crate::budget::{Conformity, DecisionRule, Guard, Interval};
+use crate::budget::{Conformity, DecisionRule, Guard, ISO_14253_PROBABILITY, Interval};
 use crate::distribution::Distribution;
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 use crate::special::normal_two_sided_quantile;
-
-/// ISO 14253-1:2017: conformance and non-conformance are to be shown with this probability.
-const ISO_14253_PROBABILITY: f64 = 0.95;
 
 /// A name from the file and the unit in which amounts are understood.
 struct Subject<'a> {

@@ -7,6 +7,7 @@ use crate::budget::faults::{DETECTION, MISSING_KEY, NOT_POSITIVE};
 use crate::budget::table::Stated;
 use crate::budget::tables::{DetectionTable, FileTable};
 use crate::fault::Fault;
+use crate::special::normal_sf;
 
 /// α and β where the file states none (ISO 11929).
 const USUAL: f64 = 0.05;
@@ -61,8 +62,9 @@ impl Checker<'_> {
                 .help("name the input that changes when the measurand does: gross = \"n_g\""),
             ),
         };
-        let alpha = self.error_probability(&table.alpha);
-        let beta = self.error_probability(&table.beta);
+        let alpha = self.error_probability(&table.alpha, &table.k_alpha);
+        let beta = self.error_probability(&table.beta, &table.k_beta);
+        let quantile = |stated: &Option<Stated<f64>>| stated.as_ref().map(|k| k.value);
         let coverage = match &table.coverage_probability {
             Some(p) => self.probability(p),
             None => Some(self.conventions.coverage_probability),
@@ -87,14 +89,47 @@ impl Checker<'_> {
             gross: gross?,
             alpha: alpha?,
             beta: beta?,
+            quantiles: [quantile(&table.k_alpha), quantile(&table.k_beta)],
             coverage_probability: coverage?,
             guideline: guideline?,
         })
     }
 
-    fn error_probability(&mut self, stated: &Option<Stated<f64>>) -> Option<f64> {
-        let Some(stated) = stated else {
-            return Some(USUAL);
+    /// From a probability, or from the quantile that is exceeded with it.
+    fn error_probability(
+        &mut self,
+        stated: &Option<Stated<f64>>,
+        quantile: &Option<Stated<f64>>,
+    ) -> Option<f64> {
+        let stated = match (stated, quantile) {
+            (None, None) => return Some(USUAL),
+            (Some(stated), None) => stated,
+            (None, Some(k)) if k.value > 0.0 && normal_sf(k.value) > 0.0 => {
+                return Some(normal_sf(k.value));
+            }
+            (None, Some(k)) => {
+                return self.refuse(
+                    Fault::new(
+                        DETECTION,
+                        k.span.clone(),
+                        format!("a quantile of {}", k.value),
+                    )
+                    .label("expected a number above 0, such as 1.645")
+                    .help("state the quantile of the normal distribution for 1 − α, or `alpha` itself"),
+                );
+            }
+            (Some(p), Some(k)) => {
+                return self.refuse(
+                    Fault::new(
+                        DETECTION,
+                        k.key.clone(),
+                        "the probability of a wrong decision is stated twice",
+                    )
+                    .label("the quantile")
+                    .related(p.key.clone(), "the probability")
+                    .help("leave out one of them"),
+                );
+            }
         };
         let p = self.probability(stated)?;
         if p < 0.5 {

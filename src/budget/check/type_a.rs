@@ -140,6 +140,7 @@ impl Checker<'_> {
         let (test, leveled) = match stated.value {
             OutlierWord::Grubbs => (OutlierTest::Grubbs, true),
             OutlierWord::Dixon => (OutlierTest::Dixon, true),
+            OutlierWord::Q => (OutlierTest::DixonQ, true),
             OutlierWord::FourD => (OutlierTest::FourMeanDeviations, false),
             OutlierWord::ThreeS => (OutlierTest::ThreeSigma, false),
         };

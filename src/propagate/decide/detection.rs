@@ -276,6 +276,7 @@ mod tests {
         gross: 0,
         alpha: 0.05,
         beta: 0.05,
+        quantiles: [None; 2],
         coverage_probability: 0.95,
         guideline: None,
     };

@@ -345,7 +345,7 @@ impl<'r> Check<'r> {
             .collect();
         let symbols = names
             .iter()
-            .filter_map(|n| self.l.symbols.iter().position(|s| s.name == *n))
+            .filter_map(|n| self.l.place_of(n))
             .collect();
         let statements = names
             .iter()

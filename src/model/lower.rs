@@ -60,6 +60,8 @@ pub enum Binding {
 pub struct Lowering<'r> {
     pub builder: Builder,
     pub symbols: &'r [Symbol],
+    /// Place of each symbol by its name.
+    places: HashMap<&'r str, usize>,
     pub units: &'r UnitTable,
     /// Inputs, constants and what the statements so far define.
     pub scope: HashMap<String, Binding>,
@@ -79,9 +81,14 @@ pub struct Lowering<'r> {
 
 impl<'r> Lowering<'r> {
     pub fn new(symbols: &'r [Symbol], units: &'r UnitTable) -> Self {
+        let mut places = HashMap::with_capacity(symbols.len());
+        for (place, symbol) in symbols.iter().enumerate() {
+            places.entry(symbol.name.as_str()).or_insert(place);
+        }
         Lowering {
             builder: Builder::default(),
             symbols,
+            places,
             units,
             scope: HashMap::new(),
             locals: vec![HashMap::new()],
@@ -96,7 +103,12 @@ impl<'r> Lowering<'r> {
     }
 
     pub fn symbol(&self, name: &str) -> Option<&'r Symbol> {
-        self.symbols.iter().find(|s| s.name == name)
+        self.place_of(name).map(|place| &self.symbols[place])
+    }
+
+    /// Which of the symbols has this name.
+    pub fn place_of(&self, name: &str) -> Option<usize> {
+        self.places.get(name).copied()
     }
 
     /// Notes a fault. One inside a user's function is shown at the call that leads to it.

@@ -1,13 +1,15 @@
 //! Correlation coefficients, and the joint distributions of correlated components.
 
+use std::collections::{HashMap, HashSet};
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::Checker;
 use super::draft::show;
 use super::fits::Fitted;
 use super::groups::connected;
 use super::register::Register;
-use crate::budget::Group;
+use crate::budget::{Component, Group, Owner};
 use crate::budget::faults::{
     CORRELATION_TWICE, MISSING_KEY, NOT_A_CORRELATION, PAIR_TWICE, SELF_PAIR, UNKNOWN_NAME,
     WRONG_TYPE,
@@ -22,7 +24,7 @@ pub(super) const ROUNDING: f64 = 1e-9;
 /// A stated correlation, spread over the components of its two sides.
 #[derive(Debug, Clone)]
 pub(super) struct Statement {
-    pub names: [String; 2],
+    pub names: [Arc<str>; 2],
     pub r: f64,
     pub place: Range<usize>,
     /// Correlation of the sides' own parts = `scale`·r + `offset`.
@@ -35,7 +37,10 @@ pub(super) struct Statement {
 }
 
 /// One side of a correlation: components with their shares of the side's standard uncertainty.
-struct Side {
+pub(super) struct Side {
+    name: Arc<str>,
+    /// Where the file names it.
+    span: Range<usize>,
     members: Vec<(usize, f64)>,
     /// Standard uncertainty of the side's own components.
     own: f64,
@@ -114,58 +119,64 @@ impl Checker<'_> {
                 ),
             );
         }
-        let before = self.faults.len();
+        let sides: Vec<Option<Side>> = between
+            .value
+            .iter()
+            .map(|name| self.side(name, register))
+            .collect();
+        if !self.is_coefficient(r) {
+            return None;
+        }
+        let sides: Vec<Side> = sides.into_iter().collect::<Option<_>>()?;
         let mut statements = Vec::new();
-        for (index, second) in between.value.iter().enumerate() {
-            for first in &between.value[..index] {
-                let statement = self.pair(first, second, r, register);
-                // One fault of a name is enough; the other pairs have it, too.
-                if self.faults.len() > before {
-                    return None;
-                }
+        for (index, second) in sides.iter().enumerate() {
+            for first in &sides[..index] {
+                // The other pairs have the same fault.
+                let statement = self.pair(first, second, r, register)?;
                 statements.push(Statement {
-                    whole: between.value.len(),
-                    ..statement?
+                    whole: sides.len(),
+                    ..statement
                 });
             }
         }
         Some(statements)
     }
 
-    /// A statement about two names.
+    /// Whether a number can be a correlation coefficient; reports it where not.
+    pub(super) fn is_coefficient(&mut self, r: &Stated<f64>) -> bool {
+        if (-1.0..=1.0).contains(&r.value) {
+            return true;
+        }
+        self.faults.push(
+            Fault::new(
+                NOT_A_CORRELATION,
+                r.span.clone(),
+                format!("a correlation coefficient of {}", r.value),
+            )
+            .label("expected a number from -1 to 1")
+            .help("r is the covariance divided by both standard uncertainties; a covariance itself is stated in [[joint]]"),
+        );
+        false
+    }
+
+    /// A statement about two quantities.
     pub(super) fn pair(
         &mut self,
-        first: &Stated<String>,
-        second: &Stated<String>,
+        a: &Side,
+        b: &Side,
         r: &Stated<f64>,
         register: &Register,
     ) -> Option<Statement> {
-        let sides = (self.side(first, register), self.side(second, register));
-        if !(-1.0..=1.0).contains(&r.value) {
-            return self.refuse(
-                Fault::new(
-                    NOT_A_CORRELATION,
-                    r.span.clone(),
-                    format!("a correlation coefficient of {}", r.value),
-                )
-                .label("expected a number from -1 to 1")
-                .help("r is the covariance divided by both standard uncertainties; a covariance itself is stated in [[joint]]"),
-            );
-        }
-        let (a, b) = (sides.0?, sides.1?);
-        if first.value == second.value
-            || a.members
-                .iter()
-                .any(|(m, _)| b.members.iter().any(|(n, _)| m == n))
-        {
+        let common_member = || a.members.iter().any(|(m, _)| b.members.iter().any(|(n, _)| m == n));
+        if a.name == b.name || common_member() {
             return self.refuse(
                 Fault::new(
                     SELF_PAIR,
-                    second.span.clone(),
-                    format!("{} is correlated with itself", first.value),
+                    b.span.clone(),
+                    format!("{} is correlated with itself", a.name),
                 )
                 .label("the same quantity")
-                .related(first.span.clone(), "as this one")
+                .related(a.span.clone(), "as this one")
                 .help("name two different quantities; for successive readings of one quantity write autocorrelated = true"),
             );
         }
@@ -180,7 +191,7 @@ impl Checker<'_> {
                     r.span.clone(),
                     format!(
                         "the standard uncertainties of {} and {} are too small to be correlated",
-                        first.value, second.value
+                        a.name, b.name
                     ),
                 )
                 .label("cannot be computed")
@@ -194,7 +205,7 @@ impl Checker<'_> {
                     r.span.clone(),
                     format!(
                         "r = {} cannot be reached beside the shared sources of {} and {}",
-                        r.value, first.value, second.value
+                        r.value, a.name, b.name
                     ),
                 )
                 .label(format!(
@@ -209,14 +220,14 @@ impl Checker<'_> {
             .iter()
             .flat_map(|(m, v)| b.members.iter().map(move |(n, w)| (*m, *n, v * w)))
             .collect();
-        let place = first.span.start..r.span.end.max(second.span.end);
+        let place = a.span.start..r.span.end.max(b.span.end);
         let place = if place.start < r.span.start {
             r.span.clone()
         } else {
             place
         };
         Some(Statement {
-            names: [first.value.clone(), second.value.clone()],
+            names: [a.name.clone(), b.name.clone()],
             r: r.value,
             place,
             scale,
@@ -226,7 +237,8 @@ impl Checker<'_> {
         })
     }
 
-    fn side(&mut self, name: &Stated<String>, register: &Register) -> Option<Side> {
+    /// What is behind a name of a correlation statement.
+    pub(super) fn side(&mut self, name: &Stated<String>, register: &Register) -> Option<Side> {
         if let Some(taken) = register.taken_as(&name.value) {
             return self.refuse(taken.not_to_be_correlated(name));
         }
@@ -276,6 +288,8 @@ impl Checker<'_> {
             .map(|index| (*index, u(index) / own))
             .collect();
         Some(Side {
+            name: name.value.as_str().into(),
+            span: name.span.clone(),
             members,
             own,
             total,
@@ -285,16 +299,17 @@ impl Checker<'_> {
 
     /// Reports pairs that are stated more than once.
     fn twice(&mut self, statements: &[Statement]) {
-        for (index, later) in statements.iter().enumerate() {
-            let same = |earlier: &&Statement| {
-                earlier.pairs.iter().any(|(a, b, _)| {
-                    later
-                        .pairs
-                        .iter()
-                        .any(|(c, d, _)| (a, b) == (c, d) || (a, b) == (d, c))
-                })
-            };
-            if let Some(earlier) = statements[..index].iter().find(same) {
+        let mut first: HashMap<(usize, usize), &Statement> = HashMap::new();
+        for later in statements {
+            let ordered = |(a, b, _): &(usize, usize, f64)| (*a.min(b), *a.max(b));
+            let earlier = later
+                .pairs
+                .iter()
+                .find_map(|pair| first.get(&ordered(pair)).copied());
+            for pair in &later.pairs {
+                first.entry(ordered(pair)).or_insert(later);
+            }
+            if let Some(earlier) = earlier {
                 let [a, b] = &later.names;
                 self.faults.push(
                     Fault::new(
@@ -312,12 +327,16 @@ impl Checker<'_> {
 
     /// Reports correlations of components that a joint statement already correlates.
     fn outside_groups(&mut self, statements: &[Statement], groups: &[Group], register: &Register) {
+        let joint: HashSet<usize> = groups
+            .iter()
+            .flat_map(|group| group.members.iter().copied())
+            .collect();
         for statement in statements {
             let taken = statement
                 .pairs
                 .iter()
                 .flat_map(|(a, b, _)| [*a, *b])
-                .find(|index| groups.iter().any(|group| group.members.contains(index)));
+                .find(|index| joint.contains(index));
             if let Some(component) = taken.and_then(|index| register.components.get(index)) {
                 self.faults.push(
                     Fault::new(
@@ -367,11 +386,11 @@ impl Register {
         let (Some(first), Some(second)) = (self.inputs.get(a), self.inputs.get(b)) else {
             return 0.0;
         };
-        let own = self.own(a);
-        let shared = first
-            .terms
-            .iter()
-            .filter(|term| a != b || !own.contains(&term.component));
+        let of_itself = a == b;
+        let shared = first.terms.iter().filter(|term| {
+            let own = |owner: &Component| owner.owner == Owner::Input(a);
+            !(of_itself && self.components.get(term.component).is_some_and(own))
+        });
         shared
             .filter_map(|term| {
                 let other = second

@@ -1,11 +1,13 @@
 //! `[[joint]]`: simultaneous readings, covariance matrices, correlation matrices.
 
+use std::collections::HashSet;
+
 use nalgebra::DMatrix;
 
 use super::Checker;
-use super::correlations::Statement;
+use super::correlations::{Side, Statement};
 use super::draft::{Draft, Kind, Location, show};
-use super::groups::smallest_eigenvalue;
+use super::groups::negative_eigenvalue;
 use super::register::Register;
 use super::type_a::{mean_and_squares, student};
 use crate::budget::faults::{
@@ -159,14 +161,12 @@ impl Checker<'_> {
         if !complete {
             return None;
         }
-        let twice = places
-            .iter()
-            .enumerate()
-            .find(|(index, (place, _))| places[..*index].iter().any(|(p, _)| p == place));
+        let mut seen = HashSet::new();
+        let twice = places.iter().find(|(place, _)| !seen.insert(*place));
         if places.len() >= 2 && twice.is_none() {
             return Some(places);
         }
-        let span = twice.map_or(names.span.clone(), |(_, (_, name))| name.span.clone());
+        let span = twice.map_or(names.span.clone(), |(_, name)| name.span.clone());
         self.refuse(
             Fault::new(
                 JOINT,
@@ -261,8 +261,7 @@ impl Checker<'_> {
                 matrix[(i, j)] / (u[i] * u[j])
             }
         });
-        let smallest = smallest_eigenvalue(&correlation);
-        if smallest < -1e-9 {
+        if let Some(smallest) = negative_eigenvalue(&correlation) {
             return self.refuse(
                 Fault::new(NOT_SEMIDEFINITE, covariance.span.clone(), "no quantities can have this covariance matrix")
                     .label(format!("smallest eigenvalue of the correlation matrix {}", show(smallest)))
@@ -341,10 +340,21 @@ impl Checker<'_> {
                 );
                 return;
             }
-            for j in 0..i {
-                let r = &correlation.value[i].value[j];
-                if r.value != 0.0 {
-                    statements.extend(self.pair(&inputs[j].1, &inputs[i].1, r, register));
+        }
+        let coefficient = |i: usize, j: usize| &correlation.value[i].value[j];
+        let correlated = |i: usize| (0..inputs.len()).any(|j| j != i && coefficient(i, j).value != 0.0);
+        let sides: Vec<Option<Side>> = inputs
+            .iter()
+            .enumerate()
+            .map(|(i, (_, name))| correlated(i).then(|| self.side(name, register)).flatten())
+            .collect();
+        for (i, second) in sides.iter().enumerate() {
+            for (j, first) in sides[..i].iter().enumerate() {
+                let r = coefficient(i, j);
+                if r.value != 0.0 && self.is_coefficient(r)
+                    && let (Some(first), Some(second)) = (first, second)
+                {
+                    statements.extend(self.pair(first, second, r, register));
                 }
             }
         }

@@ -209,21 +209,21 @@ fn saturation_is_told_from_quiet_and_coarse_readings() {
         noise.iter().map(|x| (x / step).round() * step).collect()
     };
     let clipped = |limit: f64| -> Vec<f64> { noise.iter().map(|x| x.min(limit)).collect() };
-    assert_eq!(saturated(&noise), []);
-    assert_eq!(saturated(&quantised(0.1)), []);
-    assert_eq!(saturated(&quantised(1.0)), []);
-    assert_eq!(saturated(&quantised(2.0)), []);
+    assert!(saturated(&noise).is_empty());
+    assert!(saturated(&quantised(0.1)).is_empty());
+    assert!(saturated(&quantised(1.0)).is_empty());
+    assert!(saturated(&quantised(2.0)).is_empty());
     assert_eq!(saturated(&clipped(0.0)), [0.0]);
     assert_eq!(saturated(&clipped(2.5)), [2.5]);
     // Levels of a stimulus, each held as long as the others.
     let stairs: Vec<f64> = (0..300).map(|i| f64::from(i / 50)).collect();
-    assert_eq!(saturated(&stairs), []);
+    assert!(saturated(&stairs).is_empty());
     // One dwell of several lies beyond the range.
     let dwells: Vec<f64> = (0..).zip(&noise).map(|(i, x)| ((f64::from(i / 500) + 0.1 * x).min(4.0) * 100.0).round()).collect();
     assert_eq!(saturated(&dwells), [400.0]);
     // A quantised sine lingers at its crest.
     let sine: Vec<f64> = (0..3000).map(|i| (500.0 * (f64::from(i) * 0.01).sin()).round()).collect();
-    assert_eq!(saturated(&sine), []);
+    assert!(saturated(&sine).is_empty());
     let checks = Checks { outputs: &["x"], ranges: &[("x", [-2.0, 2.0])], ..NO_CHECKS };
     let limits = told(&column("x", &noise), &checks);
     assert_eq!(limits.len(), 2);

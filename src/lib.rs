@@ -18,6 +18,7 @@
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
 //! | [`budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
+//! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
 //! | [`verify`] | published examples held against their published figures |
 //! | [`report`] | text, Markdown, JSON, the certificate's sentence, saved results, the dossier |
 //!
@@ -75,6 +76,7 @@ pub mod least_squares;
 pub mod model;
 pub mod propagate;
 pub mod quantity;
+pub mod recording;
 pub mod report;
 pub mod special;
 pub mod statistics;

@@ -1,0 +1,48 @@
+//! Codes of the faults in a recording.
+
+use crate::fault::Code;
+
+macro_rules! codes {
+    ($($name:ident = $id:literal, $title:literal, $explanation:literal;)*) => {
+        $(
+            #[doc = $title]
+            pub const $name: Code = Code { id: $id, title: $title, explanation: $explanation };
+        )*
+
+        /// All codes of this module.
+        pub const CODES: &[Code] = &[$($name),*];
+    };
+}
+
+codes! {
+    UNREADABLE = "R0101", "a recording cannot be read",
+        "The CSV file does not exist, is a folder or may not be read. Its path starts from the folder of the file that names it.";
+    NOT_UTF8 = "R0102", "a recording is not UTF-8 text",
+        "Recordings are CSV files in UTF-8. Programs that save a workbook (`.xlsx`) or text in a code page can export CSV in UTF-8 as well.";
+    NO_HEADER = "R0103", "a recording has no names of columns",
+        "The first line that is not empty and does not begin with `#` names the columns, with their units.\n\n    time [s],U [mV],T [°C]\n    0.00,12.034,22.91";
+    NO_ROWS = "R0104", "a recording has no rows",
+        "There is nothing below the line of names.";
+    SAME_NAME = "R0105", "two columns have the same name",
+        "A column is asked for by its name, which must be its own. With its unit, or without: a name that two columns share without their units is to be written with the unit.";
+    NO_COLUMN = "R0106", "a column is not in the recording",
+        "The columns are named in the first line. A column may be asked for by the whole text there, or by its name without the unit.";
+    ROW_LENGTH = "R0107", "a row has more or fewer fields than the first line",
+        "A recorder that was stopped while it wrote leaves half a line; a decimal comma makes two fields out of one number. No row is padded or cut silently.";
+    NOT_A_NUMBER = "R0108", "a field is not a number",
+        "Numbers have a decimal point and no thousands separators: `1013.25`, `-2.5e-3`. A missing value is an empty field or `NaN`. Times are numbers too, in a unit such as s or h, not dates.";
+    UNIT = "R0109", "the unit of a column is not known",
+        "The unit stands in the header: `U [mV]`, `U (mV)`, `U/mV` or, for common units, `U_mV`. Square brackets hold nothing else.";
+    NO_UNIT = "R0110", "the unit of a column is missing",
+        "The quantity has a dimension, so its numbers need a unit, in the header (`U [mV]`) or in the file that names the column. No unit is ever assumed. An ending `_g` is not taken for a unit: gram and the acceleration of free fall (`gn`) are both written so.";
+    UNIT_CLASH = "R0111", "the unit of a column does not fit",
+        "The unit in the header is of another dimension than the quantity, or is another than the one stated for the column.";
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn codes_ascend() {
+        assert!(super::CODES.windows(2).all(|pair| pair[0].id < pair[1].id));
+    }
+}

@@ -1,0 +1,251 @@
+//! Names and units of columns, from the texts in the first line.
+
+use std::ops::Range;
+
+use crate::quantity::{Unit, UnitError, UnitTable};
+
+/// What the first line says of a column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heading {
+    /// The whole text: `acc_x [m/s^2]`.
+    pub text: String,
+    /// The name without the unit: `acc_x`.
+    pub name: String,
+    /// The unit, if one is stated. An error stands for brackets that hold no unit; its span is in `text`.
+    pub unit: Result<Option<Unit>, UnitError>,
+}
+
+/// Endings that are units, as `_` before them says. Of the letter units only those are here that are
+/// nothing else in the head of a column: no `_g` and `_mg` (gram, free fall), no `_min` (minimum).
+const ENDINGS: &[(&str, &str)] = &[
+    ("degC", "°C"),
+    ("celsius", "°C"),
+    ("degF", "°F"),
+    ("K", "K"),
+    ("mK", "mK"),
+    ("V", "V"),
+    ("kV", "kV"),
+    ("mV", "mV"),
+    ("uV", "µV"),
+    ("nV", "nV"),
+    ("A", "A"),
+    ("mA", "mA"),
+    ("uA", "µA"),
+    ("nA", "nA"),
+    ("ohm", "Ω"),
+    ("mohm", "mΩ"),
+    ("kohm", "kΩ"),
+    ("Mohm", "MΩ"),
+    ("ohm_cm", "Ω·cm"),
+    ("ohm_m", "Ω·m"),
+    ("mps2", "m/s^2"),
+    ("m_s2", "m/s^2"),
+    ("m_per_s2", "m/s^2"),
+    ("mps", "m/s"),
+    ("m_per_s", "m/s"),
+    ("mm_per_s", "mm/s"),
+    ("gn", "gn"),
+    ("mgn", "mgn"),
+    ("ugn", "µgn"),
+    ("radps", "rad/s"),
+    ("rad_s", "rad/s"),
+    ("rad_per_s", "rad/s"),
+    ("mradps", "mrad/s"),
+    ("dps", "°/s"),
+    ("degps", "°/s"),
+    ("deg_s", "°/s"),
+    ("deg_per_s", "°/s"),
+    ("mdps", "m°/s"),
+    ("dph", "°/h"),
+    ("deg_h", "°/h"),
+    ("deg_per_h", "°/h"),
+    ("rpm", "rpm"),
+    ("rad", "rad"),
+    ("mrad", "mrad"),
+    ("urad", "µrad"),
+    ("deg", "°"),
+    ("mdeg", "m°"),
+    ("arcmin", "′"),
+    ("arcsec", "″"),
+    ("counts", "counts"),
+    ("count", "count"),
+    ("lsb", "LSB"),
+    ("LSB", "LSB"),
+    ("pulses", "pulses"),
+    ("s", "s"),
+    ("ms", "ms"),
+    ("us", "µs"),
+    ("ns", "ns"),
+    ("h", "h"),
+    ("Hz", "Hz"),
+    ("kHz", "kHz"),
+    ("MHz", "MHz"),
+    ("N", "N"),
+    ("mN", "mN"),
+    ("kN", "kN"),
+    ("Nm", "N·m"),
+    ("Pa", "Pa"),
+    ("hPa", "hPa"),
+    ("kPa", "kPa"),
+    ("MPa", "MPa"),
+    ("bar", "bar"),
+    ("mbar", "mbar"),
+    ("m", "m"),
+    ("cm", "cm"),
+    ("mm", "mm"),
+    ("um", "µm"),
+    ("nm", "nm"),
+    ("kg", "kg"),
+    ("W", "W"),
+    ("mW", "mW"),
+    ("mT", "mT"),
+    ("uT", "µT"),
+    ("ppm", "ppm"),
+    ("ppb", "ppb"),
+    ("pct", "%"),
+    ("percent", "%"),
+];
+
+/// Things that are told apart by letters: `channel_A` is no current.
+const LETTERED: &[&str] = &[
+    "axis", "ch", "channel", "class", "group", "lot", "meter", "mount", "part", "phase", "point",
+    "pos", "position", "probe", "run", "sensor", "series", "set", "side", "type", "unit",
+];
+
+impl Heading {
+    /// Reads `name [unit]`, `name (unit)`, `name/unit`, `name_unit` or a name alone.
+    ///
+    /// Round brackets and a solidus may also be part of a name (`T (oven)`, `U/U0`); they hold a
+    /// unit where their content is one.
+    pub fn read(text: &str, units: &UnitTable) -> Heading {
+        let text = text.trim();
+        let bracketed = last_group(text, '[', ']').map(|place| (place, Certain::Yes));
+        let other = || last_group(text, '(', ')').or_else(|| after_solidus(text));
+        let place = bracketed.or_else(|| other().map(|place| (place, Certain::No)));
+        let Some(((name, unit), certain)) = place else {
+            return by_ending(text, units);
+        };
+        match (units.parse(&text[unit.clone()]), certain) {
+            (Err(error), Certain::Yes) => {
+                let moved = error.span.start + unit.start..error.span.end + unit.start;
+                Heading::new(text, name, Err(UnitError { span: moved, ..error }))
+            }
+            (Err(_), Certain::No) => by_ending(text, units),
+            (Ok(unit), _) => Heading::new(text, name, Ok(Some(unit))),
+        }
+    }
+
+    fn new(text: &str, name: &str, unit: Result<Option<Unit>, UnitError>) -> Heading {
+        Heading {
+            text: text.to_owned(),
+            name: name.trim().to_owned(),
+            unit,
+        }
+    }
+}
+
+/// Whether the place can hold a unit only.
+#[derive(Clone, Copy)]
+enum Certain {
+    Yes,
+    No,
+}
+
+/// The name, and the place of what stands in brackets at the end.
+fn last_group(text: &str, open: char, close: char) -> Option<(&str, Range<usize>)> {
+    let inner = text.strip_suffix(close)?;
+    let mut depth = 0_usize;
+    for (at, c) in inner.char_indices().rev() {
+        match c {
+            _ if c == close => depth += 1,
+            _ if c == open && depth > 0 => depth -= 1,
+            _ if c == open => {
+                let name = &text[..at];
+                return (!name.trim().is_empty()).then_some((name, at + 1..inner.len()));
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// The quotient notation `a/(m/s^2)`: everything behind the first solidus.
+fn after_solidus(text: &str) -> Option<(&str, Range<usize>)> {
+    let at = text.find('/')?;
+    let name = &text[..at];
+    let unit = at + 1..text.len();
+    (!name.trim().is_empty() && !text[unit.clone()].trim().is_empty()).then_some((name, unit))
+}
+
+fn by_ending(text: &str, units: &UnitTable) -> Heading {
+    let known = |(ending, unit): (&str, &'static str)| {
+        let name = text.strip_suffix(ending)?.strip_suffix('_')?;
+        let last = name.rsplit('_').next().unwrap_or_default().to_lowercase();
+        let lettered = ending.len() == 1 && LETTERED.contains(&last.as_str());
+        (!name.is_empty() && !lettered).then_some((name, unit))
+    };
+    let longest = ENDINGS
+        .iter()
+        .filter_map(|ending| known(*ending))
+        .min_by_key(|(name, _)| name.len());
+    match longest.and_then(|(name, unit)| Some((name, units.parse(unit).ok()?))) {
+        Some((name, unit)) => Heading::new(text, name, Ok(Some(unit))),
+        None => Heading::new(text, text, Ok(None)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn heading(text: &str) -> Heading {
+        Heading::read(text, &UnitTable::default())
+    }
+
+    fn parts(text: &str) -> (String, Option<String>) {
+        let heading = heading(text);
+        let unit = heading.unit.expect("a unit or none");
+        (heading.name, unit.map(|unit| unit.symbol))
+    }
+
+    fn pair(name: &str, unit: &str) -> (String, Option<String>) {
+        (name.into(), Some(unit.into()))
+    }
+
+    #[test]
+    fn units_in_all_forms() {
+        assert_eq!(parts("acc_x [m/s^2]"), pair("acc_x", "m/s^2"));
+        assert_eq!(parts("U (mV)"), pair("U", "mV"));
+        assert_eq!(parts("a (m/(s·s))"), pair("a", "m/(s·s)"));
+        assert_eq!(parts("T / °C"), pair("T", "°C"));
+        assert_eq!(parts("a/(m/s^2)"), pair("a", "(m/s^2)"));
+        assert_eq!(parts("oven_degC"), pair("oven", "°C"));
+        assert_eq!(parts("温度 [°C]"), pair("温度", "°C"));
+        assert_eq!(parts("resistivity_ohm_cm"), pair("resistivity", "Ω·cm"));
+        assert_eq!(parts("rate_deg_per_s"), pair("rate", "°/s"));
+        assert_eq!(parts("gyro_z_radps"), pair("gyro_z", "rad/s"));
+    }
+
+    #[test]
+    fn names_that_only_look_like_units() {
+        for text in ["T (oven)", "U/U0", "channel_A", "acc_x_g", "t_min", "s", "_s", "[m]", "load_units", "e1_1e10esu"] {
+            assert_eq!(parts(text), (text.to_string(), None), "{text}");
+        }
+        assert_eq!(parts("current_A"), pair("current", "A"));
+    }
+
+    #[test]
+    fn brackets_hold_nothing_but_units() {
+        let error = heading("force [kilo]").unit.expect_err("no unit");
+        assert_eq!(error.span, 7..11);
+    }
+
+    #[test]
+    fn every_ending_is_a_unit() {
+        for (ending, unit) in ENDINGS {
+            let heading = heading(&format!("x_{ending}"));
+            let expected = UnitTable::default().parse(unit).expect(unit);
+            assert_eq!((heading.name.as_str(), heading.unit), ("x", Ok(Some(expected))));
+        }
+    }
+}

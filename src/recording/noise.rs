@@ -1,0 +1,214 @@
+//! White noise, bias instability and rate random walk from an Allan deviation.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::allan::Allan;
+use super::power_law::{PowerLaw, covariances};
+use crate::special::{chi_squared_sf, normal_quantile};
+
+/// The noise of an instrument: σ²(τ) = N²/τ + B² · 2 ln 2/π + K² τ/3.
+///
+/// Units, with the readings in R and the interval in s: N in R·√s, B in R, K in R/√s.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Noises {
+    /// N, for the rate of a gyro the angle random walk: the part that falls with τ^−½.
+    pub white: Coefficient,
+    /// B: the flat part, whose Allan deviation is 0.664 B.
+    pub bias_instability: Coefficient,
+    /// K: the part that rises with τ^½.
+    pub rate_random_walk: Coefficient,
+    /// Weighted sum of squared residuals of the fit.
+    pub chi_squared: f64,
+    /// Averaging times less the number of coefficients that were identified.
+    pub dof: usize,
+    /// Probability of a greater χ² if the three noises are all there is. Approximate, because Allan
+    /// variances of few degrees of freedom are not normal; a very small one says that something else
+    /// is in the recording: a drift, a period, quantisation.
+    pub p_value: f64,
+}
+
+/// A coefficient of noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Coefficient {
+    /// The recording shows it.
+    Identified {
+        /// Its value.
+        value: f64,
+        /// Its standard uncertainty.
+        u: f64,
+    },
+    /// The recording does not show it.
+    Hidden {
+        /// It is less than this with a probability of 95 %.
+        limit: f64,
+    },
+}
+
+impl Coefficient {
+    /// The value, if the recording shows it.
+    pub fn value(self) -> Option<f64> {
+        match self {
+            Coefficient::Identified { value, .. } => Some(value),
+            Coefficient::Hidden { .. } => None,
+        }
+    }
+}
+
+/// A part of the variance is identified if it is this many times its standard uncertainty.
+const EVIDENT: f64 = 2.0;
+/// The weights follow the coefficients; they settle in a few rounds.
+const ROUNDS: usize = 25;
+
+impl Allan {
+    /// The noises that the Allan deviation shows, by generalised least squares on the variances with
+    /// the covariances of theory. Those that are not evident (less than twice their standard uncertainty,
+    /// as squares) are left out one after another.
+    ///
+    /// `None` for readings that are all equal, or with fewer than four averaging times.
+    pub fn noises(&self) -> Option<Noises> {
+        if self.points.len() < 4 || self.points.iter().any(|point| point.deviation <= 0.0) {
+            return None;
+        }
+        let problem = Variances::new(self);
+        let mut laws: Vec<PowerLaw> = PowerLaw::ALL.to_vec();
+        let fit = loop {
+            let fit = problem.fit(&laws);
+            let weakest = fit.as_ref().and_then(Fit::weakest);
+            match weakest {
+                Some((place, ratio)) if ratio < EVIDENT && laws.len() > 1 => {
+                    laws.remove(place);
+                }
+                _ => break fit?,
+            }
+        };
+        let coefficient = |law: PowerLaw| -> Option<Coefficient> {
+            // From variances per interval to those per unit of time.
+            let scale = law.allan_variance(1.0) / law.allan_variance(self.interval);
+            if let Some(place) = laws.iter().position(|other| *other == law) {
+                let (square, u) = (fit.squares[place], fit.covariance[(place, place)].sqrt());
+                let value = square.max(0.0).sqrt();
+                return Some(Coefficient::Identified {
+                    value: value * scale.sqrt(),
+                    u: u / (2.0 * value) * scale.sqrt(),
+                });
+            }
+            let mut with: Vec<PowerLaw> = laws.clone();
+            with.push(law);
+            let fit = problem.with_weights_of(&fit, &with)?;
+            let place = with.len() - 1;
+            let u = fit.covariance[(place, place)].sqrt();
+            let square = fit.squares[place].max(0.0) + normal_quantile(0.95) * u;
+            let limit = (square * scale).sqrt();
+            Some(Coefficient::Hidden { limit })
+        };
+        let dof = self.points.len() - laws.len();
+        Some(Noises {
+            white: coefficient(PowerLaw::White)?,
+            bias_instability: coefficient(PowerLaw::Flicker)?,
+            rate_random_walk: coefficient(PowerLaw::RandomWalk)?,
+            chi_squared: fit.chi_squared,
+            dof,
+            p_value: chi_squared_sf(fit.chi_squared, dof as f64),
+        })
+    }
+}
+
+/// The variances and what theory says of them, for an interval of 1 and variances near 1.
+struct Variances {
+    observed: DVector<f64>,
+    taus: Vec<f64>,
+    /// The covariances as quadratic forms of squared coefficients.
+    terms: Vec<Vec<[[f64; 3]; 3]>>,
+    unit: f64,
+}
+
+struct Fit {
+    laws: Vec<PowerLaw>,
+    squares: DVector<f64>,
+    covariance: DMatrix<f64>,
+    chi_squared: f64,
+    /// Inverse of the covariance matrix of the variances.
+    weights: DMatrix<f64>,
+}
+
+impl Fit {
+    /// The coefficient that is least evident, and by how much it is.
+    fn weakest(&self) -> Option<(usize, f64)> {
+        (0..self.laws.len())
+            .map(|i| (i, self.squares[i] / self.covariance[(i, i)].sqrt()))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+impl Variances {
+    fn new(allan: &Allan) -> Variances {
+        let squares = allan.points.iter().map(|point| point.deviation * point.deviation);
+        let squares: Vec<f64> = squares.collect();
+        let unit = squares.iter().copied().fold(f64::INFINITY, f64::min);
+        let steps: Vec<usize> = allan.points.iter().map(|point| point.intervals).collect();
+        let row = |a: usize| steps.iter().map(|b| covariances(allan.readings, a, *b)).collect();
+        Variances {
+            observed: DVector::from_iterator(squares.len(), squares.iter().map(|v| v / unit)),
+            taus: steps.iter().map(|m| *m as f64).collect(),
+            terms: steps.iter().map(|a| row(*a)).collect(),
+            unit,
+        }
+    }
+
+    /// Least squares whose weights follow from the coefficients that it finds.
+    fn fit(&self, laws: &[PowerLaw]) -> Option<Fit> {
+        let relative = self.observed.map(|v| 1.0 / (v * v));
+        let mut fit = self.solve(laws, DMatrix::from_diagonal(&relative))?;
+        for _ in 0..ROUNDS {
+            let Some(weights) = self.weights(&fit) else {
+                break;
+            };
+            fit = self.solve(laws, weights)?;
+        }
+        Some(self.in_units(fit))
+    }
+
+    fn with_weights_of(&self, fit: &Fit, laws: &[PowerLaw]) -> Option<Fit> {
+        Some(self.in_units(self.solve(laws, fit.weights.clone())?))
+    }
+
+    fn solve(&self, laws: &[PowerLaw], weights: DMatrix<f64>) -> Option<Fit> {
+        let design = DMatrix::from_fn(self.taus.len(), laws.len(), |i, j| {
+            laws[j].allan_variance(self.taus[i])
+        });
+        let weighted = design.transpose() * &weights;
+        let covariance = (&weighted * &design).try_inverse()?;
+        let squares = &covariance * (weighted * &self.observed);
+        let residuals = &self.observed - &design * &squares;
+        let chi_squared = (residuals.transpose() * &weights * &residuals)[(0, 0)];
+        Some(Fit {
+            laws: laws.to_vec(),
+            squares,
+            covariance,
+            chi_squared,
+            weights,
+        })
+    }
+
+    /// Inverse of the covariance matrix that the coefficients of a fit imply.
+    fn weights(&self, fit: &Fit) -> Option<DMatrix<f64>> {
+        let mut c = [0.0; 3];
+        for (law, square) in fit.laws.iter().zip(fit.squares.iter()) {
+            c[*law as usize] = square.max(0.0);
+        }
+        let n = self.taus.len();
+        let covariance = DMatrix::from_fn(n, n, |i, j| {
+            let terms = &self.terms[i][j];
+            (0..3)
+                .flat_map(|p| (0..3).map(move |q| c[p] * c[q] * terms[p][q]))
+                .sum()
+        });
+        Some(covariance.cholesky()?.inverse())
+    }
+
+    fn in_units(&self, mut fit: Fit) -> Fit {
+        fit.squares *= self.unit;
+        fit.covariance *= self.unit * self.unit;
+        fit
+    }
+}

@@ -1,0 +1,470 @@
+//! From a CSV file to the columns that a procedure asks for.
+
+use std::collections::HashMap;
+use std::io::ErrorKind;
+use std::ops::Range;
+use std::path::Path;
+
+use super::faults::{
+    NO_COLUMN, NO_UNIT, NOT_A_NUMBER, NOT_UTF8, SAME_NAME, UNIT, UNIT_CLASH, UNREADABLE,
+};
+use super::heading::Heading;
+use super::sheet::{Row, SHOWN, Sheet};
+use super::{Column, Data, Labels, Recording};
+use crate::budget::{Files, Rejection};
+use crate::fault::{Fault, nearest};
+use crate::quantity::{Unit, UnitTable, hint_for_clash};
+
+/// A column that is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// What it is for, in the words of the asker; [`Recording::column`] finds it by this.
+    pub role: String,
+    /// Its name in the first line, with or without the unit.
+    pub column: String,
+    /// What it holds.
+    pub content: Content,
+    /// The unit, where the asker states it. It must not contradict the header.
+    pub unit: Option<Unit>,
+    /// A unit of the dimension that the numbers must have; `None` if any will do. Numbers stay in the
+    /// unit of the column; [`Column::values_in`] converts.
+    pub like: Option<Unit>,
+}
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Content {
+    /// Numbers.
+    Numbers,
+    /// Texts, also if they look like numbers: runs, positions, operators.
+    Labels,
+    /// Numbers if every field is one or missing, texts otherwise.
+    Either,
+}
+
+impl Request {
+    /// A column of numbers.
+    pub fn numbers(role: &str, column: &str) -> Request {
+        Request {
+            role: role.to_owned(),
+            column: column.to_owned(),
+            content: Content::Numbers,
+            unit: None,
+            like: None,
+        }
+    }
+
+    /// A column of labels.
+    pub fn labels(role: &str, column: &str) -> Request {
+        Request {
+            content: Content::Labels,
+            ..Request::numbers(role, column)
+        }
+    }
+
+    /// States the unit.
+    #[must_use]
+    pub fn in_unit(mut self, unit: Unit) -> Request {
+        self.unit = Some(unit);
+        self
+    }
+
+    /// Requires the dimension of a unit.
+    #[must_use]
+    pub fn like(mut self, unit: Unit) -> Request {
+        self.like = Some(unit);
+        self
+    }
+}
+
+impl Recording {
+    /// Reads the columns asked for from a file.
+    ///
+    /// `path` is looked up in `files` as it stands; `units` knows the units of the headers.
+    ///
+    /// # Errors
+    /// All faults of the file at once, each at its place in the text.
+    pub fn open(
+        files: Files,
+        path: &Path,
+        requests: &[Request],
+        units: &UnitTable,
+    ) -> Result<Recording, Rejection> {
+        let name = path.display().to_string();
+        let text = text_of(files, path, &name)?;
+        Recording::read(&name, &text, requests, units)
+    }
+
+    /// Reads the columns asked for from a text; `name` is that of the file, for messages.
+    ///
+    /// # Errors
+    /// All faults of the text at once, each at its place in it.
+    pub fn read(
+        name: &str,
+        text: &str,
+        requests: &[Request],
+        units: &UnitTable,
+    ) -> Result<Recording, Rejection> {
+        let reject = |faults| Rejection::new(name, text, faults);
+        let sheet = Sheet::new(text).map_err(|fault| reject(vec![fault]))?;
+        let headings = headings_of(&sheet, units);
+        let mut faults = Vec::new();
+        let mut drafts: Vec<Draft> = requests
+            .iter()
+            .filter_map(|request| {
+                Draft::new(&sheet, &headings, request)
+                    .map_err(|fault| faults.push(fault))
+                    .ok()
+            })
+            .collect();
+        let undecided: Vec<usize> = (0..drafts.len())
+            .filter(|i| drafts[*i].content == Content::Either)
+            .collect();
+        if !undecided.is_empty() {
+            let mut numeric = vec![false; drafts.len()];
+            let mut texts = vec![false; drafts.len()];
+            // The faults of rows come with the second reading.
+            let _ = sheet.visit(|row| {
+                for i in &undecided {
+                    match number(row.field(drafts[*i].place)) {
+                        Some(value) => numeric[*i] |= !value.is_nan(),
+                        None => texts[*i] = true,
+                    }
+                }
+            });
+            for i in undecided {
+                drafts[i].content = match numeric[i] && !texts[i] {
+                    true => Content::Numbers,
+                    false => Content::Labels,
+                };
+            }
+        }
+        for draft in &mut drafts {
+            draft.settle_unit(&mut faults);
+        }
+        let mut lines = Vec::new();
+        let visited = sheet.visit(|row| {
+            lines.push(row.line);
+            for draft in &mut drafts {
+                draft.take(&sheet, row);
+            }
+        });
+        faults.extend(visited.err().unwrap_or_default());
+        faults.extend(drafts.iter_mut().flat_map(Draft::take_faults));
+        if !faults.is_empty() {
+            return Err(reject(faults));
+        }
+        Ok(Recording {
+            name: name.to_owned(),
+            columns: drafts.into_iter().map(Draft::finish).collect(),
+            lines,
+        })
+    }
+
+    /// Reads all columns that have a name. The role of each is its name without the unit, or the whole
+    /// text of the header where others have that name too.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_all(name: &str, text: &str, units: &UnitTable) -> Result<Recording, Rejection> {
+        let sheet =
+            Sheet::new(text).map_err(|fault| Rejection::new(name, text, vec![fault]))?;
+        let headings = headings_of(&sheet, units);
+        let alone = |heading: &Heading| {
+            headings.iter().filter(|other| other.name == heading.name).count() == 1
+        };
+        let requests: Vec<Request> = headings
+            .iter()
+            .filter(|heading| !heading.text.is_empty())
+            .map(|heading| {
+                let role = if alone(heading) { &heading.name } else { &heading.text };
+                Request {
+                    content: Content::Either,
+                    ..Request::numbers(role, &heading.text)
+                }
+            })
+            .collect();
+        Recording::read(name, text, &requests, units)
+    }
+}
+
+/// The headings of a CSV text, in the order of its columns.
+///
+/// # Errors
+/// When the text has no line of names.
+pub fn headings(text: &str, units: &UnitTable) -> Result<Vec<Heading>, Fault> {
+    Ok(headings_of(&Sheet::new(text)?, units))
+}
+
+fn headings_of(sheet: &Sheet, units: &UnitTable) -> Vec<Heading> {
+    let fields = sheet.header().fields();
+    fields.map(|field| Heading::read(field, units)).collect()
+}
+
+fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejection> {
+    let refuse = |code, message: String, help: &str| {
+        Rejection::new(name, "", vec![Fault::new(code, 0..0, message).help(help)])
+    };
+    let bytes = files.read(path).map_err(|error| {
+        let message = match error.kind() {
+            _ if files.is_folder(path) => format!("{name} is a folder, not a file"),
+            ErrorKind::NotFound => format!("there is no file {name}"),
+            ErrorKind::PermissionDenied => format!("{name} may not be read"),
+            _ => format!("{name} cannot be read: {error}"),
+        };
+        refuse(UNREADABLE, message, "the path starts from the folder of the file that names it")
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to() + 1;
+        let message = format!("{name} is not UTF-8 text from byte {at} on");
+        refuse(NOT_UTF8, message, "save the recording as CSV in UTF-8")
+    })
+}
+
+/// A column that is being read.
+struct Draft<'a> {
+    request: &'a Request,
+    heading: &'a Heading,
+    place: usize,
+    span: Range<usize>,
+    content: Content,
+    unit: Option<Unit>,
+    numbers: Vec<f64>,
+    labels: Labels,
+    levels: HashMap<String, u32>,
+    faults: Vec<Fault>,
+    refused: usize,
+}
+
+impl<'a> Draft<'a> {
+    fn new(
+        sheet: &Sheet,
+        headings: &'a [Heading],
+        request: &'a Request,
+    ) -> Result<Draft<'a>, Fault> {
+        let place = find(sheet, headings, &request.column)?;
+        Ok(Draft {
+            request,
+            heading: &headings[place],
+            place,
+            span: sheet.place(sheet.header(), place),
+            content: request.content,
+            unit: None,
+            numbers: Vec::new(),
+            labels: Labels::default(),
+            levels: HashMap::new(),
+            faults: Vec::new(),
+            refused: 0,
+        })
+    }
+
+    /// The unit that the header and the asker agree on. Labels have none.
+    fn settle_unit(&mut self, faults: &mut Vec<Fault>) {
+        if self.content != Content::Numbers {
+            return;
+        }
+        match unit_of(self.heading, self.request, &self.span) {
+            Ok(unit) => self.unit = unit,
+            Err(fault) => faults.push(*fault),
+        }
+    }
+
+    fn take(&mut self, sheet: &Sheet, row: &Row) {
+        let field = row.field(self.place);
+        if self.content == Content::Labels {
+            let levels = &mut self.labels.levels;
+            let next = levels.len() as u32;
+            let level = match self.levels.get(field) {
+                Some(level) => *level,
+                None => {
+                    levels.push(field.to_owned());
+                    self.levels.insert(field.to_owned(), next);
+                    next
+                }
+            };
+            self.labels.of_row.push(level);
+            return;
+        }
+        if let Some(number) = number(field) {
+            self.numbers.push(number);
+            return;
+        }
+        self.refused += 1;
+        if self.faults.len() < SHOWN {
+            let (line, column) = (row.line, &self.heading.text);
+            let message = format!("line {line}, column \"{column}\": \"{field}\" is not a number");
+            self.faults.push(
+                Fault::new(NOT_A_NUMBER, sheet.place(row, self.place), message)
+                    .label("expected a number")
+                    .related(self.span.clone(), "the column")
+                    .help(mend(field)),
+            );
+        }
+    }
+
+    fn take_faults(&mut self) -> Vec<Fault> {
+        let more = self.refused.saturating_sub(SHOWN);
+        if let Some(last) = self.faults.last_mut().filter(|_| more > 0) {
+            last.message += &format!("; {more} more fields of the column are no numbers");
+        }
+        std::mem::take(&mut self.faults)
+    }
+
+    fn finish(self) -> Column {
+        Column {
+            role: self.request.role.clone(),
+            header: self.heading.text.clone(),
+            name: self.heading.name.clone(),
+            unit: self.unit,
+            data: match self.content {
+                Content::Labels => Data::Labels(self.labels),
+                _ => Data::Numbers(self.numbers),
+            },
+        }
+    }
+}
+
+/// The column of a name.
+fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Fault> {
+    let wanted = wanted.trim();
+    let those = |key: fn(&Heading) -> &str| -> Vec<usize> {
+        (0..headings.len())
+            .filter(|i| key(&headings[*i]) == wanted)
+            .collect()
+    };
+    let exact = those(|heading| &heading.text);
+    let matching = if exact.is_empty() {
+        those(|heading| &heading.name)
+    } else {
+        exact
+    };
+    let span = |i: usize| sheet.place(sheet.header(), i);
+    match matching[..] {
+        [only] => Ok(only),
+        [first, second, ..] => Err(Fault::new(
+            SAME_NAME,
+            span(second),
+            format!("\"{wanted}\" is the name of two columns"),
+        )
+        .label("the second")
+        .related(span(first), "the first")
+        .help("give each column a name of its own, or ask for it with its unit")),
+        [] => {
+            let texts: Vec<&str> = headings.iter().map(|heading| heading.text.as_str()).collect();
+            let names = headings.iter().map(|heading| heading.name.as_str());
+            let near = nearest(wanted, names.chain(texts.iter().copied()));
+            let list = texts.join(", ");
+            let help = match near {
+                Some(near) => format!("did you mean \"{near}\"? The columns are: {list}"),
+                None => format!("the columns are: {list}"),
+            };
+            let whole = span(0).start..span(headings.len().saturating_sub(1)).end;
+            let message = format!("there is no column \"{wanted}\"");
+            Err(Fault::new(NO_COLUMN, whole, message)
+                .label("the columns of the recording")
+                .help(help))
+        }
+    }
+}
+
+fn unit_of(
+    heading: &Heading,
+    request: &Request,
+    span: &Range<usize>,
+) -> Result<Option<Unit>, Box<Fault>> {
+    let fault = |code, message: String| Fault::new(code, span.clone(), message);
+    let text = &heading.text;
+    let unit = match (&heading.unit, &request.unit) {
+        (Ok(None), stated) => stated.clone(),
+        (Ok(Some(unit)), None) => Some(unit.clone()),
+        (Ok(Some(unit)), Some(stated)) if same(unit, stated) => Some(stated.clone()),
+        (Ok(Some(unit)), Some(stated)) => {
+            let (unit, stated) = (&unit.symbol, &stated.symbol);
+            let message = format!("column \"{text}\" is said to be in {stated}, its header says {unit}");
+            return Err(Box::new(fault(UNIT_CLASH, message)
+                .label(format!("in {unit}"))
+                .help("state the unit once; leave it out where the header has it")));
+        }
+        (Err(_), Some(stated)) => Some(stated.clone()),
+        (Err(error), None) => {
+            let at = span.start + error.span.start..span.start + error.span.end;
+            let mut fault = Fault::new(UNIT, at, format!("column \"{text}\": {}", error.message))
+                .label("no unit");
+            fault.help = error.help.clone();
+            return Err(Box::new(fault));
+        }
+    };
+    let Some(like) = &request.like else {
+        return Ok(unit);
+    };
+    match &unit {
+        None if like.is_one() => Ok(unit),
+        None => {
+            let (role, symbol) = (&request.role, &like.symbol);
+            let message = format!("column \"{text}\" ({role}) has no unit");
+            Err(Box::new(fault(NO_UNIT, message)
+                .label(format!("a unit such as {symbol} is missing"))
+                .help(format!("write `{text} [{symbol}]`, or state the unit where the column is named"))))
+        }
+        Some(found) if found.dimension == like.dimension => Ok(unit),
+        Some(found) => {
+            let (role, symbol) = (&request.role, &found.symbol);
+            let message = format!(
+                "column \"{text}\" ({role}) is in {symbol}, which is no unit like {}",
+                like.symbol
+            );
+            let hint = hint_for_clash(like, found)
+                .unwrap_or_else(|| "check which column has this role, and its unit".to_owned());
+            Err(Box::new(
+                fault(UNIT_CLASH, message).label(format!("in {symbol}")).help(hint),
+            ))
+        }
+    }
+}
+
+fn same(a: &Unit, b: &Unit) -> bool {
+    a.conversion_to(b).is_some_and(|conversion| conversion.is_identity())
+}
+
+/// What instruments write for a range that was exceeded (SCPI), and for no number.
+const OVERLOAD: f64 = 9.9e37;
+
+/// The number in a field: NaN where one is missing, nothing where the text is no number.
+fn number(field: &str) -> Option<f64> {
+    const MISSING: &[&str] = &[
+        "", "-", "--", "nan", "na", "n/a", "#n/a", "null", "none", "inf", "+inf", "-inf", "infinity",
+        "-infinity",
+    ];
+    let plain = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b'e' | b'E');
+    if !field.is_empty() && field.bytes().all(plain) {
+        if let Ok(value) = field.parse::<f64>() {
+            return match value.abs() < OVERLOAD {
+                true => Some(value),
+                false => Some(f64::NAN),
+            };
+        }
+    }
+    let missing = MISSING.iter().any(|text| field.eq_ignore_ascii_case(text));
+    missing.then_some(f64::NAN)
+}
+
+/// How a field becomes a number.
+fn mend(field: &str) -> String {
+    let like = |replaced: &str| replaced.parse::<f64>().is_ok();
+    let point = field.replace(',', ".");
+    let minus = field.replace('−', "-");
+    if field.contains(',') && like(&point) {
+        return format!("write {point}, with a decimal point");
+    }
+    if field.contains('−') && like(&minus) {
+        return format!("write {minus}, with the hyphen as minus");
+    }
+    if field.len() >= 8 && field.matches([':', '-', '/']).count() >= 2 {
+        return "state times as numbers, for example seconds since the start".to_owned();
+    }
+    if field.starts_with(|c: char| c.is_ascii_digit()) {
+        return "write the number alone; its unit belongs into the first line".to_owned();
+    }
+    "leave the field empty if the value is missing; units belong into the first line: name [unit]"
+        .to_owned()
+}

@@ -1,0 +1,315 @@
+//! The text of a CSV file as rows of fields, with the place of every field. This is the crate's plain
+//! reading of CSV: it knows columns by their number and nothing of what they mean.
+
+use std::ops::Range;
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use super::faults::{NO_HEADER, NO_ROWS, ROW_LENGTH};
+use crate::fault::Fault;
+
+/// A CSV text whose first line was read.
+///
+/// Columns are separated by `,`, `;` or tab, whichever occurs most in the first line. Empty lines and
+/// lines that begin with `#` do not count.
+#[derive(Debug, Clone)]
+pub struct Sheet<'a> {
+    text: &'a str,
+    separator: u8,
+    header: Row,
+}
+
+/// A row that was read.
+#[derive(Debug, Clone)]
+pub struct Row {
+    fields: StringRecord,
+    start: usize,
+    /// Its line in the text, the first being 1.
+    pub line: usize,
+}
+
+/// Longer lists of faults of one kind are cut, with their number.
+pub(super) const SHOWN: usize = 5;
+
+impl<'a> Sheet<'a> {
+    /// Reads the first line.
+    ///
+    /// # Errors
+    /// When there is none, or when it holds numbers instead of names.
+    pub fn new(text: &'a str) -> Result<Sheet<'a>, Fault> {
+        let first = start_of_record(text, 0);
+        let line = text[first..].lines().next().unwrap_or_default();
+        let separator = *[b',', b';', b'\t']
+            .iter()
+            .rev()
+            .max_by_key(|separator| line.bytes().filter(|byte| byte == *separator).count())
+            .unwrap_or(&b',');
+        let whole = first..first + line.len();
+        let missing = |message: &str, label: &str| {
+            Fault::new(NO_HEADER, whole.clone(), message)
+                .label(label)
+                .help("name the columns in the first line, with their units: time [s],U [mV]")
+        };
+        let header = Rows::new(text, separator)
+            .next()
+            .ok_or_else(|| missing("the recording is empty", "no names of columns"))?
+            .map_err(|message| missing(&message, "cannot be read"))?;
+        let numbers = header.fields().filter(|field| field.parse::<f64>().is_ok());
+        if numbers.count() > header.len() / 2 {
+            return Err(missing(
+                "the first line holds numbers, not the names of the columns",
+                "expected names",
+            ));
+        }
+        Ok(Sheet {
+            text,
+            separator,
+            header,
+        })
+    }
+
+    /// The first line.
+    pub fn header(&self) -> &Row {
+        &self.header
+    }
+
+    /// The place of a field of a row in the text, without white space around it; the end of the row
+    /// for a field that it lacks.
+    pub fn place(&self, row: &Row, column: usize) -> Range<usize> {
+        let mut quoted = false;
+        let mut at = row.start;
+        let mut number = 0;
+        let bytes = self.text.as_bytes();
+        let end = |from: usize, quoted: &mut bool| {
+            let rest = bytes.get(from..).unwrap_or_default();
+            let length = rest.iter().position(|byte| {
+                *quoted ^= *byte == b'"';
+                !*quoted && (*byte == self.separator || *byte == b'\n' || *byte == b'\r')
+            });
+            from + length.unwrap_or(rest.len())
+        };
+        loop {
+            let stop = end(at, &mut quoted);
+            let more = bytes.get(stop) == Some(&self.separator);
+            if number == column || !more {
+                let field = &self.text[at..stop];
+                let leading = field.len() - field.trim_start().len();
+                let start = if number == column { at + leading } else { stop };
+                return start..(at + field.trim_end().len()).max(start);
+            }
+            at = stop + 1;
+            number += 1;
+        }
+    }
+
+    /// Goes through the rows below the first line; returns how many there are.
+    ///
+    /// # Errors
+    /// Rows of another length than the first line (a few, with the number of all), or no rows. The
+    /// visitor sees the good rows in any case, so that their faults can be told as well.
+    pub fn visit(&self, mut visitor: impl FnMut(&Row)) -> Result<usize, Vec<Fault>> {
+        let mut faults = Vec::new();
+        let (mut good, mut bad) = (0, 0);
+        for row in Rows::new(self.text, self.separator).skip(1) {
+            match row {
+                Ok(row) if row.len() == self.header.len() => {
+                    good += 1;
+                    visitor(&row);
+                }
+                Ok(row) => {
+                    bad += 1;
+                    if faults.len() < SHOWN {
+                        faults.push(self.wrong_length(&row));
+                    }
+                }
+                Err(message) => {
+                    let end = self.text.len();
+                    faults.push(Fault::new(ROW_LENGTH, end..end, message));
+                    break;
+                }
+            }
+        }
+        if let Some(last) = faults.last_mut().filter(|_| bad > SHOWN) {
+            last.message += &format!("; {} more rows like this", bad - SHOWN);
+        }
+        if good + bad == 0 && faults.is_empty() {
+            let place = self.place(&self.header, 0);
+            faults.push(
+                Fault::new(NO_ROWS, place, "the recording has no rows")
+                    .label("nothing follows this line"),
+            );
+        }
+        if faults.is_empty() {
+            Ok(good)
+        } else {
+            Err(faults)
+        }
+    }
+
+    fn wrong_length(&self, row: &Row) -> Fault {
+        let (found, expected) = (row.len(), self.header.len());
+        let plural = if found == 1 { "" } else { "s" };
+        let message = format!(
+            "line {} has {found} field{plural}, the first line {expected}",
+            row.line
+        );
+        let place = self.place(row, 0).start..self.place(row, found.saturating_sub(1)).end;
+        let fault = Fault::new(ROW_LENGTH, place, message).label(format!("expected {expected}"));
+        let comma = self.separator == b',' && found > expected;
+        fault.help(match comma {
+            true => "numbers have a decimal point; a text that holds a comma stands in double quotes",
+            false => "complete the row, or delete it",
+        })
+    }
+}
+
+impl Row {
+    /// Number of fields.
+    pub fn len(&self) -> usize {
+        self.fields.len()
+    }
+
+    /// Whether it has no field.
+    pub fn is_empty(&self) -> bool {
+        self.fields.is_empty()
+    }
+
+    /// A field without white space around it; empty for a field that the row lacks.
+    pub fn field(&self, column: usize) -> &str {
+        self.fields.get(column).unwrap_or_default()
+    }
+
+    /// All fields.
+    pub fn fields(&self) -> impl Iterator<Item = &str> {
+        self.fields.iter()
+    }
+}
+
+/// The rows of a text, that of the names first.
+struct Rows<'a> {
+    text: &'a str,
+    reader: csv::Reader<&'a [u8]>,
+    offset: usize,
+    /// How far lines were counted: byte and line.
+    counted: (usize, usize),
+}
+
+impl<'a> Rows<'a> {
+    fn new(text: &'a str, separator: u8) -> Rows<'a> {
+        let offset = start_of_record(text, 0);
+        Rows {
+            text,
+            reader: ReaderBuilder::new()
+                .has_headers(false)
+                .flexible(true)
+                .comment(Some(b'#'))
+                .delimiter(separator)
+                .trim(Trim::All)
+                .from_reader(&text.as_bytes()[offset..]),
+            offset,
+            counted: (0, 1),
+        }
+    }
+}
+
+impl Iterator for Rows<'_> {
+    type Item = Result<Row, String>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let from = self.offset + self.reader.position().byte() as usize;
+        let start = start_of_record(self.text, from);
+        let passed = &self.text.as_bytes()[self.counted.0..start];
+        let lines = passed.iter().filter(|byte| **byte == b'\n').count();
+        self.counted = (start, self.counted.1 + lines);
+        let mut fields = StringRecord::new();
+        match self.reader.read_record(&mut fields) {
+            Ok(true) => Some(Ok(Row {
+                fields,
+                start,
+                line: self.counted.1,
+            })),
+            Ok(false) => None,
+            Err(error) => Some(Err(error.to_string())),
+        }
+    }
+}
+
+/// Where the next line begins that is neither empty nor a comment.
+fn start_of_record(text: &str, from: usize) -> usize {
+    let mut at = from.min(text.len());
+    if at == 0 && text.starts_with('\u{feff}') {
+        at = '\u{feff}'.len_utf8();
+    }
+    let bytes = text.as_bytes();
+    loop {
+        match bytes.get(at) {
+            Some(b'\n' | b'\r') => at += 1,
+            Some(b'#') => {
+                let rest = &bytes[at..];
+                at += rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
+            }
+            _ => return at,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(text: &str) -> Vec<(usize, Vec<String>)> {
+        let sheet = Sheet::new(text).expect("a header");
+        let mut rows = Vec::new();
+        let count = sheet.visit(|row| {
+            rows.push((row.line, row.fields().map(str::to_owned).collect()));
+        });
+        assert_eq!(count, Ok(rows.len()));
+        rows
+    }
+
+    #[test]
+    fn comments_and_empty_lines_do_not_count() {
+        let text = "\u{feff}# logger 7\n\na,b\r\n1, 2\r\n\r\n# break\r\n3,4";
+        let strings = |texts: [&str; 2]| texts.map(str::to_owned).to_vec();
+        assert_eq!(rows(text), [(4, strings(["1", "2"])), (7, strings(["3", "4"]))]);
+    }
+
+    #[test]
+    fn other_separators() {
+        assert_eq!(rows("a;b,c\n1;2")[0].1, ["1", "2"]);
+        assert_eq!(rows("a\tb\n1\t\n")[0].1, ["1", ""]);
+        assert_eq!(rows("a\n1\n").len(), 1);
+    }
+
+    #[test]
+    fn places_of_fields() {
+        let text = "a,b,c\n1,\"x, \"\"y\"\"\nz\", 3 \n4,5,6";
+        let sheet = Sheet::new(text).expect("a header");
+        let mut places = Vec::new();
+        sheet
+            .visit(|row| places.extend((0..3).map(|column| &text[sheet.place(row, column)])))
+            .expect("rows");
+        assert_eq!(places, ["1", "\"x, \"\"y\"\"\nz\"", "3", "4", "5", "6"]);
+    }
+
+    #[test]
+    fn rows_of_another_length() {
+        let text = "a,b\n1,2\n1,5,2\n3";
+        let sheet = Sheet::new(text).expect("a header");
+        let faults = sheet.visit(|_| ()).expect_err("bad rows");
+        let seen: Vec<&str> = faults.iter().map(|fault| &text[fault.span.clone()]).collect();
+        assert_eq!(seen, ["1,5,2", "3"]);
+        assert_eq!(faults[0].message, "line 3 has 3 fields, the first line 2");
+        let many = format!("a,b\n{}", "1\n".repeat(8));
+        let faults = Sheet::new(&many).expect("a header").visit(|_| ()).expect_err("bad rows");
+        assert!(faults.len() == 5 && faults[4].message.ends_with("; 3 more rows like this"));
+    }
+
+    #[test]
+    fn nothing_to_read() {
+        assert_eq!(Sheet::new("# only\n\n").expect_err("empty").code, NO_HEADER);
+        assert_eq!(Sheet::new("1,2\n3,4").expect_err("numbers").code, NO_HEADER);
+        let sheet = Sheet::new("a,b\n").expect("a header");
+        assert_eq!(sheet.visit(|_| ()).expect_err("no rows")[0].code, NO_ROWS);
+    }
+}

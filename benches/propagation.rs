@@ -36,7 +36,11 @@ fn cases() -> Vec<Case> {
         let x = |i: usize| format!("x{i}");
         cases.extend([
             ("sum", inputs, joined(&x, " + ")),
-            ("sum of squares", inputs, joined(&|i| format!("x{i}^2"), " + ")),
+            (
+                "sum of squares",
+                inputs,
+                joined(&|i| format!("x{i}^2"), " + "),
+            ),
             ("product", inputs, joined(&x, " * ")),
             (
                 "neighbours",
@@ -133,5 +137,5 @@ fn correlated(model: &str, inputs: usize) -> String {
 }
 
 fn correlation(distance: usize) -> f64 {
-    ((-0.02 * distance as f64).exp() * 1e9).round() / 1e9
+    ((-0.02 * distance as libm::exp(f64)) * 1e9).round() / 1e9
 }

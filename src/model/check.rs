@@ -343,10 +343,7 @@ impl<'r> Check<'r> {
             .into_iter()
             .filter(|n| !parameters.iter().any(|p| p.text == *n))
             .collect();
-        let symbols = names
-            .iter()
-            .filter_map(|n| self.l.place_of(n))
-            .collect();
+        let symbols = names.iter().filter_map(|n| self.l.place_of(n)).collect();
         let statements = names
             .iter()
             .filter_map(|n| self.defined.get(*n).copied())

@@ -85,9 +85,15 @@ impl fmt::Display for Unsuitable {
                 "reading {} is missing; an Allan deviation needs all readings at equal intervals",
                 row + 1
             ),
-            Unsuitable::Interval(interval) => write!(f, "an interval of {interval} between readings"),
+            Unsuitable::Interval(interval) => {
+                write!(f, "an interval of {interval} between readings")
+            }
             Unsuitable::Probability(p) => write!(f, "a probability of {p}, not between 0 and 1"),
-            Unsuitable::Irregular { row, interval, mean } => write!(
+            Unsuitable::Irregular {
+                row,
+                interval,
+                mean,
+            } => write!(
                 f,
                 "reading {} comes {interval} after the one before, where {mean} is the mean interval",
                 row + 1
@@ -138,7 +144,10 @@ impl Allan {
     pub fn of(readings: &[f64], interval: f64, probability: f64) -> Result<Allan, Unsuitable> {
         let n = readings.len();
         if n < FEWEST {
-            return Err(Unsuitable::TooFew { found: n, needed: FEWEST });
+            return Err(Unsuitable::TooFew {
+                found: n,
+                needed: FEWEST,
+            });
         }
         if let Some(row) = readings.iter().position(|reading| !reading.is_finite()) {
             return Err(Unsuitable::Missing { row });
@@ -233,6 +242,9 @@ fn noise(phase: &[f64], m: usize) -> Option<PowerLaw> {
 fn successive(series: &[f64]) -> Option<f64> {
     let mean = series.iter().sum::<f64>() / series.len() as f64;
     let squares: f64 = series.iter().map(|x| (x - mean) * (x - mean)).sum();
-    let products: f64 = series.windows(2).map(|x| (x[0] - mean) * (x[1] - mean)).sum();
+    let products: f64 = series
+        .windows(2)
+        .map(|x| (x[0] - mean) * (x[1] - mean))
+        .sum();
     (squares > 0.0).then(|| products / squares)
 }

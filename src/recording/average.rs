@@ -89,7 +89,10 @@ impl Average {
         let present: Vec<f64> = readings.iter().copied().filter(|x| !x.is_nan()).collect();
         let n = present.len();
         if n < 2 {
-            return Err(TooFew { found: n, needed: 2 });
+            return Err(TooFew {
+                found: n,
+                needed: 2,
+            });
         }
         let scatter = Scatter::new(&present);
         let effective = n as f64 / scatter.factor;

@@ -125,14 +125,24 @@ impl Finding {
     pub fn message(&self) -> String {
         let column = self.column.as_deref().unwrap_or_default();
         let (count, line) = (self.count, self.line);
-        let rows = if count == 1 { "1 row" } else { &format!("{count} rows") };
-        let lines = if count == 1 { format!("line {line}") } else { format!("from line {line} on") };
+        let rows = if count == 1 {
+            "1 row"
+        } else {
+            &format!("{count} rows")
+        };
+        let lines = if count == 1 {
+            format!("line {line}")
+        } else {
+            format!("from line {line} on")
+        };
         match &self.problem {
             Problem::Missing => format!("\"{column}\" has no number in {rows}, {lines}"),
             Problem::Empty => format!("\"{column}\" has no number at all"),
             Problem::Unlabelled => format!("\"{column}\" has no label in {rows}, {lines}"),
             Problem::TimeBackwards { from, to } => {
-                format!("the time \"{column}\" goes back from {from} to {to} in line {line} (in {rows})")
+                format!(
+                    "the time \"{column}\" goes back from {from} to {to} in line {line} (in {rows})"
+                )
             }
             Problem::TimeRepeated { time } => {
                 format!("the time \"{column}\" stays at {time} in line {line} (in {rows})")
@@ -148,7 +158,9 @@ impl Finding {
                 format!("the recording has {rows}, at least {needed} are needed")
             }
             Problem::LabelAgain { label } => {
-                format!("\"{label}\" in \"{column}\" comes back in line {line}: {count} separate stretches")
+                format!(
+                    "\"{label}\" in \"{column}\" comes back in line {line}: {count} separate stretches"
+                )
             }
             Problem::LabelAbsent { label } => format!("\"{column}\" never is \"{label}\""),
             Problem::LabelUnknown { label, .. } => {
@@ -209,13 +221,17 @@ pub fn check(recording: &Recording, checks: &Checks) -> Vec<Finding> {
                 }
                 if checks.outputs.contains(&column.role.as_str()) {
                     let ranges = checks.ranges.iter();
-                    let range = ranges.filter(|(role, _)| *role == column.role).map(|(_, range)| *range);
-                    findings.extend(look.output(values, range.last()));
+                    let mut range = ranges
+                        .filter(|(role, _)| *role == column.role)
+                        .map(|(_, range)| *range);
+                    findings.extend(look.output(values, range.next_back()));
                 }
             }
             Data::Labels(labels) => {
                 findings.extend(look.labels(labels));
-                if let Some((_, expected)) = checks.expected.filter(|(role, _)| *role == column.role) {
+                if let Some((_, expected)) =
+                    checks.expected.filter(|(role, _)| *role == column.role)
+                {
                     findings.extend(look.expected(labels, expected));
                 }
             }
@@ -244,21 +260,35 @@ impl Look<'_> {
     fn missing(&self, values: &[f64]) -> Option<Finding> {
         let first = values.iter().position(|value| value.is_nan())?;
         let count = values.iter().filter(|value| value.is_nan()).count();
-        let problem = if count == values.len() { Problem::Empty } else { Problem::Missing };
+        let problem = if count == values.len() {
+            Problem::Empty
+        } else {
+            Problem::Missing
+        };
         Some(self.finding(problem, first, count))
     }
 
     fn time(&self, values: &[f64]) -> Vec<Finding> {
-        let present: Vec<(usize, f64)> =
-            values.iter().copied().enumerate().filter(|(_, time)| !time.is_nan()).collect();
-        let steps = || present.windows(2).map(|pair| (pair[1].0, pair[0].1, pair[1].1));
+        let present: Vec<(usize, f64)> = values
+            .iter()
+            .copied()
+            .enumerate()
+            .filter(|(_, time)| !time.is_nan())
+            .collect();
+        let steps = || {
+            present
+                .windows(2)
+                .map(|pair| (pair[1].0, pair[0].1, pair[1].1))
+        };
         let backwards: Vec<_> = steps().filter(|(_, from, to)| to < from).collect();
         let repeated: Vec<_> = steps().filter(|(_, from, to)| to == from).collect();
         let mut intervals: Vec<f64> = steps().map(|(_, from, to)| to - from).collect();
         intervals.sort_by(f64::total_cmp);
         let usual = intervals.get(intervals.len() / 2).copied().unwrap_or(0.0);
         let longest = intervals.last().copied().unwrap_or(0.0);
-        let gaps: Vec<_> = steps().filter(|(_, from, to)| to - from > 1.5 * usual).collect();
+        let gaps: Vec<_> = steps()
+            .filter(|(_, from, to)| to - from > 1.5 * usual)
+            .collect();
         // Where many intervals are long, the rows are not meant to be equally spaced.
         let rare = gaps.len() * 20 <= intervals.len() && usual > 0.0;
         let gap = Problem::TimeGap { longest, usual };
@@ -277,8 +307,12 @@ impl Look<'_> {
     }
 
     fn output(&self, values: &[f64], range: Option<[f64; 2]>) -> Vec<Finding> {
-        let present: Vec<(usize, f64)> =
-            values.iter().copied().enumerate().filter(|(_, value)| !value.is_nan()).collect();
+        let present: Vec<(usize, f64)> = values
+            .iter()
+            .copied()
+            .enumerate()
+            .filter(|(_, value)| !value.is_nan())
+            .collect();
         let extreme = |better: fn(f64, f64) -> f64| present.iter().map(|p| p.1).reduce(better);
         let (Some(low), Some(high)) = (extreme(f64::min), extreme(f64::max)) else {
             return Vec::new();
@@ -338,10 +372,19 @@ impl Look<'_> {
 
     fn expected(&self, labels: &Labels, expected: &[&str]) -> Vec<Finding> {
         let present: HashSet<&str> = labels.levels.iter().map(String::as_str).collect();
-        let absent = expected.iter().filter(|label| !present.contains(*label)).map(|label| Finding {
-            line: 0,
-            ..self.finding(Problem::LabelAbsent { label: (*label).to_owned() }, 0, 0)
-        });
+        let absent = expected
+            .iter()
+            .filter(|label| !present.contains(*label))
+            .map(|label| Finding {
+                line: 0,
+                ..self.finding(
+                    Problem::LabelAbsent {
+                        label: (*label).to_owned(),
+                    },
+                    0,
+                    0,
+                )
+            });
         let unknown = (0_u32..).zip(&labels.levels).filter_map(|(level, label)| {
             if label.is_empty() || expected.contains(&label.as_str()) {
                 return None;
@@ -349,7 +392,10 @@ impl Look<'_> {
             let at = |other: &&u32| **other == level;
             let first = labels.of_row.iter().position(|other| *other == level)?;
             let near = nearest(label, expected.iter().copied()).map(str::to_owned);
-            let problem = Problem::LabelUnknown { label: label.clone(), near };
+            let problem = Problem::LabelUnknown {
+                label: label.clone(),
+                near,
+            };
             Some(self.finding(problem, first, labels.of_row.iter().filter(at).count()))
         });
         absent.chain(unknown).collect()
@@ -378,7 +424,11 @@ impl Pile {
         }
         let at = |value: f64| {
             let bits = key(value);
-            (value, stretch.get(&bits).copied().unwrap_or(0), occurs.get(&bits).copied().unwrap_or(0))
+            (
+                value,
+                stretch.get(&bits).copied().unwrap_or(0),
+                occurs.get(&bits).copied().unwrap_or(0),
+            )
         };
         let extremes = extremes.map(at);
         let others = |counts: &HashMap<u64, usize>| {

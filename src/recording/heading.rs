@@ -128,7 +128,14 @@ impl Heading {
         match (units.parse(&text[unit.clone()]), certain) {
             (Err(error), Certain::Yes) => {
                 let moved = error.span.start + unit.start..error.span.end + unit.start;
-                Heading::new(text, name, Err(UnitError { span: moved, ..error }))
+                Heading::new(
+                    text,
+                    name,
+                    Err(UnitError {
+                        span: moved,
+                        ..error
+                    }),
+                )
             }
             (Err(_), Certain::No) => by_ending(text, units),
             (Ok(unit), _) => Heading::new(text, name, Ok(Some(unit))),
@@ -228,7 +235,18 @@ mod tests {
 
     #[test]
     fn names_that_only_look_like_units() {
-        for text in ["T (oven)", "U/U0", "channel_A", "acc_x_g", "t_min", "s", "_s", "[m]", "load_units", "e1_1e10esu"] {
+        for text in [
+            "T (oven)",
+            "U/U0",
+            "channel_A",
+            "acc_x_g",
+            "t_min",
+            "s",
+            "_s",
+            "[m]",
+            "load_units",
+            "e1_1e10esu",
+        ] {
             assert_eq!(parts(text), (text.to_string(), None), "{text}");
         }
         assert_eq!(parts("current_A"), pair("current", "A"));
@@ -245,7 +263,10 @@ mod tests {
         for (ending, unit) in ENDINGS {
             let heading = heading(&format!("x_{ending}"));
             let expected = UnitTable::default().parse(unit).expect(unit);
-            assert_eq!((heading.name.as_str(), heading.unit), ("x", Ok(Some(expected))));
+            assert_eq!(
+                (heading.name.as_str(), heading.unit),
+                ("x", Ok(Some(expected)))
+            );
         }
     }
 }

@@ -153,9 +153,12 @@ impl Column {
     pub fn values_in(&self, unit: &Unit) -> Option<Vec<f64>> {
         let conversion = self.unit.as_ref()?.conversion_to(unit)?;
         match &self.data {
-            Data::Numbers(numbers) => {
-                Some(numbers.iter().map(|value| conversion.apply(*value)).collect())
-            }
+            Data::Numbers(numbers) => Some(
+                numbers
+                    .iter()
+                    .map(|value| conversion.apply(*value))
+                    .collect(),
+            ),
             Data::Labels(_) => None,
         }
     }
@@ -165,6 +168,8 @@ impl Labels {
     /// The text of a row; empty where it is missing.
     pub fn text(&self, row: usize) -> &str {
         let level = self.of_row.get(row).map(|level| *level as usize);
-        level.and_then(|level| self.levels.get(level)).map_or("", String::as_str)
+        level
+            .and_then(|level| self.levels.get(level))
+            .map_or("", String::as_str)
     }
 }

@@ -142,11 +142,19 @@ impl Fit {
 
 impl Variances {
     fn new(allan: &Allan) -> Variances {
-        let squares = allan.points.iter().map(|point| point.deviation * point.deviation);
+        let squares = allan
+            .points
+            .iter()
+            .map(|point| point.deviation * point.deviation);
         let squares: Vec<f64> = squares.collect();
         let unit = squares.iter().copied().fold(f64::INFINITY, f64::min);
         let steps: Vec<usize> = allan.points.iter().map(|point| point.intervals).collect();
-        let row = |a: usize| steps.iter().map(|b| covariances(allan.readings, a, *b)).collect();
+        let row = |a: usize| {
+            steps
+                .iter()
+                .map(|b| covariances(allan.readings, a, *b))
+                .collect()
+        };
         Variances {
             observed: DVector::from_iterator(squares.len(), squares.iter().map(|v| v / unit)),
             taus: steps.iter().map(|m| *m as f64).collect(),

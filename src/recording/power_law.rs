@@ -93,9 +93,7 @@ pub(super) fn covariances(n: usize, a: usize, b: usize) -> [[f64; 3]; 3] {
         }
     }
     let scale = |step: i64| 2.0 * (step * step) as f64;
-    let factor = 2.0
-        / (counts[0] as f64 * counts[1] as f64)
-        / (scale(steps[0]) * scale(steps[1]));
+    let factor = 2.0 / (counts[0] as f64 * counts[1] as f64) / (scale(steps[0]) * scale(steps[1]));
     terms.map(|row| row.map(|term| term * factor))
 }
 

@@ -106,14 +106,14 @@ impl Recording {
         units: &UnitTable,
     ) -> Result<Recording, Rejection> {
         let reject = |faults| Rejection::new(name, text, faults);
-        let sheet = Sheet::new(text).map_err(|fault| reject(vec![fault]))?;
+        let sheet = Sheet::new(text).map_err(|fault| reject(vec![*fault]))?;
         let headings = headings_of(&sheet, units);
         let mut faults = Vec::new();
         let mut drafts: Vec<Draft> = requests
             .iter()
             .filter_map(|request| {
                 Draft::new(&sheet, &headings, request)
-                    .map_err(|fault| faults.push(fault))
+                    .map_err(|fault| faults.push(*fault))
                     .ok()
             })
             .collect();
@@ -167,17 +167,24 @@ impl Recording {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn read_all(name: &str, text: &str, units: &UnitTable) -> Result<Recording, Rejection> {
-        let sheet =
-            Sheet::new(text).map_err(|fault| Rejection::new(name, text, vec![fault]))?;
+        let sheet = Sheet::new(text).map_err(|fault| Rejection::new(name, text, vec![*fault]))?;
         let headings = headings_of(&sheet, units);
         let alone = |heading: &Heading| {
-            headings.iter().filter(|other| other.name == heading.name).count() == 1
+            headings
+                .iter()
+                .filter(|other| other.name == heading.name)
+                .count()
+                == 1
         };
         let requests: Vec<Request> = headings
             .iter()
             .filter(|heading| !heading.text.is_empty())
             .map(|heading| {
-                let role = if alone(heading) { &heading.name } else { &heading.text };
+                let role = if alone(heading) {
+                    &heading.name
+                } else {
+                    &heading.text
+                };
                 Request {
                     content: Content::Either,
                     ..Request::numbers(role, &heading.text)
@@ -192,7 +199,7 @@ impl Recording {
 ///
 /// # Errors
 /// When the text has no line of names.
-pub fn headings(text: &str, units: &UnitTable) -> Result<Vec<Heading>, Fault> {
+pub fn headings(text: &str, units: &UnitTable) -> Result<Vec<Heading>, Box<Fault>> {
     Ok(headings_of(&Sheet::new(text)?, units))
 }
 
@@ -212,7 +219,11 @@ fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejection> {
             ErrorKind::PermissionDenied => format!("{name} may not be read"),
             _ => format!("{name} cannot be read: {error}"),
         };
-        refuse(UNREADABLE, message, "the path starts from the folder of the file that names it")
+        refuse(
+            UNREADABLE,
+            message,
+            "the path starts from the folder of the file that names it",
+        )
     })?;
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to() + 1;
@@ -241,7 +252,7 @@ impl<'a> Draft<'a> {
         sheet: &Sheet,
         headings: &'a [Heading],
         request: &'a Request,
-    ) -> Result<Draft<'a>, Fault> {
+    ) -> Result<Draft<'a>, Box<Fault>> {
         let place = find(sheet, headings, &request.column)?;
         Ok(Draft {
             request,
@@ -325,7 +336,7 @@ impl<'a> Draft<'a> {
 }
 
 /// The column of a name.
-fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Fault> {
+fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Box<Fault>> {
     let wanted = wanted.trim();
     let those = |key: fn(&Heading) -> &str| -> Vec<usize> {
         (0..headings.len())
@@ -341,16 +352,21 @@ fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Faul
     let span = |i: usize| sheet.place(sheet.header(), i);
     match matching[..] {
         [only] => Ok(only),
-        [first, second, ..] => Err(Fault::new(
-            SAME_NAME,
-            span(second),
-            format!("\"{wanted}\" is the name of two columns"),
-        )
-        .label("the second")
-        .related(span(first), "the first")
-        .help("give each column a name of its own, or ask for it with its unit")),
+        [first, second, ..] => Err(Box::new(
+            Fault::new(
+                SAME_NAME,
+                span(second),
+                format!("\"{wanted}\" is the name of two columns"),
+            )
+            .label("the second")
+            .related(span(first), "the first")
+            .help("give each column a name of its own, or ask for it with its unit"),
+        )),
         [] => {
-            let texts: Vec<&str> = headings.iter().map(|heading| heading.text.as_str()).collect();
+            let texts: Vec<&str> = headings
+                .iter()
+                .map(|heading| heading.text.as_str())
+                .collect();
             let names = headings.iter().map(|heading| heading.name.as_str());
             let near = nearest(wanted, names.chain(texts.iter().copied()));
             let list = texts.join(", ");
@@ -360,9 +376,11 @@ fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Faul
             };
             let whole = span(0).start..span(headings.len().saturating_sub(1)).end;
             let message = format!("there is no column \"{wanted}\"");
-            Err(Fault::new(NO_COLUMN, whole, message)
-                .label("the columns of the recording")
-                .help(help))
+            Err(Box::new(
+                Fault::new(NO_COLUMN, whole, message)
+                    .label("the columns of the recording")
+                    .help(help),
+            ))
         }
     }
 }
@@ -380,10 +398,13 @@ fn unit_of(
         (Ok(Some(unit)), Some(stated)) if same(unit, stated) => Some(stated.clone()),
         (Ok(Some(unit)), Some(stated)) => {
             let (unit, stated) = (&unit.symbol, &stated.symbol);
-            let message = format!("column \"{text}\" is said to be in {stated}, its header says {unit}");
-            return Err(Box::new(fault(UNIT_CLASH, message)
-                .label(format!("in {unit}"))
-                .help("state the unit once; leave it out where the header has it")));
+            let message =
+                format!("column \"{text}\" is said to be in {stated}, its header says {unit}");
+            return Err(Box::new(
+                fault(UNIT_CLASH, message)
+                    .label(format!("in {unit}"))
+                    .help("state the unit once; leave it out where the header has it"),
+            ));
         }
         (Err(_), Some(stated)) => Some(stated.clone()),
         (Err(error), None) => {
@@ -402,9 +423,13 @@ fn unit_of(
         None => {
             let (role, symbol) = (&request.role, &like.symbol);
             let message = format!("column \"{text}\" ({role}) has no unit");
-            Err(Box::new(fault(NO_UNIT, message)
-                .label(format!("a unit such as {symbol} is missing"))
-                .help(format!("write `{text} [{symbol}]`, or state the unit where the column is named"))))
+            Err(Box::new(
+                fault(NO_UNIT, message)
+                    .label(format!("a unit such as {symbol} is missing"))
+                    .help(format!(
+                        "write `{text} [{symbol}]`, or state the unit where the column is named"
+                    )),
+            ))
         }
         Some(found) if found.dimension == like.dimension => Ok(unit),
         Some(found) => {
@@ -416,14 +441,17 @@ fn unit_of(
             let hint = hint_for_clash(like, found)
                 .unwrap_or_else(|| "check which column has this role, and its unit".to_owned());
             Err(Box::new(
-                fault(UNIT_CLASH, message).label(format!("in {symbol}")).help(hint),
+                fault(UNIT_CLASH, message)
+                    .label(format!("in {symbol}"))
+                    .help(hint),
             ))
         }
     }
 }
 
 fn same(a: &Unit, b: &Unit) -> bool {
-    a.conversion_to(b).is_some_and(|conversion| conversion.is_identity())
+    a.conversion_to(b)
+        .is_some_and(|conversion| conversion.is_identity())
 }
 
 /// What instruments write for a range that was exceeded (SCPI), and for no number.
@@ -432,17 +460,31 @@ const OVERLOAD: f64 = 9.9e37;
 /// The number in a field: NaN where one is missing, nothing where the text is no number.
 fn number(field: &str) -> Option<f64> {
     const MISSING: &[&str] = &[
-        "", "-", "--", "nan", "na", "n/a", "#n/a", "null", "none", "inf", "+inf", "-inf", "infinity",
+        "",
+        "-",
+        "--",
+        "nan",
+        "na",
+        "n/a",
+        "#n/a",
+        "null",
+        "none",
+        "inf",
+        "+inf",
+        "-inf",
+        "infinity",
         "-infinity",
     ];
-    let plain = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b'e' | b'E');
-    if !field.is_empty() && field.bytes().all(plain) {
-        if let Ok(value) = field.parse::<f64>() {
-            return match value.abs() < OVERLOAD {
-                true => Some(value),
-                false => Some(f64::NAN),
-            };
-        }
+    let plain =
+        |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b'e' | b'E');
+    if !field.is_empty()
+        && field.bytes().all(plain)
+        && let Ok(value) = field.parse::<f64>()
+    {
+        return match value.abs() < OVERLOAD {
+            true => Some(value),
+            false => Some(f64::NAN),
+        };
     }
     let missing = MISSING.iter().any(|text| field.eq_ignore_ascii_case(text));
     missing.then_some(f64::NAN)

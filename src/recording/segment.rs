@@ -59,9 +59,15 @@ pub struct Cut {
 
 /// Stretches of rows that have equal labels in all columns. Rows without a label belong to no dwell.
 pub fn by_label(columns: &[&Labels]) -> Vec<Dwell> {
-    let rows = columns.iter().map(|labels| labels.of_row.len()).min().unwrap_or(0);
+    let rows = columns
+        .iter()
+        .map(|labels| labels.of_row.len())
+        .min()
+        .unwrap_or(0);
     let same = |a: usize, b: usize| {
-        columns.iter().all(|labels| labels.of_row[a] == labels.of_row[b])
+        columns
+            .iter()
+            .all(|labels| labels.of_row[a] == labels.of_row[b])
     };
     let mut dwells = Vec::new();
     let mut start = 0;
@@ -209,7 +215,11 @@ fn quiet(output: &[f64], scatter: &[f64]) -> f64 {
         .map(|pair| (pair[1] - pair[0]).abs())
         .filter(|step| *step > 0.0)
         .fold(f64::INFINITY, f64::min);
-    let floor = if step.is_finite() { step / 12.0_f64.sqrt() } else { 0.0 };
+    let floor = if step.is_finite() {
+        step / 12.0_f64.sqrt()
+    } else {
+        0.0
+    };
     let present = scatter.iter().copied().filter(|s| !s.is_nan()).collect();
     quantile(present, 0.2).max(floor)
 }
@@ -250,9 +260,12 @@ fn settled(rows: &Range<usize>, times: Option<&[f64]>, settling: &Settling) -> R
         return rows.start..rows.start;
     };
     let from = begin + settling.settle;
-    let start = rows.clone().find(|row| time(*row) >= from).unwrap_or(rows.end);
-    let end = settling.dwell.and_then(|dwell| {
-        (start..rows.end).find(|row| time(*row) >= from + dwell)
-    });
+    let start = rows
+        .clone()
+        .find(|row| time(*row) >= from)
+        .unwrap_or(rows.end);
+    let end = settling
+        .dwell
+        .and_then(|dwell| (start..rows.end).find(|row| time(*row) >= from + dwell));
     start..end.unwrap_or(rows.end)
 }

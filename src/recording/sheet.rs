@@ -36,7 +36,7 @@ impl<'a> Sheet<'a> {
     ///
     /// # Errors
     /// When there is none, or when it holds numbers instead of names.
-    pub fn new(text: &'a str) -> Result<Sheet<'a>, Fault> {
+    pub fn new(text: &'a str) -> Result<Sheet<'a>, Box<Fault>> {
         let first = start_of_record(text, 0);
         let line = text[first..].lines().next().unwrap_or_default();
         let separator = *[b',', b';', b'\t']
@@ -46,9 +46,11 @@ impl<'a> Sheet<'a> {
             .unwrap_or(&b',');
         let whole = first..first + line.len();
         let missing = |message: &str, label: &str| {
-            Fault::new(NO_HEADER, whole.clone(), message)
-                .label(label)
-                .help("name the columns in the first line, with their units: time [s],U [mV]")
+            Box::new(
+                Fault::new(NO_HEADER, whole.clone(), message)
+                    .label(label)
+                    .help("name the columns in the first line, with their units: time [s],U [mV]"),
+            )
         };
         let header = Rows::new(text, separator)
             .next()
@@ -157,7 +159,9 @@ impl<'a> Sheet<'a> {
         let fault = Fault::new(ROW_LENGTH, place, message).label(format!("expected {expected}"));
         let comma = self.separator == b',' && found > expected;
         fault.help(match comma {
-            true => "numbers have a decimal point; a text that holds a comma stands in double quotes",
+            true => {
+                "numbers have a decimal point; a text that holds a comma stands in double quotes"
+            }
             false => "complete the row, or delete it",
         })
     }
@@ -246,7 +250,10 @@ fn start_of_record(text: &str, from: usize) -> usize {
             Some(b'\n' | b'\r') => at += 1,
             Some(b'#') => {
                 let rest = &bytes[at..];
-                at += rest.iter().position(|byte| *byte == b'\n').unwrap_or(rest.len());
+                at += rest
+                    .iter()
+                    .position(|byte| *byte == b'\n')
+                    .unwrap_or(rest.len());
             }
             _ => return at,
         }
@@ -271,7 +278,10 @@ mod tests {
     fn comments_and_empty_lines_do_not_count() {
         let text = "\u{feff}# logger 7\n\na,b\r\n1, 2\r\n\r\n# break\r\n3,4";
         let strings = |texts: [&str; 2]| texts.map(str::to_owned).to_vec();
-        assert_eq!(rows(text), [(4, strings(["1", "2"])), (7, strings(["3", "4"]))]);
+        assert_eq!(
+            rows(text),
+            [(4, strings(["1", "2"])), (7, strings(["3", "4"]))]
+        );
     }
 
     #[test]
@@ -297,11 +307,17 @@ mod tests {
         let text = "a,b\n1,2\n1,5,2\n3";
         let sheet = Sheet::new(text).expect("a header");
         let faults = sheet.visit(|_| ()).expect_err("bad rows");
-        let seen: Vec<&str> = faults.iter().map(|fault| &text[fault.span.clone()]).collect();
+        let seen: Vec<&str> = faults
+            .iter()
+            .map(|fault| &text[fault.span.clone()])
+            .collect();
         assert_eq!(seen, ["1,5,2", "3"]);
         assert_eq!(faults[0].message, "line 3 has 3 fields, the first line 2");
         let many = format!("a,b\n{}", "1\n".repeat(8));
-        let faults = Sheet::new(&many).expect("a header").visit(|_| ()).expect_err("bad rows");
+        let faults = Sheet::new(&many)
+            .expect("a header")
+            .visit(|_| ())
+            .expect_err("bad rows");
         assert!(faults.len() == 5 && faults[4].message.ends_with("; 3 more rows like this"));
     }
 

@@ -9,13 +9,13 @@ use super::draft::show;
 use super::fits::Fitted;
 use super::groups::connected;
 use super::register::Register;
-use crate::budget::{Component, Group, Owner};
 use crate::budget::faults::{
     CORRELATION_TWICE, MISSING_KEY, NOT_A_CORRELATION, PAIR_TWICE, SELF_PAIR, UNKNOWN_NAME,
     WRONG_TYPE,
 };
 use crate::budget::table::Stated;
 use crate::budget::tables::{CorrelationTable, FileTable};
+use crate::budget::{Component, Group, Owner};
 use crate::fault::{Fault, nearest};
 
 /// Eigenvalues down to this are zero within the rounding of the arithmetic.
@@ -167,7 +167,11 @@ impl Checker<'_> {
         r: &Stated<f64>,
         register: &Register,
     ) -> Option<Statement> {
-        let common_member = || a.members.iter().any(|(m, _)| b.members.iter().any(|(n, _)| m == n));
+        let common_member = || {
+            a.members
+                .iter()
+                .any(|(m, _)| b.members.iter().any(|(n, _)| m == n))
+        };
         if a.name == b.name || common_member() {
             return self.refuse(
                 Fault::new(

@@ -342,7 +342,8 @@ impl Checker<'_> {
             }
         }
         let coefficient = |i: usize, j: usize| &correlation.value[i].value[j];
-        let correlated = |i: usize| (0..inputs.len()).any(|j| j != i && coefficient(i, j).value != 0.0);
+        let correlated =
+            |i: usize| (0..inputs.len()).any(|j| j != i && coefficient(i, j).value != 0.0);
         let sides: Vec<Option<Side>> = inputs
             .iter()
             .enumerate()
@@ -351,7 +352,8 @@ impl Checker<'_> {
         for (i, second) in sides.iter().enumerate() {
             for (j, first) in sides[..i].iter().enumerate() {
                 let r = coefficient(i, j);
-                if r.value != 0.0 && self.is_coefficient(r)
+                if r.value != 0.0
+                    && self.is_coefficient(r)
                     && let (Some(first), Some(second)) = (first, second)
                 {
                     statements.extend(self.pair(first, second, r, register));

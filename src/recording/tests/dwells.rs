@@ -8,7 +8,10 @@ use crate::recording::{
 };
 
 fn ranges(dwells: &[Dwell]) -> Vec<(usize, usize)> {
-    dwells.iter().map(|dwell| (dwell.rows.start, dwell.rows.end)).collect()
+    dwells
+        .iter()
+        .map(|dwell| (dwell.rows.start, dwell.rows.end))
+        .collect()
 }
 
 #[test]
@@ -24,7 +27,10 @@ fn dwells_by_label() {
         &UnitTable::default(),
     )
     .expect("no fault");
-    let columns = [recording.labels("run").expect("run"), recording.labels("p").expect("p")];
+    let columns = [
+        recording.labels("run").expect("run"),
+        recording.labels("p").expect("p"),
+    ];
     let dwells = by_label(&columns);
     assert_eq!(ranges(&dwells), [(0, 2), (3, 4), (4, 5), (5, 6)]);
     assert_eq!(dwells[2].label.as_deref(), Some("2, b"));
@@ -45,7 +51,10 @@ fn staircase(levels: &[f64]) -> Vec<f64> {
 #[test]
 fn dwells_by_a_commanded_stimulus() {
     let stimulus = staircase(&[0.0, 10.0, -10.0, 20.0]);
-    let steps = Steps { fewest: 30, tolerance: None };
+    let steps = Steps {
+        fewest: 30,
+        tolerance: None,
+    };
     let expected = [(0, 100), (120, 220), (240, 340), (360, 460)];
     assert_eq!(ranges(&by_steps(&stimulus, &steps)), expected);
     let mut gap = stimulus;
@@ -59,7 +68,13 @@ fn dwells_by_a_measured_stimulus() {
     let noise = normals(3, 460);
     let levels = staircase(&[0.0, 10.0, -10.0, 20.0]);
     let stimulus: Vec<f64> = levels.iter().zip(noise).map(|(x, e)| x + 0.1 * e).collect();
-    let dwells = by_steps(&stimulus, &Steps { fewest: 30, tolerance: None });
+    let dwells = by_steps(
+        &stimulus,
+        &Steps {
+            fewest: 30,
+            tolerance: None,
+        },
+    );
     assert_eq!(dwells.len(), 4);
     for (dwell, start) in dwells.iter().zip([0, 120, 240, 360]) {
         assert!(dwell.rows.start.abs_diff(start) <= 3, "{dwell:?}");
@@ -70,11 +85,23 @@ fn dwells_by_a_measured_stimulus() {
 #[test]
 fn a_slow_ramp_is_no_dwell() {
     let ramp: Vec<f64> = (0..1000).map(|i| f64::from(i) * 0.01).collect();
-    let steps = Steps { fewest: 20, tolerance: Some(1.0) };
+    let steps = Steps {
+        fewest: 20,
+        tolerance: Some(1.0),
+    };
     assert_eq!(by_steps(&ramp, &steps), []);
     // A long one takes no time that grows with its square.
     let long: Vec<f64> = (0..300_000).map(|i| f64::from(i) * 0.01).collect();
-    assert_eq!(by_steps(&long, &Steps { fewest: 5, tolerance: Some(0.1) }), []);
+    assert_eq!(
+        by_steps(
+            &long,
+            &Steps {
+                fewest: 5,
+                tolerance: Some(0.1)
+            }
+        ),
+        []
+    );
 }
 
 #[test]
@@ -87,19 +114,50 @@ fn dwells_by_stillness() {
         (0..1500)
             .map(|row| {
                 let level = 32768.0 + 1000.0 * f64::from(pose(row) * (axis as i32 + 1));
-                let swing = if moving(row) { 50.0 * (row as f64 * 0.3).sin() } else { 0.0 };
+                let swing = if moving(row) {
+                    50.0 * (row as f64 * 0.3).sin()
+                } else {
+                    0.0
+                };
                 (level + swing + 2.0 * noise[2 * row + axis]).round()
             })
             .collect()
     };
     let (x, y) = (output(0), output(1));
-    let dwells = by_stillness(&[&x, &y], &Stillness { window: 25, factor: 3.0 });
+    let dwells = by_stillness(
+        &[&x, &y],
+        &Stillness {
+            window: 25,
+            factor: 3.0,
+        },
+    );
     assert_eq!(dwells.len(), 3, "{dwells:?}");
     for (dwell, start) in dwells.iter().zip([0, 500, 1000]) {
-        assert!(dwell.rows.start.abs_diff(start) <= 3 && dwell.rows.end.abs_diff(start + 400) <= 3, "{dwell:?}");
+        assert!(
+            dwell.rows.start.abs_diff(start) <= 3 && dwell.rows.end.abs_diff(start + 400) <= 3,
+            "{dwell:?}"
+        );
     }
-    assert_eq!(by_stillness(&[], &Stillness { window: 25, factor: 3.0 }), []);
-    assert_eq!(by_stillness(&[&x[..10]], &Stillness { window: 25, factor: 3.0 }), []);
+    assert_eq!(
+        by_stillness(
+            &[],
+            &Stillness {
+                window: 25,
+                factor: 3.0
+            }
+        ),
+        []
+    );
+    assert_eq!(
+        by_stillness(
+            &[&x[..10]],
+            &Stillness {
+                window: 25,
+                factor: 3.0
+            }
+        ),
+        []
+    );
 }
 
 #[test]
@@ -108,27 +166,56 @@ fn settling_is_cut() {
         .into_iter()
         .map(|rows| Dwell { label: None, rows })
         .collect();
-    let settling = Settling { settle: 4.0, dwell: Some(3.0), fewest: 2 };
+    let settling = Settling {
+        settle: 4.0,
+        dwell: Some(3.0),
+        fewest: 2,
+    };
     let cut = Cut::new(&dwells, None, &settling);
-    assert_eq!((ranges(&cut.kept), ranges(&cut.lost)), (vec![(4, 7)], vec![(10, 13)]));
+    assert_eq!(
+        (ranges(&cut.kept), ranges(&cut.lost)),
+        (vec![(4, 7)], vec![(10, 13)])
+    );
     let times: Vec<f64> = (0..13).map(|row| 100.0 + f64::from(row) * 2.0).collect();
     let cut = Cut::new(&dwells, Some(&times), &settling);
     assert_eq!(ranges(&cut.kept), [(2, 4)]);
-    let all = Settling { settle: 0.0, dwell: None, fewest: 1 };
+    let all = Settling {
+        settle: 0.0,
+        dwell: None,
+        fewest: 1,
+    };
     assert_eq!(Cut::new(&dwells, Some(&times), &all).kept, dwells);
 }
 
 #[test]
 fn averages_of_few_readings() {
     let average = Average::of(&[1.0, f64::NAN, 2.0, 3.0]).expect("three readings");
-    assert_eq!((average.mean, average.s, average.n, average.missing), (2.0, 1.0, 3, 1));
+    assert_eq!(
+        (average.mean, average.s, average.n, average.missing),
+        (2.0, 1.0, 3, 1)
+    );
     assert!((average.u - 1.0 / 3.0_f64.sqrt()).abs() < 1e-15);
-    assert_eq!((average.dof, average.minimum, average.maximum), (2.0, 1.0, 3.0));
-    assert_eq!(Average::of(&[1.0, f64::NAN]), Err(TooFew { found: 1, needed: 2 }));
+    assert_eq!(
+        (average.dof, average.minimum, average.maximum),
+        (2.0, 1.0, 3.0)
+    );
+    assert_eq!(
+        Average::of(&[1.0, f64::NAN]),
+        Err(TooFew {
+            found: 1,
+            needed: 2
+        })
+    );
     let constant = Average::of(&[5.0; 20]).expect("readings");
-    assert_eq!((constant.u, constant.dof, constant.autocorrelation), (0.0, 19.0, 0.0));
+    assert_eq!(
+        (constant.u, constant.dof, constant.autocorrelation),
+        (0.0, 19.0, 0.0)
+    );
     let constant = Average::of(&[0.1; 20_000]).expect("readings");
-    assert!(constant.u < 1e-15 && constant.effective > 0.0, "{constant:?}");
+    assert!(
+        constant.u < 1e-15 && constant.effective > 0.0,
+        "{constant:?}"
+    );
 }
 
 /// x_i = φ x_{i−1} + e_i in the steady state, of variance 1/(1 − φ²).
@@ -147,13 +234,21 @@ fn autoregressive(phi: f64, noise: &[f64]) -> Vec<f64> {
 fn the_uncertainty_of_a_mean_is_its_scatter() {
     // The variance of the mean of an autoregressive series is that of theory,
     // σ²/n² (n (1+φ)/(1−φ) − 2φ(1−φⁿ)/(1−φ)²); the estimates are so on the average.
-    for (phi, n, runs, tolerance) in
-        [(0.0, 400, 200, 0.1), (0.6, 400, 200, 0.12), (0.9, 2000, 60, 0.15), (0.6, 20_000, 10, 0.1)]
-    {
+    for (phi, n, runs, tolerance) in [
+        (0.0, 400, 200, 0.1),
+        (0.6, 400, 200, 0.12),
+        (0.9, 2000, 60, 0.15),
+        (0.6, 20_000, 10, 0.1),
+    ] {
         let noise = normals(11, runs * (n + 1));
         let mean_square: f64 = noise
             .chunks(n + 1)
-            .map(|chunk| Average::of(&autoregressive(phi, chunk)).expect("readings").u.powi(2))
+            .map(|chunk| {
+                Average::of(&autoregressive(phi, chunk))
+                    .expect("readings")
+                    .u
+                    .powi(2)
+            })
             .sum::<f64>()
             / runs as f64;
         let count = n as f64;
@@ -161,7 +256,10 @@ fn the_uncertainty_of_a_mean_is_its_scatter() {
             - 2.0 * phi * (1.0 - phi.powi(n as i32)) / ((1.0 - phi) * (1.0 - phi));
         let theory = sum / (1.0 - phi * phi) / (count * count);
         let ratio = mean_square / theory;
-        assert!((ratio - 1.0).abs() < tolerance, "φ = {phi}, n = {n}: {ratio}");
+        assert!(
+            (ratio - 1.0).abs() < tolerance,
+            "φ = {phi}, n = {n}: {ratio}"
+        );
     }
 }
 
@@ -188,15 +286,22 @@ fn drifts_scatter_as_they_say() {
         let drifts: Vec<Drift> = noise
             .chunks(n + 1)
             .map(|chunk| {
-                let readings: Vec<f64> =
-                    autoregressive(phi, chunk).iter().zip(&times).map(|(x, t)| x + 0.05 * t).collect();
+                let readings: Vec<f64> = autoregressive(phi, chunk)
+                    .iter()
+                    .zip(&times)
+                    .map(|(x, t)| x + 0.05 * t)
+                    .collect();
                 Drift::of(&times, &readings).expect("a line")
             })
             .collect();
         let runs = runs as f64;
         let scatter = drifts.iter().map(|d| (d.slope - 0.05).powi(2)).sum::<f64>() / runs;
         let stated = drifts.iter().map(|d| d.u_slope.powi(2)).sum::<f64>() / runs;
-        assert!((scatter / stated - 1.0).abs() < 0.25, "φ = {phi}: {}", scatter / stated);
+        assert!(
+            (scatter / stated - 1.0).abs() < 0.25,
+            "φ = {phi}: {}",
+            scatter / stated
+        );
         // Where there is a drift the mean seems to scatter more than the line through it.
         let readings: Vec<f64> = noise[..n].iter().zip(&times).map(|(x, t)| x + t).collect();
         let average = Average::of(&readings).expect("readings");

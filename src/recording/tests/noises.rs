@@ -8,7 +8,9 @@ use crate::recording::{Allan, Coefficient, PowerLaw, Unsuitable, regular_interva
 fn direct(readings: &[f64], m: usize) -> f64 {
     let average = |from: usize| readings[from..from + m].iter().sum::<f64>() / m as f64;
     let starts = readings.len() + 1 - 2 * m;
-    let squares = (0..starts).map(|k| (average(k + m) - average(k)).powi(2)).sum::<f64>();
+    let squares = (0..starts)
+        .map(|k| (average(k + m) - average(k)).powi(2))
+        .sum::<f64>();
     (0.5 * squares / starts as f64).sqrt()
 }
 
@@ -73,7 +75,8 @@ fn degrees_of_freedom() {
         let white = (3.0 * (count - 1.0) / (2.0 * m_) - 2.0 * (count - 2.0) / count)
             * (4.0 * m_ * m_ / (4.0 * m_ * m_ + 5.0));
         let flicker = 5.0 * count * count / (4.0 * m_ * (count + 3.0 * m_));
-        let walk = (count - 2.0) / m_ * ((count - 1.0).powi(2) - 3.0 * m_ * (count - 1.0) + 4.0 * m_ * m_)
+        let walk = (count - 2.0) / m_
+            * ((count - 1.0).powi(2) - 3.0 * m_ * (count - 1.0) + 4.0 * m_ * m_)
             / (count - 3.0).powi(2);
         for (law, published) in PowerLaw::ALL.into_iter().zip([white, flicker, walk]) {
             let ratio = equivalent_dof(n, m, law) / published;
@@ -136,7 +139,14 @@ fn flicker(b: f64, noise: &[f64]) -> Vec<f64> {
     .take(n)
     .collect();
     (n..2 * n)
-        .map(|i| noise[i + 1 - n..=i].iter().rev().zip(&weights).map(|(e, w)| e * w).sum())
+        .map(|i| {
+            noise[i + 1 - n..=i]
+                .iter()
+                .rev()
+                .zip(&weights)
+                .map(|(e, w)| e * w)
+                .sum()
+        })
         .collect()
 }
 
@@ -151,26 +161,46 @@ fn identified(coefficient: Coefficient) -> (f64, f64) {
 fn noises_of_one_kind() {
     let n = 4096;
     let white: Vec<f64> = normals(21, n).iter().map(|x| 0.3 * x).collect();
-    let noises = Allan::of(&white, 0.01, 0.95).and_then(|a| Ok(a.noises())).expect("readings").expect("noises");
+    let noises = Allan::of(&white, 0.01, 0.95)
+        .map(|a| a.noises())
+        .expect("readings")
+        .expect("noises");
     let (value, u) = identified(noises.white);
     // N = σ √interval.
-    assert!((value - 0.03).abs() < 3.0 * u && u < 0.03 * value, "{noises:?}");
+    assert!(
+        (value - 0.03).abs() < 3.0 * u && u < 0.03 * value,
+        "{noises:?}"
+    );
     assert!(noises.bias_instability.value().is_none() && noises.rate_random_walk.value().is_none());
     assert!(noises.p_value > 0.001, "{noises:?}");
     // K in readings per √s: seen with an interval of 1 s, and with another name of the interval.
     let walk = random_walk(0.2, &normals(22, 16 * n));
     for (interval, expected) in [(1.0, 0.2), (0.01, 2.0)] {
-        let noises = Allan::of(&walk, interval, 0.95).expect("readings").noises().expect("noises");
+        let noises = Allan::of(&walk, interval, 0.95)
+            .expect("readings")
+            .noises()
+            .expect("noises");
         let (value, u) = identified(noises.rate_random_walk);
-        assert!((value - expected).abs() < 3.0 * u && u < 0.05 * value, "{noises:?}");
+        assert!(
+            (value - expected).abs() < 3.0 * u && u < 0.05 * value,
+            "{noises:?}"
+        );
         assert!(noises.bias_instability.value().is_none(), "{noises:?}");
     }
     let flicker = flicker(0.5, &normals(23, 2 * n));
     let allan = Allan::of(&flicker, 0.1, 0.95).expect("readings");
     let noises = allan.noises().expect("noises");
     let (value, u) = identified(noises.bias_instability);
-    assert!((value - 0.5).abs() < 3.5 * u && u < 0.1 * value, "{noises:?}");
-    assert!(allan.points[2..6].iter().all(|point| point.noise == PowerLaw::Flicker), "{allan:?}");
+    assert!(
+        (value - 0.5).abs() < 3.5 * u && u < 0.1 * value,
+        "{noises:?}"
+    );
+    assert!(
+        allan.points[2..6]
+            .iter()
+            .all(|point| point.noise == PowerLaw::Flicker),
+        "{allan:?}"
+    );
 }
 
 #[test]
@@ -181,7 +211,10 @@ fn mixed_noises_scatter_as_they_say() {
         let white = normals(1000 + run, n);
         let walk = random_walk(0.02, &normals(2000 + run, 16 * n));
         let readings: Vec<f64> = white.iter().zip(walk).map(|(a, b)| a + b).collect();
-        let noises = Allan::of(&readings, 1.0, 0.95).expect("readings").noises().expect("noises");
+        let noises = Allan::of(&readings, 1.0, 0.95)
+            .expect("readings")
+            .noises()
+            .expect("noises");
         let (value, u) = identified(noises.white);
         whites.push((value - 1.0) / u);
         if let Coefficient::Identified { value, u } = noises.rate_random_walk {
@@ -191,9 +224,20 @@ fn mixed_noises_scatter_as_they_say() {
     }
     let mean_square = |z: &[f64]| z.iter().map(|z| z * z).sum::<f64>() / z.len() as f64;
     assert!(walks.len() > 50, "{}", walks.len());
-    assert!(found <= 12, "{found} of {runs} show flicker that is not there");
-    assert!((0.5..2.0).contains(&mean_square(&whites)), "{}", mean_square(&whites));
-    assert!((0.4..2.5).contains(&mean_square(&walks)), "{}", mean_square(&walks));
+    assert!(
+        found <= 12,
+        "{found} of {runs} show flicker that is not there"
+    );
+    assert!(
+        (0.5..2.0).contains(&mean_square(&whites)),
+        "{}",
+        mean_square(&whites)
+    );
+    assert!(
+        (0.4..2.5).contains(&mean_square(&walks)),
+        "{}",
+        mean_square(&walks)
+    );
 }
 
 #[test]
@@ -203,12 +247,20 @@ fn all_three_noises() {
     let flicker = flicker(0.3, &normals(32, 2 * n));
     let walk = random_walk(0.02, &normals(33, 16 * n));
     let readings: Vec<f64> = (0..n).map(|i| white[i] + flicker[i] + walk[i]).collect();
-    let noises = Allan::of(&readings, 1.0, 0.95).expect("readings").noises().expect("noises");
-    for (coefficient, expected) in
-        [(noises.white, 1.0), (noises.bias_instability, 0.3), (noises.rate_random_walk, 0.02)]
-    {
+    let noises = Allan::of(&readings, 1.0, 0.95)
+        .expect("readings")
+        .noises()
+        .expect("noises");
+    for (coefficient, expected) in [
+        (noises.white, 1.0),
+        (noises.bias_instability, 0.3),
+        (noises.rate_random_walk, 0.02),
+    ] {
         let (value, u) = identified(coefficient);
-        assert!((value - expected).abs() < 3.0 * u, "{value} ± {u} for {expected}: {noises:?}");
+        assert!(
+            (value - expected).abs() < 3.0 * u,
+            "{value} ± {u} for {expected}: {noises:?}"
+        );
     }
 }
 
@@ -233,15 +285,39 @@ fn confidence_intervals_cover() {
 fn what_has_no_allan_deviation() {
     let readings = normals(1, 64);
     let refused = |readings: &[f64], interval: f64, p: f64| Allan::of(readings, interval, p).err();
-    assert_eq!(refused(&readings[..9], 1.0, 0.9), Some(Unsuitable::TooFew { found: 9, needed: 16 }));
-    assert_eq!(refused(&readings, 0.0, 0.9), Some(Unsuitable::Interval(0.0)));
-    assert_eq!(refused(&readings, 1.0, 1.0), Some(Unsuitable::Probability(1.0)));
+    assert_eq!(
+        refused(&readings[..9], 1.0, 0.9),
+        Some(Unsuitable::TooFew {
+            found: 9,
+            needed: 16
+        })
+    );
+    assert_eq!(
+        refused(&readings, 0.0, 0.9),
+        Some(Unsuitable::Interval(0.0))
+    );
+    assert_eq!(
+        refused(&readings, 1.0, 1.0),
+        Some(Unsuitable::Probability(1.0))
+    );
     let mut gap = readings;
     gap[3] = f64::NAN;
-    assert_eq!(refused(&gap, 1.0, 0.9), Some(Unsuitable::Missing { row: 3 }));
+    assert_eq!(
+        refused(&gap, 1.0, 0.9),
+        Some(Unsuitable::Missing { row: 3 })
+    );
     let constant = Allan::of(&[1.0; 64], 1.0, 0.9).expect("readings");
     assert!(constant.noises().is_none() && constant.points[0].deviation == 0.0);
-    assert_eq!(regular_interval(&[0.0, 0.1, 0.21, 0.3]).map(|t| (t * 1e9).round()), Ok(1e8));
-    assert!(matches!(regular_interval(&[0.0, 1.0, 3.0, 4.0]), Err(Unsuitable::Irregular { row: 1..=3, .. })));
-    assert!(matches!(regular_interval(&[2.0, 1.0, 0.0]), Err(Unsuitable::Interval(_))));
+    assert_eq!(
+        regular_interval(&[0.0, 0.1, 0.21, 0.3]).map(|t| (t * 1e9).round()),
+        Ok(1e8)
+    );
+    assert!(matches!(
+        regular_interval(&[0.0, 1.0, 3.0, 4.0]),
+        Err(Unsuitable::Irregular { row: 1..=3, .. })
+    ));
+    assert!(matches!(
+        regular_interval(&[2.0, 1.0, 0.0]),
+        Err(Unsuitable::Interval(_))
+    ));
 }

@@ -50,9 +50,14 @@ fn columns_by_role_in_their_units() {
     assert_eq!(recording.line(2), 4);
     let output = recording.numbers("output").expect("numbers");
     assert!(output[0] == 1.5 && output[1].is_nan() && output[2] == -20.0);
-    let seconds = recording.column("time").and_then(|time| time.values_in(&unit("s")));
+    let seconds = recording
+        .column("time")
+        .and_then(|time| time.values_in(&unit("s")));
     assert_eq!(seconds, Some(vec![0.0, 0.01, 0.02]));
-    assert_eq!(recording.labels("position").map(|labels| labels.text(2)), Some("b"));
+    assert_eq!(
+        recording.labels("position").map(|labels| labels.text(2)),
+        Some("b")
+    );
     assert!(recording.numbers("position").is_none() && recording.column("time").is_some());
 }
 
@@ -91,7 +96,10 @@ fn all_faults_at_once_at_their_places() {
     let help = |i: usize| faults[i].help.clone().unwrap_or_default();
     assert!(help(0).starts_with("did you mean \"time\"?"), "{}", help(0));
     assert_eq!(help(2), "write 1.5, with a decimal point");
-    assert_eq!(faults[3].message, "line 4, column \"U_mV\": \"abc\" is not a number");
+    assert_eq!(
+        faults[3].message,
+        "line 4, column \"U_mV\": \"abc\" is not a number"
+    );
 }
 
 #[test]
@@ -106,12 +114,21 @@ fn a_rejection_shows_line_and_column() {
 
 #[test]
 fn units_that_are_missing_or_contradict() {
-    let fault = only("acc_x_g\n1\n", Request::numbers("acceleration", "acc_x_g").like(unit("m/s^2")));
+    let fault = only(
+        "acc_x_g\n1\n",
+        Request::numbers("acceleration", "acc_x_g").like(unit("m/s^2")),
+    );
     assert_eq!(fault.code, NO_UNIT);
-    let fault = only("a [g]\n1\n", Request::numbers("acceleration", "a").like(unit("m/s^2")));
+    let fault = only(
+        "a [g]\n1\n",
+        Request::numbers("acceleration", "a").like(unit("m/s^2")),
+    );
     assert_eq!(fault.code, UNIT_CLASH);
     assert!(fault.help.unwrap_or_default().contains("`gn`"));
-    let fault = only("U_mV\n1\n", Request::numbers("output", "U").in_unit(unit("V")));
+    let fault = only(
+        "U_mV\n1\n",
+        Request::numbers("output", "U").in_unit(unit("V")),
+    );
     assert_eq!(fault.code, UNIT_CLASH);
     let fault = only("U [mw/q]\n1\n", Request::numbers("output", "U"));
     assert_eq!(fault.code, UNIT);
@@ -133,19 +150,29 @@ fn long_lists_of_faults_are_cut_and_counted() {
     let text = format!("a\n{}", "x\n".repeat(12));
     let faults = faults(&text, &[Request::numbers("a", "a")]);
     assert_eq!(faults.len(), 5);
-    assert!(faults[4].message.ends_with("7 more fields of the column are no numbers"));
+    assert!(
+        faults[4]
+            .message
+            .ends_with("7 more fields of the column are no numbers")
+    );
 }
 
 #[test]
 fn overloads_and_words_are_missing_numbers() {
     let text = "a\n9.9E37\n-inf\nN/A\n1\n\"\"\n";
-    let request = Request { content: Content::Numbers, ..Request::numbers("a", "a") };
+    let request = Request {
+        content: Content::Numbers,
+        ..Request::numbers("a", "a")
+    };
     let recording =
         Recording::read("t", text, &[request], &UnitTable::default()).expect("no fault");
     let values = recording.numbers("a").expect("numbers");
     assert_eq!(values.iter().filter(|value| value.is_nan()).count(), 4);
     let findings = check(&recording, &NO_CHECKS);
-    assert_eq!((findings[0].problem.clone(), findings[0].line), (Problem::Missing, 2));
+    assert_eq!(
+        (findings[0].problem.clone(), findings[0].line),
+        (Problem::Missing, 2)
+    );
 }
 
 #[test]
@@ -177,7 +204,10 @@ fn told(recording: &Recording, checks: &Checks) -> Vec<Finding> {
 
 #[test]
 fn times() {
-    let checks = Checks { time: Some("t"), ..NO_CHECKS };
+    let checks = Checks {
+        time: Some("t"),
+        ..NO_CHECKS
+    };
     let findings = told(&column("t_s", &[0.0, 1.0, 1.0, 2.0, 1.5, 3.0]), &checks);
     let back = Problem::TimeBackwards { from: 2.0, to: 1.5 };
     assert_eq!((&findings[0].problem, findings[0].line), (&back, 6));
@@ -187,12 +217,18 @@ fn times() {
     assert_eq!(told(&column("t_s", &even), &checks), []);
     even.remove(7);
     let findings = told(&column("t_s", &even), &checks);
-    let gap = Problem::TimeGap { longest: 2.0, usual: 1.0 };
+    let gap = Problem::TimeGap {
+        longest: 2.0,
+        usual: 1.0,
+    };
     assert_eq!((&findings[0].problem, findings[0].line), (&gap, 9));
 }
 
 fn saturated(values: &[f64]) -> Vec<f64> {
-    let checks = Checks { outputs: &["x"], ..NO_CHECKS };
+    let checks = Checks {
+        outputs: &["x"],
+        ..NO_CHECKS
+    };
     told(&column("x", values), &checks)
         .iter()
         .filter_map(|finding| match finding.problem {
@@ -205,9 +241,8 @@ fn saturated(values: &[f64]) -> Vec<f64> {
 #[test]
 fn saturation_is_told_from_quiet_and_coarse_readings() {
     let noise = super::normals(5, 3000);
-    let quantised = |step: f64| -> Vec<f64> {
-        noise.iter().map(|x| (x / step).round() * step).collect()
-    };
+    let quantised =
+        |step: f64| -> Vec<f64> { noise.iter().map(|x| (x / step).round() * step).collect() };
     let clipped = |limit: f64| -> Vec<f64> { noise.iter().map(|x| x.min(limit)).collect() };
     assert!(saturated(&noise).is_empty());
     assert!(saturated(&quantised(0.1)).is_empty());
@@ -219,12 +254,21 @@ fn saturation_is_told_from_quiet_and_coarse_readings() {
     let stairs: Vec<f64> = (0..300).map(|i| f64::from(i / 50)).collect();
     assert!(saturated(&stairs).is_empty());
     // One dwell of several lies beyond the range.
-    let dwells: Vec<f64> = (0..).zip(&noise).map(|(i, x)| ((f64::from(i / 500) + 0.1 * x).min(4.0) * 100.0).round()).collect();
+    let dwells: Vec<f64> = (0..)
+        .zip(&noise)
+        .map(|(i, x)| ((f64::from(i / 500) + 0.1 * x).min(4.0) * 100.0).round())
+        .collect();
     assert_eq!(saturated(&dwells), [400.0]);
     // A quantised sine lingers at its crest.
-    let sine: Vec<f64> = (0..3000).map(|i| (500.0 * (f64::from(i) * 0.01).sin()).round()).collect();
+    let sine: Vec<f64> = (0..3000)
+        .map(|i| (500.0 * (f64::from(i) * 0.01).sin()).round())
+        .collect();
     assert!(saturated(&sine).is_empty());
-    let checks = Checks { outputs: &["x"], ranges: &[("x", [-2.0, 2.0])], ..NO_CHECKS };
+    let checks = Checks {
+        outputs: &["x"],
+        ranges: &[("x", [-2.0, 2.0])],
+        ..NO_CHECKS
+    };
     let limits = told(&column("x", &noise), &checks);
     assert_eq!(limits.len(), 2);
 }
@@ -238,13 +282,20 @@ fn constants_labels_and_length() {
         fewest: 6,
         ..NO_CHECKS
     };
-    let problems: Vec<Problem> =
-        told(&recording, &checks).into_iter().map(|finding| finding.problem).collect();
+    let problems: Vec<Problem> = told(&recording, &checks)
+        .into_iter()
+        .map(|finding| finding.problem)
+        .collect();
     let near = Some("down".to_owned());
     for problem in [
         Problem::TooFew { needed: 6 },
-        Problem::LabelAbsent { label: "left".into() },
-        Problem::LabelUnknown { label: "donw".into(), near },
+        Problem::LabelAbsent {
+            label: "left".into(),
+        },
+        Problem::LabelUnknown {
+            label: "donw".into(),
+            near,
+        },
         Problem::Constant { value: 3.0 },
         Problem::Unlabelled,
         Problem::LabelAgain { label: "up".into() },

@@ -11,7 +11,10 @@ use crate::recording::{
 fn folder() -> Option<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let places = ["../shared/recordings", "../../shared/recordings"];
-    let found = places.iter().map(|place| root.join(place)).find(|place| place.is_dir());
+    let found = places
+        .iter()
+        .map(|place| root.join(place))
+        .find(|place| place.is_dir());
     if found.is_none() {
         eprintln!("SKIPPED: no folder ../shared/recordings");
     }
@@ -27,17 +30,51 @@ fn open(folder: &Path, file: &str) -> Recording {
 }
 
 /// File, rows, and units of some columns by role.
-const FILES: &[(&str, usize, &[(&str, &str)])] = &[
+type Expected = (&'static str, usize, &'static [(&'static str, &'static str)]);
+const FILES: &[Expected] = &[
     ("acoustic_microscope_hsu.csv", 750, &[]),
-    ("dmm_tempco_1V.csv", 1578, &[("time", "h"), ("dut_temp", "°C"), ("ch1_error", "ppm"), ("ambient", "°C")]),
+    (
+        "dmm_tempco_1V.csv",
+        1578,
+        &[
+            ("time", "h"),
+            ("dut_temp", "°C"),
+            ("ch1_error", "ppm"),
+            ("ambient", "°C"),
+        ],
+    ),
     ("loadcell_pontius.csv", 40, &[]),
-    ("mpu9150_tumble_units_0_1.csv", 45, &[("acc_x", "m/s^2"), ("gyro_z", "rad/s"), ("t_mean", "s")]),
-    ("oil_drop_millikan.csv", 58, &[("temp", "°C"), ("voltage", "V"), ("fall_time", "s")]),
-    ("resistor_tc_lag_vhd200.csv", 2820, &[("resistance", "Ω"), ("oven", "°C")]),
-    ("resistor_tc_settling_ultrohm.csv", 2040, &[("resistance", "Ω"), ("time", "h")]),
+    (
+        "mpu9150_tumble_units_0_1.csv",
+        45,
+        &[("acc_x", "m/s^2"), ("gyro_z", "rad/s"), ("t_mean", "s")],
+    ),
+    (
+        "oil_drop_millikan.csv",
+        58,
+        &[("temp", "°C"), ("voltage", "V"), ("fall_time", "s")],
+    ),
+    (
+        "resistor_tc_lag_vhd200.csv",
+        2820,
+        &[("resistance", "Ω"), ("oven", "°C")],
+    ),
+    (
+        "resistor_tc_settling_ultrohm.csv",
+        2040,
+        &[("resistance", "Ω"), ("time", "h")],
+    ),
     ("standard_resistor_dziuba.csv", 1000, &[]),
-    ("wafer_resistivity_mpc61.csv", 300, &[("resistivity", "Ω·cm"), ("temp", "°C")]),
-    ("xsens_tumble_accel.csv", 37, &[("acc_x", "counts"), ("acc_z", "counts"), ("t_mean", "s")]),
+    (
+        "wafer_resistivity_mpc61.csv",
+        300,
+        &[("resistivity", "Ω·cm"), ("temp", "°C")],
+    ),
+    (
+        "xsens_tumble_accel.csv",
+        37,
+        &[("acc_x", "counts"), ("acc_z", "counts"), ("t_mean", "s")],
+    ),
 ];
 
 #[test]
@@ -47,10 +84,20 @@ fn every_file_is_read_and_sound() {
         let recording = open(&folder, file);
         assert_eq!(recording.rows(), *rows, "{file}");
         for (role, unit) in *units {
-            let column = recording.column(role).unwrap_or_else(|| panic!("{file}: {role}"));
-            assert_eq!(column.unit.as_ref().map(|unit| unit.symbol.as_str()), Some(*unit), "{file}: {role}");
+            let column = recording
+                .column(role)
+                .unwrap_or_else(|| panic!("{file}: {role}"));
+            assert_eq!(
+                column.unit.as_ref().map(|unit| unit.symbol.as_str()),
+                Some(*unit),
+                "{file}: {role}"
+            );
         }
-        let outputs: Vec<&str> = recording.columns.iter().map(|column| column.role.as_str()).collect();
+        let outputs: Vec<&str> = recording
+            .columns
+            .iter()
+            .map(|column| column.role.as_str())
+            .collect();
         let checks = Checks {
             time: Some("time"),
             outputs: &[],
@@ -73,7 +120,10 @@ fn outputs_of_the_recordings_are_not_saturated() {
     let Some(folder) = folder() else { return };
     for (file, outputs) in [
         ("xsens_tumble_accel.csv", &["acc_x", "acc_y", "acc_z"][..]),
-        ("mpu9150_tumble_units_0_1.csv", &["acc_x", "acc_y", "acc_z", "gyro_x"]),
+        (
+            "mpu9150_tumble_units_0_1.csv",
+            &["acc_x", "acc_y", "acc_z", "gyro_x"],
+        ),
         ("resistor_tc_lag_vhd200.csv", &["resistance"]),
         ("resistor_tc_settling_ultrohm.csv", &["resistance"]),
         ("dmm_tempco_1V.csv", &["ch1_error", "ch2_error"]),
@@ -82,7 +132,13 @@ fn outputs_of_the_recordings_are_not_saturated() {
         ("standard_resistor_dziuba.csv", &["resistance_as_source"]),
         ("wafer_resistivity_mpc61.csv", &["resistivity"]),
     ] {
-        let checks = Checks { time: None, outputs, ranges: &[], expected: None, fewest: 0 };
+        let checks = Checks {
+            time: None,
+            outputs,
+            ranges: &[],
+            expected: None,
+            fewest: 0,
+        };
         let findings = check(&open(&folder, file), &checks);
         let of_outputs: Vec<String> = findings
             .iter()
@@ -98,20 +154,35 @@ fn poses_of_the_xsens_triad_have_the_length_of_gravity() {
     let Some(folder) = folder() else { return };
     let recording = open(&folder, "xsens_tumble_accel.csv");
     let axes = ["acc_x", "acc_y", "acc_z"].map(|role| recording.numbers(role).expect("numbers"));
-    let length = |row: usize| axes.iter().map(|axis| ((axis[row] - 32768.0) / 4048.0).powi(2)).sum::<f64>();
-    let lengths: Vec<f64> = (0..recording.rows()).map(|row| length(row).sqrt() * 9.80665).collect();
+    let length = |row: usize| {
+        axes.iter()
+            .map(|axis| ((axis[row] - 32768.0) / 4048.0).powi(2))
+            .sum::<f64>()
+    };
+    let lengths: Vec<f64> = (0..recording.rows())
+        .map(|row| length(row).sqrt() * 9.80665)
+        .collect();
     let average = Average::of(&lengths).expect("poses");
-    assert!((average.mean - 9.817).abs() < 0.3 && average.missing == 0, "{average:?}");
+    assert!(
+        (average.mean - 9.817).abs() < 0.3 && average.missing == 0,
+        "{average:?}"
+    );
 }
 
 #[test]
 fn runs_and_plateaus() {
     let Some(folder) = folder() else { return };
     let text = std::fs::read_to_string(folder.join("loadcell_pontius.csv")).expect("the file");
-    let requests = [Request::labels("run", "run"), Request::numbers("load", "load_units")];
+    let requests = [
+        Request::labels("run", "run"),
+        Request::numbers("load", "load_units"),
+    ];
     let load = Recording::read("load", &text, &requests, &UnitTable::default()).expect("no fault");
     let runs = by_label(&[load.labels("run").expect("labels")]);
-    assert_eq!(runs.iter().map(|run| run.rows.len()).collect::<Vec<_>>(), [20, 20]);
+    assert_eq!(
+        runs.iter().map(|run| run.rows.len()).collect::<Vec<_>>(),
+        [20, 20]
+    );
     // The chamber goes 25 °C, 35 °C, 25 °C: plateaus within 0.1 K for half an hour and more.
     let resistor = open(&folder, "resistor_tc_lag_vhd200.csv");
     let (oven, time, resistance) = (
@@ -119,7 +190,13 @@ fn runs_and_plateaus() {
         resistor.numbers("time").expect("numbers"),
         resistor.numbers("resistance").expect("numbers"),
     );
-    let dwells = by_steps(oven, &Steps { fewest: 180, tolerance: Some(0.1) });
+    let dwells = by_steps(
+        oven,
+        &Steps {
+            fewest: 180,
+            tolerance: Some(0.1),
+        },
+    );
     let levels: Vec<f64> = dwells
         .iter()
         .filter_map(|dwell| Average::of(&oven[dwell.rows.clone()]).ok())

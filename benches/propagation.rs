@@ -137,5 +137,5 @@ fn correlated(model: &str, inputs: usize) -> String {
 }
 
 fn correlation(distance: usize) -> f64 {
-    ((-0.02 * distance as libm::exp(f64)) * 1e9).round() / 1e9
+    (libm::exp(-0.02 * distance as f64) * 1e9).round() / 1e9
 }

@@ -69,6 +69,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod budget;
+pub mod challenge;
 mod dd;
 pub mod distribution;
 pub mod fault;

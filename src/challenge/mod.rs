@@ -1,6 +1,8 @@
 //! Sealed cases.
+mod case;
 mod climate;
 mod effect;
+mod files;
 mod noise;
 mod random;
 mod rig;
@@ -8,8 +10,12 @@ mod scenario;
 mod schedule;
 mod simulate;
 mod strength;
+mod truth;
 mod world;
 
+pub use case::{Request, SealedCase, challenge};
 pub use effect::{Concealed, Physics, Shape};
+pub use files::CaseFile;
 pub use rig::Rig;
 pub use scenario::{Class, NoiseKnowledge, Scenario};
+pub use truth::{TrueEffect, Truth, seal};

@@ -126,22 +126,32 @@ impl<'a> Visible<'a> {
         (effect, strength)
     }
 
-    /// What every rival leaves of a trace, the nearest first.
-    pub(super) fn rivals(&self, physics: Physics, trace: &DVector<f64>) -> Vec<Rival> {
-        let others = Physics::ALL
+    /// Length of what is left of a trace beside others that are known to be there.
+    pub(super) fn beside(&self, trace: &DVector<f64>, others: &[DVector<f64>]) -> f64 {
+        left(trace, &span(others, trace.len())).norm()
+    }
+
+    /// What every rival leaves of a trace beside others that are known to be there, the nearest first.
+    pub(super) fn rivals(
+        &self,
+        physics: Physics,
+        trace: &DVector<f64>,
+        others: &[DVector<f64>],
+    ) -> Vec<Rival> {
+        let candidates = Physics::ALL
             .into_iter()
             .filter(|p| *p != physics && p.occurs(self.setup.rig) && *p != Physics::SwappedLabel);
-        let mut rivals: Vec<Rival> = others
+        let mut rivals: Vec<Rival> = candidates
             .map(|rival| Rival {
                 physics: rival,
-                left: self.left_by(rival, trace),
+                left: self.left_by(rival, trace, others),
             })
             .collect();
         rivals.sort_by(|a, b| a.left.total_cmp(&b.left));
         rivals
     }
 
-    fn left_by(&self, rival: Physics, trace: &DVector<f64>) -> f64 {
+    fn left_by(&self, rival: Physics, trace: &DVector<f64>, others: &[DVector<f64>]) -> f64 {
         let uses = rival.uses();
         let paces: &[f64] = if uses.pace { &[0.1, 0.5, 0.9] } else { &[0.5] };
         let moments: &[f64] = if uses.moment {
@@ -154,10 +164,10 @@ impl<'a> Visible<'a> {
         } else {
             &[0.0]
         };
-        let mut least = trace.norm();
+        let mut least = f64::INFINITY;
         for &pace in paces {
             for &moment in moments {
-                let mut columns = Vec::new();
+                let mut columns = others.to_vec();
                 for &phase in phases {
                     let shape = Shape {
                         gains: [1.0; 3],
@@ -172,9 +182,7 @@ impl<'a> Visible<'a> {
                     };
                     columns.extend(self.by_axis(&self.trace(&[effect]), rival));
                 }
-                let span = basis(&DMatrix::from_columns(&columns));
-                let left = trace - &span * span.tr_mul(trace);
-                least = least.min(left.norm());
+                least = least.min(left(trace, &span(&columns, trace.len())).norm());
             }
         }
         least
@@ -195,6 +203,19 @@ impl<'a> Visible<'a> {
             })
             .collect()
     }
+}
+
+/// What is left of a trace outside a span.
+fn left(trace: &DVector<f64>, span: &DMatrix<f64>) -> DVector<f64> {
+    trace - span * span.tr_mul(trace)
+}
+
+/// Orthonormal basis of traces of a length.
+fn span(traces: &[DVector<f64>], length: usize) -> DMatrix<f64> {
+    if traces.is_empty() {
+        return DMatrix::zeros(length, 0);
+    }
+    basis(&DMatrix::from_columns(traces))
 }
 
 /// Orthonormal basis of the span of columns; columns that add nothing are left out.
@@ -282,7 +303,7 @@ mod tests {
         let visible = Visible::new(&setup);
         let (sized, _) = visible.sized(effect(Physics::CrossSquare), 20.0, 0.05);
         let trace = visible.trace(&[sized]);
-        let rivals = visible.rivals(Physics::CrossSquare, &trace);
+        let rivals = visible.rivals(Physics::CrossSquare, &trace, &[]);
         let square = rivals.iter().find(|r| r.physics == Physics::SecondOrder);
         // Not quite nothing, because the simulated square is not quite a square.
         assert!(square.is_some_and(|r| r.left < 1.0), "{square:?}");
@@ -294,7 +315,7 @@ mod tests {
             let setup = setup(rig);
             let visible = Visible::new(&setup);
             let (sized, _) = visible.sized(effect(Physics::ThirdOrder), 20.0, 0.05);
-            visible.left_by(Physics::Ellipticity, &visible.trace(&[sized]))
+            visible.left_by(Physics::Ellipticity, &visible.trace(&[sized]), &[])
         };
         assert!(left(Rig::Tumble) < 2.0);
         assert!(left(Rig::Remount) > 8.0);

@@ -3,6 +3,7 @@ mod case;
 mod climate;
 mod effect;
 mod files;
+pub mod grade;
 mod noise;
 mod random;
 mod rig;

@@ -26,13 +26,18 @@ pub(super) struct NoiseLaw {
 }
 
 impl NoiseLaw {
-    /// White and random walk only: what a statement of two figures describes completely.
+    /// White and random walk.
     pub(super) fn plain(white: f64, walk_per_root_hour: f64) -> NoiseLaw {
         NoiseLaw {
             white,
             walk: walk_per_root_hour / 60.0,
             flicker: Vec::new(),
         }
+    }
+
+    /// The white part only.
+    pub(super) fn without_walk(self) -> NoiseLaw {
+        NoiseLaw { walk: 0.0, ..self }
     }
 
     /// With a flicker floor: equal steps per octave of time, from a minute to hours, add up to a

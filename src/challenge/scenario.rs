@@ -210,7 +210,7 @@ pub(super) fn draw(scenario: Scenario, knowledge: NoiseKnowledge, seed: u64) -> 
     let mut random = Random::new(seed, Stream::Effect, 0);
     let rig = scenario.rig;
     let noise = match knowledge {
-        NoiseKnowledge::Stated => rig.noise(),
+        NoiseKnowledge::Stated => rig.noise().without_walk(),
         NoiseKnowledge::AtRest => {
             let white = rig.noise().white / libm::sqrt(rig.samples() as f64);
             rig.noise().with_flicker(0.15 * white)

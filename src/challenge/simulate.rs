@@ -162,7 +162,10 @@ impl Bench {
             sums[sample.row].add(sample.time, &self.climate.shown(), &output);
         }
         let row = |(sum, &table): (RowSum, &f64)| sum.row(dwell, Pose { table, ..dwell.to });
-        sums.into_iter().zip(&dwell.tables).map(row).collect()
+        let mut rows: Vec<Row> = sums.into_iter().zip(&dwell.tables).map(row).collect();
+        // Which gate comes first depends on the sense of turning.
+        rows.sort_by(|a, b| a.time.total_cmp(&b.time));
+        rows
     }
 
     /// Lets time pass until a moment, in steps.

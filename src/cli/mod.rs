@@ -1,9 +1,11 @@
 //! Subcommands, exit codes and output.
 
+mod challenge;
 mod concepts;
 mod date;
 mod eval;
 mod explain;
+mod grade;
 mod new;
 mod output;
 mod schema;
@@ -52,6 +54,10 @@ enum Command {
     Verify(verify::Args),
     /// Write a commented budget file to start from
     New(new::Args),
+    /// Make a sealed case: recordings of a simulated calibration in which something is concealed
+    Challenge(challenge::Args),
+    /// Hold a diagnosis against the truth of a sealed case
+    Grade(grade::Args),
     /// Print the JSON Schema of budget files or of what the program writes
     Schema(schema::Args),
     /// Explain a distribution, function, profile, error code or concept
@@ -64,6 +70,8 @@ pub(crate) fn run() -> ExitCode {
         Command::Eval(args) => eval::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::New(args) => new::run(&args),
+        Command::Challenge(args) => challenge::run(&args),
+        Command::Grade(args) => grade::run(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Explain(args) => explain::run(&args),
     };

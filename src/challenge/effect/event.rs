@@ -93,22 +93,12 @@ struct SwappedLabel {
 
 impl Process for SwappedLabel {
     fn record(&self, rows: &mut [Row]) {
-        // Rows of one dwell share a label; of the rate table three rows make a dwell.
-        let group = if self.part.rig.axes() == 3 && rows.len() > 100 {
-            3
-        } else {
-            1
-        };
-        let dwells = rows.len() / group;
-        if dwells < 2 {
+        let Some(last) = rows.len().checked_sub(2) else {
             return;
-        }
-        let first = ((self.part.shape.moment * (dwells - 1) as f64) as usize).min(dwells - 2);
-        for k in 0..group {
-            let (a, b) = (first * group + k, (first + 1) * group + k);
-            let pose = rows[a].pose;
-            rows[a].pose = rows[b].pose;
-            rows[b].pose = pose;
-        }
+        };
+        let first = ((self.part.shape.moment * (last + 1) as f64) as usize).min(last);
+        let pose = rows[first].pose;
+        rows[first].pose = rows[first + 1].pose;
+        rows[first + 1].pose = pose;
     }
 }

@@ -280,6 +280,7 @@ impl Physics {
             | P::Resonance
             | P::MotorPickup => table,
             P::WrongUnit => tumble,
+            P::SwappedLabel => !table,
             _ => true,
         }
     }

@@ -11,6 +11,7 @@ mod scenario;
 mod schedule;
 mod simulate;
 mod strength;
+pub mod study;
 mod truth;
 mod world;
 

@@ -337,6 +337,15 @@ impl Physics {
         }
     }
 
+    /// Whether it follows a condition that is recorded.
+    pub(super) fn follows_conditions(self) -> bool {
+        use Physics as P;
+        matches!(
+            self,
+            P::TemperatureBias | P::TemperatureScale | P::Supply | P::Vibration
+        )
+    }
+
     /// Whether it comes from the rig and reaches all axes alike.
     pub(super) fn of_the_rig(self) -> bool {
         use Physics as P;

@@ -13,6 +13,11 @@ pub fn accepts(physics: Physics, name: &Name) -> bool {
     })
 }
 
+/// Identifiers of the catalogue that can be right for a physics.
+pub fn accepted_ids(physics: Physics) -> impl Iterator<Item = &'static str> {
+    accepted(physics).iter().map(|(id, _)| *id)
+}
+
 /// Whether a list of columns mentions one.
 fn mentions(along: &str, column: &str) -> bool {
     along

@@ -16,6 +16,7 @@
 //! | [`distribution`] | the distributions an input may have |
 //! | [`least_squares`] | parameters of a response from observed points |
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
+//! | [`equations`] | measurement equations over rows of data |
 //! | [`budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
@@ -71,6 +72,7 @@
 pub mod budget;
 mod dd;
 pub mod distribution;
+pub mod equations;
 pub mod fault;
 pub mod least_squares;
 pub mod model;

@@ -20,6 +20,7 @@
 //! | [`budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
+//! | [`calibrate`] | recordings and measurement equations → coefficients |
 //! | [`verify`] | published examples held against their published figures |
 //! | [`report`] | text, Markdown, JSON, the certificate's sentence, saved results, the dossier |
 //!
@@ -70,6 +71,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod budget;
+pub mod calibrate;
 mod dd;
 pub mod distribution;
 pub mod equations;

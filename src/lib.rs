@@ -19,6 +19,7 @@
 //! | [`budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
+//! | [`diagnose`] | which physics a measurement model left out of a recording |
 //! | [`verify`] | published examples held against their published figures |
 //! | [`report`] | text, Markdown, JSON, the certificate's sentence, saved results, the dossier |
 //!
@@ -70,6 +71,7 @@
 
 pub mod budget;
 mod dd;
+pub mod diagnose;
 pub mod distribution;
 pub mod fault;
 pub mod least_squares;

@@ -26,7 +26,7 @@ mod series;
 mod shelf;
 pub(crate) mod strings;
 pub(crate) mod table;
-mod tables;
+pub(crate) mod tables;
 pub(crate) mod values;
 pub(crate) mod variants;
 

@@ -1,0 +1,16 @@
+//! Diagnosis: does a recording agree with the declared measurement model, and if not, which physics
+//! was left out?
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | [`faults`] | codes of what is refused |
+//! | [`case`] | the case file: model, recording, claims |
+//! | `frame` | the rows as numbers; the model at any parameters |
+//! | `fit` | the declared model fitted to the recording |
+//! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
+
+pub mod case;
+pub mod evidence;
+pub mod faults;
+mod fit;
+mod frame;

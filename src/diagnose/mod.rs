@@ -10,6 +10,7 @@
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 
 pub mod case;
+pub mod catalogue;
 pub mod evidence;
 pub mod faults;
 mod fit;

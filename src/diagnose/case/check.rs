@@ -521,7 +521,11 @@ impl Checker<'_> {
             };
             let gum = &evaluation.results[at].gum;
             u.push(conversion.apply(gum.u));
-            dof = dof.min(gum.dof.unwrap_or(f64::INFINITY));
+            dof = dof.min(match gum.freedom {
+                propagate::Freedom::WelchSatterthwaite(dof) | propagate::Freedom::Ensembles(dof) => dof,
+                propagate::Freedom::Refused { lower_bound, .. } => lower_bound,
+                propagate::Freedom::Infinite => f64::INFINITY,
+            });
         }
         NoiseClaim::Stated {
             u,

@@ -69,6 +69,19 @@ pub fn fit(frame: &Frame<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
     best.map(|(_, fit)| fit).ok_or(failure)
 }
 
+/// Fits the model from one starting point.
+///
+/// # Errors
+/// As [`fit`].
+pub fn from(frame: &Frame<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
+    let problem = Problem {
+        frame,
+        observed: frame.observed_column(|response| frame.observed(response)),
+        u,
+    };
+    problem.search(start).map(|(_, fit)| fit)
+}
+
 /// The model at given unknowns, without a search.
 pub fn at(frame: &Frame<'_>, unknowns: DVector<f64>) -> Fit {
     let linear = frame.linear(&unknowns);

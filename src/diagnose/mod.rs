@@ -9,9 +9,11 @@
 //! | `fit` | the declared model fitted to the recording |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 
+mod adopt;
 pub mod case;
 pub mod catalogue;
 pub mod evidence;
 pub mod faults;
 mod fit;
 mod frame;
+mod noise;

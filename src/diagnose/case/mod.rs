@@ -16,7 +16,7 @@ use crate::recording::Labels;
 pub use tables::RoleWord as Role;
 
 /// A checked case.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Case {
     /// The heading; the name of the file where it has none.
     pub title: String,
@@ -155,7 +155,7 @@ pub enum NoiseOrigin {
 }
 
 /// An explanation of the user's own.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct UserCandidate {
     /// Its name.
     pub name: String,

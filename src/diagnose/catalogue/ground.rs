@@ -160,6 +160,11 @@ impl<'f> Ground<'f> {
         matches!(self.case().responses[response].observed, Observed::Constant(_))
     }
 
+    /// Parameters that are added to the model as they stand.
+    pub fn constant_terms(&self, response: usize) -> Vec<usize> {
+        constant_terms(self.frame, self.fit, response)
+    }
+
     /// Whether the signal of any response varies.
     pub fn has_signal(&self) -> bool {
         self.signal.iter().any(|signal| varies(signal))
@@ -184,17 +189,17 @@ pub fn varies(numbers: &[f64]) -> bool {
 
 /// The model less its constant terms: those in which a parameter alone is added.
 fn signal(frame: &Frame<'_>, fit: &Fit, response: usize) -> Vec<f64> {
-    let slopes = &fit.linear.slopes[response];
-    let parameters = frame.case.parameters.len();
     let mut signal = fit.linear.values[response].clone();
-    for parameter in 0..parameters {
-        let column = slopes.column(parameter);
-        let constant = column.iter().all(|slope| *slope == 1.0);
-        if constant {
-            for (row, value) in signal.iter_mut().enumerate() {
-                *value -= fit.unknowns[frame.unknown_of(parameter, row)];
-            }
+    for parameter in constant_terms(frame, fit, response) {
+        for (row, value) in signal.iter_mut().enumerate() {
+            *value -= fit.unknowns[frame.unknown_of(parameter, row)];
         }
     }
     signal
+}
+
+fn constant_terms(frame: &Frame<'_>, fit: &Fit, response: usize) -> Vec<usize> {
+    let slopes = &fit.linear.slopes[response];
+    let constant = |parameter: &usize| slopes.column(*parameter).iter().all(|slope| *slope == 1.0);
+    (0..frame.case.parameters.len()).filter(constant).collect()
 }

@@ -110,6 +110,14 @@ fn steps(ground: &Ground<'_>, along: &str) -> Variants {
         };
         (label, vec![(modifier.collect(), format!("[row >= {}]", first + 1))])
     };
+    // Where a run begins, a shift has the name of the run.
+    let begins = |block: &usize| {
+        let (now, before) = (blocks[*block][0], blocks[*block - 1][0]);
+        ground.case().columns.iter().filter_map(|column| column.labels()).any(|labels| {
+            labels.levels.len() * 3 < 2 * blocks.len() && labels.of_row[now] != labels.of_row[before]
+        })
+    };
     let first = stride.max(2);
-    (first..blocks.len().saturating_sub(1)).step_by(stride).map(at).collect()
+    let scanned = (first..blocks.len().saturating_sub(1)).step_by(stride);
+    scanned.filter(|block| !begins(block)).map(at).collect()
 }

@@ -120,6 +120,15 @@ impl<'c> Frame<'c> {
         first + labels.map_or(0, |labels| labels.of_row[row] as usize)
     }
 
+    /// The unit of an unknown as text.
+    pub fn unit(&self, unknown: usize) -> String {
+        let unit = match self.unknowns[unknown].kind {
+            UnknownKind::Parameter { parameter, .. } => &self.case.parameters[parameter].unit,
+            UnknownKind::CommonError { column } => &self.case.columns[column].unit,
+        };
+        if unit.is_one() { String::new() } else { unit.typeset() }
+    }
+
     /// The value of every symbol in a row: parameters, then columns.
     pub fn symbols(&self, row: usize, unknowns: &DVector<f64>) -> Vec<f64> {
         let parameters = (0..self.case.parameters.len()).map(|p| unknowns[self.unknown_of(p, row)]);

@@ -12,8 +12,17 @@
 mod adopt;
 pub mod case;
 pub mod catalogue;
+mod confirm;
 pub mod evidence;
 pub mod faults;
 mod fit;
 mod frame;
 mod noise;
+mod place;
+mod run;
+
+pub use adopt::{Addition, Extended};
+pub use confirm::{Confirmation, Quality};
+pub use fit::NoFit;
+pub use noise::{Claimed, Origin};
+pub use run::{Adopted, Diagnosis, Estimated, Failure, Omitted, diagnose};

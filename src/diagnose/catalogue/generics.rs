@@ -84,7 +84,7 @@ fn smooth(ground: &Ground<'_>, node: Node, name: &str, course: &[f64], distinct:
     // Spectrum of a Gaussian process with a squared exponential kernel on the unit interval.
     let spectrum = (1..=count).map(|k| {
         let frequency = PI * k as f64 * LENGTH;
-        libm::exp(-frequency * frequency / 2.0)
+        libm::exp(-frequency * frequency / 2.0).max(1e-3)
     });
     generic(ground, "smooth", node, name, terms.collect(), spectrum.collect())
 }

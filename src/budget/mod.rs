@@ -24,11 +24,11 @@ mod rejection;
 pub(crate) mod saved;
 mod series;
 mod shelf;
-mod strings;
-mod table;
-mod tables;
-mod values;
-mod variants;
+pub(crate) mod strings;
+pub(crate) mod table;
+pub(crate) mod tables;
+pub(crate) mod values;
+pub(crate) mod variants;
 
 use nalgebra::DMatrix;
 
@@ -41,6 +41,7 @@ pub use files::Files;
 pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
+pub(crate) use reader::syntax_faults;
 pub use rejection::Rejection;
 pub use saved::{RESULT_FORMAT, result_schema};
 pub use table::KeyRow;

@@ -3,6 +3,7 @@
 mod challenge;
 mod concepts;
 mod date;
+mod diagnose;
 mod eval;
 mod explain;
 mod grade;
@@ -50,6 +51,8 @@ struct Cli {
 enum Command {
     /// Evaluate budget files: budget table, GUM and Monte Carlo, statement for the certificate
     Eval(eval::Args),
+    /// Confront a declared model with a recording: does it agree, and which physics was left out
+    Diagnose(diagnose::Args),
     /// Hold published examples, or your own files with claims, against their figures
     Verify(verify::Args),
     /// Write a commented budget file to start from
@@ -68,6 +71,7 @@ enum Command {
 pub(crate) fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Eval(args) => eval::run(&args),
+        Command::Diagnose(args) => diagnose::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::New(args) => new::run(&args),
         Command::Challenge(args) => challenge::run(&args),

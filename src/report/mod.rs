@@ -9,6 +9,7 @@ mod claim;
 mod comparison;
 mod compose;
 mod decisions;
+mod diagnosis;
 mod document;
 mod fits;
 mod how;
@@ -32,6 +33,10 @@ mod fixtures;
 #[cfg(test)]
 mod tests;
 
+pub use diagnosis::{
+    FORMAT as DIAGNOSIS_FORMAT, failure as diagnosis_failure, json as diagnosis_json,
+    markdown as diagnosis_markdown, text as diagnosis_text,
+};
 pub use json::{FORMAT, json};
 pub use language::Language;
 pub use markdown::markdown;

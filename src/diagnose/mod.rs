@@ -1,0 +1,28 @@
+//! Diagnosis: does a recording agree with the declared measurement model, and if not, which physics
+//! was left out?
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | [`faults`] | codes of what is refused |
+//! | [`case`] | the case file: model, recording, claims |
+//! | `frame` | the rows as numbers; the model at any parameters |
+//! | `fit` | the declared model fitted to the recording |
+//! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
+
+mod adopt;
+pub mod case;
+pub mod catalogue;
+mod confirm;
+pub mod evidence;
+pub mod faults;
+mod fit;
+mod frame;
+mod noise;
+mod place;
+mod run;
+
+pub use adopt::{Addition, Extended};
+pub use confirm::{Confirmation, Quality};
+pub use fit::NoFit;
+pub use noise::{Claimed, Origin};
+pub use run::{Adopted, Diagnosis, Estimated, Failure, Omitted, diagnose};

@@ -10,6 +10,7 @@
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 
 mod adopt;
+pub mod at_rest;
 pub mod case;
 pub mod catalogue;
 mod confirm;

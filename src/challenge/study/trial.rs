@@ -4,7 +4,6 @@ use std::path::Path;
 
 use crate::challenge::case::{Request, SealedCase, challenge};
 use crate::challenge::files::{CASE, CaseFile, RECORDING};
-use crate::challenge::random::{Random, Stream};
 use crate::challenge::scenario::{Class, NoiseKnowledge, Scenario};
 
 /// What is done to a case before it is diagnosed.
@@ -206,11 +205,6 @@ fn exchange(files: &mut [CaseFile], other: &[CaseFile]) {
     if let Some(file) = files.iter_mut().find(|file| file.name == RECORDING) {
         file.text = lines.join("\n") + "\n";
     }
-}
-
-/// The random numbers that a diagnosis of a trial may use, so that runs repeat.
-pub fn seed_of_diagnosis(trial: &Trial) -> u64 {
-    Random::new(trial.seed, Stream::Case, 2).word() >> 1
 }
 
 #[cfg(test)]

@@ -121,7 +121,7 @@ const REMOUNT: &[Row] = &[
     (Masked, &[P::Asymmetry, P::SecondOrder]),
     (Masked, &[P::Drift, P::TemperatureBias]),
     (Outside, &[P::LocalRub]),
-    (Outside, &[P::Ripple]),
+    (Single, &[P::Ripple]),
     (Outside, &[P::Popcorn]),
     (Outside, &[P::WrongUnit]),
     (Hidden, &[P::TemperatureBias]),
@@ -146,7 +146,7 @@ const TRIAD: &[Row] = &[
     (Triple, &[P::TemperatureScale, P::CrossProduct, P::Knock]),
     (Masked, &[P::TemperatureBias, P::Drift]),
     (Outside, &[P::Popcorn]),
-    (Outside, &[P::Ripple]),
+    (Single, &[P::Ripple]),
     (Hidden, &[P::TemperatureBias]),
 ];
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::effect::{Concealed, Physics, Shape};
+use super::grade::share_a_name;
 use super::random::{Random, Stream};
 use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge};
@@ -117,7 +118,10 @@ fn true_effect(
     let beside = visible.beside(&trace, &rest);
     let known: Vec<Physics> = others.iter().map(|other| other.physics).collect();
     let mut rivals = visible.rivals(effect.physics, &trace, &rest);
-    rivals.retain(|rival| !known.contains(&rival.physics));
+    // What bears the same name is no rival.
+    rivals.retain(|rival| {
+        !known.contains(&rival.physics) && !share_a_name(rival.physics, effect.physics)
+    });
     let happened_h = (effect.physics == Physics::Knock).then(|| {
         let end = duration(drawn.setup.rig, Campaign::Calibration, drawn.setup.seed);
         end * (0.12 + 0.76 * effect.shape.moment) / 3600.0

@@ -372,7 +372,7 @@ impl Physics {
         use Physics as P;
         !matches!(
             self,
-            P::LocalRub | P::Ripple | P::Resonance | P::MotorPickup | P::Popcorn | P::WrongUnit
+            P::LocalRub | P::Resonance | P::MotorPickup | P::Popcorn | P::WrongUnit
         )
     }
 }

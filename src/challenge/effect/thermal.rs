@@ -133,7 +133,10 @@ impl Ageing {
         let t = time / self.span;
         match (self.part.shape.pace * 3.0) as usize {
             0 => libm::sqrt(t),
-            1 => libm::log1p(t / 0.15) / libm::log1p(1.0 / 0.15),
+            1 => {
+                let begun = libm::pow(10.0, 6.0 * self.part.shape.pace - 4.0);
+                libm::log1p(t / begun) / libm::log1p(1.0 / begun)
+            }
             _ => t,
         }
     }

@@ -18,6 +18,7 @@ pub use answer::{Answer, AnsweredEffect, Name, Quality, State};
 pub use score::{Finding, Graded, GradedEffect, grade};
 pub use text::{json, text};
 pub use vocabulary::{accepted_ids, accepts};
+pub(super) use vocabulary::share_a_name;
 
 use super::files::{CASE, CaseFile};
 use super::truth::{Truth, seal};

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use super::answer::{Answer, AnsweredEffect, State};
-use super::vocabulary::{accepts, share_a_name};
+use super::answer::{Answer, AnsweredEffect, Name, State};
+use super::vocabulary::accepts;
+use crate::challenge::effect::Physics;
 use crate::challenge::truth::{TrueEffect, Truth};
 
 /// What became of a concealed effect.
@@ -124,7 +125,7 @@ fn matched(truth: &Truth, answer: &Answer) -> (Vec<Option<usize>>, Vec<usize>) {
         // The name that stands first decides, where it can.
         let fitting = effect.named.iter().find_map(|name| {
             let fits = |(k, t): &(usize, &TrueEffect)| {
-                matches[*k].is_none() && t.nameable && accepts(t.physics, name)
+                matches[*k].is_none() && t.nameable && names(t, name)
             };
             truth.effects.iter().enumerate().find(fits).map(|(k, _)| k)
         });
@@ -172,10 +173,10 @@ fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool)
         effect
             .named
             .iter()
-            .find(|name| accepts(truth.physics, name))
+            .find(|name| names(truth, name))
             .map(|name| name.probability)
     };
-    let overclaimed = finding == Finding::Unique && has_alias(truth);
+    let overclaimed = finding == Finding::Unique && aliases(truth).next().is_some();
     GradedEffect {
         points: points(truth, finding, overclaimed),
         probability: slot.and_then(right),
@@ -185,13 +186,19 @@ fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool)
     }
 }
 
-/// Whether another physics with another name gives the same recording.
-pub(crate) fn has_alias(truth: &TrueEffect) -> bool {
-    truth.rivals.iter().any(|(rival, left)| {
-        rival.nameable()
-            && *left < ALIAS * truth.lambda_beside
-            && !share_a_name(*rival, truth.physics)
-    })
+/// Whether a name is right for an effect, or for another that gives the same recording: which of the
+/// two it was, nobody can know.
+fn names(truth: &TrueEffect, name: &Name) -> bool {
+    accepts(truth.physics, name) || aliases(truth).any(|alias| accepts(alias, name))
+}
+
+/// Physics that would have given the same recording, under other names.
+fn aliases(truth: &TrueEffect) -> impl Iterator<Item = Physics> + '_ {
+    truth
+        .rivals
+        .iter()
+        .filter(|(rival, left)| rival.nameable() && *left < ALIAS * truth.lambda_beside)
+        .map(|(rival, _)| *rival)
 }
 
 fn points(truth: &TrueEffect, finding: Finding, overclaimed: bool) -> f64 {

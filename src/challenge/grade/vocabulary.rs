@@ -46,7 +46,9 @@ fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str
         P::Settling => &[("lag", &[])],
         P::Hysteresis => &[("hysteresis", &[])],
         P::Backlash => &[("play", &["head"])],
-        P::Eccentricity | P::Ellipticity => &[("eccentricity", &["head", "azimuth"])],
+        P::Eccentricity | P::Ellipticity | P::Ripple => {
+            &[("eccentricity", &["head", "azimuth"])]
+        }
         P::ElevationEccentricity => &[("eccentricity", &["elevation"])],
         P::Flexure => &[("eccentricity", &["head"]), ("cross-product", &[])],
         P::Wobble | P::RateRipple | P::Magnetic | P::EarthRate => &[("periodic", &["table"])],
@@ -69,12 +71,12 @@ fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str
         ],
         P::Knock => &[("step", &[])],
         P::SwappedLabel => &[("swapped", &[]), ("outlier", &[])],
-        P::LocalRub | P::Ripple | P::Resonance | P::MotorPickup | P::Popcorn | P::WrongUnit => &[],
+        P::LocalRub | P::Resonance | P::MotorPickup | P::Popcorn | P::WrongUnit => &[],
     }
 }
 
 /// Whether two physics have a right name in common.
-pub(super) fn share_a_name(a: Physics, b: Physics) -> bool {
+pub(in crate::challenge) fn share_a_name(a: Physics, b: Physics) -> bool {
     accepted(a)
         .iter()
         .any(|(id, _)| accepted(b).iter().any(|(other, _)| id == other))

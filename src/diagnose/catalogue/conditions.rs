@@ -13,7 +13,11 @@ type Variants = Vec<(String, Vec<(Vec<f64>, String)>)>;
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
     let numeric = ground.numeric();
-    let conditions: Vec<usize> = numeric.iter().copied().filter(|c| !ground.in_model(*c)).collect();
+    let conditions: Vec<usize> = numeric
+        .iter()
+        .copied()
+        .filter(|c| !ground.in_model(*c))
+        .collect();
     for column in &conditions {
         cells.extend(of_condition(ground, *column));
     }
@@ -46,15 +50,28 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     let delayed = delayed(ground, &own, &text);
     let words = words(ground, &label);
-    cells.push(on_outputs(ground, bias, words.clone(), &label, delayed.clone()));
+    cells.push(on_outputs(
+        ground,
+        bias,
+        words.clone(),
+        &label,
+        delayed.clone(),
+    ));
     let square: Variants = delayed
         .iter()
         .map(|(variant, modifiers)| {
             let (modifier, text) = &modifiers[0];
-            (variant.clone(), vec![(map(modifier, |x| x * x), format!("{text}^2"))])
+            (
+                variant.clone(),
+                vec![(map(modifier, |x| x * x), format!("{text}^2"))],
+            )
         })
         .collect();
-    let second = if temperature { "tempco-quadratic" } else { "sensitivity-quadratic" };
+    let second = if temperature {
+        "tempco-quadratic"
+    } else {
+        "sensitivity-quadratic"
+    };
     cells.push(on_outputs(ground, second, words.clone(), &label, square));
     for (node, id) in scale_nodes(ground, temperature) {
         let mut cell = on_node(ground, id, words.clone(), &label, node, delayed.clone());
@@ -62,7 +79,11 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         cells.push(cell);
     }
     if ground.is_timed() {
-        let id = if temperature { "temperature-rate" } else { "sensitivity-rate" };
+        let id = if temperature {
+            "temperature-rate"
+        } else {
+            "sensitivity-rate"
+        };
         let modifier = rate(&ground.clock.values, x);
         let variants = vec![(String::new(), vec![(modifier, format!("d{label}/dt"))])];
         cells.push(on_outputs(ground, id, words, &label, variants));
@@ -94,7 +115,11 @@ fn shape(ground: &Ground<'_>, cell: &mut Cell) {
         let Some((_, rest)) = variation.label.split_once("τ = ") else {
             continue;
         };
-        if let Some(tau) = rest.split(' ').next().and_then(|number| number.parse().ok()) {
+        if let Some(tau) = rest
+            .split(' ')
+            .next()
+            .and_then(|number| number.parse().ok())
+        {
             *variation = variation.clone().shaped("τ", tau, &unit);
         }
     }
@@ -102,8 +127,16 @@ fn shape(ground: &Ground<'_>, cell: &mut Cell) {
 
 /// The nodes that stand for the scale: parameters whose effect varies from row to row, or the whole signal.
 pub(super) fn scale_nodes(ground: &Ground<'_>, temperature: bool) -> Vec<(Node, &'static str)> {
-    let id = if temperature { "tempco-scale" } else { "sensitivity-scale" };
-    if ground.has_signal() { vec![(Node::Gain, id)] } else { Vec::new() }
+    let id = if temperature {
+        "tempco-scale"
+    } else {
+        "sensitivity-scale"
+    };
+    if ground.has_signal() {
+        vec![(Node::Gain, id)]
+    } else {
+        Vec::new()
+    }
 }
 
 fn positive(x: &[f64]) -> bool {
@@ -116,11 +149,22 @@ fn reciprocal(ground: &Ground<'_>, column: usize) -> Cell {
     let modifier = map(ground.numbers(column), |x| 1.0 / x);
     let variants = vec![(String::new(), vec![(modifier, format!("1/{label}"))])];
     let node = scale_or_offset(ground);
-    on_node(ground, "reciprocal", words(ground, &label), &label, node, variants)
+    on_node(
+        ground,
+        "reciprocal",
+        words(ground, &label),
+        &label,
+        node,
+        variants,
+    )
 }
 
 fn scale_or_offset(ground: &Ground<'_>) -> Node {
-    if ground.has_signal() { Node::Gain } else { Node::Output }
+    if ground.has_signal() {
+        Node::Gain
+    } else {
+        Node::Output
+    }
 }
 
 fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
@@ -130,18 +174,39 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
         z: name(z),
         ..words(ground, &name(x))
     };
-    let product = map2(&centred(ground.numbers(x)), &centred(ground.numbers(z)), |x, z| x * z);
+    let product = map2(
+        &centred(ground.numbers(x)),
+        &centred(ground.numbers(z)),
+        |x, z| x * z,
+    );
     let text = format!("({} - mean)*({} - mean)", name(x), name(z));
-    let mut cells = vec![on_outputs(ground, "interaction", pair.clone(), &along, vec![(String::new(), vec![(product, text)])])];
+    let mut cells = vec![on_outputs(
+        ground,
+        "interaction",
+        pair.clone(),
+        &along,
+        vec![(String::new(), vec![(product, text)])],
+    )];
     let (of_x, of_z) = (ground.numbers(x), ground.numbers(z));
     if range(of_x).0 > 0.0 && range(of_z).0 > 0.0 && (positive(of_x) || positive(of_z)) {
         let inverse = map2(of_x, of_z, |x, z| 1.0 / (x * z));
         let text = format!("1/({}*{})", name(x), name(z));
         let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));
         let size = [x, z].iter().any(|c| ground.is_like(*c, "m"));
-        let id = if gas && size { "mean-free-path" } else { "reciprocal-product" };
+        let id = if gas && size {
+            "mean-free-path"
+        } else {
+            "reciprocal-product"
+        };
         let node = scale_or_offset(ground);
-        cells.push(on_node(ground, id, pair, &along, node, vec![(String::new(), vec![(inverse, text)])]));
+        cells.push(on_node(
+            ground,
+            id,
+            pair,
+            &along,
+            node,
+            vec![(String::new(), vec![(inverse, text)])],
+        ));
     }
     cells
 }

@@ -10,7 +10,11 @@ use crate::diagnose::evidence::Place;
 /// Cells of the columns that the model uses.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
-    let used: Vec<usize> = ground.numeric().into_iter().filter(|c| ground.in_model(*c)).collect();
+    let used: Vec<usize> = ground
+        .numeric()
+        .into_iter()
+        .filter(|c| ground.in_model(*c))
+        .collect();
     let implicit = (0..ground.case().responses.len()).all(|r| ground.is_implicit(r));
     if implicit {
         cells.extend(axes(ground, &used));
@@ -67,10 +71,16 @@ pub(super) fn on_node(
             continue;
         }
         for (index, response) in responses.iter().enumerate() {
-            let joined = if label.is_empty() { response.name.clone() } else { format!("{}, {label}", response.name) };
+            let joined = if label.is_empty() {
+                response.name.clone()
+            } else {
+                format!("{}, {label}", response.name)
+            };
             all.push(Variation::of(joined, term(Some(index))));
         }
-        let each = (0..responses.len()).flat_map(|index| term(Some(index))).collect();
+        let each = (0..responses.len())
+            .flat_map(|index| term(Some(index)))
+            .collect();
         all.push(Variation::of(label, each));
     }
     Cell {
@@ -102,15 +112,37 @@ fn name<'g>(ground: &'g Ground<'_>, column: usize) -> &'g str {
 fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let (x, label) = (ground.numbers(column), name(ground, column));
     let zero = if crosses_zero(x) { 0.0 } else { mean(x) };
-    let shift = if zero == 0.0 { label.to_owned() } else { format!("({label} - {zero:.6})") };
+    let shift = if zero == 0.0 {
+        label.to_owned()
+    } else {
+        format!("({label} - {zero:.6})")
+    };
     let mut cells = Vec::new();
     let mut add = |id: &str, modifier: Vec<f64>, text: String| {
         let variants = vec![(String::new(), vec![(modifier, text)])];
-        cells.push(on_outputs(ground, id, words(ground, label), label, variants));
+        cells.push(on_outputs(
+            ground,
+            id,
+            words(ground, label),
+            label,
+            variants,
+        ));
     };
-    let second = if ground.is_temperature(column) { "tempco-quadratic" } else { "quadratic" };
-    add(second, map(x, |x| (x - zero) * (x - zero)), format!("{shift}^2"));
-    add("cubic", map(x, |x| (x - zero) * (x - zero) * (x - zero)), format!("{shift}^3"));
+    let second = if ground.is_temperature(column) {
+        "tempco-quadratic"
+    } else {
+        "quadratic"
+    };
+    add(
+        second,
+        map(x, |x| (x - zero) * (x - zero)),
+        format!("{shift}^2"),
+    );
+    add(
+        "cubic",
+        map(x, |x| (x - zero) * (x - zero) * (x - zero)),
+        format!("{shift}^3"),
+    );
     if crosses_zero(x) {
         add("asymmetry", map(x, f64::abs), format!("abs({label})"));
         add("zero-step", map(x, sign), format!("sign({label})"));
@@ -142,7 +174,10 @@ fn limits(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             let limit = share * most;
             let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * sign(x));
             let text = format!("-sign({label})*max(abs({label}) - {limit:.6}, 0)");
-            let mut variation = Variation::one(format!("above {limit:.4} {unit}"), on_output(modifier, text));
+            let mut variation = Variation::one(
+                format!("above {limit:.4} {unit}"),
+                on_output(modifier, text),
+            );
             variation = variation.shaped("x₀", limit, &unit);
             variation
         });
@@ -154,7 +189,8 @@ fn limits(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let at = least + share * (most - least);
         let modifier = map(x, |x| (x - at).max(0.0));
         let text = format!("max({label} - {at:.6}, 0)");
-        Variation::one(format!("at {at:.4} {unit}"), on_output(modifier, text)).shaped("x₀", at, &unit)
+        Variation::one(format!("at {at:.4} {unit}"), on_output(modifier, text))
+            .shaped("x₀", at, &unit)
     });
     cells.push(plain(ground, "kink", label, variants.collect()));
     cells
@@ -208,7 +244,11 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let t = &ground.clock.values;
     let unit = ground.time_unit();
     let node = Node::Column(column);
-    let id = if ground.is_temperature(column) { "temperature-lag" } else { "lag" };
+    let id = if ground.is_temperature(column) {
+        "temperature-lag"
+    } else {
+        "lag"
+    };
     let variants = time_constants(ground).into_iter().map(|tau| {
         let modifier = map2(&lag(t, x, tau), x, |lagged, x| lagged - x);
         let term = Term {
@@ -231,7 +271,11 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         description: None,
     };
     let skew = Cell {
-        effect: effect(if ground.is_temperature(column) { "temperature-rate" } else { "timing-skew" }),
+        effect: effect(if ground.is_temperature(column) {
+            "temperature-rate"
+        } else {
+            "timing-skew"
+        }),
         variants: vec![Variation::one(
             "",
             Term {
@@ -258,13 +302,18 @@ fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         ground,
         "hysteresis",
         label,
-        vec![Variation::one("", on_output(way, format!("direction({label})")))],
+        vec![Variation::one(
+            "",
+            on_output(way, format!("direction({label})")),
+        )],
     )];
     let (least, most) = range(x);
     let unit = ground.case().columns[column].unit.typeset();
     let step = typical_step(x);
     let widths = grid((most - least) * 1e-3, (most - least) * 0.3, 3.0, 6);
-    let widths = widths.into_iter().filter(|width| *width < 2.0 * step || step == 0.0);
+    let widths = widths
+        .into_iter()
+        .filter(|width| *width < 2.0 * step || step == 0.0);
     let variants = widths.map(|width| {
         let modifier = map2(&play(x, width), x, |played, x| (played - x) / width);
         let term = Term {
@@ -277,7 +326,10 @@ fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     });
     // A gap far below the steps is the direction alone.
     let wide: Vec<Variation> = variants.filter(|v| varies(&v.terms[0].modifier)).collect();
-    if step < 0.3 * (most - least) && ground.case().columns[column].role == Role::Stimulus && !wide.is_empty() {
+    if step < 0.3 * (most - least)
+        && ground.case().columns[column].role == Role::Stimulus
+        && !wide.is_empty()
+    {
         cells.push(plain(ground, "play", label, wide));
     }
     cells
@@ -285,17 +337,29 @@ fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
 
 /// Whether values come again on the way back, roughly.
 fn repeats(x: &[f64]) -> bool {
-    direction(x).windows(2).filter(|pair| pair[0] != pair[1]).count() > 0
+    direction(x)
+        .windows(2)
+        .filter(|pair| pair[0] != pair[1])
+        .count()
+        > 0
 }
 
 fn typical_step(x: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = x.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 0.0).collect();
+    let mut steps: Vec<f64> = x
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .filter(|step| *step > 0.0)
+        .collect();
     steps.sort_by(f64::total_cmp);
     steps.get(steps.len() / 2).copied().unwrap_or(0.0)
 }
 
 fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {
-    let modifier = map2(&centred(ground.numbers(x)), &centred(ground.numbers(z)), |x, z| x * z);
+    let modifier = map2(
+        &centred(ground.numbers(x)),
+        &centred(ground.numbers(z)),
+        |x, z| x * z,
+    );
     let (x, z) = (name(ground, x).to_owned(), name(ground, z).to_owned());
     let text = format!("({x} - mean)*({z} - mean)");
     let variants = vec![(String::new(), vec![(modifier, text)])];
@@ -338,7 +402,10 @@ fn axes(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
         for z in &used[at + 1..] {
             let other = centred(ground.numbers(*z));
             let text = format!("({} - mean)", name(ground, *z));
-            pairs.push((format!("{} with {}", name(ground, *x), name(ground, *z)), term(*x, other, text)));
+            pairs.push((
+                format!("{} with {}", name(ground, *x), name(ground, *z)),
+                term(*x, other, text),
+            ));
         }
     }
     cells.push(cell("cross-axis", singles_and_all(pairs)));
@@ -352,7 +419,10 @@ fn axes(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
             let centre = mean_of_range(ground.numbers(*column));
             let modifier = map(ground.numbers(*column), |x| law(x - centre));
             let label = name(ground, *column);
-            (label.to_owned(), term(*column, modifier, format!("({label} - {centre:.6}){sign}")))
+            (
+                label.to_owned(),
+                term(*column, modifier, format!("({label} - {centre:.6}){sign}")),
+            )
         });
         cells.push(cell(id, singles_and_all(own.collect())));
     }
@@ -367,7 +437,10 @@ fn mean_of_range(x: &[f64]) -> f64 {
 
 fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {
     let all: Vec<Term> = terms.iter().map(|(_, term)| term.clone()).collect();
-    let mut variants: Vec<Variation> = terms.into_iter().map(|(label, term)| Variation::one(label, term)).collect();
+    let mut variants: Vec<Variation> = terms
+        .into_iter()
+        .map(|(label, term)| Variation::one(label, term))
+        .collect();
     if all.len() > 1 {
         variants.push(Variation::of("all", all));
     }

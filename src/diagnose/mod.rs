@@ -13,6 +13,7 @@ mod adopt;
 pub mod case;
 pub mod catalogue;
 mod confirm;
+mod correlation;
 pub mod evidence;
 pub mod faults;
 mod fit;

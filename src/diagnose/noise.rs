@@ -1,8 +1,9 @@
 //! What is claimed about the noise, for every observation.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, NoiseClaim, NoiseOrigin, Role};
+use super::correlation::{self, Correlated};
 use super::evidence::{Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
@@ -16,6 +17,8 @@ pub struct Claimed {
     pub dof: f64,
     /// Where it comes from.
     pub origin: Origin,
+    /// How the observations are correlated; `None` if they are independent.
+    pub correlated: Option<Correlated>,
 }
 
 /// Where the noise comes from.
@@ -38,7 +41,17 @@ pub enum Origin {
 impl Claimed {
     /// For the examination.
     pub fn noise(&self) -> Noise {
-        Noise::with_scale_dof(Covariance::Diagonal(self.u.map(|u| u * u)), self.dof)
+        let Some(correlated) = &self.correlated else {
+            return Noise::with_scale_dof(Covariance::Diagonal(self.u.map(|u| u * u)), self.dof);
+        };
+        let scaled = |matrix: &DMatrix<f64>| {
+            let of = |i: usize, j: usize| self.u[i] * self.u[j] * matrix[(i, j)];
+            Covariance::Dense(DMatrix::from_fn(matrix.nrows(), matrix.ncols(), of))
+        };
+        Noise {
+            draws: correlated.draws.iter().map(scaled).collect(),
+            ..Noise::with_scale_dof(scaled(&correlated.matrix), self.dof)
+        }
     }
 
     /// Whether the size of the noise follows from the residuals alone.
@@ -70,12 +83,20 @@ pub fn settle(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
     Ok((fit, claimed))
 }
 
+/// The noise that a model with effects in it leaves: size and correlation.
+pub fn refined(frame: &Frame<'_>, fit: &Fit) -> Claimed {
+    let mut claimed = estimated(frame, fit);
+    claimed.correlated = correlation::estimate(frame, &fit.residuals, &claimed.u);
+    claimed
+}
+
 /// The noise without data: what is claimed, or one.
 pub fn planned(frame: &Frame<'_>, fit: &Fit) -> Claimed {
     claimed(frame, Some(fit)).unwrap_or(Claimed {
         u: DVector::from_element(frame.observations(), 1.0),
         dof: f64::INFINITY,
         origin: Origin::Estimated,
+        correlated: None,
     })
 }
 
@@ -135,6 +156,7 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
         u: squares.map(f64::sqrt),
         dof,
         origin,
+        correlated: None,
     })
 }
 
@@ -186,6 +208,7 @@ fn estimated(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         u,
         dof: 0.0,
         origin: Origin::Estimated,
+        correlated: None,
     }
 }
 

@@ -2,6 +2,7 @@
 //! columns.
 
 use super::case::Role;
+use super::catalogue::modifiers::figure;
 use super::catalogue::{Ground, Node, Term};
 use super::evidence::Cell;
 
@@ -108,7 +109,11 @@ fn ranges(name: &str, unit: &str, numbers: &[f64]) -> Vec<(String, String, Vec<f
         let level = if least == most {
             format!("{least} {unit}")
         } else {
-            format!("{least:.6} to {most:.6} {unit}")
+            format!(
+                "{least} to {most} {unit}",
+                least = figure(least),
+                most = figure(most)
+            )
         };
         (name.to_owned(), level.trim().to_owned(), inside)
     };
@@ -131,7 +136,7 @@ fn spans(ground: &Ground<'_>) -> Vec<(String, String, Vec<f64>)> {
         match ground.clock.column {
             Some(column) => (
                 ground.case().columns[column].name.clone(),
-                format!("{:.6} to {:.6} {unit}", t[first], t[last]),
+                format!("{} to {} {unit}", figure(t[first]), figure(t[last])),
                 inside.collect(),
             ),
             None => (

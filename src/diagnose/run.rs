@@ -116,26 +116,51 @@ pub fn diagnose(
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Diagnosis, Failure> {
     let frame = Frame::new(case);
-    let (fit, claimed) = noise::settle(&frame)?;
+    let (fit, mut claimed) = noise::settle(&frame)?;
     let ground = Ground::new(&frame, &fit);
     let cells = catalogue::cells(&ground);
-    let baseline = baseline(&frame, &fit, &claimed)?;
     let (candidates, atoms, places) = question(&ground, &cells, &claimed);
-    let settings = evidence::Settings {
-        alpha: case.settings.alpha,
-        seed: case.settings.seed,
-        draws: case.settings.draws,
-        ..evidence::Settings::default()
-    };
-    let examination = evidence::examine(
-        &Question {
+    let settings = settings(case);
+    let ask = |claimed: &Claimed, from: f64, to: f64| -> Result<(Baseline, Examination), Failure> {
+        let baseline = baseline(&frame, &fit, claimed)?;
+        let question = Question {
             baseline: &baseline,
             candidates: &candidates,
             atoms: &atoms,
             settings: settings.clone(),
-        },
-        &|share| progress(0.9 * share),
+        };
+        let examination =
+            evidence::examine(&question, &|share| progress(from + (to - from) * share))?;
+        Ok((baseline, examination))
+    };
+    let (mut baseline, mut examination) = ask(
+        &claimed,
+        0.0,
+        if claimed.is_estimated() { 0.4 } else { 0.9 },
     )?;
+    if claimed.is_estimated() && examination.verdict != Verdict::None {
+        // Noise and effects are estimated in turn: what an effect explains is no noise.
+        for round in 0..ROUNDS {
+            let adopted = examination
+                .fitted
+                .as_ref()
+                .map(|fitted| fitted.atoms.clone());
+            claimed = match adopted_fit(&ground, &cells, &places, &examination, &claimed) {
+                Some((frame, fit)) => noise::refined(&Frame::new(&frame.case), &fit),
+                None => noise::refined(&frame, &fit),
+            };
+            let from = 0.4 + 0.25 * f64::from(round);
+            (baseline, examination) = ask(&claimed, from, from + 0.25)?;
+            if examination
+                .fitted
+                .as_ref()
+                .map(|fitted| fitted.atoms.clone())
+                == adopted
+            {
+                break;
+            }
+        }
+    }
     let located = if examination.verdict == Verdict::None {
         Vec::new()
     } else {
@@ -163,6 +188,18 @@ pub fn diagnose(
         atoms: places,
         noise: claimed,
     })
+}
+
+/// So often noise and effects are estimated in turn.
+const ROUNDS: u8 = 2;
+
+pub(super) fn settings(case: &Case) -> evidence::Settings {
+    evidence::Settings {
+        alpha: case.settings.alpha,
+        seed: case.settings.seed,
+        draws: case.settings.draws,
+        ..evidence::Settings::default()
+    }
 }
 
 /// The recording reduced to its residuals.
@@ -246,13 +283,13 @@ fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Opt
 }
 
 /// The refit with the named effects in the model.
-fn adopt_named(
+fn adopted_fit(
     ground: &Ground<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
     examination: &Examination,
     claimed: &Claimed,
-) -> Option<Adopted> {
+) -> Option<(adopt::Extended, Fit)> {
     let fitted = examination.fitted.as_ref()?;
     let variations: Vec<&Variation> = fitted
         .atoms
@@ -268,6 +305,20 @@ fn adopt_named(
     let fit = super::fit::from(&frame, &claimed.u, start)
         .or_else(|_| super::fit::fit(&frame, &claimed.u))
         .ok()?;
+    Some((extended, fit))
+}
+
+/// The model with the named effects, and how well it does.
+fn adopt_named(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    examination: &Examination,
+    claimed: &Claimed,
+) -> Option<Adopted> {
+    let fitted = examination.fitted.as_ref()?;
+    let (extended, fit) = adopted_fit(ground, cells, places, examination, claimed)?;
+    let frame = Frame::new(&extended.case);
     let quality = confirm::quality(&frame, &fit, claimed, claimed);
     let all = estimates(&frame, &fit, claimed, quality.scale);
     let added = extended.additions.len();
@@ -281,6 +332,7 @@ fn adopt_named(
     let (coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
         all.into_iter().partition(is_added);
     let residuals = fit.residuals.clone();
+    drop(frame);
     Some(Adopted {
         atoms: fitted.atoms.clone(),
         coefficients,
@@ -288,10 +340,7 @@ fn adopt_named(
         quality,
         residuals,
         confirmation,
-        extended: adopt::Extended {
-            additions: extended.additions.clone(),
-            case: extended.case.clone(),
-        },
+        extended,
     })
 }
 

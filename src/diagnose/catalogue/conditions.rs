@@ -2,7 +2,7 @@
 //! squared, as a rate, inversely, and together.
 
 use super::ground::{Ground, Node};
-use super::modifiers::{centred, lag, map, map2, mean, range, rate};
+use super::modifiers::{centred, figure, lag, map, map2, mean, range, rate};
 use super::response::{on_node, on_outputs, time_constants, words};
 use super::{Cell, Words};
 use crate::diagnose::case::Role;
@@ -39,7 +39,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let label = ground.case().columns[column].name.clone();
     let x = ground.numbers(column);
     let own = centred(x);
-    let text = format!("({label} - {:.6})", mean(x));
+    let text = format!("({label} - {})", figure(mean(x)));
     let temperature = ground.is_temperature(column);
     let stimulus = ground.case().columns[column].role == Role::Stimulus;
     let mut cells = Vec::new();
@@ -101,8 +101,11 @@ fn delayed(ground: &Ground<'_>, own: &[f64], text: &str) -> Variants {
         let unit = ground.time_unit();
         for tau in time_constants(ground) {
             let lagged = lag(&ground.clock.values, own, tau);
-            let text = format!("lag{text}[{tau:.4} {unit}]");
-            variants.push((format!("τ = {tau:.3} {unit}"), vec![(lagged, text)]));
+            let text = format!("lag{text}[{tau} {unit}]", tau = figure(tau));
+            variants.push((
+                format!("τ = {tau} {unit}", tau = figure(tau)),
+                vec![(lagged, text)],
+            ));
         }
     }
     variants
@@ -205,7 +208,17 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
             pair,
             &along,
             node,
-            vec![(String::new(), vec![(inverse, text)])],
+            // Large corrections are curved.
+            vec![
+                (String::new(), vec![(inverse.clone(), text.clone())]),
+                (
+                    "with its square".to_owned(),
+                    vec![
+                        (inverse.clone(), text.clone()),
+                        (map(&inverse, |x| x * x), format!("({text})^2")),
+                    ],
+                ),
+            ],
         ));
     }
     cells

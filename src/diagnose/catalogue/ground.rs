@@ -179,9 +179,14 @@ impl<'f> Ground<'f> {
         constant_terms(self.frame, self.fit, response)
     }
 
-    /// Whether the signal of any response varies.
+    /// Whether the signal of any response varies so much that its scale is something else than an offset.
     pub fn has_signal(&self) -> bool {
-        self.signal.iter().any(|signal| varies(signal))
+        const LEAST: f64 = 0.01;
+        self.signal.iter().any(|signal| {
+            let size = signal.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let (least, most) = super::modifiers::range(signal);
+            most - least > LEAST * size
+        })
     }
 }
 

@@ -95,6 +95,12 @@ pub fn grid(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
         .collect()
 }
 
+/// A number as formulas and labels show it: five digits.
+pub fn figure(x: f64) -> String {
+    let rounded: f64 = format!("{x:.4e}").parse().unwrap_or(x);
+    format!("{rounded}")
+}
+
 /// The least and the largest number.
 pub fn range(x: &[f64]) -> (f64, f64) {
     let least = x.iter().copied().fold(f64::INFINITY, f64::min);

@@ -2,7 +2,7 @@
 //! lag, history.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{centred, direction, grid, lag, map, map2, mean, play, range, rate};
+use super::modifiers::{centred, direction, figure, grid, lag, map, map2, mean, play, range, rate};
 use super::{Cell, Term, Variation, Words, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -115,7 +115,7 @@ fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let shift = if zero == 0.0 {
         label.to_owned()
     } else {
-        format!("({label} - {zero:.6})")
+        format!("({label} - {zero})", zero = figure(zero))
     };
     let mut cells = Vec::new();
     let mut add = |id: &str, modifier: Vec<f64>, text: String| {
@@ -173,9 +173,12 @@ fn limits(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let variants = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| {
             let limit = share * most;
             let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * sign(x));
-            let text = format!("-sign({label})*max(abs({label}) - {limit:.6}, 0)");
+            let text = format!(
+                "-sign({label})*max(abs({label}) - {limit}, 0)",
+                limit = figure(limit)
+            );
             let mut variation = Variation::one(
-                format!("above {limit:.4} {unit}"),
+                format!("above {limit} {unit}", limit = figure(limit)),
                 on_output(modifier, text),
             );
             variation = variation.shaped("x₀", limit, &unit);
@@ -188,9 +191,12 @@ fn limits(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let variants = shares.iter().map(|share| {
         let at = least + share * (most - least);
         let modifier = map(x, |x| (x - at).max(0.0));
-        let text = format!("max({label} - {at:.6}, 0)");
-        Variation::one(format!("at {at:.4} {unit}"), on_output(modifier, text))
-            .shaped("x₀", at, &unit)
+        let text = format!("max({label} - {at}, 0)", at = figure(at));
+        Variation::one(
+            format!("at {at} {unit}", at = figure(at)),
+            on_output(modifier, text),
+        )
+        .shaped("x₀", at, &unit)
     });
     cells.push(plain(ground, "kink", label, variants.collect()));
     cells
@@ -255,9 +261,9 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             node,
             response: None,
             modifier,
-            text: format!("(lag({label}, {tau:.4} {unit}) - {label})"),
+            text: format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau)),
         };
-        Variation::one(format!("τ = {tau:.3} {unit}"), term).shaped("τ", tau, &unit)
+        Variation::one(format!("τ = {tau} {unit}", tau = figure(tau)), term).shaped("τ", tau, &unit)
     });
     let lagged = Cell {
         effect: effect(id),
@@ -320,9 +326,12 @@ fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             node: Node::Column(column),
             response: None,
             modifier,
-            text: format!("(play({label}, {width:.4}) - {label})/{width:.4}"),
+            text: format!(
+                "(play({label}, {width}) - {label})/{width}",
+                width = figure(width)
+            ),
         };
-        Variation::one(format!("gap {width:.3} {unit}"), term)
+        Variation::one(format!("gap {width} {unit}", width = figure(width)), term)
     });
     // A gap far below the steps is the direction alone.
     let wide: Vec<Variation> = variants.filter(|v| varies(&v.terms[0].modifier)).collect();
@@ -421,7 +430,11 @@ fn axes(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
             let label = name(ground, *column);
             (
                 label.to_owned(),
-                term(*column, modifier, format!("({label} - {centre:.6}){sign}")),
+                term(
+                    *column,
+                    modifier,
+                    format!("({label} - {centre}){sign}", centre = figure(centre)),
+                ),
             )
         });
         cells.push(cell(id, singles_and_all(own.collect())));

@@ -3,8 +3,9 @@
 use super::Cell;
 use super::conditions::single;
 use super::ground::{Ground, Node};
-use super::modifiers::{centred, grid, map, range};
+use super::modifiers::{centred, figure, grid, map, range};
 use super::response::{on_node, words};
+use crate::diagnose::case::Role;
 
 /// More steps than that are not scanned.
 const MOST_STEPS: usize = 80;
@@ -24,6 +25,15 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     };
     let (start, _) = range(t);
     let since = map(t, |t| t - start);
+    // Rows of factors without a time may stand in any order.
+    let factors = ground
+        .case()
+        .columns
+        .iter()
+        .any(|column| matches!(column.role, Role::Run | Role::Factor));
+    if factors && !ground.is_timed() {
+        return Vec::new();
+    }
     let nodes = if ground.has_signal() {
         vec![Node::Output, Node::Gain]
     } else {
@@ -76,8 +86,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         let logarithms = scales.iter().map(|scale| {
             let modifier = map(&since, |t| libm::log1p(t / scale));
             (
-                format!("t₀ = {scale:.3} {unit}"),
-                vec![(modifier, format!("ln(1 + t/{scale:.4})"))],
+                format!("t₀ = {scale} {unit}", scale = figure(*scale)),
+                vec![(
+                    modifier,
+                    format!("ln(1 + t/{scale})", scale = figure(*scale)),
+                )],
             )
         });
         add(["ageing", ""], logarithms.collect(), Some("t₀"));
@@ -86,8 +99,8 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             .map(|tau| {
                 let modifier = map(&since, |t| libm::exp(-t / tau));
                 (
-                    format!("τ = {tau:.3} {unit}"),
-                    vec![(modifier, format!("exp(-t/{tau:.4})"))],
+                    format!("τ = {tau} {unit}", tau = figure(*tau)),
+                    vec![(modifier, format!("exp(-t/{tau})", tau = figure(*tau)))],
                 )
             })
             .collect();
@@ -139,7 +152,7 @@ fn steps(ground: &Ground<'_>, along: &str) -> Variants {
         let first = blocks[block][0];
         let modifier = (0..ground.rows()).map(|row| if row >= first { 1.0 } else { 0.0 });
         let label = match ground.clock.column {
-            Some(_) => format!("at {along} = {:.6} {unit}", t[first]),
+            Some(_) => format!("at {along} = {} {unit}", figure(t[first])),
             None => format!("at row {}", first + 1),
         };
         (

@@ -143,10 +143,9 @@ fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Bl
                 percent(a.probability)
             )
         });
-        blocks.push(Block::Paragraph(
-            language.pick(
-                format!("Unexplained: {}.", places.collect::<Vec<_>>().join("; ")),
-                format!(
+        blocks.push(Block::Paragraph(language.pick(
+            format!("Unexplained: {}.", places.collect::<Vec<_>>().join("; ")),
+            format!(
                     "未能解释：{}。",
                     slot.generic
                         .iter()
@@ -154,8 +153,7 @@ fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Bl
                         .collect::<Vec<_>>()
                         .join("；")
                 ),
-            ),
-        ));
+        )));
         if !slot.named.is_empty() {
             blocks.push(Block::Paragraph(
                 language.pick("Tentative names:", "仅供参考的名称：").into(),

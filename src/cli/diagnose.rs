@@ -53,7 +53,11 @@ pub(super) fn run(args: &Args) -> Outcome {
     }
     match found {
         Ok(diagnosis) => written(args, &case, &diagnosis),
-        Err(failure) => output::complain(&format!("{}: {}", args.case.display(), report::diagnosis_failure(&case, &failure, args.lang))),
+        Err(failure) => output::complain(&format!(
+            "{}: {}",
+            args.case.display(),
+            report::diagnosis_failure(&case, &failure, args.lang)
+        )),
     }
 }
 

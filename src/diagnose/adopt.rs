@@ -34,7 +34,13 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
     let mut case = ground.case().clone();
     let mut additions: Vec<Addition> = Vec::new();
     let mut lines: Vec<Vec<String>> = (0..case.responses.len())
-        .map(|response| case.equations.text(response).lines().map(str::to_owned).collect())
+        .map(|response| {
+            case.equations
+                .text(response)
+                .lines()
+                .map(str::to_owned)
+                .collect()
+        })
         .collect();
     let parameters = case.parameters.len();
     let mut columns = Vec::new();
@@ -43,7 +49,13 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
         let (parameter, column) = (free(&case, "beta", number), free(&case, "effect", number));
         for (response, lines) in lines.iter_mut().enumerate() {
             if term.response.is_none_or(|only| only == response) {
-                insert(ground, term, response, lines, &format!("{parameter}*{column}"));
+                insert(
+                    ground,
+                    term,
+                    response,
+                    lines,
+                    &format!("{parameter}*{column}"),
+                );
             }
         }
         case.parameters.push(Parameter {
@@ -77,13 +89,20 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
 }
 
 /// Where the search begins: the declared fit, with the coefficients that the examination found.
-pub fn start(ground: &Ground<'_>, extended: &super::frame::Frame<'_>, coefficients: &DVector<f64>) -> DVector<f64> {
+pub fn start(
+    ground: &Ground<'_>,
+    extended: &super::frame::Frame<'_>,
+    coefficients: &DVector<f64>,
+) -> DVector<f64> {
     use super::frame::UnknownKind;
     let declared = ground.case().parameters.len();
     let mut own = ground.fit.unknowns.iter();
     let of = extended.unknowns.iter().map(|unknown| match unknown.kind {
         UnknownKind::Parameter { parameter, .. } if parameter >= declared => {
-            let value = coefficients.get(parameter - declared).copied().unwrap_or(0.0);
+            let value = coefficients
+                .get(parameter - declared)
+                .copied()
+                .unwrap_or(0.0);
             if value.is_finite() { value } else { 0.0 }
         }
         _ => own.next().copied().unwrap_or(0.0),
@@ -92,7 +111,10 @@ pub fn start(ground: &Ground<'_>, extended: &super::frame::Frame<'_>, coefficien
 }
 
 fn free(case: &Case, stem: &str, number: usize) -> String {
-    let taken = |name: &str| case.parameters.iter().any(|p| p.name == name) || case.columns.iter().any(|c| c.name == name);
+    let taken = |name: &str| {
+        case.parameters.iter().any(|p| p.name == name)
+            || case.columns.iter().any(|c| c.name == name)
+    };
     let mut name = format!("{stem}_{number}");
     while taken(&name) {
         name.push('_');
@@ -113,15 +135,23 @@ fn unit_of(ground: &Ground<'_>, term: &Term) -> Unit {
 
 fn insert(ground: &Ground<'_>, term: &Term, response: usize, lines: &mut [String], product: &str) {
     let case = ground.case();
-    let Some(last) = lines.len().checked_sub(1) else { return };
-    let Some((left, right)) = lines[last].split_once(" = ").map(|(l, r)| (l.to_owned(), r.to_owned())) else {
+    let Some(last) = lines.len().checked_sub(1) else {
+        return;
+    };
+    let Some((left, right)) = lines[last]
+        .split_once(" = ")
+        .map(|(l, r)| (l.to_owned(), r.to_owned()))
+    else {
         return;
     };
     match term.node {
         Node::Output => lines[last] = format!("{left} = {right} + {product}"),
         Node::Gain => {
             let constants = ground.constant_terms(response);
-            let minus: String = constants.iter().map(|p| format!(" - {}", case.parameters[*p].name)).collect();
+            let minus: String = constants
+                .iter()
+                .map(|p| format!(" - {}", case.parameters[*p].name))
+                .collect();
             lines[last] = format!("{left} = {right} + {product}*({right}{minus})");
         }
         Node::Parameter(_) | Node::Column(_) => {
@@ -161,9 +191,18 @@ fn replaced(text: &str, name: &str, with: &str) -> String {
 }
 
 fn compiled(case: &Case, texts: &[String]) -> Option<Equations> {
-    let parameters = case.parameters.iter().map(|p| (p.name.clone(), p.unit.clone()));
-    let columns = case.columns.iter().map(|c| (c.name.clone(), c.unit.clone()));
-    let symbols: Vec<Quantity> = parameters.chain(columns).map(|(name, unit)| Quantity { name, unit }).collect();
+    let parameters = case
+        .parameters
+        .iter()
+        .map(|p| (p.name.clone(), p.unit.clone()));
+    let columns = case
+        .columns
+        .iter()
+        .map(|c| (c.name.clone(), c.unit.clone()));
+    let symbols: Vec<Quantity> = parameters
+        .chain(columns)
+        .map(|(name, unit)| Quantity { name, unit })
+        .collect();
     let responses: Vec<Quantity> = case
         .responses
         .iter()
@@ -172,8 +211,16 @@ fn compiled(case: &Case, texts: &[String]) -> Option<Equations> {
             unit: r.unit.clone(),
         })
         .collect();
-    let constants: Vec<_> = case.constants.iter().filter(|c| !responses.iter().any(|r| r.name == c.name)).cloned().collect();
-    let texts: Vec<EquationText<'_>> = texts.iter().map(|text| EquationText { text, at: 0..0 }).collect();
+    let constants: Vec<_> = case
+        .constants
+        .iter()
+        .filter(|c| !responses.iter().any(|r| r.name == c.name))
+        .cloned()
+        .collect();
+    let texts: Vec<EquationText<'_>> = texts
+        .iter()
+        .map(|text| EquationText { text, at: 0..0 })
+        .collect();
     Equations::compile(&texts, &symbols, &responses, &constants, &case.units).ok()
 }
 
@@ -183,6 +230,9 @@ mod tests {
 
     #[test]
     fn names_are_replaced_as_a_whole() {
-        assert_eq!(replaced("T*T_0 + 3 'T' + sin(T)", "T", "(T + b*m)"), "(T + b*m)*T_0 + 3 'T' + sin((T + b*m))");
+        assert_eq!(
+            replaced("T*T_0 + 3 'T' + sin(T)", "T", "(T + b*m)"),
+            "(T + b*m)*T_0 + 3 'T' + sin((T + b*m))"
+        );
     }
 }

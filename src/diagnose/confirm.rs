@@ -42,13 +42,20 @@ pub struct Confirmation {
 const FOLDS: usize = 10;
 
 /// Computes the quality of a fit.
-pub(super) fn quality(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, expected: &Claimed) -> Quality {
+pub(super) fn quality(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    expected: &Claimed,
+) -> Quality {
     let whitened = fit.residuals.component_div(&claimed.u);
     let dof = degrees(frame);
     let chi_squared = whitened.norm_squared();
     let blocks = frame.blocks.len();
     let of_response = |values: &DVector<f64>| -> Vec<f64> {
-        let rms = |response: usize| (values.rows(response * blocks, blocks).norm_squared() / blocks as f64).sqrt();
+        let rms = |response: usize| {
+            (values.rows(response * blocks, blocks).norm_squared() / blocks as f64).sqrt()
+        };
         (0..frame.case.responses.len()).map(rms).collect()
     };
     Quality {
@@ -57,12 +64,20 @@ pub(super) fn quality(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, expected:
         residual: of_response(&fit.residuals),
         expected: of_response(&expected.u),
         held_out: of_response(&held_out(frame, fit, claimed)),
-        scale: if claimed.is_estimated() { (chi_squared / dof.max(1.0)).sqrt() } else { 1.0 },
+        scale: if claimed.is_estimated() {
+            (chi_squared / dof.max(1.0)).sqrt()
+        } else {
+            1.0
+        },
     }
 }
 
 fn degrees(frame: &Frame<'_>) -> f64 {
-    let priors = frame.unknowns.iter().filter(|unknown| unknown.prior.is_some()).count();
+    let priors = frame
+        .unknowns
+        .iter()
+        .filter(|unknown| unknown.prior.is_some())
+        .count();
     (frame.observations() + priors) as f64 - frame.unknowns.len() as f64
 }
 
@@ -75,7 +90,9 @@ fn held_out(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
     let fold = |observation: usize| frame.place(observation).1 / stretch % folds;
     let mut errors = DVector::zeros(frame.observations());
     for held in 0..folds {
-        let kept: Vec<usize> = (0..frame.observations()).filter(|o| fold(*o) != held).collect();
+        let kept: Vec<usize> = (0..frame.observations())
+            .filter(|o| fold(*o) != held)
+            .collect();
         let change = solved(frame, fit, claimed, &kept);
         for observation in (0..frame.observations()).filter(|o| fold(*o) == held) {
             let predicted = fit.jacobian.row(observation).transpose().dot(&change);
@@ -88,15 +105,26 @@ fn held_out(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
 /// Change of the unknowns when only some observations count.
 fn solved(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, kept: &[usize]) -> DVector<f64> {
     let (normal, right) = normal(frame, fit, claimed, kept);
-    let scale = normal.diagonal().map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
-    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| normal[(i, j)] * scale[i] * scale[j]);
+    let scale = normal
+        .diagonal()
+        .map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
+    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
+        normal[(i, j)] * scale[i] * scale[j]
+    });
     let target = right.component_mul(&scale);
     // What these observations do not determine stays as it is.
-    let inverse = scaled.pseudo_inverse(1e-11).unwrap_or_else(|_| DMatrix::zeros(normal.nrows(), normal.ncols()));
+    let inverse = scaled
+        .pseudo_inverse(1e-11)
+        .unwrap_or_else(|_| DMatrix::zeros(normal.nrows(), normal.ncols()));
     (inverse * target).component_mul(&scale)
 }
 
-fn normal(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, kept: &[usize]) -> (DMatrix<f64>, DVector<f64>) {
+fn normal(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    kept: &[usize],
+) -> (DMatrix<f64>, DVector<f64>) {
     let count = frame.unknowns.len();
     let mut jacobian = DMatrix::zeros(kept.len(), count);
     let mut residuals = DVector::zeros(kept.len());
@@ -123,24 +151,52 @@ pub(super) fn covariance(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DMa
 }
 
 fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {
-    let scale = normal.diagonal().map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
-    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| normal[(i, j)] * scale[i] * scale[j]);
-    let inverse = scaled.pseudo_inverse(1e-13).unwrap_or_else(|_| DMatrix::zeros(normal.nrows(), normal.ncols()));
-    DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| inverse[(i, j)] * scale[i] * scale[j])
+    let scale = normal
+        .diagonal()
+        .map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
+    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
+        normal[(i, j)] * scale[i] * scale[j]
+    });
+    let inverse = scaled
+        .pseudo_inverse(1e-13)
+        .unwrap_or_else(|_| DMatrix::zeros(normal.nrows(), normal.ncols()));
+    DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
+        inverse[(i, j)] * scale[i] * scale[j]
+    })
 }
 
 /// The first effect, estimated from parts of the recording.
-pub(super) fn confirmation(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, added: usize, fitted: &Fitted) -> Confirmation {
+pub(super) fn confirmation(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    added: usize,
+    fitted: &Fitted,
+) -> Confirmation {
     let first = frame.case.parameters.len() - added;
     let at = frame.unknown_of(first, 0);
     let whitened = fit.residuals.component_div(&claimed.u);
-    let scale = if claimed.is_estimated() { (whitened.norm_squared() / degrees(frame).max(1.0)).sqrt() } else { 1.0 };
+    let scale = if claimed.is_estimated() {
+        (whitened.norm_squared() / degrees(frame).max(1.0)).sqrt()
+    } else {
+        1.0
+    };
     let mut parts = Vec::new();
     for (name, members) in divided(frame) {
         let covariance = inverse(&normal(frame, fit, claimed, &members).0);
         let value = fit.unknowns[at] + solved(frame, fit, claimed, &members)[at];
         let u = scale * covariance[(at, at)].max(0.0).sqrt();
-        let full = inverse(&normal(frame, fit, claimed, &(0..frame.observations()).collect::<Vec<_>>()).0)[(at, at)].sqrt() * scale;
+        let full = inverse(
+            &normal(
+                frame,
+                fit,
+                claimed,
+                &(0..frame.observations()).collect::<Vec<_>>(),
+            )
+            .0,
+        )[(at, at)]
+            .sqrt()
+            * scale;
         // A part that hardly sees the effect says nothing.
         if u.is_finite() && u > 0.0 && u < 20.0 * full {
             parts.push((name, value, u));
@@ -158,22 +214,37 @@ fn divided(frame: &Frame<'_>) -> Vec<(String, Vec<usize>)> {
     use super::case::Role;
     let all = 0..frame.observations();
     let runs = frame.case.with_role(Role::Run).find(|column| {
-        frame.case.columns[*column].labels().is_some_and(|labels| (2..=12).contains(&labels.levels.len()))
+        frame.case.columns[*column]
+            .labels()
+            .is_some_and(|labels| (2..=12).contains(&labels.levels.len()))
     });
     if let Some(column) = runs
         && let Some(labels) = frame.case.columns[column].labels()
     {
         return (0..labels.levels.len())
             .map(|level| {
-                let inside = |o: &usize| labels.of_row[frame.blocks[frame.place(*o).1][0]] as usize == level;
-                (format!("{} {}", frame.case.columns[column].name, labels.levels[level]), all.clone().filter(inside).collect())
+                let inside =
+                    |o: &usize| labels.of_row[frame.blocks[frame.place(*o).1][0]] as usize == level;
+                (
+                    format!(
+                        "{} {}",
+                        frame.case.columns[column].name, labels.levels[level]
+                    ),
+                    all.clone().filter(inside).collect(),
+                )
             })
             .collect();
     }
     let half = frame.blocks.len() / 2;
     vec![
-        ("first half".to_owned(), all.clone().filter(|o| frame.place(*o).1 < half).collect()),
-        ("second half".to_owned(), all.filter(|o| frame.place(*o).1 >= half).collect()),
+        (
+            "first half".to_owned(),
+            all.clone().filter(|o| frame.place(*o).1 < half).collect(),
+        ),
+        (
+            "second half".to_owned(),
+            all.filter(|o| frame.place(*o).1 >= half).collect(),
+        ),
     ]
 }
 
@@ -184,7 +255,16 @@ fn cochran(parts: &[(String, f64, f64)]) -> Option<f64> {
     }
     let weights: Vec<f64> = parts.iter().map(|(_, _, u)| 1.0 / (u * u)).collect();
     let total: f64 = weights.iter().sum();
-    let mean = parts.iter().zip(&weights).map(|((_, value, _), w)| w * value).sum::<f64>() / total;
-    let q: f64 = parts.iter().zip(&weights).map(|((_, value, _), w)| w * (value - mean) * (value - mean)).sum();
+    let mean = parts
+        .iter()
+        .zip(&weights)
+        .map(|((_, value, _), w)| w * value)
+        .sum::<f64>()
+        / total;
+    let q: f64 = parts
+        .iter()
+        .zip(&weights)
+        .map(|((_, value, _), w)| w * (value - mean) * (value - mean))
+        .sum();
     Some(chi_squared_sf(q, parts.len() as f64 - 1.0))
 }

@@ -41,7 +41,11 @@ pub enum NoFit {
 /// When the recording does not determine the parameters, or the search fails.
 pub fn fit(frame: &Frame<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
     let count = frame.unknowns.len();
-    let priors = frame.unknowns.iter().filter(|unknown| unknown.prior.is_some()).count();
+    let priors = frame
+        .unknowns
+        .iter()
+        .filter(|unknown| unknown.prior.is_some())
+        .count();
     if frame.observations() + priors <= count {
         return Err(NoFit::TooFew {
             observations: frame.observations(),
@@ -57,7 +61,9 @@ pub fn fit(frame: &Frame<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
     let mut failure = NoFit::NoStart;
     for start in starts(frame) {
         match problem.search(start) {
-            Ok((sum, fit)) if best.as_ref().is_none_or(|(least, _)| sum < 0.999 * least) => best = Some((sum, fit)),
+            Ok((sum, fit)) if best.as_ref().is_none_or(|(least, _)| sum < 0.999 * least) => {
+                best = Some((sum, fit))
+            }
             Ok(_) => {}
             Err(why) => failure = why,
         }
@@ -106,7 +112,10 @@ fn starts(frame: &Frame<'_>) -> Vec<DVector<f64>> {
         });
         DVector::from_iterator(frame.unknowns.len(), of)
     };
-    let open = frame.unknowns.iter().filter(|unknown| unknown.start.is_none() && unknown.prior.is_none());
+    let open = frame
+        .unknowns
+        .iter()
+        .filter(|unknown| unknown.start.is_none() && unknown.prior.is_none());
     let mut starts = vec![fill(1.0)];
     if open.count() > 0 {
         starts.extend([0.1, 0.01, 10.0, mean, -1.0].map(fill));
@@ -128,11 +137,17 @@ impl Problem<'_, '_> {
 
     /// Weighted residuals, prior rows at the end.
     fn weighted(&self, unknowns: &DVector<f64>, linear: &Linear) -> DVector<f64> {
-        let modelled = self.frame.observed_column(|response| linear.values[response].clone());
+        let modelled = self
+            .frame
+            .observed_column(|response| linear.values[response].clone());
         let rows = (&self.observed - modelled).component_div(self.u);
         let priors = self.frame.unknowns.iter().zip(unknowns.iter());
-        let priors = priors.filter_map(|(unknown, now)| unknown.prior.map(|(value, u)| (value - now) / u));
-        DVector::from_iterator(rows.len() + priors.clone().count(), rows.iter().copied().chain(priors))
+        let priors =
+            priors.filter_map(|(unknown, now)| unknown.prior.map(|(value, u)| (value - now) / u));
+        DVector::from_iterator(
+            rows.len() + priors.clone().count(),
+            rows.iter().copied().chain(priors),
+        )
     }
 
     fn weighted_jacobian(&self, linear: &Linear) -> DMatrix<f64> {
@@ -141,7 +156,13 @@ impl Problem<'_, '_> {
             column.component_div_assign(self.u);
         }
         let (rows, columns) = jacobian.shape();
-        let known: Vec<(usize, f64)> = self.frame.unknowns.iter().enumerate().filter_map(|(at, unknown)| Some((at, unknown.prior?.1))).collect();
+        let known: Vec<(usize, f64)> = self
+            .frame
+            .unknowns
+            .iter()
+            .enumerate()
+            .filter_map(|(at, unknown)| Some((at, unknown.prior?.1)))
+            .collect();
         let mut jacobian = jacobian.resize(rows + known.len(), columns, 0.0);
         for (row, (at, u)) in known.iter().enumerate() {
             jacobian[(rows + row, *at)] = 1.0 / u;
@@ -176,7 +197,8 @@ impl Problem<'_, '_> {
             if next_sum.is_finite() && next_sum <= sum * (1.0 + 1e-14) {
                 // The size of a step in standard uncertainties of the fitted values.
                 let moved = (&jacobian * &step).norm();
-                settled = moved <= 1e-9 * (1.0 + sum.sqrt()) || sum - next_sum <= 1e-13 * sum && damping <= 1e-6;
+                settled = moved <= 1e-9 * (1.0 + sum.sqrt())
+                    || sum - next_sum <= 1e-13 * sum && damping <= 1e-6;
                 (unknowns, linear, residuals, sum) = (next, next_linear, next_residuals, next_sum);
                 damping = if damping > 1e-9 { damping * 0.2 } else { 0.0 };
                 if settled {
@@ -196,7 +218,12 @@ impl Problem<'_, '_> {
     }
 
     /// (JᵀJ + λ diag)⁻¹Jᵀr by QR of scaled columns; nothing if the columns depend on one another here.
-    fn step(&self, jacobian: &DMatrix<f64>, residuals: &DVector<f64>, damping: f64) -> Result<Option<DVector<f64>>, NoFit> {
+    fn step(
+        &self,
+        jacobian: &DMatrix<f64>,
+        residuals: &DVector<f64>,
+        damping: f64,
+    ) -> Result<Option<DVector<f64>>, NoFit> {
         let (rows, columns) = jacobian.shape();
         if jacobian.iter().any(|x| !x.is_finite()) {
             return Err(NoFit::NoMinimum);

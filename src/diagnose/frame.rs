@@ -71,7 +71,9 @@ impl<'c> Frame<'c> {
         let mut first = Vec::new();
         for (index, parameter) in case.parameters.iter().enumerate() {
             first.push(unknowns.len());
-            let labels = parameter.per.and_then(|column| case.columns[column].labels());
+            let labels = parameter
+                .per
+                .and_then(|column| case.columns[column].labels());
             let levels = labels.map_or(1, |labels| labels.levels.len());
             for level in 0..levels {
                 let name = match labels {
@@ -126,13 +128,21 @@ impl<'c> Frame<'c> {
             UnknownKind::Parameter { parameter, .. } => &self.case.parameters[parameter].unit,
             UnknownKind::CommonError { column } => &self.case.columns[column].unit,
         };
-        if unit.is_one() { String::new() } else { unit.typeset() }
+        if unit.is_one() {
+            String::new()
+        } else {
+            unit.typeset()
+        }
     }
 
     /// The value of every symbol in a row: parameters, then columns.
     pub fn symbols(&self, row: usize, unknowns: &DVector<f64>) -> Vec<f64> {
         let parameters = (0..self.case.parameters.len()).map(|p| unknowns[self.unknown_of(p, row)]);
-        let columns = self.case.columns.iter().map(|column| column.numbers().map_or(f64::NAN, |numbers| numbers[row]));
+        let columns = self
+            .case
+            .columns
+            .iter()
+            .map(|column| column.numbers().map_or(f64::NAN, |numbers| numbers[row]));
         let mut values: Vec<f64> = parameters.chain(columns).collect();
         let parameters = self.case.parameters.len();
         for (unknown, value) in self.unknowns.iter().zip(unknowns.iter()) {
@@ -155,7 +165,8 @@ impl<'c> Frame<'c> {
         for row in 0..rows {
             let values = self.symbols(row, unknowns);
             for response in 0..responses {
-                linear.values[response][row] = self.case.equations.at(response, &values, &mut slopes);
+                linear.values[response][row] =
+                    self.case.equations.at(response, &values, &mut slopes);
                 for used in self.case.equations.uses(response) {
                     linear.slopes[response][(row, *used)] = slopes[*used];
                 }
@@ -174,7 +185,8 @@ impl<'c> Frame<'c> {
                 let weight = 1.0 / rows.len() as f64;
                 for row in rows {
                     for parameter in 0..parameters {
-                        jacobian[(at, self.unknown_of(parameter, *row))] += weight * slopes[(*row, parameter)];
+                        jacobian[(at, self.unknown_of(parameter, *row))] +=
+                            weight * slopes[(*row, parameter)];
                     }
                     for (index, unknown) in self.unknowns.iter().enumerate() {
                         if let UnknownKind::CommonError { column } = unknown.kind {
@@ -189,13 +201,16 @@ impl<'c> Frame<'c> {
 
     /// Averages a column of rows over the blocks.
     pub fn reduced(&self, rows: &[f64]) -> Vec<f64> {
-        let mean = |block: &Vec<usize>| block.iter().map(|row| rows[*row]).sum::<f64>() / block.len() as f64;
+        let mean = |block: &Vec<usize>| {
+            block.iter().map(|row| rows[*row]).sum::<f64>() / block.len() as f64
+        };
         self.blocks.iter().map(mean).collect()
     }
 
     /// A column of observations from one column of rows for each response.
     pub fn observed_column(&self, of_response: impl Fn(usize) -> Vec<f64>) -> DVector<f64> {
-        let parts = (0..self.case.responses.len()).flat_map(|response| self.reduced(&of_response(response)));
+        let parts = (0..self.case.responses.len())
+            .flat_map(|response| self.reduced(&of_response(response)));
         DVector::from_vec(parts.collect())
     }
 
@@ -212,7 +227,10 @@ impl<'c> Frame<'c> {
 
     /// Response and block of an observation.
     pub fn place(&self, observation: usize) -> (usize, usize) {
-        (observation / self.blocks.len(), observation % self.blocks.len())
+        (
+            observation / self.blocks.len(),
+            observation % self.blocks.len(),
+        )
     }
 
     /// The time of each row, or its number where no time was recorded; whether it is a time.
@@ -225,10 +243,12 @@ impl<'c> Frame<'c> {
                 column: Some(column),
             })
         };
-        of(Role::Time).or_else(|| of(Role::Order)).unwrap_or_else(|| Clock {
-            values: (0..self.case.rows).map(|row| row as f64).collect(),
-            column: None,
-        })
+        of(Role::Time)
+            .or_else(|| of(Role::Order))
+            .unwrap_or_else(|| Clock {
+                values: (0..self.case.rows).map(|row| row as f64).collect(),
+                column: None,
+            })
     }
 }
 
@@ -245,7 +265,11 @@ impl Clock {
     /// From the first to the last.
     pub fn span(&self) -> f64 {
         let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let most = self
+            .values
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
         (most - least).max(0.0)
     }
 
@@ -261,13 +285,17 @@ impl Clock {
 fn blocks(case: &Case) -> Vec<Vec<usize>> {
     let labels: Vec<usize> = match &case.averaging.blocks {
         Blocks::Dwells(columns) => columns.clone(),
-        _ => (0..case.columns.len()).filter(|c| case.columns[*c].labels().is_some()).collect(),
+        _ => (0..case.columns.len())
+            .filter(|c| case.columns[*c].labels().is_some())
+            .collect(),
     };
     let same = |a: usize, b: usize| {
-        labels.iter().all(|column| match case.columns[*column].labels() {
-            Some(labels) => labels.of_row[a] == labels.of_row[b],
-            None => true,
-        })
+        labels
+            .iter()
+            .all(|column| match case.columns[*column].labels() {
+                Some(labels) => labels.of_row[a] == labels.of_row[b],
+                None => true,
+            })
     };
     let size = match &case.averaging.blocks {
         Blocks::Rows => 1,
@@ -275,7 +303,11 @@ fn blocks(case: &Case) -> Vec<Vec<usize>> {
         Blocks::AtMost(most) => case.rows.div_ceil((*most).max(1)),
         Blocks::Auto => {
             let timed = case.with_role(Role::Time).next().is_some();
-            if timed { case.rows.div_ceil(MOST_BLOCKS) } else { 1 }
+            if timed {
+                case.rows.div_ceil(MOST_BLOCKS)
+            } else {
+                1
+            }
         }
     };
     let mut blocks: Vec<Vec<usize>> = Vec::new();

@@ -14,6 +14,7 @@ pub mod at_rest;
 pub mod case;
 pub mod catalogue;
 mod confirm;
+mod correlation;
 pub mod evidence;
 pub mod faults;
 mod fit;

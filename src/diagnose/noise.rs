@@ -1,8 +1,9 @@
 //! What is claimed about the noise, for every observation.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, NoiseClaim, NoiseOrigin, Role};
+use super::correlation::{self, Correlated};
 use super::evidence::{Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
@@ -16,6 +17,8 @@ pub struct Claimed {
     pub dof: f64,
     /// Where it comes from.
     pub origin: Origin,
+    /// How the observations are correlated; `None` if they are independent.
+    pub correlated: Option<Correlated>,
 }
 
 /// Where the noise comes from.
@@ -38,7 +41,17 @@ pub enum Origin {
 impl Claimed {
     /// For the examination.
     pub fn noise(&self) -> Noise {
-        Noise::with_scale_dof(Covariance::Diagonal(self.u.map(|u| u * u)), self.dof)
+        let Some(correlated) = &self.correlated else {
+            return Noise::with_scale_dof(Covariance::Diagonal(self.u.map(|u| u * u)), self.dof);
+        };
+        let scaled = |matrix: &DMatrix<f64>| {
+            let of = |i: usize, j: usize| self.u[i] * self.u[j] * matrix[(i, j)];
+            Covariance::Dense(DMatrix::from_fn(matrix.nrows(), matrix.ncols(), of))
+        };
+        Noise {
+            draws: correlated.draws.iter().map(scaled).collect(),
+            ..Noise::with_scale_dof(scaled(&correlated.matrix), self.dof)
+        }
     }
 
     /// Whether the size of the noise follows from the residuals alone.
@@ -61,12 +74,20 @@ pub fn settle(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
         Some(first) if case.columns.iter().all(|column| column.u.is_none()) => first,
         _ => claimed(frame, Some(&rough)).unwrap_or_else(|| estimated(frame, &rough)),
     };
-    let fit = fit::from(frame, &claimed.u, rough.unknowns.clone()).or_else(|_| fit::fit(frame, &claimed.u))?;
+    let fit = fit::from(frame, &claimed.u, rough.unknowns.clone())
+        .or_else(|_| fit::fit(frame, &claimed.u))?;
     if claimed.is_estimated() {
         let better = estimated(frame, &fit);
         return Ok((fit, better));
     }
     Ok((fit, claimed))
+}
+
+/// The noise that a model with effects in it leaves: size and correlation.
+pub fn refined(frame: &Frame<'_>, fit: &Fit) -> Claimed {
+    let mut claimed = estimated(frame, fit);
+    claimed.correlated = correlation::estimate(frame, &fit.residuals, &claimed.u);
+    claimed
 }
 
 /// The noise without data: what is claimed, or one.
@@ -75,6 +96,7 @@ pub fn planned(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         u: DVector::from_element(frame.observations(), 1.0),
         dof: f64::INFINITY,
         origin: Origin::Estimated,
+        correlated: None,
     })
 }
 
@@ -94,8 +116,17 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
         }
         NoiseClaim::PerRow(column) => {
             let column = &case.columns[*column];
-            let squares: Vec<f64> = column.numbers().unwrap_or(&[]).iter().map(|u| u * u).collect();
-            (vec![squares; case.responses.len()], f64::INFINITY, Origin::Column(column.name.clone()))
+            let squares: Vec<f64> = column
+                .numbers()
+                .unwrap_or(&[])
+                .iter()
+                .map(|u| u * u)
+                .collect();
+            (
+                vec![squares; case.responses.len()],
+                f64::INFINITY,
+                Origin::Column(column.name.clone()),
+            )
         }
         NoiseClaim::Replicates(columns) => {
             let (pooled, dof) = replicates(frame, columns)?;
@@ -106,7 +137,10 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
     let u = frame.observed_column(|_| vec![0.0; case.rows]);
     let mut squares = u;
     for response in 0..case.responses.len() {
-        let mut rows = variances.get(response).cloned().unwrap_or_else(|| vec![0.0; case.rows]);
+        let mut rows = variances
+            .get(response)
+            .cloned()
+            .unwrap_or_else(|| vec![0.0; case.rows]);
         add_columns(frame, fit, response, &mut rows);
         for (block, members) in frame.blocks.iter().enumerate() {
             let n = members.len() as f64;
@@ -115,11 +149,14 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
             squares[response * frame.blocks.len() + block] = sum / (n * n);
         }
     }
-    let valid = squares.iter().all(|variance| *variance > 0.0 && variance.is_finite());
+    let valid = squares
+        .iter()
+        .all(|variance| *variance > 0.0 && variance.is_finite());
     valid.then(|| Claimed {
         u: squares.map(f64::sqrt),
         dof,
         origin,
+        correlated: None,
     })
 }
 
@@ -140,7 +177,10 @@ fn add_columns(frame: &Frame<'_>, fit: Option<&Fit>, response: usize, variances:
 fn counts(case: &Case) -> Vec<f64> {
     let column = case.with_role(Role::Count).next();
     let numbers = column.and_then(|column| case.columns[column].numbers());
-    numbers.map_or_else(|| vec![1.0; case.rows], |numbers| numbers.iter().map(|n| n.max(1.0)).collect())
+    numbers.map_or_else(
+        || vec![1.0; case.rows],
+        |numbers| numbers.iter().map(|n| n.max(1.0)).collect(),
+    )
 }
 
 /// One standard uncertainty for each response, from the residuals.
@@ -168,6 +208,7 @@ fn estimated(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         u,
         dof: 0.0,
         origin: Origin::Estimated,
+        correlated: None,
     }
 }
 
@@ -176,14 +217,20 @@ fn estimated(frame: &Frame<'_>, fit: &Fit) -> Claimed {
 fn replicates(frame: &Frame<'_>, columns: &[usize]) -> Option<(Vec<f64>, f64)> {
     let case = frame.case;
     let key = |row: usize| -> Vec<u64> {
-        let of = columns.iter().map(|column| match (case.columns[*column].labels(), case.columns[*column].numbers()) {
-            (Some(labels), _) => u64::from(labels.of_row[row]),
-            (None, Some(numbers)) => numbers[row].to_bits(),
-            (None, None) => 0,
+        let of = columns.iter().map(|column| {
+            match (
+                case.columns[*column].labels(),
+                case.columns[*column].numbers(),
+            ) {
+                (Some(labels), _) => u64::from(labels.of_row[row]),
+                (None, Some(numbers)) => numbers[row].to_bits(),
+                (None, None) => 0,
+            }
         });
         of.collect()
     };
-    let mut groups: std::collections::BTreeMap<Vec<u64>, Vec<usize>> = std::collections::BTreeMap::new();
+    let mut groups: std::collections::BTreeMap<Vec<u64>, Vec<usize>> =
+        std::collections::BTreeMap::new();
     for row in 0..case.rows {
         groups.entry(key(row)).or_default().push(row);
     }
@@ -197,11 +244,16 @@ fn replicates(frame: &Frame<'_>, columns: &[usize]) -> Option<(Vec<f64>, f64)> {
             .values()
             .map(|rows| {
                 let mean = rows.iter().map(|row| observed[*row]).sum::<f64>() / rows.len() as f64;
-                rows.iter().map(|row| (observed[*row] - mean) * (observed[*row] - mean)).sum::<f64>()
+                rows.iter()
+                    .map(|row| (observed[*row] - mean) * (observed[*row] - mean))
+                    .sum::<f64>()
             })
             .sum();
         squares / dof as f64
     });
     let pooled: Vec<f64> = pooled.collect();
-    pooled.iter().all(|variance| *variance > 0.0).then_some((pooled, dof as f64))
+    pooled
+        .iter()
+        .all(|variance| *variance > 0.0)
+        .then_some((pooled, dof as f64))
 }

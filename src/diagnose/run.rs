@@ -111,34 +111,65 @@ pub struct Omitted {
 ///
 /// # Errors
 /// When the model cannot be fitted, or the work was stopped.
-pub fn diagnose(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Diagnosis, Failure> {
+pub fn diagnose(
+    case: &Case,
+    progress: &dyn Fn(f64) -> ControlFlow<()>,
+) -> Result<Diagnosis, Failure> {
     let frame = Frame::new(case);
-    let (fit, claimed) = noise::settle(&frame)?;
+    let (fit, mut claimed) = noise::settle(&frame)?;
     let ground = Ground::new(&frame, &fit);
     let cells = catalogue::cells(&ground);
-    let baseline = baseline(&frame, &fit, &claimed)?;
     let (candidates, atoms, places) = question(&ground, &cells, &claimed);
-    let settings = evidence::Settings {
-        alpha: case.settings.alpha,
-        seed: case.settings.seed,
-        draws: case.settings.draws,
-        ..evidence::Settings::default()
-    };
-    let examination = evidence::examine(
-        &Question {
+    let settings = settings(case);
+    let ask = |claimed: &Claimed, from: f64, to: f64| -> Result<(Baseline, Examination), Failure> {
+        let baseline = baseline(&frame, &fit, claimed)?;
+        let question = Question {
             baseline: &baseline,
             candidates: &candidates,
             atoms: &atoms,
             settings: settings.clone(),
-        },
-        &|share| progress(0.9 * share),
+        };
+        let examination =
+            evidence::examine(&question, &|share| progress(from + (to - from) * share))?;
+        Ok((baseline, examination))
+    };
+    let (mut baseline, mut examination) = ask(
+        &claimed,
+        0.0,
+        if claimed.is_estimated() { 0.4 } else { 0.9 },
     )?;
+    if claimed.is_estimated() && examination.verdict != Verdict::None {
+        // Noise and effects are estimated in turn: what an effect explains is no noise.
+        for round in 0..ROUNDS {
+            let adopted = examination
+                .fitted
+                .as_ref()
+                .map(|fitted| fitted.atoms.clone());
+            claimed = match adopted_fit(&ground, &cells, &places, &examination, &claimed) {
+                Some((frame, fit)) => noise::refined(&Frame::new(&frame.case), &fit),
+                None => noise::refined(&frame, &fit),
+            };
+            let from = 0.4 + 0.25 * f64::from(round);
+            (baseline, examination) = ask(&claimed, from, from + 0.25)?;
+            if examination
+                .fitted
+                .as_ref()
+                .map(|fitted| fitted.atoms.clone())
+                == adopted
+            {
+                break;
+            }
+        }
+    }
     let located = if examination.verdict == Verdict::None {
         Vec::new()
     } else {
         let levels = place::cells(&ground);
         let found = evidence::locate(&baseline, &levels, &settings)?;
-        found.into_iter().map(|located| (levels[located.cell].clone(), located)).collect()
+        found
+            .into_iter()
+            .map(|located| (levels[located.cell].clone(), located))
+            .collect()
     };
     let before = confirm::quality(&frame, &fit, &claimed, &claimed);
     let adopted = adopt_named(&ground, &cells, &places, &examination, &claimed);
@@ -159,9 +190,30 @@ pub fn diagnose(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Resul
     })
 }
 
+/// So often noise and effects are estimated in turn.
+const ROUNDS: u8 = 2;
+
+pub(super) fn settings(case: &Case) -> evidence::Settings {
+    evidence::Settings {
+        alpha: case.settings.alpha,
+        seed: case.settings.seed,
+        draws: case.settings.draws,
+        ..evidence::Settings::default()
+    }
+}
+
 /// The recording reduced to its residuals.
-pub(super) fn baseline(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> Result<Baseline, Refusal> {
-    let known: Vec<(usize, (f64, f64))> = frame.unknowns.iter().enumerate().filter_map(|(at, unknown)| Some((at, unknown.prior?))).collect();
+pub(super) fn baseline(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+) -> Result<Baseline, Refusal> {
+    let known: Vec<(usize, (f64, f64))> = frame
+        .unknowns
+        .iter()
+        .enumerate()
+        .filter_map(|(at, unknown)| Some((at, unknown.prior?)))
+        .collect();
     let mut prior = Prior {
         jacobian: DMatrix::zeros(known.len(), frame.unknowns.len()),
         residuals: DVector::zeros(known.len()),
@@ -174,7 +226,11 @@ pub(super) fn baseline(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> Resul
 }
 
 /// Candidates and atoms, and the cell and variation of each atom.
-pub(super) fn question(ground: &Ground<'_>, cells: &[Cell], claimed: &Claimed) -> (Vec<Candidate>, Vec<Atom>, Vec<(usize, usize)>) {
+pub(super) fn question(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    claimed: &Claimed,
+) -> (Vec<Candidate>, Vec<Atom>, Vec<(usize, usize)>) {
     let mut candidates = Vec::new();
     let (mut atoms, mut places) = (Vec::new(), Vec::new());
     for (index, cell) in cells.iter().enumerate() {
@@ -212,16 +268,47 @@ fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Opt
         return None;
     }
     match &variation.spectrum {
-        Some(spectrum) if spectrum.is_empty() => (!claimed.is_estimated()).then_some(Shape::Scatter),
+        Some(spectrum) if spectrum.is_empty() => {
+            (!claimed.is_estimated()).then_some(Shape::Scatter)
+        }
         Some(spectrum) => Some(Shape::Smooth {
             features: columns,
             spectrum: spectrum.clone(),
         }),
-        None => columns.iter().any(|x| *x != 0.0).then_some(Shape::Columns(columns)),
+        None => columns
+            .iter()
+            .any(|x| *x != 0.0)
+            .then_some(Shape::Columns(columns)),
     }
 }
 
 /// The refit with the named effects in the model.
+fn adopted_fit(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    examination: &Examination,
+    claimed: &Claimed,
+) -> Option<(adopt::Extended, Fit)> {
+    let fitted = examination.fitted.as_ref()?;
+    let variations: Vec<&Variation> = fitted
+        .atoms
+        .iter()
+        .map(|atom| &cells[places[*atom].0].variants[places[*atom].1])
+        .collect();
+    if variations.is_empty() {
+        return None;
+    }
+    let extended = adopt::extended(ground, &variations)?;
+    let frame = Frame::new(&extended.case);
+    let start = adopt::start(ground, &frame, &fitted.coefficients);
+    let fit = super::fit::from(&frame, &claimed.u, start)
+        .or_else(|_| super::fit::fit(&frame, &claimed.u))
+        .ok()?;
+    Some((extended, fit))
+}
+
+/// The model with the named effects, and how well it does.
 fn adopt_named(
     ground: &Ground<'_>,
     cells: &[Cell],
@@ -230,21 +317,22 @@ fn adopt_named(
     claimed: &Claimed,
 ) -> Option<Adopted> {
     let fitted = examination.fitted.as_ref()?;
-    let variations: Vec<&Variation> = fitted.atoms.iter().map(|atom| &cells[places[*atom].0].variants[places[*atom].1]).collect();
-    if variations.is_empty() {
-        return None;
-    }
-    let extended = adopt::extended(ground, &variations)?;
+    let (extended, fit) = adopted_fit(ground, cells, places, examination, claimed)?;
     let frame = Frame::new(&extended.case);
-    let start = adopt::start(ground, &frame, &fitted.coefficients);
-    let fit = super::fit::from(&frame, &claimed.u, start).or_else(|_| super::fit::fit(&frame, &claimed.u)).ok()?;
     let quality = confirm::quality(&frame, &fit, claimed, claimed);
     let all = estimates(&frame, &fit, claimed, quality.scale);
     let added = extended.additions.len();
     let confirmation = confirm::confirmation(&frame, &fit, claimed, added, fitted);
-    let is_added = |estimated: &Estimated| extended.additions.iter().any(|addition| addition.parameter == estimated.name);
-    let (coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) = all.into_iter().partition(is_added);
+    let is_added = |estimated: &Estimated| {
+        extended
+            .additions
+            .iter()
+            .any(|addition| addition.parameter == estimated.name)
+    };
+    let (coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
+        all.into_iter().partition(is_added);
     let residuals = fit.residuals.clone();
+    drop(frame);
     Some(Adopted {
         atoms: fitted.atoms.clone(),
         coefficients,
@@ -252,15 +340,17 @@ fn adopt_named(
         quality,
         residuals,
         confirmation,
-        extended: adopt::Extended {
-            additions: extended.additions.clone(),
-            case: extended.case.clone(),
-        },
+        extended,
     })
 }
 
 /// Unknowns with their standard uncertainties; `scale` is the factor on the claimed noise.
-pub(super) fn estimates(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, scale: f64) -> Vec<Estimated> {
+pub(super) fn estimates(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    scale: f64,
+) -> Vec<Estimated> {
     let covariance = confirm::covariance(frame, fit, claimed);
     frame
         .unknowns
@@ -275,15 +365,25 @@ pub(super) fn estimates(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, scale: 
         .collect()
 }
 
-fn omitted(ground: &Ground<'_>, baseline: &Baseline, cells: &[Cell], places: &[(usize, usize)], examination: &Examination) -> Vec<Omitted> {
-    let of = examination.invisible.iter().filter(|invisible| !invisible.idle).map(|invisible| {
-        let (cell, variation) = places[invisible.atom];
-        let columns = cells[cell].variants[variation].columns(ground);
-        let gain = baseline.gain(&columns);
-        Omitted {
-            atom: invisible.atom,
-            gain: gain.column(0).iter().copied().collect(),
-        }
-    });
+fn omitted(
+    ground: &Ground<'_>,
+    baseline: &Baseline,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    examination: &Examination,
+) -> Vec<Omitted> {
+    let of = examination
+        .invisible
+        .iter()
+        .filter(|invisible| !invisible.idle)
+        .map(|invisible| {
+            let (cell, variation) = places[invisible.atom];
+            let columns = cells[cell].variants[variation].columns(ground);
+            let gain = baseline.gain(&columns);
+            Omitted {
+                atom: invisible.atom,
+                gain: gain.column(0).iter().copied().collect(),
+            }
+        });
     of.collect()
 }

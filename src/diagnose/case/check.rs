@@ -7,7 +7,9 @@ use toml::de::DeTable;
 
 use super::declared::{self, Declared};
 use super::tables::{AverageEntry, CaseTable, ColumnTable, RoleWord};
-use super::{Action, Averaging, Blocks, Case, Column, Data, NoiseClaim, NoiseOrigin, Purpose, Settings};
+use super::{
+    Action, Averaging, Blocks, Case, Column, Data, NoiseClaim, NoiseOrigin, Purpose, Settings,
+};
 use crate::budget::faults::{NOT_UTF8, UNREADABLE_FILE};
 use crate::budget::strings::StringMap;
 use crate::budget::table::{Reader, Stated, read_table};
@@ -18,8 +20,8 @@ use crate::fault::{Fault, nearest};
 use crate::model::{Role as SymbolRole, Symbol};
 use crate::propagate;
 use crate::quantity::{Unit, UnitTable};
-use crate::recording::{Content, Recording, Request, headings};
 use crate::recording;
+use crate::recording::{Content, Recording, Request, headings};
 
 /// Reads and checks a case.
 pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
@@ -28,7 +30,10 @@ pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Ca
     let bytes = files.read(path).map_err(|error| {
         let message = format!("{name} cannot be read: {error}");
         let fault = Fault::new(UNREADABLE_FILE, 0..0, message);
-        reject("", vec![fault.help("name a case, as in `gumption diagnose case.toml`")])
+        reject(
+            "",
+            vec![fault.help("name a case, as in `gumption diagnose case.toml`")],
+        )
     })?;
     let text = String::from_utf8(bytes).map_err(|_| {
         let fault = Fault::new(NOT_UTF8, 0..0, format!("{name} is not UTF-8 text"));
@@ -104,7 +109,12 @@ impl Checker<'_> {
         };
         Ok(Case {
             title: file.title.as_ref().map_or_else(
-                || path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+                || {
+                    path.file_stem()
+                        .unwrap_or_default()
+                        .to_string_lossy()
+                        .into_owned()
+                },
                 |title| title.value.clone(),
             ),
             reference: file.reference.as_ref().map(|text| text.value.clone()),
@@ -130,7 +140,11 @@ impl Checker<'_> {
 
     fn missing(&mut self, file: &CaseTable) {
         for (present, key, example) in [
-            (file.recording.is_some(), "recording", "recording = \"readings.csv\""),
+            (
+                file.recording.is_some(),
+                "recording",
+                "recording = \"readings.csv\"",
+            ),
             (file.model.is_some(), "model", "model = \"y = a + b * x\""),
         ] {
             let stated = file.present.iter().any(|(name, _)| *name == key);
@@ -144,14 +158,22 @@ impl Checker<'_> {
         }
     }
 
-    fn headings(&self, path: &Path, csv: &Stated<String>) -> Result<Vec<recording::Heading>, Rejection> {
+    fn headings(
+        &self,
+        path: &Path,
+        csv: &Stated<String>,
+    ) -> Result<Vec<recording::Heading>, Rejection> {
         // The recording's own reader has the words for what is wrong with the file.
         let bytes = match self.files.read(path) {
             Ok(bytes) => bytes,
             Err(_) => {
                 let missing = Recording::open(self.files, path, &[], &self.units);
                 return Err(missing.err().unwrap_or_else(|| {
-                    let fault = Fault::new(UNREADABLE_FILE, csv.span.clone(), "the recording cannot be read");
+                    let fault = Fault::new(
+                        UNREADABLE_FILE,
+                        csv.span.clone(),
+                        "the recording cannot be read",
+                    );
                     Rejection::new("", self.text, vec![fault])
                 }));
             }
@@ -214,7 +236,10 @@ impl Checker<'_> {
                     Fault::new(
                         UNIT_CLASH,
                         span.clone(),
-                        format!("an amount in {} cannot be one in {}", own.symbol, unit.symbol),
+                        format!(
+                            "an amount in {} cannot be one in {}",
+                            own.symbol, unit.symbol
+                        ),
                     )
                     .label(format!("expected a unit such as {}", unit.symbol)),
                 );
@@ -230,8 +255,12 @@ impl Checker<'_> {
             return Some(value);
         }
         self.faults.push(
-            Fault::new(SETTING, amount.span.clone(), "a standard uncertainty is positive")
-                .label("expected a positive number"),
+            Fault::new(
+                SETTING,
+                amount.span.clone(),
+                "a standard uncertainty is positive",
+            )
+            .label("expected a positive number"),
         );
         None
     }
@@ -244,7 +273,10 @@ impl Checker<'_> {
         for (name, stated) in &named.value.entries {
             let table = &stated.value.0;
             let unit = self.unit(table.unit.as_ref()).unwrap_or_else(Unit::one);
-            let value = table.value.as_ref().and_then(|value| self.quantity(value, &unit));
+            let value = table
+                .value
+                .as_ref()
+                .and_then(|value| self.quantity(value, &unit));
             let role = match (value, &table.values) {
                 (Some(value), _) => SymbolRole::Constant(value),
                 (None, Some(values)) => {
@@ -253,8 +285,12 @@ impl Checker<'_> {
                 (None, None) => {
                     if table.value.is_none() && !table.refused {
                         self.faults.push(
-                            Fault::new(MISSING, stated.span.clone(), format!("the constant {name} has no value"))
-                                .label("state `value`"),
+                            Fault::new(
+                                MISSING,
+                                stated.span.clone(),
+                                format!("the constant {name} has no value"),
+                            )
+                            .label("state `value`"),
                         );
                     }
                     continue;
@@ -278,7 +314,10 @@ impl Checker<'_> {
         constants: &[Symbol],
     ) -> Vec<Wanted> {
         let mut wanted = Vec::new();
-        let declared = file.columns.as_ref().map_or(&[][..], |named| named.value.entries.as_slice());
+        let declared = file
+            .columns
+            .as_ref()
+            .map_or(&[][..], |named| named.value.entries.as_slice());
         for (name, stated) in declared {
             let table = &stated.value.0;
             let role = match &table.role {
@@ -286,9 +325,13 @@ impl Checker<'_> {
                 None => {
                     if !table.refused {
                         self.faults.push(
-                            Fault::new(MISSING, stated.key.clone(), format!("the column {name} has no role"))
-                                .label("`role` is missing")
-                                .help(format!("write for example {name} = \"covariate\"")),
+                            Fault::new(
+                                MISSING,
+                                stated.key.clone(),
+                                format!("the column {name} has no role"),
+                            )
+                            .label("`role` is missing")
+                            .help(format!("write for example {name} = \"covariate\"")),
                         );
                     }
                     continue;
@@ -298,9 +341,14 @@ impl Checker<'_> {
                 continue;
             }
             let header = table.column.as_ref().map_or(name, |column| &column.value);
-            let present = headings.iter().any(|h| h.text == *header || h.name == *header);
+            let present = headings
+                .iter()
+                .any(|h| h.text == *header || h.name == *header);
             if !present && !(self.purpose == Purpose::Plan && role == RoleWord::Output) {
-                let span = table.column.as_ref().map_or(stated.key.clone(), |column| column.span.clone());
+                let span = table
+                    .column
+                    .as_ref()
+                    .map_or(stated.key.clone(), |column| column.span.clone());
                 self.no_column(header, span, headings);
                 continue;
             }
@@ -308,7 +356,14 @@ impl Checker<'_> {
                 Some(unit) => self.unit(Some(unit)),
                 None => None,
             };
-            wanted.push(Wanted::new(name, header, role, unit, present, Some((stated.key.clone(), table.clone()))));
+            wanted.push(Wanted::new(
+                name,
+                header,
+                role,
+                unit,
+                present,
+                Some((stated.key.clone(), table.clone())),
+            ));
         }
         let known = |name: &str, wanted: &[Wanted]| {
             constants.iter().any(|constant| constant.name == name)
@@ -319,8 +374,14 @@ impl Checker<'_> {
             let Ok(outline) = crate::model::outline(&model.value, &self.units) else {
                 continue;
             };
-            let given = outline.gives.iter().map(|(name, _)| (name, RoleWord::Output));
-            let needed = outline.needs.iter().map(|(name, _)| (name, RoleWord::Stimulus));
+            let given = outline
+                .gives
+                .iter()
+                .map(|(name, _)| (name, RoleWord::Output));
+            let needed = outline
+                .needs
+                .iter()
+                .map(|(name, _)| (name, RoleWord::Stimulus));
             for (name, role) in given.chain(needed) {
                 let heading = headings.iter().any(|h| h.text == *name || h.name == *name);
                 if heading && !known(name, &wanted) {
@@ -339,9 +400,13 @@ impl Checker<'_> {
             None => format!("its columns are: {}", names.join(", ")),
         };
         self.faults.push(
-            Fault::new(UNKNOWN_NAME, span, format!("the recording has no column \"{name}\""))
-                .label("not in the first line of the recording")
-                .help(help),
+            Fault::new(
+                UNKNOWN_NAME,
+                span,
+                format!("the recording has no column \"{name}\""),
+            )
+            .label("not in the first line of the recording")
+            .help(help),
         );
     }
 
@@ -396,8 +461,15 @@ impl Checker<'_> {
         (columns, complete.len(), all - complete.len())
     }
 
-    fn noise(&mut self, file: &CaseTable, columns: &[Column], declared: Option<&Declared>) -> NoiseClaim {
-        let per_row = columns.iter().position(|column| column.role == RoleWord::Uncertainty);
+    fn noise(
+        &mut self,
+        file: &CaseTable,
+        columns: &[Column],
+        declared: Option<&Declared>,
+    ) -> NoiseClaim {
+        let per_row = columns
+            .iter()
+            .position(|column| column.role == RoleWord::Uncertainty);
         let Some(stated) = &file.noise else {
             return per_row.map_or(NoiseClaim::Estimated, NoiseClaim::PerRow);
         };
@@ -424,7 +496,11 @@ impl Checker<'_> {
         }
         let dof = table.dof.as_ref().map_or(f64::INFINITY, |dof| dof.value);
         if dof <= 0.0 {
-            self.faults.push(Fault::new(SETTING, stated.span.clone(), "degrees of freedom are positive"));
+            self.faults.push(Fault::new(
+                SETTING,
+                stated.span.clone(),
+                "degrees of freedom are positive",
+            ));
         }
         let responses = declared.map_or(&[][..], |declared| declared.responses.as_slice());
         if let Some(amount) = &table.u {
@@ -436,7 +512,12 @@ impl Checker<'_> {
             return NoiseClaim::Stated { u, dof, origin };
         }
         if let Some(names) = &table.replicates {
-            let found = names.value.0.iter().filter_map(|name| self.known(name, columns)).collect();
+            let found = names
+                .value
+                .0
+                .iter()
+                .filter_map(|name| self.known(name, columns))
+                .collect();
             return NoiseClaim::Replicates(found);
         }
         if let Some(at_rest) = &table.at_rest {
@@ -448,18 +529,37 @@ impl Checker<'_> {
         NoiseClaim::Estimated
     }
 
-    fn at_rest(&mut self, stated: &Stated<super::tables::StaticTable>, responses: usize) -> NoiseClaim {
+    fn at_rest(
+        &mut self,
+        stated: &Stated<super::tables::StaticTable>,
+        responses: usize,
+    ) -> NoiseClaim {
         let (Some(file), Some(column)) = (&stated.value.file, &stated.value.column) else {
             self.faults.push(
-                Fault::new(NOISE, stated.span.clone(), "a recording at rest has a `file` and a `column`")
-                    .label("expected both"),
+                Fault::new(
+                    NOISE,
+                    stated.span.clone(),
+                    "a recording at rest has a `file` and a `column`",
+                )
+                .label("expected both"),
             );
             return NoiseClaim::Estimated;
         };
         let requests = [Request::numbers("rest", &column.value)];
-        match Recording::open(self.files, &self.folder.join(&file.value), &requests, &self.units) {
+        match Recording::open(
+            self.files,
+            &self.folder.join(&file.value),
+            &requests,
+            &self.units,
+        ) {
             Ok(recording) => {
-                let readings: Vec<f64> = recording.numbers("rest").unwrap_or(&[]).iter().copied().filter(|x| x.is_finite()).collect();
+                let readings: Vec<f64> = recording
+                    .numbers("rest")
+                    .unwrap_or(&[])
+                    .iter()
+                    .copied()
+                    .filter(|x| x.is_finite())
+                    .collect();
                 let n = readings.len() as f64;
                 let mean = readings.iter().sum::<f64>() / n;
                 let squares: f64 = readings.iter().map(|x| (x - mean) * (x - mean)).sum();
@@ -471,11 +571,22 @@ impl Checker<'_> {
                         origin: NoiseOrigin::AtRest(file.value.clone()),
                     };
                 }
-                self.faults.push(Fault::new(NOISE, stated.span.clone(), "the recording at rest has too few readings, or no scatter"));
+                self.faults.push(Fault::new(
+                    NOISE,
+                    stated.span.clone(),
+                    "the recording at rest has too few readings, or no scatter",
+                ));
             }
             Err(rejection) => {
-                let first = rejection.faults.first().map_or_else(String::new, |fault| fault.message.clone());
-                self.faults.push(Fault::new(NOISE, file.span.clone(), format!("the recording at rest: {first}")));
+                let first = rejection
+                    .faults
+                    .first()
+                    .map_or_else(String::new, |fault| fault.message.clone());
+                self.faults.push(Fault::new(
+                    NOISE,
+                    file.span.clone(),
+                    format!("the recording at rest: {first}"),
+                ));
             }
         }
         NoiseClaim::Estimated
@@ -485,14 +596,22 @@ impl Checker<'_> {
     /// the response, or of its only one.
     fn budget(&mut self, path: &Stated<String>, responses: &[super::Response]) -> NoiseClaim {
         let refuse = |checker: &mut Self, message: String| {
-            checker.faults.push(Fault::new(NOISE, path.span.clone(), message));
+            checker
+                .faults
+                .push(Fault::new(NOISE, path.span.clone(), message));
             NoiseClaim::Estimated
         };
         let loaded = match crate::budget::load(&self.folder.join(&path.value)) {
             Ok(loaded) => loaded,
             Err(rejection) => {
-                let first = rejection.faults.first().map_or_else(String::new, |fault| fault.message.clone());
-                return refuse(self, format!("the budget {} is refused: {first}", path.value));
+                let first = rejection
+                    .faults
+                    .first()
+                    .map_or_else(String::new, |fault| fault.message.clone());
+                return refuse(
+                    self,
+                    format!("the budget {} is refused: {first}", path.value),
+                );
             }
         };
         let Some(row) = loaded.rows.first() else {
@@ -509,20 +628,29 @@ impl Checker<'_> {
         let mut u = Vec::new();
         let mut dof = f64::INFINITY;
         for response in responses {
-            let named = outputs.iter().position(|output| output.name == response.name);
+            let named = outputs
+                .iter()
+                .position(|output| output.name == response.name);
             let only = (outputs.len() == 1).then_some(0);
             let Some(at) = named.or(only) else {
-                return refuse(self, format!("the budget has no measurand {}", response.name));
+                return refuse(
+                    self,
+                    format!("the budget has no measurand {}", response.name),
+                );
             };
             let own = outputs[at].unit.difference();
             let Some(conversion) = own.conversion_to(&response.unit.difference()) else {
-                let message = format!("{} is in {} in the budget and in {} here", response.name, own.symbol, response.unit.symbol);
+                let message = format!(
+                    "{} is in {} in the budget and in {} here",
+                    response.name, own.symbol, response.unit.symbol
+                );
                 return refuse(self, message);
             };
             let gum = &evaluation.results[at].gum;
             u.push(conversion.apply(gum.u));
             dof = dof.min(match gum.freedom {
-                propagate::Freedom::WelchSatterthwaite(dof) | propagate::Freedom::Ensembles(dof) => dof,
+                propagate::Freedom::WelchSatterthwaite(dof)
+                | propagate::Freedom::Ensembles(dof) => dof,
                 propagate::Freedom::Refused { lower_bound, .. } => lower_bound,
                 propagate::Freedom::Infinite => f64::INFINITY,
             });
@@ -539,8 +667,12 @@ impl Checker<'_> {
         let found = columns.iter().position(|column| column.name == name.value);
         if found.is_none() {
             let names = columns.iter().map(|column| column.name.as_str());
-            let fault = Fault::new(UNKNOWN_NAME, name.span.clone(), format!("the case has no column {}", name.value))
-                .label("not a column of this case");
+            let fault = Fault::new(
+                UNKNOWN_NAME,
+                name.span.clone(),
+                format!("the case has no column {}", name.value),
+            )
+            .label("not a column of this case");
             self.faults.push(match nearest(&name.value, names) {
                 Some(near) => fault.help(format!("did you mean \"{near}\"?")),
                 None => fault.help("declare it below [columns]"),
@@ -550,17 +682,30 @@ impl Checker<'_> {
     }
 
     fn averaging(&mut self, file: &CaseTable, columns: &[Column]) -> Averaging {
-        let table = file.recording.as_ref().map(|stated| stated.value.0.clone()).unwrap_or_default();
-        let settle = table.settle_rows.as_ref().map_or(0, |rows| rows.value as usize);
+        let table = file
+            .recording
+            .as_ref()
+            .map(|stated| stated.value.0.clone())
+            .unwrap_or_default();
+        let settle = table
+            .settle_rows
+            .as_ref()
+            .map_or(0, |rows| rows.value as usize);
         let blocks = match (&table.dwells, &table.average) {
             (Some(names), _) => {
                 let mut found = Vec::new();
                 for name in &names.value.0 {
-                    let Some(column) = self.known(name, columns) else { continue };
+                    let Some(column) = self.known(name, columns) else {
+                        continue;
+                    };
                     if columns[column].labels().is_none() {
                         self.faults.push(
-                            Fault::new(ROLE, name.span.clone(), format!("{} holds numbers, not labels", name.value))
-                                .label("expected a run, factor or position"),
+                            Fault::new(
+                                ROLE,
+                                name.span.clone(),
+                                format!("{} holds numbers, not labels", name.value),
+                            )
+                            .label("expected a run, factor or position"),
                         );
                     }
                     found.push(column);
@@ -578,16 +723,32 @@ impl Checker<'_> {
     }
 
     fn settings(&mut self, file: &CaseTable) -> Settings {
-        let table = file.diagnosis.as_ref().map(|stated| stated.value.clone()).unwrap_or_default();
+        let table = file
+            .diagnosis
+            .as_ref()
+            .map(|stated| stated.value.clone())
+            .unwrap_or_default();
         let texts = |list: &Option<Stated<Vec<Stated<String>>>>| {
-            list.as_ref().map(|list| list.value.iter().map(|text| text.value.clone()).collect::<Vec<_>>())
+            list.as_ref().map(|list| {
+                list.value
+                    .iter()
+                    .map(|text| text.value.clone())
+                    .collect::<Vec<_>>()
+            })
         };
         let alpha = table.alpha.as_ref().map_or(0.01, |alpha| alpha.value);
         if !(alpha > 0.0 && alpha < 0.5) {
-            let span = table.alpha.as_ref().map_or(0..0, |alpha| alpha.span.clone());
+            let span = table
+                .alpha
+                .as_ref()
+                .map_or(0..0, |alpha| alpha.span.clone());
             self.faults.push(
-                Fault::new(SETTING, span, format!("alpha = {alpha} is not a small probability"))
-                    .label("expected a number between 0 and 0.5"),
+                Fault::new(
+                    SETTING,
+                    span,
+                    format!("alpha = {alpha} is not a small probability"),
+                )
+                .label("expected a number between 0 and 0.5"),
             );
         }
         Settings {
@@ -595,18 +756,28 @@ impl Checker<'_> {
             catalogue: texts(&table.catalogue),
             exclude: texts(&table.exclude).unwrap_or_default(),
             seed: table.seed.as_ref().map_or(1, |seed| seed.value),
-            draws: table.draws.as_ref().map_or(2000, |draws| draws.value.clamp(200, 100_000) as usize),
+            draws: table
+                .draws
+                .as_ref()
+                .map_or(2000, |draws| draws.value.clamp(200, 100_000) as usize),
         }
     }
 
     fn actions(&mut self, file: &CaseTable) -> Vec<Action> {
-        let list = file.action.as_ref().map_or(&[][..], |list| list.value.0.as_slice());
+        let list = file
+            .action
+            .as_ref()
+            .map_or(&[][..], |list| list.value.0.as_slice());
         let mut actions = Vec::new();
         for stated in list {
             let (Some(name), Some(rows)) = (&stated.value.name, &stated.value.rows) else {
                 self.faults.push(
-                    Fault::new(MISSING, stated.span.clone(), "a further measurement has a `name` and `rows`")
-                        .label("expected both"),
+                    Fault::new(
+                        MISSING,
+                        stated.span.clone(),
+                        "a further measurement has a `name` and `rows`",
+                    )
+                    .label("expected both"),
                 );
                 continue;
             };
@@ -641,7 +812,11 @@ impl Wanted {
         stated: Option<(Range<usize>, ColumnTable)>,
     ) -> Wanted {
         let content = match role {
-            RoleWord::Run | RoleWord::Factor | RoleWord::Position | RoleWord::Axis | RoleWord::Direction => Content::Labels,
+            RoleWord::Run
+            | RoleWord::Factor
+            | RoleWord::Position
+            | RoleWord::Axis
+            | RoleWord::Direction => Content::Labels,
             _ => Content::Numbers,
         };
         let request = Request {

@@ -37,7 +37,9 @@ pub(super) fn declared(
             Ok(outline) => outlines.push((model, outline)),
             Err(faults) => {
                 let place = |range: Range<usize>| inside(model, range);
-                checker.faults.extend(faults.into_iter().map(|fault| fault.moved(place)));
+                checker
+                    .faults
+                    .extend(faults.into_iter().map(|fault| fault.moved(place)));
             }
         }
     }
@@ -52,7 +54,14 @@ pub(super) fn declared(
     let mut parameters = Vec::new();
     let inferred = inferred_units(checker, &names, &outlines, &responses, columns, constants);
     for ((name, span, table), inferred) in names.iter().zip(inferred) {
-        parameters.push(parameter(checker, name, span, table.as_ref(), inferred, columns)?);
+        parameters.push(parameter(
+            checker,
+            name,
+            span,
+            table.as_ref(),
+            inferred,
+            columns,
+        )?);
     }
     if checker.faults.len() > before {
         return None;
@@ -134,9 +143,13 @@ fn response(
         let column = &columns[at];
         if column.role != RoleWord::Output {
             checker.faults.push(
-                Fault::new(ROLE, inside(model, span.clone()), format!("{name} is on the left of the model, but is no output"))
-                    .label("expected an output")
-                    .help(format!("write {name} = \"output\" below [columns]")),
+                Fault::new(
+                    ROLE,
+                    inside(model, span.clone()),
+                    format!("{name} is on the left of the model, but is no output"),
+                )
+                .label("expected an output")
+                .help(format!("write {name} = \"output\" below [columns]")),
             );
             return None;
         }
@@ -163,11 +176,18 @@ fn response(
         });
     }
     let names = columns.iter().map(|column| column.name.as_str());
-    let fault = Fault::new(LEFT_SIDE, inside(model, span.clone()), format!("{name} was not observed"))
-        .label("neither a column of the recording nor a constant");
+    let fault = Fault::new(
+        LEFT_SIDE,
+        inside(model, span.clone()),
+        format!("{name} was not observed"),
+    )
+    .label("neither a column of the recording nor a constant");
     checker.faults.push(match nearest(name, names.clone()) {
         Some(near) => fault.help(format!("did you mean `{near}`?")),
-        None => fault.help(format!("the columns of the case are: {}", names.collect::<Vec<_>>().join(", "))),
+        None => fault.help(format!(
+            "the columns of the case are: {}",
+            names.collect::<Vec<_>>().join(", ")
+        )),
     });
     None
 }
@@ -182,7 +202,10 @@ fn parameter_names(
     columns: &[Column],
     constants: &[Symbol],
 ) -> Option<Vec<Named>> {
-    let stated = file.parameter.as_ref().map_or(&[][..], |named| named.value.entries.as_slice());
+    let stated = file
+        .parameter
+        .as_ref()
+        .map_or(&[][..], |named| named.value.entries.as_slice());
     let mut names: Vec<Named> = Vec::new();
     let before = checker.faults.len();
     for (model, outline) in outlines {
@@ -191,8 +214,12 @@ fn parameter_names(
             let place = inside(model, span.clone());
             if given == Some(name.as_str()) {
                 checker.faults.push(
-                    Fault::new(LEFT_SIDE, place, format!("{name} is on both sides of the model"))
-                        .label("expected stimuli, parameters and constants"),
+                    Fault::new(
+                        LEFT_SIDE,
+                        place,
+                        format!("{name} is on both sides of the model"),
+                    )
+                    .label("expected stimuli, parameters and constants"),
                 );
                 continue;
             }
@@ -217,8 +244,12 @@ fn parameter_names(
     for (name, table) in stated {
         if !names.iter().any(|(known, ..)| known == name) {
             let known = names.iter().map(|(name, ..)| name.as_str());
-            let fault = Fault::new(UNKNOWN_NAME, table.key.clone(), format!("the model has no parameter {name}"))
-                .label("not in the model");
+            let fault = Fault::new(
+                UNKNOWN_NAME,
+                table.key.clone(),
+                format!("the model has no parameter {name}"),
+            )
+            .label("not in the model");
             checker.faults.push(match nearest(name, known) {
                 Some(near) => fault.help(format!("did you mean `{near}`?")),
                 None => fault.help("use it in the model, or remove it"),
@@ -264,7 +295,9 @@ fn inferred_units(
             *unit = checker.unit(stated).or_else(|| Some(Unit::one()));
         }
     }
-    search_units(checker, &plain, units, outlines, responses, columns, constants)
+    search_units(
+        checker, &plain, units, outlines, responses, columns, constants,
+    )
 }
 
 /// Parameters that are no plain factors: the first combination of likely units with which the model
@@ -286,21 +319,34 @@ fn search_units(
     }
     let one = Unit::one();
     let mut likely = vec![one.clone()];
-    let used = columns.iter().filter(|c| matches!(c.data, Data::Numbers(_) | Data::Absent)).map(|c| &c.unit);
+    let used = columns
+        .iter()
+        .filter(|c| matches!(c.data, Data::Numbers(_) | Data::Absent))
+        .map(|c| &c.unit);
     let fixed = constants.iter().map(|c| &c.unit);
     for unit in used.chain(fixed) {
         let difference = unit.difference();
         for candidate in [unit.clone(), difference.clone(), one.quotient(&difference)] {
             likely.push(candidate.clone());
-            likely.extend(responses.iter().map(|r| r.unit.product(&candidate.difference())));
-            likely.extend(responses.iter().map(|r| candidate.difference().quotient(&r.unit.difference())));
+            likely.extend(
+                responses
+                    .iter()
+                    .map(|r| r.unit.product(&candidate.difference())),
+            );
+            likely.extend(
+                responses
+                    .iter()
+                    .map(|r| candidate.difference().quotient(&r.unit.difference())),
+            );
         }
     }
     let mut distinct: Vec<Unit> = Vec::new();
     for unit in likely {
         let same = |other: &Unit| {
             other.is_point() == unit.is_point()
-                && other.conversion_to(&unit).is_some_and(|conversion| conversion.is_identity())
+                && other
+                    .conversion_to(&unit)
+                    .is_some_and(|conversion| conversion.is_identity())
         };
         if !distinct.iter().any(same) {
             distinct.push(unit);
@@ -328,7 +374,11 @@ fn search_units(
                 at: 0..0,
             })
             .collect();
-        let others: Vec<Symbol> = constants.iter().filter(|c| !responses.iter().any(|r| r.name == c.name)).cloned().collect();
+        let others: Vec<Symbol> = constants
+            .iter()
+            .filter(|c| !responses.iter().any(|r| r.name == c.name))
+            .cloned()
+            .collect();
         Equations::compile(&texts, &quantities, &responses, &others, &checker.units).is_ok()
     };
     let combinations = distinct.len().pow(open.len() as u32).min(20_000);
@@ -367,16 +417,26 @@ fn parameter(
         });
     };
     let table = &table.value;
-    let start = table.start.as_ref().and_then(|start| checker.quantity(start, &unit));
-    let value = table.value.as_ref().and_then(|value| checker.quantity(value, &unit));
+    let start = table
+        .start
+        .as_ref()
+        .and_then(|start| checker.quantity(start, &unit));
+    let value = table
+        .value
+        .as_ref()
+        .and_then(|value| checker.quantity(value, &unit));
     let u = table.u.as_ref().and_then(|u| checker.spread(u, &unit));
     let prior = match (value, u) {
         (Some(value), Some(u)) => Some((value, u)),
         (Some(_), None) if table.u.is_none() && checker.purpose == Purpose::Diagnosis => {
             checker.faults.push(
-                Fault::new(MISSING, span.clone(), format!("the parameter {name} has a `value` without its `u`"))
-                    .label("how well is it known?")
-                    .help("state `u`; a value to start from is `start`, an exact one a [constant]"),
+                Fault::new(
+                    MISSING,
+                    span.clone(),
+                    format!("the parameter {name} has a `value` without its `u`"),
+                )
+                .label("how well is it known?")
+                .help("state `u`; a value to start from is `start`, an exact one a [constant]"),
             );
             None
         }
@@ -388,8 +448,12 @@ fn parameter(
             let at = checker.known(column, columns)?;
             if columns[at].labels().is_none() {
                 checker.faults.push(
-                    Fault::new(PER, column.span.clone(), format!("{} holds no labels", column.value))
-                        .label("expected a run, factor, position or axis"),
+                    Fault::new(
+                        PER,
+                        column.span.clone(),
+                        format!("{} holds no labels", column.value),
+                    )
+                    .label("expected a run, factor, position or axis"),
                 );
                 return None;
             }
@@ -412,11 +476,20 @@ fn startable(parameters: &[Parameter]) -> bool {
 
 fn no_start(checker: &mut Checker<'_>, models: &Models, parameters: &[Parameter]) {
     let missing = parameters.iter().filter(|p| p.start.is_none());
-    let example: Vec<String> = missing.map(|p| format!("{} = {{ start = … }}", p.name)).collect();
+    let example: Vec<String> = missing
+        .map(|p| format!("{} = {{ start = … }}", p.name))
+        .collect();
     checker.faults.push(
-        Fault::new(START, models.span.clone(), "the model is not linear in its parameters")
-            .label("its parameters are found by a search")
-            .help(format!("state roughly where the search begins, below [parameter]: {}", example.join(", "))),
+        Fault::new(
+            START,
+            models.span.clone(),
+            "the model is not linear in its parameters",
+        )
+        .label("its parameters are found by a search")
+        .help(format!(
+            "state roughly where the search begins, below [parameter]: {}",
+            example.join(", ")
+        )),
     );
 }
 
@@ -428,14 +501,21 @@ pub(super) fn candidates(
     constants: &[Symbol],
     declared: &Declared,
 ) -> Vec<UserCandidate> {
-    let list = file.candidate.as_ref().map_or(&[][..], |list| list.value.0.as_slice());
+    let list = file
+        .candidate
+        .as_ref()
+        .map_or(&[][..], |list| list.value.0.as_slice());
     let mut found = Vec::new();
     for stated in list {
         let table = &stated.value;
         let (Some(name), Some(formula)) = (&table.name, &table.formula) else {
             checker.faults.push(
-                Fault::new(CANDIDATE, stated.span.clone(), "a candidate has a `name` and a `formula`")
-                    .label("expected both"),
+                Fault::new(
+                    CANDIDATE,
+                    stated.span.clone(),
+                    "a candidate has a `name` and a `formula`",
+                )
+                .label("expected both"),
             );
             continue;
         };
@@ -443,8 +523,12 @@ pub(super) fn candidates(
             let names = declared.parameters.iter().map(|p| p.name.as_str());
             let names = names.chain(columns.iter().map(|c| c.name.as_str()));
             if !names.clone().any(|known| known == node.value) {
-                let fault = Fault::new(UNKNOWN_NAME, node.span.clone(), format!("{} is neither a parameter nor a column", node.value))
-                    .label("not known");
+                let fault = Fault::new(
+                    UNKNOWN_NAME,
+                    node.span.clone(),
+                    format!("{} is neither a parameter nor a column", node.value),
+                )
+                .label("not known");
                 checker.faults.push(match nearest(&node.value, names) {
                     Some(near) => fault.help(format!("did you mean `{near}`?")),
                     None => fault,
@@ -483,7 +567,9 @@ fn formula_of(
         unit: Unit::one(),
     };
     let parameters = declared.parameters.iter().map(|p| pure(&p.name));
-    let symbols: Vec<Quantity> = parameters.chain(columns.iter().map(|c| pure(&c.name))).collect();
+    let symbols: Vec<Quantity> = parameters
+        .chain(columns.iter().map(|c| pure(&c.name)))
+        .collect();
     let numbers: Vec<Symbol> = constants
         .iter()
         .map(|constant| Symbol {
@@ -495,11 +581,21 @@ fn formula_of(
         text: &text,
         at: formula.span.clone(),
     };
-    match Equations::compile(&[equation], &symbols, &[pure(LEFT)], &numbers, &checker.units) {
+    match Equations::compile(
+        &[equation],
+        &symbols,
+        &[pure(LEFT)],
+        &numbers,
+        &checker.units,
+    ) {
         Ok(equations) => Some(equations),
         Err(faults) => {
             let whole = formula.span.clone();
-            checker.faults.extend(faults.into_iter().map(|fault| fault.moved(|_| whole.clone())));
+            checker.faults.extend(
+                faults
+                    .into_iter()
+                    .map(|fault| fault.moved(|_| whole.clone())),
+            );
             None
         }
     }

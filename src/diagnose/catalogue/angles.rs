@@ -17,31 +17,58 @@ const HIGHEST: u32 = 4;
 /// Cells of the angles.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let angles = ground.case().with_role(Role::Angle);
-    let angles: Vec<usize> = angles.filter(|c| ground.case().columns[*c].numbers().is_some_and(varies)).collect();
-    angles.into_iter().flat_map(|column| of_angle(ground, column)).collect()
+    let angles: Vec<usize> = angles
+        .filter(|c| ground.case().columns[*c].numbers().is_some_and(varies))
+        .collect();
+    angles
+        .into_iter()
+        .flat_map(|column| of_angle(ground, column))
+        .collect()
 }
 
 fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let name = &ground.case().columns[column].name;
     let phi = radians(ground, column);
     let (least, most) = range(&phi);
-    let harmonics: Vec<u32> = (1..=HIGHEST).filter(|k| f64::from(*k) * (most - least) > PI).collect();
+    let harmonics: Vec<u32> = (1..=HIGHEST)
+        .filter(|k| f64::from(*k) * (most - least) > PI)
+        .collect();
     let variants: Vec<(String, Vec<(Vec<f64>, String)>)> = harmonics
         .iter()
         .map(|k| {
             let times = f64::from(*k);
             let pair = vec![
-                (map(&phi, |phi| libm::sin(times * phi)), format!("sin({k}*{name})")),
-                (map(&phi, |phi| libm::cos(times * phi)), format!("cos({k}*{name})")),
+                (
+                    map(&phi, |phi| libm::sin(times * phi)),
+                    format!("sin({k}*{name})"),
+                ),
+                (
+                    map(&phi, |phi| libm::cos(times * phi)),
+                    format!("cos({k}*{name})"),
+                ),
             ];
             (format!("{k} per turn"), pair)
         })
         .collect();
-    let mut cells = vec![on_node(ground, "periodic", words(ground, name), name, Node::Output, variants.clone())];
+    let mut cells = vec![on_node(
+        ground,
+        "periodic",
+        words(ground, name),
+        name,
+        Node::Output,
+        variants.clone(),
+    )];
     if !ground.in_model(column) {
         return cells;
     }
-    cells.push(on_node(ground, "eccentricity", words(ground, name), name, Node::Column(column), variants));
+    cells.push(on_node(
+        ground,
+        "eccentricity",
+        words(ground, name),
+        name,
+        Node::Column(column),
+        variants,
+    ));
     cells.extend(second_order(ground, column));
     cells
 }
@@ -50,7 +77,10 @@ fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
 fn radians(ground: &Ground<'_>, column: usize) -> Vec<f64> {
     let numbers = ground.numbers(column);
     let unit = &ground.case().columns[column].unit;
-    let conversion = UnitTable::default().parse("rad").ok().and_then(|rad| unit.conversion_to(&rad));
+    let conversion = UnitTable::default()
+        .parse("rad")
+        .ok()
+        .and_then(|rad| unit.conversion_to(&rad));
     match conversion {
         Some(conversion) => map(numbers, |x| conversion.apply(x)),
         None => numbers.to_vec(),
@@ -65,7 +95,9 @@ fn second_order(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         ("quadratic", "signal^2", |s, _| s * s),
         ("cubic", "signal^3", |s, _| s * s * s),
         ("asymmetry", "abs(signal)", |s, _| s.abs()),
-        ("zero-step", "sign(signal)", |s, _| if s.abs() < 1e-9 { 0.0 } else { s.signum() }),
+        ("zero-step", "sign(signal)", |s, _| {
+            if s.abs() < 1e-9 { 0.0 } else { s.signum() }
+        }),
         ("cross-product", "signal*across", |s, q| s * q),
         ("cross-square", "across^2", |_, q| q * q),
     ];
@@ -74,8 +106,14 @@ fn second_order(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             .map(|response| {
                 let signal = ground.signal(response);
                 let across = ground.slope(Node::Column(column), response);
-                let size = signal.iter().fold(0.0_f64, |most, s| most.max(s.abs())).max(f64::MIN_POSITIVE);
-                let tallest = across.iter().fold(0.0_f64, |most, q| most.max(q.abs())).max(f64::MIN_POSITIVE);
+                let size = signal
+                    .iter()
+                    .fold(0.0_f64, |most, s| most.max(s.abs()))
+                    .max(f64::MIN_POSITIVE);
+                let tallest = across
+                    .iter()
+                    .fold(0.0_f64, |most, q| most.max(q.abs()))
+                    .max(f64::MIN_POSITIVE);
                 Term {
                     node: Node::Output,
                     response: Some(response),

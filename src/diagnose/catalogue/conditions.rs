@@ -2,7 +2,7 @@
 //! squared, as a rate, inversely, and together.
 
 use super::ground::{Ground, Node};
-use super::modifiers::{centred, lag, map, map2, mean, range, rate};
+use super::modifiers::{centred, figure, lag, map, map2, mean, range, rate};
 use super::response::{on_node, on_outputs, time_constants, words};
 use super::{Cell, Words};
 use crate::diagnose::case::Role;
@@ -13,7 +13,11 @@ type Variants = Vec<(String, Vec<(Vec<f64>, String)>)>;
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
     let numeric = ground.numeric();
-    let conditions: Vec<usize> = numeric.iter().copied().filter(|c| !ground.in_model(*c)).collect();
+    let conditions: Vec<usize> = numeric
+        .iter()
+        .copied()
+        .filter(|c| !ground.in_model(*c))
+        .collect();
     for column in &conditions {
         cells.extend(of_condition(ground, *column));
     }
@@ -35,7 +39,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let label = ground.case().columns[column].name.clone();
     let x = ground.numbers(column);
     let own = centred(x);
-    let text = format!("({label} - {:.6})", mean(x));
+    let text = format!("({label} - {})", figure(mean(x)));
     let temperature = ground.is_temperature(column);
     let stimulus = ground.case().columns[column].role == Role::Stimulus;
     let mut cells = Vec::new();
@@ -46,15 +50,28 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     let delayed = delayed(ground, &own, &text);
     let words = words(ground, &label);
-    cells.push(on_outputs(ground, bias, words.clone(), &label, delayed.clone()));
+    cells.push(on_outputs(
+        ground,
+        bias,
+        words.clone(),
+        &label,
+        delayed.clone(),
+    ));
     let square: Variants = delayed
         .iter()
         .map(|(variant, modifiers)| {
             let (modifier, text) = &modifiers[0];
-            (variant.clone(), vec![(map(modifier, |x| x * x), format!("{text}^2"))])
+            (
+                variant.clone(),
+                vec![(map(modifier, |x| x * x), format!("{text}^2"))],
+            )
         })
         .collect();
-    let second = if temperature { "tempco-quadratic" } else { "sensitivity-quadratic" };
+    let second = if temperature {
+        "tempco-quadratic"
+    } else {
+        "sensitivity-quadratic"
+    };
     cells.push(on_outputs(ground, second, words.clone(), &label, square));
     for (node, id) in scale_nodes(ground, temperature) {
         let mut cell = on_node(ground, id, words.clone(), &label, node, delayed.clone());
@@ -62,7 +79,11 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         cells.push(cell);
     }
     if ground.is_timed() {
-        let id = if temperature { "temperature-rate" } else { "sensitivity-rate" };
+        let id = if temperature {
+            "temperature-rate"
+        } else {
+            "sensitivity-rate"
+        };
         let modifier = rate(&ground.clock.values, x);
         let variants = vec![(String::new(), vec![(modifier, format!("d{label}/dt"))])];
         cells.push(on_outputs(ground, id, words, &label, variants));
@@ -80,8 +101,11 @@ fn delayed(ground: &Ground<'_>, own: &[f64], text: &str) -> Variants {
         let unit = ground.time_unit();
         for tau in time_constants(ground) {
             let lagged = lag(&ground.clock.values, own, tau);
-            let text = format!("lag{text}[{tau:.4} {unit}]");
-            variants.push((format!("τ = {tau:.3} {unit}"), vec![(lagged, text)]));
+            let text = format!("lag{text}[{tau} {unit}]", tau = figure(tau));
+            variants.push((
+                format!("τ = {tau} {unit}", tau = figure(tau)),
+                vec![(lagged, text)],
+            ));
         }
     }
     variants
@@ -94,7 +118,11 @@ fn shape(ground: &Ground<'_>, cell: &mut Cell) {
         let Some((_, rest)) = variation.label.split_once("τ = ") else {
             continue;
         };
-        if let Some(tau) = rest.split(' ').next().and_then(|number| number.parse().ok()) {
+        if let Some(tau) = rest
+            .split(' ')
+            .next()
+            .and_then(|number| number.parse().ok())
+        {
             *variation = variation.clone().shaped("τ", tau, &unit);
         }
     }
@@ -102,8 +130,16 @@ fn shape(ground: &Ground<'_>, cell: &mut Cell) {
 
 /// The nodes that stand for the scale: parameters whose effect varies from row to row, or the whole signal.
 pub(super) fn scale_nodes(ground: &Ground<'_>, temperature: bool) -> Vec<(Node, &'static str)> {
-    let id = if temperature { "tempco-scale" } else { "sensitivity-scale" };
-    if ground.has_signal() { vec![(Node::Gain, id)] } else { Vec::new() }
+    let id = if temperature {
+        "tempco-scale"
+    } else {
+        "sensitivity-scale"
+    };
+    if ground.has_signal() {
+        vec![(Node::Gain, id)]
+    } else {
+        Vec::new()
+    }
 }
 
 fn positive(x: &[f64]) -> bool {
@@ -116,11 +152,22 @@ fn reciprocal(ground: &Ground<'_>, column: usize) -> Cell {
     let modifier = map(ground.numbers(column), |x| 1.0 / x);
     let variants = vec![(String::new(), vec![(modifier, format!("1/{label}"))])];
     let node = scale_or_offset(ground);
-    on_node(ground, "reciprocal", words(ground, &label), &label, node, variants)
+    on_node(
+        ground,
+        "reciprocal",
+        words(ground, &label),
+        &label,
+        node,
+        variants,
+    )
 }
 
 fn scale_or_offset(ground: &Ground<'_>) -> Node {
-    if ground.has_signal() { Node::Gain } else { Node::Output }
+    if ground.has_signal() {
+        Node::Gain
+    } else {
+        Node::Output
+    }
 }
 
 fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
@@ -130,18 +177,49 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
         z: name(z),
         ..words(ground, &name(x))
     };
-    let product = map2(&centred(ground.numbers(x)), &centred(ground.numbers(z)), |x, z| x * z);
+    let product = map2(
+        &centred(ground.numbers(x)),
+        &centred(ground.numbers(z)),
+        |x, z| x * z,
+    );
     let text = format!("({} - mean)*({} - mean)", name(x), name(z));
-    let mut cells = vec![on_outputs(ground, "interaction", pair.clone(), &along, vec![(String::new(), vec![(product, text)])])];
+    let mut cells = vec![on_outputs(
+        ground,
+        "interaction",
+        pair.clone(),
+        &along,
+        vec![(String::new(), vec![(product, text)])],
+    )];
     let (of_x, of_z) = (ground.numbers(x), ground.numbers(z));
     if range(of_x).0 > 0.0 && range(of_z).0 > 0.0 && (positive(of_x) || positive(of_z)) {
         let inverse = map2(of_x, of_z, |x, z| 1.0 / (x * z));
         let text = format!("1/({}*{})", name(x), name(z));
         let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));
         let size = [x, z].iter().any(|c| ground.is_like(*c, "m"));
-        let id = if gas && size { "mean-free-path" } else { "reciprocal-product" };
+        let id = if gas && size {
+            "mean-free-path"
+        } else {
+            "reciprocal-product"
+        };
         let node = scale_or_offset(ground);
-        cells.push(on_node(ground, id, pair, &along, node, vec![(String::new(), vec![(inverse, text)])]));
+        cells.push(on_node(
+            ground,
+            id,
+            pair,
+            &along,
+            node,
+            // Large corrections are curved.
+            vec![
+                (String::new(), vec![(inverse.clone(), text.clone())]),
+                (
+                    "with its square".to_owned(),
+                    vec![
+                        (inverse.clone(), text.clone()),
+                        (map(&inverse, |x| x * x), format!("({text})^2")),
+                    ],
+                ),
+            ],
+        ));
     }
     cells
 }

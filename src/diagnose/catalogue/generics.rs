@@ -23,11 +23,26 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     if ground.has_signal() {
         nodes.push(Node::Gain);
     }
-    let mut courses: Vec<(String, Vec<f64>)> = ground.numeric().into_iter().map(|column| (ground.case().columns[column].name.clone(), ground.numbers(column).to_vec())).collect();
+    let mut courses: Vec<(String, Vec<f64>)> = ground
+        .numeric()
+        .into_iter()
+        .map(|column| {
+            (
+                ground.case().columns[column].name.clone(),
+                ground.numbers(column).to_vec(),
+            )
+        })
+        .collect();
     for column in ground.case().with_role(Role::Angle) {
-        courses.push((ground.case().columns[column].name.clone(), ground.numbers(column).to_vec()));
+        courses.push((
+            ground.case().columns[column].name.clone(),
+            ground.numbers(column).to_vec(),
+        ));
     }
-    let time = ground.clock.column.map_or_else(|| "row".to_owned(), |column| ground.case().columns[column].name.clone());
+    let time = ground.clock.column.map_or_else(
+        || "row".to_owned(),
+        |column| ground.case().columns[column].name.clone(),
+    );
     courses.push((time, ground.clock.values.clone()));
     for (name, course) in &courses {
         let distinct = distinct(course);
@@ -39,19 +54,40 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         }
     }
     for column in &ground.case().columns {
-        let Some(labels) = column.labels() else { continue };
+        let Some(labels) = column.labels() else {
+            continue;
+        };
         let levels = super::levels::present(labels);
-        let named = matches!(column.role, Role::Run | Role::Factor | Role::Axis | Role::Direction);
+        let named = matches!(
+            column.role,
+            Role::Run | Role::Factor | Role::Axis | Role::Direction
+        );
         if named || levels.len() < 2 || levels.len() * 2 > ground.frame.blocks.len() {
             continue;
         }
         for node in &nodes {
-            let terms = levels.iter().map(|level| term(*node, super::levels::indicator(labels, *level)));
-            cells.push(generic(ground, "levels", *node, &column.name, terms.collect(), vec![1.0; levels.len()]));
+            let terms = levels
+                .iter()
+                .map(|level| term(*node, super::levels::indicator(labels, *level)));
+            cells.push(generic(
+                ground,
+                "levels",
+                *node,
+                &column.name,
+                terms.collect(),
+                vec![1.0; levels.len()],
+            ));
         }
     }
     if !matches!(ground.case().noise, NoiseClaim::Estimated) {
-        let mut scatter = generic(ground, "scatter", Node::Output, "row", Vec::new(), Vec::new());
+        let mut scatter = generic(
+            ground,
+            "scatter",
+            Node::Output,
+            "row",
+            Vec::new(),
+            Vec::new(),
+        );
         scatter.place.along = String::new();
         cells.push(scatter);
     }
@@ -86,10 +122,24 @@ fn smooth(ground: &Ground<'_>, node: Node, name: &str, course: &[f64], distinct:
         let frequency = PI * k as f64 * LENGTH;
         libm::exp(-frequency * frequency / 2.0).max(1e-3)
     });
-    generic(ground, "smooth", node, name, terms.collect(), spectrum.collect())
+    generic(
+        ground,
+        "smooth",
+        node,
+        name,
+        terms.collect(),
+        spectrum.collect(),
+    )
 }
 
-fn generic(ground: &Ground<'_>, id: &str, node: Node, along: &str, terms: Vec<Term>, spectrum: Vec<f64>) -> Cell {
+fn generic(
+    ground: &Ground<'_>,
+    id: &str,
+    node: Node,
+    along: &str,
+    terms: Vec<Term>,
+    spectrum: Vec<f64>,
+) -> Cell {
     let mut words = words(ground, along);
     words.p = ground.name(node);
     Cell {

@@ -42,7 +42,9 @@ impl<'f> Ground<'f> {
             frame,
             fit,
             clock: frame.time(),
-            signal: responses.map(|response| signal(frame, fit, response)).collect(),
+            signal: responses
+                .map(|response| signal(frame, fit, response))
+                .collect(),
         }
     }
 
@@ -82,7 +84,11 @@ impl<'f> Ground<'f> {
                 return vec![0.0; self.rows()];
             }
             let slope = self.slope(term.node, response);
-            slope.iter().zip(&term.modifier).map(|(s, m)| s * m).collect()
+            slope
+                .iter()
+                .zip(&term.modifier)
+                .map(|(s, m)| s * m)
+                .collect()
         })
     }
 
@@ -98,7 +104,12 @@ impl<'f> Ground<'f> {
 
     /// The outputs, as one name.
     pub fn output(&self) -> String {
-        let names: Vec<&str> = self.case().responses.iter().map(|r| r.name.as_str()).collect();
+        let names: Vec<&str> = self
+            .case()
+            .responses
+            .iter()
+            .map(|r| r.name.as_str())
+            .collect();
         names.join(", ")
     }
 
@@ -157,7 +168,10 @@ impl<'f> Ground<'f> {
     /// Whether what is observed is a constant that the model should give in every row.
     pub fn is_implicit(&self, response: usize) -> bool {
         use crate::diagnose::case::Observed;
-        matches!(self.case().responses[response].observed, Observed::Constant(_))
+        matches!(
+            self.case().responses[response].observed,
+            Observed::Constant(_)
+        )
     }
 
     /// Parameters that are added to the model as they stand.
@@ -165,9 +179,14 @@ impl<'f> Ground<'f> {
         constant_terms(self.frame, self.fit, response)
     }
 
-    /// Whether the signal of any response varies.
+    /// Whether the signal of any response varies so much that its scale is something else than an offset.
     pub fn has_signal(&self) -> bool {
-        self.signal.iter().any(|signal| varies(signal))
+        const LEAST: f64 = 0.01;
+        self.signal.iter().any(|signal| {
+            let size = signal.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let (least, most) = super::modifiers::range(signal);
+            most - least > LEAST * size
+        })
     }
 }
 

@@ -13,7 +13,9 @@ type Variants = Vec<(String, Vec<(Vec<f64>, String)>)>;
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
     for column in &ground.case().columns {
-        let Some(labels) = column.labels() else { continue };
+        let Some(labels) = column.labels() else {
+            continue;
+        };
         let levels = present(labels);
         if levels.len() < 2 || levels.len() * 3 > 2 * ground.frame.blocks.len() {
             continue;
@@ -24,7 +26,9 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
                 cells.extend(shifts(ground, &column.name, labels, &levels));
                 cells.extend(changes(ground, &column.name, labels, &levels));
             }
-            Role::Factor | Role::Axis => cells.extend(shifts(ground, &column.name, labels, &levels)),
+            Role::Factor | Role::Axis => {
+                cells.extend(shifts(ground, &column.name, labels, &levels))
+            }
             _ => {}
         }
     }
@@ -41,7 +45,11 @@ pub(super) fn present(labels: &Labels) -> Vec<u32> {
 
 /// 1 in the rows of a level.
 pub(super) fn indicator(labels: &Labels, level: u32) -> Vec<f64> {
-    labels.of_row.iter().map(|of| f64::from(u8::from(*of == level))).collect()
+    labels
+        .of_row
+        .iter()
+        .map(|of| f64::from(u8::from(*of == level)))
+        .collect()
 }
 
 fn text<'l>(labels: &'l Labels, level: u32) -> &'l str {
@@ -50,10 +58,26 @@ fn text<'l>(labels: &'l Labels, level: u32) -> &'l str {
 
 /// Every level has a value of its own; or only one has.
 fn shifts(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> Vec<Cell> {
-    let column = |level: u32| (indicator(labels, level), format!("[{name} = {}]", text(labels, level)));
+    let column = |level: u32| {
+        (
+            indicator(labels, level),
+            format!("[{name} = {}]", text(labels, level)),
+        )
+    };
     // Differences to the first level: the mean is the model's own.
-    let all: Variants = vec![(String::new(), levels[1..].iter().map(|level| column(*level)).collect())];
-    let each: Variants = levels.iter().map(|level| (format!("{name} {}", text(labels, *level)), vec![column(*level)])).collect();
+    let all: Variants = vec![(
+        String::new(),
+        levels[1..].iter().map(|level| column(*level)).collect(),
+    )];
+    let each: Variants = levels
+        .iter()
+        .map(|level| {
+            (
+                format!("{name} {}", text(labels, *level)),
+                vec![column(*level)],
+            )
+        })
+        .collect();
     let mut cells = Vec::new();
     for (node, shift, odd) in [
         (Node::Output, "level-shift", "odd-level"),
@@ -62,10 +86,24 @@ fn shifts(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> V
         if node == Node::Gain && !ground.has_signal() {
             continue;
         }
-        cells.push(on_node(ground, shift, words(ground, name), name, node, all.clone()));
+        cells.push(on_node(
+            ground,
+            shift,
+            words(ground, name),
+            name,
+            node,
+            all.clone(),
+        ));
         // With two levels a shift of one is a shift between both.
         if levels.len() > 2 {
-            cells.push(on_node(ground, odd, words(ground, name), name, node, each.clone()));
+            cells.push(on_node(
+                ground,
+                odd,
+                words(ground, name),
+                name,
+                node,
+                each.clone(),
+            ));
         }
     }
     cells
@@ -79,17 +117,40 @@ fn changes(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> 
     let variants: Variants = levels[2..levels.len() - 1]
         .iter()
         .map(|first| {
-            let modifier = labels.of_row.iter().map(|of| f64::from(u8::from(of >= first)));
+            let modifier = labels
+                .of_row
+                .iter()
+                .map(|of| f64::from(u8::from(of >= first)));
             let label = text(labels, *first);
-            (format!("from {name} {label} on"), vec![(modifier.collect(), format!("[{name} >= {label}]"))])
+            (
+                format!("from {name} {label} on"),
+                vec![(modifier.collect(), format!("[{name} >= {label}]"))],
+            )
         })
         .collect();
-    vec![on_node(ground, "level-change", words(ground, name), name, Node::Output, variants)]
+    vec![on_node(
+        ground,
+        "level-change",
+        words(ground, name),
+        name,
+        Node::Output,
+        variants,
+    )]
 }
 
 fn directions(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> Vec<Cell> {
     let last = indicator(labels, levels[levels.len() - 1]);
     let modifier = map(&last, |x| 2.0 * x - 1.0);
-    let variants: Variants = vec![(String::new(), vec![(modifier, format!("direction({name})"))])];
-    vec![on_node(ground, "hysteresis", words(ground, name), name, Node::Output, variants)]
+    let variants: Variants = vec![(
+        String::new(),
+        vec![(modifier, format!("direction({name})"))],
+    )];
+    vec![on_node(
+        ground,
+        "hysteresis",
+        words(ground, name),
+        name,
+        Node::Output,
+        variants,
+    )]
 }

@@ -65,7 +65,8 @@ pub fn effects() -> &'static [Effect] {
         effect: Vec<Effect>,
     }
     static EFFECTS: LazyLock<Vec<Effect>> = LazyLock::new(|| {
-        let file: File = toml::from_str(include_str!("effects.toml")).expect("the catalogue is part of the program");
+        let file: File = toml::from_str(include_str!("effects.toml"))
+            .expect("the catalogue is part of the program");
         file.effect
     });
     &EFFECTS
@@ -183,7 +184,8 @@ impl Variation {
 
     /// Observations × coefficients: derivatives of the outputs by the coefficients.
     pub fn columns(&self, ground: &Ground<'_>) -> DMatrix<f64> {
-        let columns: Vec<DVector<f64>> = self.terms.iter().map(|term| ground.column(term)).collect();
+        let columns: Vec<DVector<f64>> =
+            self.terms.iter().map(|term| ground.column(term)).collect();
         if columns.is_empty() {
             return DMatrix::zeros(ground.frame.observations(), 0);
         }
@@ -203,7 +205,10 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let settings = &ground.frame.case.settings;
     let wanted = |cell: &Cell| {
         let named = |word: &String| *word == cell.effect.id || *word == cell.effect.family;
-        let chosen = settings.catalogue.as_ref().is_none_or(|list| list.iter().any(named));
+        let chosen = settings
+            .catalogue
+            .as_ref()
+            .is_none_or(|list| list.iter().any(named));
         (chosen || cell.effect.family == "user") && !settings.exclude.iter().any(named)
     };
     cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
@@ -219,8 +224,18 @@ mod tests {
     fn identifiers_are_unique_and_texts_complete() {
         let all = effects();
         for (at, effect) in all.iter().enumerate() {
-            assert!(!all[..at].iter().any(|other| other.id == effect.id), "{}", effect.id);
-            for text in [&effect.name.en, &effect.name.zh, &effect.prose.en, &effect.prose.zh, &effect.formula] {
+            assert!(
+                !all[..at].iter().any(|other| other.id == effect.id),
+                "{}",
+                effect.id
+            );
+            for text in [
+                &effect.name.en,
+                &effect.name.zh,
+                &effect.prose.en,
+                &effect.prose.zh,
+                &effect.formula,
+            ] {
                 assert!(!text.is_empty(), "{}", effect.id);
             }
         }

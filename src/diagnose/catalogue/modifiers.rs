@@ -41,7 +41,11 @@ pub fn rate(t: &[f64], x: &[f64]) -> Vec<f64> {
         .map(|row| {
             let (from, to) = (row.saturating_sub(1), (row + 1).min(last));
             let step = t[to] - t[from];
-            if step > 0.0 { (x[to] - x[from]) / step } else { 0.0 }
+            if step > 0.0 {
+                (x[to] - x[from]) / step
+            } else {
+                0.0
+            }
         })
         .collect()
 }
@@ -77,12 +81,24 @@ pub fn play(x: &[f64], w: f64) -> Vec<f64> {
 /// A geometric series from `low` to `high`, by a factor of at least `ratio`, of at most `most` values.
 pub fn grid(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
     if !(low > 0.0 && high > low) {
-        return if low > 0.0 && high == low { vec![low] } else { Vec::new() };
+        return if low > 0.0 && high == low {
+            vec![low]
+        } else {
+            Vec::new()
+        };
     }
     let steps = (libm::log(high / low) / libm::log(ratio)).floor() as usize;
     let steps = steps.clamp(1, most.max(2) - 1);
     let factor = libm::pow(high / low, 1.0 / steps as f64);
-    (0..=steps).map(|step| low * libm::pow(factor, step as f64)).collect()
+    (0..=steps)
+        .map(|step| low * libm::pow(factor, step as f64))
+        .collect()
+}
+
+/// A number as formulas and labels show it: five digits.
+pub fn figure(x: f64) -> String {
+    let rounded: f64 = format!("{x:.4e}").parse().unwrap_or(x);
+    format!("{rounded}")
 }
 
 /// The least and the largest number.

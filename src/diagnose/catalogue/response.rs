@@ -2,7 +2,7 @@
 //! lag, history.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{centred, direction, grid, lag, map, map2, mean, play, range, rate};
+use super::modifiers::{centred, direction, figure, grid, lag, map, map2, mean, play, range, rate};
 use super::{Cell, Term, Variation, Words, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -10,7 +10,11 @@ use crate::diagnose::evidence::Place;
 /// Cells of the columns that the model uses.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
-    let used: Vec<usize> = ground.numeric().into_iter().filter(|c| ground.in_model(*c)).collect();
+    let used: Vec<usize> = ground
+        .numeric()
+        .into_iter()
+        .filter(|c| ground.in_model(*c))
+        .collect();
     let implicit = (0..ground.case().responses.len()).all(|r| ground.is_implicit(r));
     if implicit {
         cells.extend(axes(ground, &used));
@@ -67,10 +71,16 @@ pub(super) fn on_node(
             continue;
         }
         for (index, response) in responses.iter().enumerate() {
-            let joined = if label.is_empty() { response.name.clone() } else { format!("{}, {label}", response.name) };
+            let joined = if label.is_empty() {
+                response.name.clone()
+            } else {
+                format!("{}, {label}", response.name)
+            };
             all.push(Variation::of(joined, term(Some(index))));
         }
-        let each = (0..responses.len()).flat_map(|index| term(Some(index))).collect();
+        let each = (0..responses.len())
+            .flat_map(|index| term(Some(index)))
+            .collect();
         all.push(Variation::of(label, each));
     }
     Cell {
@@ -102,15 +112,37 @@ fn name<'g>(ground: &'g Ground<'_>, column: usize) -> &'g str {
 fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let (x, label) = (ground.numbers(column), name(ground, column));
     let zero = if crosses_zero(x) { 0.0 } else { mean(x) };
-    let shift = if zero == 0.0 { label.to_owned() } else { format!("({label} - {zero:.6})") };
+    let shift = if zero == 0.0 {
+        label.to_owned()
+    } else {
+        format!("({label} - {zero})", zero = figure(zero))
+    };
     let mut cells = Vec::new();
     let mut add = |id: &str, modifier: Vec<f64>, text: String| {
         let variants = vec![(String::new(), vec![(modifier, text)])];
-        cells.push(on_outputs(ground, id, words(ground, label), label, variants));
+        cells.push(on_outputs(
+            ground,
+            id,
+            words(ground, label),
+            label,
+            variants,
+        ));
     };
-    let second = if ground.is_temperature(column) { "tempco-quadratic" } else { "quadratic" };
-    add(second, map(x, |x| (x - zero) * (x - zero)), format!("{shift}^2"));
-    add("cubic", map(x, |x| (x - zero) * (x - zero) * (x - zero)), format!("{shift}^3"));
+    let second = if ground.is_temperature(column) {
+        "tempco-quadratic"
+    } else {
+        "quadratic"
+    };
+    add(
+        second,
+        map(x, |x| (x - zero) * (x - zero)),
+        format!("{shift}^2"),
+    );
+    add(
+        "cubic",
+        map(x, |x| (x - zero) * (x - zero) * (x - zero)),
+        format!("{shift}^3"),
+    );
     if crosses_zero(x) {
         add("asymmetry", map(x, f64::abs), format!("abs({label})"));
         add("zero-step", map(x, sign), format!("sign({label})"));
@@ -141,8 +173,14 @@ fn limits(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let variants = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| {
             let limit = share * most;
             let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * sign(x));
-            let text = format!("-sign({label})*max(abs({label}) - {limit:.6}, 0)");
-            let mut variation = Variation::one(format!("above {limit:.4} {unit}"), on_output(modifier, text));
+            let text = format!(
+                "-sign({label})*max(abs({label}) - {limit}, 0)",
+                limit = figure(limit)
+            );
+            let mut variation = Variation::one(
+                format!("above {limit} {unit}", limit = figure(limit)),
+                on_output(modifier, text),
+            );
             variation = variation.shaped("x₀", limit, &unit);
             variation
         });
@@ -153,8 +191,12 @@ fn limits(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let variants = shares.iter().map(|share| {
         let at = least + share * (most - least);
         let modifier = map(x, |x| (x - at).max(0.0));
-        let text = format!("max({label} - {at:.6}, 0)");
-        Variation::one(format!("at {at:.4} {unit}"), on_output(modifier, text)).shaped("x₀", at, &unit)
+        let text = format!("max({label} - {at}, 0)", at = figure(at));
+        Variation::one(
+            format!("at {at} {unit}", at = figure(at)),
+            on_output(modifier, text),
+        )
+        .shaped("x₀", at, &unit)
     });
     cells.push(plain(ground, "kink", label, variants.collect()));
     cells
@@ -208,16 +250,20 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let t = &ground.clock.values;
     let unit = ground.time_unit();
     let node = Node::Column(column);
-    let id = if ground.is_temperature(column) { "temperature-lag" } else { "lag" };
+    let id = if ground.is_temperature(column) {
+        "temperature-lag"
+    } else {
+        "lag"
+    };
     let variants = time_constants(ground).into_iter().map(|tau| {
         let modifier = map2(&lag(t, x, tau), x, |lagged, x| lagged - x);
         let term = Term {
             node,
             response: None,
             modifier,
-            text: format!("(lag({label}, {tau:.4} {unit}) - {label})"),
+            text: format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau)),
         };
-        Variation::one(format!("τ = {tau:.3} {unit}"), term).shaped("τ", tau, &unit)
+        Variation::one(format!("τ = {tau} {unit}", tau = figure(tau)), term).shaped("τ", tau, &unit)
     });
     let lagged = Cell {
         effect: effect(id),
@@ -231,7 +277,11 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         description: None,
     };
     let skew = Cell {
-        effect: effect(if ground.is_temperature(column) { "temperature-rate" } else { "timing-skew" }),
+        effect: effect(if ground.is_temperature(column) {
+            "temperature-rate"
+        } else {
+            "timing-skew"
+        }),
         variants: vec![Variation::one(
             "",
             Term {
@@ -258,26 +308,37 @@ fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         ground,
         "hysteresis",
         label,
-        vec![Variation::one("", on_output(way, format!("direction({label})")))],
+        vec![Variation::one(
+            "",
+            on_output(way, format!("direction({label})")),
+        )],
     )];
     let (least, most) = range(x);
     let unit = ground.case().columns[column].unit.typeset();
     let step = typical_step(x);
     let widths = grid((most - least) * 1e-3, (most - least) * 0.3, 3.0, 6);
-    let widths = widths.into_iter().filter(|width| *width < 2.0 * step || step == 0.0);
+    let widths = widths
+        .into_iter()
+        .filter(|width| *width < 2.0 * step || step == 0.0);
     let variants = widths.map(|width| {
         let modifier = map2(&play(x, width), x, |played, x| (played - x) / width);
         let term = Term {
             node: Node::Column(column),
             response: None,
             modifier,
-            text: format!("(play({label}, {width:.4}) - {label})/{width:.4}"),
+            text: format!(
+                "(play({label}, {width}) - {label})/{width}",
+                width = figure(width)
+            ),
         };
-        Variation::one(format!("gap {width:.3} {unit}"), term)
+        Variation::one(format!("gap {width} {unit}", width = figure(width)), term)
     });
     // A gap far below the steps is the direction alone.
     let wide: Vec<Variation> = variants.filter(|v| varies(&v.terms[0].modifier)).collect();
-    if step < 0.3 * (most - least) && ground.case().columns[column].role == Role::Stimulus && !wide.is_empty() {
+    if step < 0.3 * (most - least)
+        && ground.case().columns[column].role == Role::Stimulus
+        && !wide.is_empty()
+    {
         cells.push(plain(ground, "play", label, wide));
     }
     cells
@@ -285,17 +346,29 @@ fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
 
 /// Whether values come again on the way back, roughly.
 fn repeats(x: &[f64]) -> bool {
-    direction(x).windows(2).filter(|pair| pair[0] != pair[1]).count() > 0
+    direction(x)
+        .windows(2)
+        .filter(|pair| pair[0] != pair[1])
+        .count()
+        > 0
 }
 
 fn typical_step(x: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = x.windows(2).map(|pair| (pair[1] - pair[0]).abs()).filter(|step| *step > 0.0).collect();
+    let mut steps: Vec<f64> = x
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .filter(|step| *step > 0.0)
+        .collect();
     steps.sort_by(f64::total_cmp);
     steps.get(steps.len() / 2).copied().unwrap_or(0.0)
 }
 
 fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {
-    let modifier = map2(&centred(ground.numbers(x)), &centred(ground.numbers(z)), |x, z| x * z);
+    let modifier = map2(
+        &centred(ground.numbers(x)),
+        &centred(ground.numbers(z)),
+        |x, z| x * z,
+    );
     let (x, z) = (name(ground, x).to_owned(), name(ground, z).to_owned());
     let text = format!("({x} - mean)*({z} - mean)");
     let variants = vec![(String::new(), vec![(modifier, text)])];
@@ -338,7 +411,10 @@ fn axes(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
         for z in &used[at + 1..] {
             let other = centred(ground.numbers(*z));
             let text = format!("({} - mean)", name(ground, *z));
-            pairs.push((format!("{} with {}", name(ground, *x), name(ground, *z)), term(*x, other, text)));
+            pairs.push((
+                format!("{} with {}", name(ground, *x), name(ground, *z)),
+                term(*x, other, text),
+            ));
         }
     }
     cells.push(cell("cross-axis", singles_and_all(pairs)));
@@ -352,7 +428,14 @@ fn axes(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
             let centre = mean_of_range(ground.numbers(*column));
             let modifier = map(ground.numbers(*column), |x| law(x - centre));
             let label = name(ground, *column);
-            (label.to_owned(), term(*column, modifier, format!("({label} - {centre:.6}){sign}")))
+            (
+                label.to_owned(),
+                term(
+                    *column,
+                    modifier,
+                    format!("({label} - {centre}){sign}", centre = figure(centre)),
+                ),
+            )
         });
         cells.push(cell(id, singles_and_all(own.collect())));
     }
@@ -367,7 +450,10 @@ fn mean_of_range(x: &[f64]) -> f64 {
 
 fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {
     let all: Vec<Term> = terms.iter().map(|(_, term)| term.clone()).collect();
-    let mut variants: Vec<Variation> = terms.into_iter().map(|(label, term)| Variation::one(label, term)).collect();
+    let mut variants: Vec<Variation> = terms
+        .into_iter()
+        .map(|(label, term)| Variation::one(label, term))
+        .collect();
     if all.len() > 1 {
         variants.push(Variation::of("all", all));
     }

@@ -22,7 +22,8 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         Variation::of(named(rows), terms.collect())
     });
     let mut cells = vec![plain(ground, "outlier", "row", outliers.collect())];
-    if blocks.iter().all(|rows| rows.len() == 1) && ground.has_signal() && blocks.len() <= MOST / 2 {
+    if blocks.iter().all(|rows| rows.len() == 1) && ground.has_signal() && blocks.len() <= MOST / 2
+    {
         cells.push(swapped(ground));
         cells.push(reversed(ground));
     }
@@ -80,7 +81,9 @@ fn swapped(ground: &Ground<'_>) -> Cell {
 fn reversed(ground: &Ground<'_>) -> Cell {
     let mut variants = Vec::new();
     for column in &ground.case().columns {
-        let Some(labels) = column.labels() else { continue };
+        let Some(labels) = column.labels() else {
+            continue;
+        };
         let levels = super::levels::present(labels);
         if levels.len() < 2 || levels.len() * 3 > 2 * ground.frame.blocks.len() {
             continue;

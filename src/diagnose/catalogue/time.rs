@@ -3,8 +3,9 @@
 use super::Cell;
 use super::conditions::single;
 use super::ground::{Ground, Node};
-use super::modifiers::{centred, grid, map, range};
+use super::modifiers::{centred, figure, grid, map, range};
 use super::response::{on_node, words};
+use crate::diagnose::case::Role;
 
 /// More steps than that are not scanned.
 const MOST_STEPS: usize = 80;
@@ -24,14 +25,34 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     };
     let (start, _) = range(t);
     let since = map(t, |t| t - start);
-    let nodes = if ground.has_signal() { vec![Node::Output, Node::Gain] } else { vec![Node::Output] };
+    // Rows of factors without a time may stand in any order.
+    let factors = ground
+        .case()
+        .columns
+        .iter()
+        .any(|column| matches!(column.role, Role::Run | Role::Factor));
+    if factors && !ground.is_timed() {
+        return Vec::new();
+    }
+    let nodes = if ground.has_signal() {
+        vec![Node::Output, Node::Gain]
+    } else {
+        vec![Node::Output]
+    };
     let mut cells = Vec::new();
     let mut add = |ids: [&str; 2], variants: Variants, symbol: Option<&'static str>| {
         for (node, id) in nodes.iter().zip(ids) {
             if id.is_empty() {
                 continue;
             }
-            let mut cell = on_node(ground, id, words(ground, &along), &along, *node, variants.clone());
+            let mut cell = on_node(
+                ground,
+                id,
+                words(ground, &along),
+                &along,
+                *node,
+                variants.clone(),
+            );
             cell.words.p = ground.name(*node);
             if let Some(symbol) = symbol {
                 shaped(ground, &mut cell, symbol);
@@ -40,7 +61,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         }
     };
     let linear = centred(t);
-    add(["drift", "drift-scale"], single("", linear.clone(), format!("({along} - mean)")), None);
+    add(
+        ["drift", "drift-scale"],
+        single("", linear.clone(), format!("({along} - mean)")),
+        None,
+    );
     add(["step", "step-scale"], steps(ground, &along), None);
     if ground.is_timed() {
         let both = vec![(
@@ -52,27 +77,45 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         )];
         add(["curved-drift", ""], both, None);
         let unit = ground.time_unit();
-        let scales = grid((span * 3e-3).max(ground.clock.interval()), span / 3.0, 2.2, 7);
+        let scales = grid(
+            (span * 3e-3).max(ground.clock.interval()),
+            span / 3.0,
+            2.2,
+            7,
+        );
         let logarithms = scales.iter().map(|scale| {
             let modifier = map(&since, |t| libm::log1p(t / scale));
-            (format!("t₀ = {scale:.3} {unit}"), vec![(modifier, format!("ln(1 + t/{scale:.4})"))])
+            (
+                format!("t₀ = {scale} {unit}", scale = figure(*scale)),
+                vec![(
+                    modifier,
+                    format!("ln(1 + t/{scale})", scale = figure(*scale)),
+                )],
+            )
         });
         add(["ageing", ""], logarithms.collect(), Some("t₀"));
         let decays: Variants = scales
             .iter()
             .map(|tau| {
                 let modifier = map(&since, |t| libm::exp(-t / tau));
-                (format!("τ = {tau:.3} {unit}"), vec![(modifier, format!("exp(-t/{tau:.4})"))])
+                (
+                    format!("τ = {tau} {unit}", tau = figure(*tau)),
+                    vec![(modifier, format!("exp(-t/{tau})", tau = figure(*tau)))],
+                )
             })
             .collect();
         add(["warm-up", "warm-up-scale"], decays, Some("τ"));
-        for (id, period, least, most) in [("season", 365.2422 * 86_400.0, 0.75, 60.0), ("daily", 86_400.0, 1.0, 60.0)] {
+        for (id, period, least, most) in [
+            ("season", 365.2422 * 86_400.0, 0.75, 60.0),
+            ("daily", 86_400.0, 1.0, 60.0),
+        ] {
             let Some(period) = ground.seconds().map(|second| period / second) else {
                 continue;
             };
             if span >= least * period && span <= most * period {
                 let name = if id == "season" { "1 year" } else { "24 h" };
-                let wave = |f: fn(f64) -> f64| map(&since, |t| f(std::f64::consts::TAU * t / period));
+                let wave =
+                    |f: fn(f64) -> f64| map(&since, |t| f(std::f64::consts::TAU * t / period));
                 let pair = vec![
                     (wave(libm::sin), format!("sin(2*pi*t/{name})")),
                     (wave(libm::cos), format!("cos(2*pi*t/{name})")),
@@ -88,7 +131,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 fn shaped(ground: &Ground<'_>, cell: &mut Cell, symbol: &'static str) {
     let unit = ground.time_unit();
     for variation in &mut cell.variants {
-        let number = variation.label.split("= ").nth(1).and_then(|rest| rest.split(' ').next());
+        let number = variation
+            .label
+            .split("= ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next());
         if let Some(value) = number.and_then(|number| number.parse().ok()) {
             *variation = variation.clone().shaped(symbol, value, &unit);
         }
@@ -105,17 +152,26 @@ fn steps(ground: &Ground<'_>, along: &str) -> Variants {
         let first = blocks[block][0];
         let modifier = (0..ground.rows()).map(|row| if row >= first { 1.0 } else { 0.0 });
         let label = match ground.clock.column {
-            Some(_) => format!("at {along} = {:.6} {unit}", t[first]),
+            Some(_) => format!("at {along} = {} {unit}", figure(t[first])),
             None => format!("at row {}", first + 1),
         };
-        (label, vec![(modifier.collect(), format!("[row >= {}]", first + 1))])
+        (
+            label,
+            vec![(modifier.collect(), format!("[row >= {}]", first + 1))],
+        )
     };
     // Where a run begins, a shift has the name of the run.
     let begins = |block: &usize| {
         let (now, before) = (blocks[*block][0], blocks[*block - 1][0]);
-        ground.case().columns.iter().filter_map(|column| column.labels()).any(|labels| {
-            labels.levels.len() * 3 < 2 * blocks.len() && labels.of_row[now] != labels.of_row[before]
-        })
+        ground
+            .case()
+            .columns
+            .iter()
+            .filter_map(|column| column.labels())
+            .any(|labels| {
+                labels.levels.len() * 3 < 2 * blocks.len()
+                    && labels.of_row[now] != labels.of_row[before]
+            })
     };
     let first = stride.max(2);
     let scanned = (first..blocks.len().saturating_sub(1)).step_by(stride);

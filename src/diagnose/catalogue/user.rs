@@ -16,7 +16,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             },
         };
         let modifier: Vec<f64> = (0..case.rows)
-            .map(|row| candidate.equations.value(0, &ground.frame.symbols(row, &ground.fit.unknowns)))
+            .map(|row| {
+                candidate
+                    .equations
+                    .value(0, &ground.frame.symbols(row, &ground.fit.unknowns))
+            })
             .collect();
         Cell {
             effect: effect("user"),

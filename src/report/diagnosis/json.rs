@@ -125,7 +125,9 @@ fn quality(quality: &Quality) -> Value {
 }
 
 fn estimates(list: &[Estimated]) -> Vec<Value> {
-    list.iter().map(|e| json!({ "name": e.name, "unit": e.unit, "value": e.value, "u": e.u })).collect()
+    list.iter()
+        .map(|e| json!({ "name": e.name, "unit": e.unit, "value": e.value, "u": e.u }))
+        .collect()
 }
 
 /// A number that JSON can hold.

@@ -33,7 +33,13 @@ pub(super) fn name_of_atom(diagnosis: &Diagnosis, atom: usize, language: Languag
 
 /// The verdict in one sentence.
 pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
-    let names: Vec<String> = diagnosis.examination.slots.iter().filter(|slot| slot.state != State::Unexplained).map(|slot| slot_name(diagnosis, slot, language)).collect();
+    let names: Vec<String> = diagnosis
+        .examination
+        .slots
+        .iter()
+        .filter(|slot| slot.state != State::Unexplained)
+        .map(|slot| slot_name(diagnosis, slot, language))
+        .collect();
     let list = names.join(language.pick("; ", "；"));
     match diagnosis.examination.verdict {
         Verdict::None => language
@@ -75,27 +81,55 @@ pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
 
 /// The names of a slot, joined by "or".
 pub(super) fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> String {
-    let names: Vec<String> = slot.named.iter().map(|a| name(&diagnosis.cells[a.candidate], language)).collect();
+    let names: Vec<String> = slot
+        .named
+        .iter()
+        .map(|a| name(&diagnosis.cells[a.candidate], language))
+        .collect();
     names.join(language.pick(" or ", " 或 "))
 }
 
 /// Where the noise comes from.
 pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
-    let dof = if claimed.dof.is_finite() && claimed.dof > 0.0 { format!(", ν = {}", freedom(claimed.dof)) } else { String::new() };
+    let dof = if claimed.dof.is_finite() && claimed.dof > 0.0 {
+        format!(", ν = {}", freedom(claimed.dof))
+    } else {
+        String::new()
+    };
     let text = match &claimed.origin {
-        Origin::Estimated => language.pick("estimated from the residuals".to_owned(), "由残差估计".to_owned()),
-        Origin::Case => language.pick("as stated in the case".to_owned(), "由案例文件给出".to_owned()),
-        Origin::Column(name) => language.pick(format!("from the column {name}"), format!("取自 {name} 列")),
-        Origin::Replicates => language.pick("from replicates".to_owned(), "由重复测量得到".to_owned()),
-        Origin::AtRest(file) => language.pick(format!("from the recording at rest {file}"), format!("取自静态记录 {file}")),
-        Origin::Budget(file) => language.pick(format!("from the budget {file}"), format!("取自不确定度评定文件 {file}")),
+        Origin::Estimated => language.pick(
+            "estimated from the residuals".to_owned(),
+            "由残差估计".to_owned(),
+        ),
+        Origin::Case => language.pick(
+            "as stated in the case".to_owned(),
+            "由案例文件给出".to_owned(),
+        ),
+        Origin::Column(name) => {
+            language.pick(format!("from the column {name}"), format!("取自 {name} 列"))
+        }
+        Origin::Replicates => {
+            language.pick("from replicates".to_owned(), "由重复测量得到".to_owned())
+        }
+        Origin::AtRest(file) => language.pick(
+            format!("from the recording at rest {file}"),
+            format!("取自静态记录 {file}"),
+        ),
+        Origin::Budget(file) => language.pick(
+            format!("from the budget {file}"),
+            format!("取自不确定度评定文件 {file}"),
+        ),
     };
     text + &dof
 }
 
 /// Probability of a false alarm in words.
 pub(super) fn probability(p: f64) -> String {
-    if p < 0.001 { "<0.001".to_owned() } else { significant(p, 2) }
+    if p < 0.001 {
+        "<0.001".to_owned()
+    } else {
+        significant(p, 2)
+    }
 }
 
 /// Why a case could not be diagnosed.

@@ -64,9 +64,18 @@ struct Point {
     squares: f64,
 }
 
-/// Noise of rows at the times `rows` (h) from readings at rest. Nothing for too few readings, readings
+/// Rows whose noise is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Rows<'a> {
+    /// Times, h.
+    pub times: &'a [f64],
+    /// How many averages of the length of a reading at rest each of them is the mean of.
+    pub counts: &'a [f64],
+}
+
+/// Noise of rows from readings at rest. Nothing for too few readings, readings
 /// that are all alike, or times that fall.
-pub fn from_rest(rest: &AtRest<'_>, rows: &[f64], draws: usize, seed: u64) -> Option<RestNoise> {
+pub fn from_rest(rest: &AtRest<'_>, rows: &Rows<'_>, draws: usize, seed: u64) -> Option<RestNoise> {
     let count = rest.readings.len();
     let finite = rest
         .readings
@@ -114,10 +123,14 @@ pub fn from_rest(rest: &AtRest<'_>, rows: &[f64], draws: usize, seed: u64) -> Op
 }
 
 /// Covariance matrix of rows for a white variance and ratios to it.
-fn covariance(rows: &[f64], white: f64, ratios: Ratios) -> DMatrix<f64> {
+fn covariance(rows: &Rows<'_>, white: f64, ratios: Ratios) -> DMatrix<f64> {
+    let Rows {
+        times: rows,
+        counts,
+    } = *rows;
     let start = rows.iter().copied().fold(f64::INFINITY, f64::min);
     DMatrix::from_fn(rows.len(), rows.len(), |i, j| {
-        let own = if i == j { 1.0 } else { 0.0 };
+        let own = if i == j { 1.0 / counts[i] } else { 0.0 };
         let walked = ratios.walk * (rows[i].min(rows[j]) - start);
         let apart = (rows[i] - rows[j]).abs();
         let ladder: f64 = LADDER.iter().map(|memory| libm::exp(-apart / memory)).sum();
@@ -293,7 +306,12 @@ mod tests {
         };
         let (squares, logs) = filter(&rest, ratios);
         // Contrasts to the first reading, with their dense covariance.
-        let sigma = covariance(&times, 1.0, ratios);
+        let counts = vec![1.0; times.len()];
+        let all = Rows {
+            times: &times,
+            counts: &counts,
+        };
+        let sigma = covariance(&all, 1.0, ratios);
         let n = times.len();
         let contrast = DMatrix::from_fn(n - 1, n, |i, j| {
             f64::from(u8::from(j == i + 1)) - f64::from(u8::from(j == 0))
@@ -314,7 +332,10 @@ mod tests {
             times: &times,
             readings: &readings,
         };
-        let rows = [0.5, 1.0, 2.0];
+        let rows = Rows {
+            times: &[0.5, 1.0, 2.0],
+            counts: &[1.0; 3],
+        };
         let noise = from_rest(&rest, &rows, 40, 1).unwrap();
         assert!((noise.white - 1.0).abs() < 0.1, "{noise:?}");
         assert!((1.0..2.3).contains(&noise.walk), "{noise:?}");
@@ -329,7 +350,16 @@ mod tests {
             times: &times,
             readings: &readings,
         };
-        let noise = from_rest(&rest, &[0.0, 1.0], 10, 1).unwrap();
+        let noise = from_rest(
+            &rest,
+            &Rows {
+                times: &[0.0, 1.0],
+                counts: &[1.0; 2],
+            },
+            10,
+            1,
+        )
+        .unwrap();
         assert!((noise.white - 2.0).abs() < 0.2, "{noise:?}");
         // A walk of 0.5 per √h would already show over seven hours.
         assert!(noise.walk < 0.4, "{noise:?}");
@@ -345,7 +375,10 @@ mod tests {
                     times: &times,
                     readings: &same
                 },
-                &[0.0],
+                &Rows {
+                    times: &[0.0],
+                    counts: &[1.0]
+                },
                 5,
                 1
             )
@@ -357,7 +390,10 @@ mod tests {
                     times: &times[..5],
                     readings: &same[..5]
                 },
-                &[0.0],
+                &Rows {
+                    times: &[0.0],
+                    counts: &[1.0]
+                },
                 5,
                 1
             )

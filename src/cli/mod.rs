@@ -8,6 +8,7 @@ mod explain;
 mod new;
 mod output;
 mod schema;
+mod simulate;
 mod verify;
 
 use std::process::ExitCode;
@@ -51,6 +52,8 @@ enum Command {
     Eval(eval::Args),
     /// Confront a declared model with a recording: does it agree, and which physics was left out
     Diagnose(diagnose::Args),
+    /// Write the recording that a declared model and its claimed noise predict
+    Simulate(simulate::Args),
     /// Hold published examples, or your own files with claims, against their figures
     Verify(verify::Args),
     /// Write a commented budget file to start from
@@ -66,6 +69,7 @@ pub(crate) fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Eval(args) => eval::run(&args),
         Command::Diagnose(args) => diagnose::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema(args) => schema::run(&args),

@@ -2,7 +2,7 @@
 
 use std::io::{IsTerminal, stderr, stdout};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{self, Diagnosis};
@@ -27,6 +27,15 @@ pub(super) struct Args {
     /// Seed of the random numbers [default: that of the case, else 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// Write the improved case and its recording into this folder
+    #[arg(long, value_name = "DIR")]
+    improved: Option<PathBuf>,
+    /// Write plots of the residuals (SVG) into this folder
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+    /// Write the report to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
@@ -52,7 +61,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         output::warn("\r\x1b[K");
     }
     match found {
-        Ok(diagnosis) => written(args, &case, &diagnosis),
+        Ok(diagnosis) => written(args, &case, &diagnosis).max(beside(args, &case, &diagnosis)),
         Err(failure) => output::complain(&format!(
             "{}: {}",
             args.case.display(),
@@ -73,5 +82,49 @@ fn written(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
         };
         report::diagnosis_text(case, diagnosis, args.lang, page)
     };
-    output::print(&text)
+    match &args.output {
+        Some(path) => output::replace(path, &text),
+        None => output::print(&text),
+    }
+}
+
+/// The improved case and the plots.
+fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
+    let mut outcome = Outcome::Done;
+    if let Some(folder) = &args.improved {
+        outcome = outcome.max(match diagnose::improved(case, diagnosis) {
+            Some((text, recording)) => files(
+                folder,
+                vec![
+                    ("case.toml".to_owned(), text),
+                    (diagnose::IMPROVED_RECORDING.to_owned(), recording),
+                ],
+            ),
+            None => {
+                output::warn("nothing was adopted, and so there is no improved case to write\n");
+                Outcome::Done
+            }
+        });
+    }
+    if let Some(folder) = &args.plots {
+        outcome = outcome.max(files(
+            folder,
+            report::diagnosis_plots(case, diagnosis, args.lang),
+        ));
+    }
+    outcome
+}
+
+fn files(folder: &Path, contents: Vec<(String, String)>) -> Outcome {
+    if let Err(error) = std::fs::create_dir_all(folder) {
+        return output::complain(&format!(
+            "cannot create the folder {}: {error}",
+            folder.display()
+        ));
+    }
+    let contents: Vec<(PathBuf, String)> = contents
+        .into_iter()
+        .map(|(name, text)| (folder.join(name), text))
+        .collect();
+    output::replace_all(&contents)
 }

@@ -10,6 +10,7 @@ mod grade;
 mod new;
 mod output;
 mod schema;
+mod simulate;
 mod verify;
 
 use std::process::ExitCode;
@@ -53,6 +54,8 @@ enum Command {
     Eval(eval::Args),
     /// Confront a declared model with a recording: does it agree, and which physics was left out
     Diagnose(diagnose::Args),
+    /// Write the recording that a declared model and its claimed noise predict
+    Simulate(simulate::Args),
     /// Hold published examples, or your own files with claims, against their figures
     Verify(verify::Args),
     /// Write a commented budget file to start from
@@ -72,6 +75,7 @@ pub(crate) fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Eval(args) => eval::run(&args),
         Command::Diagnose(args) => diagnose::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::New(args) => new::run(&args),
         Command::Challenge(args) => challenge::run(&args),

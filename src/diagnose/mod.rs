@@ -19,12 +19,16 @@ pub mod evidence;
 pub mod faults;
 mod fit;
 mod frame;
+mod improved;
 mod noise;
 mod place;
 mod run;
+mod simulate;
 
 pub use adopt::{Addition, Extended};
 pub use confirm::{Confirmation, Quality};
 pub use fit::NoFit;
+pub use improved::{RECORDING as IMPROVED_RECORDING, improved};
 pub use noise::{Claimed, Origin};
 pub use run::{Adopted, Diagnosis, Estimated, Failure, Omitted, diagnose};
+pub use simulate::{Sheet, simulate};

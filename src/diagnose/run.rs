@@ -119,7 +119,8 @@ pub fn diagnose(
     let (fit, mut claimed) = noise::settle(&frame)?;
     let ground = Ground::new(&frame, &fit);
     let cells = catalogue::cells(&ground);
-    let (candidates, atoms, places) = question(&ground, &cells, &claimed);
+    let white = baseline(&frame, &fit, &claimed)?;
+    let (candidates, atoms, places) = question(&ground, &cells, &claimed, &white);
     let settings = settings(case);
     let ask = |claimed: &Claimed, from: f64, to: f64| -> Result<(Baseline, Examination), Failure> {
         let baseline = baseline(&frame, &fit, claimed)?;
@@ -230,6 +231,7 @@ pub(super) fn question(
     ground: &Ground<'_>,
     cells: &[Cell],
     claimed: &Claimed,
+    baseline: &Baseline,
 ) -> (Vec<Candidate>, Vec<Atom>, Vec<(usize, usize)>) {
     let mut candidates = Vec::new();
     let (mut atoms, mut places) = (Vec::new(), Vec::new());
@@ -244,7 +246,9 @@ pub(super) fn question(
         let before = atoms.len();
         for (number, variation) in cell.variants.iter().enumerate() {
             let columns = variation.columns(ground);
-            if let Some(shape) = shape(columns, variation, claimed) {
+            if let Some(shape) =
+                shape(columns, variation, claimed).filter(|shape| shows(baseline, shape))
+            {
                 atoms.push(Atom {
                     candidate: index,
                     variant: variation.label.clone(),
@@ -260,6 +264,20 @@ pub(super) fn question(
         }
     }
     (candidates, atoms, places)
+}
+
+/// Whether more than a trace of an effect is left beside the parameters. Less is what the curvature of
+/// the model makes of an exact alias; it would take sizes that are out of the question. What has no
+/// visible part at all is kept: it is listed as invisible.
+fn shows(baseline: &Baseline, shape: &Shape) -> bool {
+    const TRACE: f64 = 1e-4;
+    const NOTHING: f64 = 1e-6;
+    let Shape::Columns(columns) = shape else {
+        return true;
+    };
+    let share = |column: usize| baseline.visibility(&columns.column(column).into_owned());
+    let most = (0..columns.ncols()).map(share).fold(0.0, f64::max);
+    !(NOTHING..TRACE).contains(&most)
 }
 
 /// Nothing for a variation that is not finite or does nothing.

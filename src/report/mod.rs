@@ -35,7 +35,7 @@ mod tests;
 
 pub use diagnosis::{
     FORMAT as DIAGNOSIS_FORMAT, failure as diagnosis_failure, json as diagnosis_json,
-    markdown as diagnosis_markdown, text as diagnosis_text,
+    markdown as diagnosis_markdown, plots as diagnosis_plots, text as diagnosis_text,
 };
 pub use json::{FORMAT, json};
 pub use language::Language;

@@ -2,6 +2,7 @@
 
 mod compose;
 mod json;
+mod plots;
 mod words;
 
 use crate::diagnose::Diagnosis;
@@ -11,6 +12,7 @@ use super::language::Language;
 use super::text::{Page, draw};
 
 pub use json::{FORMAT, json};
+pub use plots::plots;
 
 /// The report for a terminal.
 pub fn text(case: &Case, diagnosis: &Diagnosis, language: Language, page: Page) -> String {

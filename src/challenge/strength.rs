@@ -153,7 +153,11 @@ impl<'a> Visible<'a> {
 
     fn left_by(&self, rival: Physics, trace: &DVector<f64>, others: &[DVector<f64>]) -> f64 {
         let uses = rival.uses();
-        let paces: &[f64] = if uses.pace { &[0.1, 0.35, 0.5, 0.65, 0.9] } else { &[0.5] };
+        let paces: &[f64] = if uses.pace {
+            &[0.1, 0.35, 0.5, 0.65, 0.9]
+        } else {
+            &[0.5]
+        };
         let moments: &[f64] = if uses.moment {
             &[0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95]
         } else {

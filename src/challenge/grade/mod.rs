@@ -17,8 +17,8 @@ use std::path::{Path, PathBuf};
 pub use answer::{Answer, AnsweredEffect, Name, Quality, State};
 pub use score::{Finding, Graded, GradedEffect, grade};
 pub use text::{json, text};
-pub use vocabulary::{accepted_ids, accepts};
 pub(super) use vocabulary::share_a_name;
+pub use vocabulary::{accepted_ids, accepts};
 
 use super::files::{CASE, CaseFile};
 use super::truth::{Truth, seal};

@@ -46,9 +46,7 @@ fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str
         P::Settling => &[("lag", &[])],
         P::Hysteresis => &[("hysteresis", &[])],
         P::Backlash => &[("play", &["head"])],
-        P::Eccentricity | P::Ellipticity | P::Ripple => {
-            &[("eccentricity", &["head", "azimuth"])]
-        }
+        P::Eccentricity | P::Ellipticity | P::Ripple => &[("eccentricity", &["head", "azimuth"])],
         P::ElevationEccentricity => &[("eccentricity", &["elevation"])],
         P::Flexure => &[("eccentricity", &["head"]), ("cross-product", &[])],
         P::Wobble | P::RateRipple | P::Magnetic | P::EarthRate => &[("periodic", &["table"])],

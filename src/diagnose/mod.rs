@@ -3,6 +3,8 @@
 //!
 //! | chapter | holds |
 //! |---|---|
+//! | [`rivals`] | methods in common use, to be compared with |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 
 pub mod evidence;
+pub mod rivals;

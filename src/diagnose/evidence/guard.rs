@@ -174,10 +174,11 @@ fn excess(residual: &Residual) -> f64 {
     }
 }
 
-/// Whether a named set stands against an unlisted effect: the more effects it takes, the better it has
-/// to be.
+/// Whether a named set stands against an unlisted effect. Several effects have to be better than one
+/// that is not listed; a single one that is worse would not have passed the gate as complete, and where
+/// it is one of a list, the list and not the set would have to be compared.
 pub(super) fn stands(margin: f64, effects: usize) -> bool {
-    margin >= effects.saturating_sub(1) as f64
+    effects < 2 || margin >= 0.0
 }
 
 fn beside(space: &Space, frame: &Frame, competitor: &Block) -> Option<f64> {

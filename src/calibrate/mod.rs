@@ -4,6 +4,16 @@
 //! |---|---|
 //! | `tables` | every table of a calibration file |
 //! | [`procedure`] | the procedures of the library: calibration files themselves |
+//! | `source` | the tables of a file over those of its procedure |
+//! | `points` | the points of an experiment |
+//! | `dwells` | averages of dwells as points |
 
+mod dwells;
+pub mod faults;
+mod points;
 pub mod procedure;
+mod source;
 pub(crate) mod tables;
+
+pub use dwells::Dwelling;
+pub use points::{PointColumn, Points};

@@ -52,6 +52,35 @@ impl Points {
         points
     }
 
+    /// Some of the points, in the given order; places that do not exist are passed over.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Points {
+        let rows: Vec<usize> = rows
+            .iter()
+            .copied()
+            .filter(|row| *row < self.len())
+            .collect();
+        let column = |column: &PointColumn| PointColumn {
+            name: column.name.clone(),
+            unit: column.unit.clone(),
+            values: picked(&column.values, &rows),
+            averages: picked(&column.averages, &rows),
+        };
+        let labels = |(name, labels): &(String, Labels)| {
+            let labels = Labels {
+                levels: labels.levels.clone(),
+                of_row: picked(&labels.of_row, &rows),
+            };
+            (name.clone(), labels)
+        };
+        Points {
+            names: picked(&self.names, &rows),
+            columns: self.columns.iter().map(column).collect(),
+            labels: self.labels.iter().map(labels).collect(),
+            findings: self.findings.clone(),
+        }
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         self.names.len()
@@ -72,4 +101,10 @@ impl Points {
         let found = self.labels.iter().find(|(other, _)| other == name);
         found.map(|(_, labels)| labels)
     }
+}
+
+fn picked<T: Clone>(all: &[T], rows: &[usize]) -> Vec<T> {
+    rows.iter()
+        .filter_map(|row| all.get(*row).cloned())
+        .collect()
 }

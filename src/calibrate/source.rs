@@ -176,3 +176,10 @@ fn named_or<T>(
     }
     Some(own)
 }
+
+impl Source {
+    /// Whether a place is in the procedure's part.
+    pub fn is_base(&self, place: &std::ops::Range<usize>) -> bool {
+        place.start > self.own
+    }
+}

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::define::{Definer, Purpose, entries};
 use super::dwells::Dwelling;
 use super::faults::{KEY, NO_DATA, POSITION, RECORDING, SCHEDULE, UNKNOWN_SYMBOL};
-use super::names::{Kind, Names};
+use super::names::Names;
 use super::points::{PointColumn, Points};
 use super::tables::{HoldsWord, PositionsTable, RecordingTable};
 use crate::budget::doubts::text_of;
@@ -16,8 +16,7 @@ use crate::budget::{Files, Rejection};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 use crate::recording::{
-    Checks, Content, Finding, Heading, Labels, Recording, Request, Settling, Severity, check,
-    headings,
+    Checks, Finding, Heading, Labels, Recording, Request, Settling, Severity, check, headings,
 };
 
 /// The points; `None` after faults of the calibration file.
@@ -590,11 +589,4 @@ fn labels(cells: &[Stated<Cell>]) -> Labels {
         labels.of_row.push(u32::try_from(level).unwrap_or(u32::MAX));
     }
     labels
-}
-
-impl Names {
-    /// Whether a name is a column of numbers.
-    pub fn is_column(&self, name: &str) -> bool {
-        self.kind(name) == Some(Kind::Column)
-    }
 }

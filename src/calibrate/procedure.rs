@@ -58,7 +58,21 @@ macro_rules! library {
 }
 
 library! {
+    "accelerometer-gimbals",
+    "accelerometer-norm",
+    "accelerometer-rate-sensitivity",
+    "accelerometer-rate-sensitivity-both",
+    "accelerometer-rate-sensitivity-squared",
+    "accelerometer-six-positions",
+    "accelerometer-tumble",
     "accelerometer-tumble-4",
+    "accelerometer-tumble-remount",
+    "gyro-bias",
+    "gyro-drift",
+    "gyro-installation",
+    "gyro-rate-nonlinear",
+    "gyro-scale-factor",
+    "gyro-scale-factor-triad",
 }
 
 /// The procedure of a name.

@@ -1,5 +1,6 @@
 //! Subcommands, exit codes and output.
 
+mod allan;
 mod concepts;
 mod date;
 mod eval;
@@ -50,6 +51,8 @@ enum Command {
     Eval(eval::Args),
     /// Hold published examples, or your own files with claims, against their figures
     Verify(verify::Args),
+    /// Allan deviation of a recording at rest: white noise, bias instability, random walk
+    Allan(allan::Args),
     /// Write a commented budget file to start from
     New(new::Args),
     /// Print the JSON Schema of budget files or of what the program writes
@@ -63,6 +66,7 @@ pub(crate) fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Eval(args) => eval::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Allan(args) => allan::run(&args),
         Command::New(args) => new::run(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Explain(args) => explain::run(&args),

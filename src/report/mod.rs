@@ -3,6 +3,7 @@
 //! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
 //! composed once; [`json`] is the machine form.
 
+mod allan;
 mod analyses;
 mod budget_table;
 mod claim;
@@ -32,6 +33,7 @@ mod fixtures;
 #[cfg(test)]
 mod tests;
 
+pub use allan::{AllanReport, allan_json, allan_markdown, allan_text};
 pub use json::{FORMAT, json};
 pub use language::Language;
 pub use markdown::markdown;

@@ -319,6 +319,10 @@ fn file(definer: &Definer<'_>, known: &[Known<'_>]) -> FileTable {
         }
         measurands.push(measurand(&name, unit, &one.entry.key));
     }
+    for (name, entry) in entries(&table.constant) {
+        let unit = entry.value.0.unit.clone();
+        measurands.push(measurand(name, unit, &entry.key));
+    }
     let nowhere = 0..0;
     let mut filler = InputTable {
         value: Some(at(

@@ -42,6 +42,8 @@ mod scatter;
 mod source;
 mod stack;
 pub(crate) mod tables;
+#[cfg(test)]
+mod tests;
 mod trouble;
 
 pub use calibration::{Calibration, Coefficient, Figures, Residual, calibrate};

@@ -1,0 +1,1 @@
+//! Stated uncertainties against the scatter of simulated calibrations.

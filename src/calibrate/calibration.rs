@@ -11,7 +11,7 @@ use super::stack::{Readings, Row, Stack};
 use super::trouble::Trouble;
 use crate::least_squares::Solution;
 use crate::quantity::Unit;
-use crate::special::{student_t_two_sided, student_t_two_sided_quantile};
+use crate::special::{student_t_sf, student_t_two_sided_quantile};
 
 /// A calibration that was evaluated.
 #[derive(Debug, Clone)]
@@ -228,7 +228,7 @@ pub(super) fn figures(experiment: &Experiment, parameters: &[f64], causes: Vec<C
                 u,
                 dof,
                 k: student_t_two_sided_quantile(experiment.coverage_probability, dof),
-                p_value: student_t_two_sided(value / u, dof),
+                p_value: 2.0 * student_t_sf((value / u).abs(), dof),
             }
         })
         .collect();

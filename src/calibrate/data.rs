@@ -352,6 +352,11 @@ fn findings(
             fewest: 1,
         },
     );
+    let optional = positions.map_or_else(HashSet::new, |stated| optional(&stated.value));
+    findings.retain(|finding| match &finding.problem {
+        crate::recording::Problem::LabelUnknown { label, .. } => !optional.contains(label.as_str()),
+        _ => true,
+    });
     if !samples {
         // Rows that are averages repeat positions, and equal averages are no saturation.
         findings.retain(|finding| {
@@ -366,17 +371,17 @@ fn findings(
 
 /// Labels that must occur.
 fn expected(table: &PositionsTable) -> Vec<&str> {
-    let optional: HashSet<&str> = table
-        .optional
-        .iter()
-        .flat_map(|list| &list.value)
-        .map(|stated| stated.value.as_str())
-        .collect();
-    // `Checks` refuses labels that are not expected, so that optional ones count when they occur.
+    let optional = optional(table);
     let at = table.at.iter().flat_map(|named| &named.value.entries);
     at.map(|(label, _)| label.as_str())
         .filter(|label| !optional.contains(label))
         .collect()
+}
+
+/// Labels that may be missing.
+fn optional(table: &PositionsTable) -> HashSet<&str> {
+    let listed = table.optional.iter().flat_map(|list| &list.value);
+    listed.map(|stated| stated.value.as_str()).collect()
 }
 
 /// Adds the quantities that positions give; whether that was possible.

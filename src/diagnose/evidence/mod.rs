@@ -28,14 +28,23 @@
 //! | `omitted` | what effects that are not adopted do to the uncertainty |
 
 mod baseline;
+mod closed_form;
 mod examine;
 mod findings;
+mod fit;
+mod gate;
+mod generic;
 mod locate;
 mod noise;
+mod null;
 mod omitted;
+mod pairs;
 mod plan;
 mod question;
+mod search;
 mod separate;
+mod slots;
+mod space;
 
 pub use baseline::{Baseline, Prior};
 pub use examine::examine;

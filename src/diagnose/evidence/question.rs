@@ -25,6 +25,8 @@ pub struct Candidate {
     /// Standard deviation of the size of the effect in instruments of this kind, per column in the units
     /// of the atom's coefficients. Used for what was not adopted, and for warnings, not for naming.
     pub typical: Option<f64>,
+    /// Several of its atoms may act at once: bad rows, jumps.
+    pub repeats: bool,
 }
 
 /// What an atom does to the output.

@@ -84,13 +84,27 @@ fn an_error_by_level_is_shared_within_the_level() {
 }
 
 #[test]
-fn the_four_point_tumble() {
+fn four_points_of_two_coefficients() {
     let toml = r#"
-procedure = "accelerometer-tumble-4"
+equations = ["E = R*K1*(K0 + g*sin(theta + theta0))"]
+[parameter.K0]
+unit = "gn"
+[parameter.K1]
+unit = "mA/gn"
+[constant]
+g = "1 gn"
+[omitted.K2]
+term = "R*K1*K2*(g*sin(theta))^2"
+unit = "1/gn"
+[omitted.K3]
+term = "R*K1*K3*(g*sin(theta))^3"
+unit = "1/gn^2"
 [input.R]
+unit = "ohm"
 value = 500
 half_width = 0.06
 [input.theta0]
+unit = "rad"
 half_width = 5e-6
 [recording]
 file = "run.csv"

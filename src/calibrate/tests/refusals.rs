@@ -74,7 +74,7 @@ fn faults_of_files_are_told_at_their_places() {
 
 #[test]
 fn faults_of_procedures_with_this_recording_are_told_at_their_name() {
-    let toml = "procedure = \"accelerometer-tumble-4\"\n[input.R]\nvalue = 500\nu = 1\n[recording]\nfile = \"run.csv\"";
+    let toml = "procedure = \"accelerometer-tumble-4\"\n[constant]\ng = \"1 gn\"\n[input.R]\nvalue = 500\nu = 1\n[recording]\nfile = \"run.csv\"";
     says(
         toml,
         "theta [s],E [V]\n0,1\n90,2\n180,1\n270,0\n",
@@ -148,11 +148,10 @@ fn what_cannot_be_found_is_said() {
         panic!("undetermined");
     };
     assert_eq!(combinations.len(), 1);
-    let no_start = RATE
-        .replace("K*omega + b", "K*omega*b")
-        .replace("b = {}", "b = { unit = \"mV·s/deg\" }");
+    let no_start = RATE.replace("K*omega + b", "K*omega/b");
     let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
-    assert!(matches!(trouble(&no_start, csv), Trouble::NoStart { .. }));
+    let found = trouble(&no_start, csv);
+    assert!(matches!(found, Trouble::NoStart { .. }), "{found:?}");
     let dwells = format!("scatter = \"dwells\"\n{RATE}");
     assert_eq!(trouble(&dwells, csv), Trouble::NoSamples);
 }

@@ -74,7 +74,7 @@ fn faults_of_files_are_told_at_their_places() {
 
 #[test]
 fn faults_of_procedures_with_this_recording_are_told_at_their_name() {
-    let toml = "procedure = \"accelerometer-tumble-4\"\n[input.R]\nvalue = 500\nu = 1\n[recording]\nfile = \"run.csv\"";
+    let toml = "procedure = \"accelerometer-tumble-4\"\n[constant]\ng = \"1 gn\"\n[input.R]\nvalue = 500\nu = 1\n[recording]\nfile = \"run.csv\"";
     says(
         toml,
         "theta [s],E [V]\n0,1\n90,2\n180,1\n270,0\n",

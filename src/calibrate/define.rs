@@ -229,6 +229,10 @@ impl Definer<'_> {
         Some(Experiment {
             heading: self.heading(),
             units: self.units.clone(),
+            own_units: entries(&table.unit)
+                .iter()
+                .map(|(name, definition)| (name.clone(), definition.value.clone()))
+                .collect(),
             observed: responses.observed_of(&equations),
             points,
             columns,

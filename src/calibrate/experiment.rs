@@ -45,6 +45,8 @@ pub struct Experiment {
     pub heading: Heading,
     /// Names of units.
     pub units: UnitTable,
+    /// Units of the file's own, with their definitions.
+    pub own_units: Vec<(String, String)>,
     /// What was set and read.
     pub points: Points,
     /// Columns that the equations use, in the order of the symbols.

@@ -16,6 +16,7 @@
 //! | `scatter`, `causes` | what makes the coefficients uncertain |
 //! | `identify` | rank, condition, aliases |
 //! | `calibration`, `plan` | the results, after and before measuring |
+//! | `budget` | coefficients as measurands of a budget file |
 //!
 //! # Least squares and uncertainty are two things
 //!
@@ -24,6 +25,7 @@
 //! Σ_i ∂coefficient/∂y_i · ∂f_i/∂e. The sum is over all rows on which *one* error acts, so that common
 //! errors do not average away and correlate the coefficients, and independent ones do average.
 
+mod budget;
 mod calibration;
 mod causes;
 mod data;
@@ -46,6 +48,7 @@ pub(crate) mod tables;
 mod tests;
 mod trouble;
 
+pub use budget::budget;
 pub use calibration::{Calibration, Coefficient, Figures, Residual, calibrate};
 pub use causes::{Cause, Origin};
 pub use define::{Purpose, load, read};

@@ -6,6 +6,7 @@
 mod allan;
 mod analyses;
 mod budget_table;
+mod calibration;
 mod claim;
 mod comparison;
 mod compose;
@@ -34,6 +35,10 @@ mod fixtures;
 mod tests;
 
 pub use allan::{AllanReport, allan_json, allan_markdown, allan_text};
+pub use calibration::{
+    calibration_json, calibration_markdown, calibration_text, calibration_trouble, plan_json,
+    plan_markdown, plan_text,
+};
 pub use json::{FORMAT, json};
 pub use language::Language;
 pub use markdown::markdown;

@@ -168,41 +168,93 @@ impl<'e> Stack<'e> {
         solve(&problem).map_err(|failure| Trouble::of(failure, self))
     }
 
-    /// Where the search begins: stated values, and for parameters that enter linearly once these are
-    /// held, the linear solution.
+    /// Where the search begins: stated values, zero for some of the others, and for the rest, which enter
+    /// linearly once these are held, the linear solution. Of the ways to divide the parameters without a
+    /// stated start into these two, the one that describes the readings best.
     ///
     /// # Errors
-    /// Parameters without a stated start that do not enter linearly.
+    /// No such way has a solution.
     pub fn start(&self) -> Result<Vec<f64>, Trouble> {
         let parameters = &self.experiment.parameters;
-        let mut start: Vec<f64> = parameters.iter().map(|p| p.start.unwrap_or(0.0)).collect();
+        let stated: Vec<f64> = parameters.iter().map(|p| p.start.unwrap_or(0.0)).collect();
         let open: Vec<usize> = (0..parameters.len())
             .filter(|place| parameters[*place].start.is_none())
             .collect();
         if open.is_empty() {
-            return Ok(start);
+            return Ok(stated);
         }
-        let first = self.experiment.parameter_places().start;
-        let places: Vec<usize> = open.iter().map(|place| first + place).collect();
-        if !self.experiment.equations.are_affine_in(&places) {
-            let names = open.iter().map(|place| parameters[*place].name.clone());
-            return Err(Trouble::NoStart {
-                parameters: names.collect(),
-            });
+        let mut tried: Vec<Vec<usize>> = Vec::new();
+        for first in &open {
+            let set = self.affine_with(*first, &open);
+            if !set.is_empty() && !tried.contains(&set) {
+                tried.push(set);
+            }
         }
+        let found = tried
+            .iter()
+            .filter_map(|set| self.linear_start(&stated, set));
+        let best = found.min_by(|a, b| a.1.total_cmp(&b.1));
+        best.map(|(start, _)| start)
+            .ok_or_else(|| Trouble::NoStart {
+                parameters: open
+                    .iter()
+                    .map(|place| parameters[*place].name.clone())
+                    .collect(),
+            })
+    }
+
+    /// A largest set of open parameters with this one in which the equations are affine.
+    fn affine_with(&self, first: usize, open: &[usize]) -> Vec<usize> {
+        let offset = self.experiment.parameter_places().start;
+        let affine = |set: &[usize]| {
+            let places: Vec<usize> = set.iter().map(|place| offset + place).collect();
+            self.experiment.equations.are_affine_in(&places)
+        };
+        let mut set = vec![first];
+        if !affine(&set) {
+            return Vec::new();
+        }
+        for place in open.iter().filter(|place| **place != first) {
+            set.push(*place);
+            if !affine(&set) {
+                set.pop();
+            }
+        }
+        set.sort_unstable();
+        set
+    }
+
+    /// The linear solution for some parameters while the others are held, and the sum of squares that it
+    /// leaves; nothing where it is not finite.
+    fn linear_start(&self, held: &[f64], free: &[usize]) -> Option<(Vec<f64>, f64)> {
+        let mut start = held.to_vec();
         let ones = vec![1.0; self.rows.len()];
-        let jacobian = self.jacobian(&start, &ones).select_columns(&open);
+        let jacobian = self.jacobian(&start, &ones).select_columns(free);
         let misfit: Vec<f64> = (0..self.rows.len())
             .map(|row| self.observed[row] - self.value(row, &start))
             .collect();
-        let svd = jacobian.svd(true, true);
-        let tolerance = svd.singular_values.max() * 1e-12;
-        if let Ok(solution) = svd.solve(&DVector::from_vec(misfit), tolerance) {
-            for (place, value) in open.iter().zip(solution.iter()) {
-                start[*place] = *value;
-            }
+        if !jacobian
+            .iter()
+            .chain(&misfit)
+            .all(|value| value.is_finite())
+        {
+            return None;
         }
-        Ok(start)
+        // Columns of length one: the units of the parameters must not decide what counts as zero.
+        let lengths: Vec<f64> = jacobian
+            .column_iter()
+            .map(|column| column.norm().max(f64::MIN_POSITIVE))
+            .collect();
+        let mut scaled = jacobian.clone();
+        for (mut column, length) in scaled.column_iter_mut().zip(&lengths) {
+            column /= *length;
+        }
+        let misfit = DVector::from_vec(misfit);
+        let solution = scaled.clone().svd(true, true).solve(&misfit, 1e-10).ok()?;
+        for ((place, value), length) in free.iter().zip(solution.iter()).zip(&lengths) {
+            start[*place] = value / length;
+        }
+        Some((start, (misfit - scaled * solution).norm_squared()))
     }
 
     /// The value of a row's equation.

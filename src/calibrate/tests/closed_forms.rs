@@ -84,6 +84,62 @@ fn an_error_by_level_is_shared_within_the_level() {
 }
 
 #[test]
+fn four_points_of_two_coefficients() {
+    let toml = r#"
+equations = ["E = R*K1*(K0 + g*sin(theta + theta0))"]
+[parameter.K0]
+unit = "gn"
+[parameter.K1]
+unit = "mA/gn"
+[constant]
+g = "1 gn"
+[omitted.K2]
+term = "R*K1*K2*(g*sin(theta))^2"
+unit = "1/gn"
+[omitted.K3]
+term = "R*K1*K3*(g*sin(theta))^3"
+unit = "1/gn^2"
+[input.R]
+unit = "ohm"
+value = 500
+half_width = 0.06
+[input.theta0]
+unit = "rad"
+half_width = 5e-6
+[recording]
+file = "run.csv"
+[reading.E]
+half_width = 1.1e-5
+unit = "V"
+"#;
+    let csv = "theta [deg],E [mV]\n0,0.0601\n90,99.9047\n180,-0.1018\n270,-99.9304\n";
+    let experiment = experiment(toml, csv);
+    let found = calibrate(&experiment).expect("coefficients");
+    let k1 = &found.figures.coefficients[1];
+    assert_eq!((k1.name.as_str(), k1.unit.symbol.as_str()), ("K1", "mA/gn"));
+    near(k1.value, (99.9047 + 99.9304) / 2.0 / 500.0, 1e-6);
+    let k0 = &found.figures.coefficients[0];
+    let mean = (0.0601 + 99.9047 - 0.1018 - 99.9304) / 4.0;
+    near(k0.value, mean / 500.0 / k1.value, 1e-6);
+    // The third order hides in the scale factor with the factor 1: sin³ = sin at these angles.
+    let k3 = found
+        .aliases
+        .iter()
+        .find(|alias| alias.name == "K3")
+        .expect("K3");
+    assert_eq!(k3.visible, 0.0);
+    near(k3.shifts[1], k1.value, 1e-6);
+    // The second order shifts the bias by half its size, and the residuals show the other half.
+    let k2 = found
+        .aliases
+        .iter()
+        .find(|alias| alias.name == "K2")
+        .expect("K2");
+    near(k2.shifts[0], 0.5, 1e-3);
+    assert!(k2.visible > 0.5);
+}
+
+#[test]
 fn the_four_point_tumble() {
     let toml = r#"
 procedure = "accelerometer-tumble-4"

@@ -39,7 +39,7 @@ impl<'a> Null<'a> {
     }
 
     pub(super) fn chunk(&self, index: usize) -> Chunk {
-        let address = (self.stage << 32) | index as u64;
+        let address = (self.stage << 24) | index as u64;
         let rows = self.baseline.residuals().len();
         let mut errors = DMatrix::zeros(LANES, rows);
         let mut block = Lanes::ZERO;

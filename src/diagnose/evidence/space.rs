@@ -10,7 +10,7 @@ use super::question::{Atom, Kind, Question, Refusal, Shape};
 const GENERIC_ODDS: f64 = 0.15;
 /// A column with less than this share of its whitened length (squared) left, by the parameters or by
 /// other columns of its atom, is invisible.
-const INVISIBLE: f64 = 1e-6;
+pub(super) const INVISIBLE: f64 = 1e-6;
 /// An atom that lies this near (sine squared) to a set adds nothing that data can support.
 const NEAR: f64 = 0.01;
 

@@ -140,6 +140,55 @@ unit = "V"
 }
 
 #[test]
+fn the_four_point_tumble() {
+    let toml = r#"
+procedure = "accelerometer-tumble-4"
+scatter = "stated"
+[constant]
+g = "1 gn"
+[input.R]
+value = 500
+half_width = 0.06
+[input.theta0]
+half_width = 5e-6
+[recording]
+file = "run.csv"
+[reading.E]
+half_width = 1.1e-5
+unit = "V"
+"#;
+    let csv = "theta [deg],E [mV]\n0,0.0601\n90,99.9047\n180,-0.1018\n270,-99.9304\n";
+    let found = calibrate(&experiment(toml, csv)).expect("coefficients");
+    let value = |name: &str| {
+        let coefficients = &found.figures.coefficients;
+        let found = coefficients.iter().find(|c| c.name == name).expect(name);
+        found.value
+    };
+    // Four readings, four coefficients: E0 = R K1 (K0 − δ), E90 = R K1 (K0 + 1 + K2), …
+    let [e0, e90, e180, e270] = [0.0601, 99.9047, -0.1018, -99.9304];
+    let k1 = (e90 - e270) / 2.0 / 500.0;
+    near(value("K1"), k1, 1e-9);
+    near(value("K0"), (e0 + e180) / 2.0 / 500.0 / k1, 1e-6);
+    near(
+        value("K2"),
+        (e90 + e270 - e0 - e180) / 2.0 / 500.0 / k1,
+        1e-6,
+    );
+    near(value("delta_o"), (e180 - e0) / 2.0 / 500.0 / k1, 1e-6);
+    let shifts = |name: &str| {
+        let alias = found.aliases.iter().find(|alias| alias.name == name);
+        let alias = alias.expect(name);
+        assert_eq!(alias.visible, 0.0, "{name}");
+        alias.shifts.clone()
+    };
+    // The third order hides in the scale factor with the factor 1: sin³ = sin at these angles.
+    near(shifts("K3")[1], k1, 1e-6);
+    // cos² = 1 − sin²: the pendulous axis shifts the bias and the second order against each other.
+    near(shifts("Kpp")[0], 1.0, 1e-9);
+    near(shifts("Kpp")[2], -1.0, 1e-9);
+}
+
+#[test]
 fn a_plan_says_what_hides() {
     let toml = r#"
 equations = ["E = K0 + K1*a + K2*a^2 + K3*a^3"]

@@ -85,6 +85,25 @@ pub struct Residual {
     pub standardised: f64,
 }
 
+/// The values of the coefficients alone, parameters first.
+///
+/// # Errors
+/// As [`calibrate`].
+pub fn estimates(experiment: &Experiment) -> Result<Vec<f64>, Trouble> {
+    let stack = Stack::new(experiment, Readings::Taken);
+    let (solution, ..) = solved(&stack)?;
+    Ok(values(experiment, &solution.parameters))
+}
+
+/// Parameters and results.
+fn values(experiment: &Experiment, parameters: &[f64]) -> Vec<f64> {
+    let inputs = experiment.inputs.iter().map(|input| input.value);
+    let symbols: Vec<f64> = parameters.iter().copied().chain(inputs).collect();
+    let results = experiment.results.iter();
+    let results = results.map(|result| result.equation.value(0, &symbols));
+    parameters.iter().copied().chain(results).collect()
+}
+
 /// Steps of the iteration of weights.
 const ROUNDS: usize = 50;
 
@@ -191,25 +210,18 @@ fn first_scale(stack: &Stack<'_>, u: &mut [f64]) {
 
 /// Coefficients with their covariance from the causes.
 pub(super) fn figures(experiment: &Experiment, parameters: &[f64], causes: Vec<Cause>) -> Figures {
-    let values: Vec<f64> = parameters
-        .iter()
-        .copied()
-        .chain(experiment.inputs.iter().map(|input| input.value))
-        .collect();
-    let results = experiment.results.iter().map(|result| {
-        (
-            &result.name,
-            &result.description,
-            &result.unit,
-            result.equation.value(0, &values),
-        )
-    });
-    let all = experiment
+    let parameters_first = experiment
         .parameters
         .iter()
-        .zip(parameters)
-        .map(|(p, value)| (&p.name, &p.description, &p.unit, *value))
-        .chain(results);
+        .map(|p| (&p.name, &p.description, &p.unit));
+    let all = parameters_first
+        .chain(
+            experiment
+                .results
+                .iter()
+                .map(|r| (&r.name, &r.description, &r.unit)),
+        )
+        .zip(values(experiment, parameters));
     let count = experiment.parameters.len() + experiment.results.len();
     let mut covariance = DMatrix::zeros(count, count);
     for cause in &causes {
@@ -217,7 +229,7 @@ pub(super) fn figures(experiment: &Experiment, parameters: &[f64], causes: Vec<C
     }
     let coefficients = all
         .enumerate()
-        .map(|(index, (name, description, unit, value))| {
+        .map(|(index, ((name, description, unit), value))| {
             let u = covariance[(index, index)].sqrt();
             let dof = effective(&causes, index, u);
             Coefficient {

@@ -151,8 +151,8 @@ impl Gain {
     }
 }
 
-/// Which error acts on each row.
-fn levels(stack: &Stack<'_>, scope: &Scope) -> Vec<usize> {
+/// Which error of a scope acts on each row.
+pub(super) fn levels(stack: &Stack<'_>, scope: &Scope) -> Vec<usize> {
     let labels = match scope {
         Scope::By(name) => stack.experiment.points.labels(name),
         _ => None,

@@ -49,7 +49,7 @@ mod tests;
 mod trouble;
 
 pub use budget::budget;
-pub use calibration::{Calibration, Coefficient, Figures, Residual, calibrate};
+pub use calibration::{Calibration, Coefficient, Figures, Residual, calibrate, estimates};
 pub use causes::{Cause, Origin};
 pub use define::{Purpose, load, read};
 pub use dwells::Dwelling;

@@ -1,10 +1,10 @@
 //! The scatter of the readings: from residuals, from samples, or stated.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::causes::{Cause, Origin};
 use super::experiment::{Experiment, Observed, Scatter, Scope, Target, Weights};
-use super::gain::Gain;
+use super::gain::{Gain, levels};
 use super::stack::{Row, Stack};
 use super::trouble::Trouble;
 use crate::budget::Evaluation;
@@ -31,6 +31,11 @@ pub struct ResponseScatter {
     pub s: f64,
     /// ν: the readings less the parameters that they determine, Σ(1 − h) over the leverages h.
     pub dof: f64,
+    /// Standard deviation of a reading by itself: `s` without what the stated errors explain of the
+    /// residuals, in the same units.
+    pub own: f64,
+    /// Degrees of freedom of `own`.
+    pub own_dof: f64,
     /// The test against what samples and stated errors of each reading say, where they say anything.
     pub test: Option<ScatterTest>,
 }
@@ -142,6 +147,7 @@ impl Scatters {
         let jacobian = stack.jacobian(&solution.parameters, &ones);
         let known = known_u(stack, true);
         let parameters = experiment.parameters.len();
+        let explained = explained(stack, solution, gain, &jacobian);
         let mut responses = Vec::new();
         for (response, quantity) in experiment.equations.responses().iter().enumerate() {
             let rows: Vec<usize> = (0..stack.rows.len())
@@ -170,13 +176,22 @@ impl Scatters {
                     parameters,
                 });
             }
+            let explained: f64 = rows
+                .iter()
+                .map(|row| explained[*row] / (u[*row] * u[*row]))
+                .sum();
+            let total = sum(u);
+            let own = (total - explained).max(0.0);
             let complete = !rows.is_empty() && rows.iter().all(|row| known[*row] > 0.0);
             responses.push(ResponseScatter {
                 response: quantity.name.clone(),
                 readings: rows.len(),
                 rms: (sum(&ones) / rows.len() as f64).sqrt(),
-                s: (sum(u) / dof).sqrt(),
+                s: (total / dof).sqrt(),
                 dof,
+                own: (own / dof).sqrt(),
+                // The difference has the variance of the whole sum.
+                own_dof: dof * (own / total).powi(2),
                 test: (complete && dof > 0.0).then(|| {
                     let chi_squared = sum(&known);
                     let expected: f64 = rows.iter().map(|row| known[*row].powi(2)).sum();
@@ -214,7 +229,7 @@ impl Scatters {
             let own = |row: &usize| matches!(stack.rows[*row], Row::Reading { response: own, .. } if own == response);
             let columns: Vec<_> = (0..stack.rows.len())
                 .filter(own)
-                .map(|row| gain.by_observed.column(row) * (scatter.s * u[row]))
+                .map(|row| gain.by_observed.column(row) * (scatter.own * u[row]))
                 .collect();
             let effects = match columns.as_slice() {
                 [] => DMatrix::zeros(gain.coefficients(), 0),
@@ -225,14 +240,55 @@ impl Scatters {
                     response: scatter.response.clone(),
                 },
                 effects,
-                dof: vec![scatter.dof],
+                dof: vec![scatter.own_dof],
                 distribution: None,
                 evaluation: Evaluation::TypeA,
-                how: format!("s, ν = {:.1}", scatter.dof),
+                how: "s".to_owned(),
             }
         };
         self.responses.iter().enumerate().map(cause).collect()
     }
+}
+
+/// The mean square of each row's residual that the stated errors let expect: Σ u²·(d − J·∂β/∂y·d)² over
+/// their errors, each of which changes the misfits by d.
+fn explained(
+    stack: &Stack<'_>,
+    solution: &Solution,
+    gain: &Gain,
+    jacobian: &DMatrix<f64>,
+) -> Vec<f64> {
+    let parameters = solution.parameters.len();
+    let mut explained = vec![0.0; stack.rows.len()];
+    for doubt in &stack.experiment.doubts {
+        let mut misfits = vec![0.0; stack.rows.len()];
+        for act in &doubt.acts {
+            let by = stack.misfit_by(&act.on, &solution.parameters);
+            for (misfit, by) in misfits.iter_mut().zip(by) {
+                *misfit += act.coefficient * by;
+            }
+        }
+        let levels = levels(stack, &doubt.scope);
+        let count = levels.iter().max().map_or(0, |last| last + 1);
+        let mut of_level = vec![Vec::new(); count];
+        for (row, level) in levels.iter().enumerate() {
+            of_level[*level].push(row);
+        }
+        for rows in of_level {
+            let mut shift = DVector::zeros(parameters);
+            for row in &rows {
+                shift += gain.by_observed.column(*row).rows(0, parameters) * misfits[*row];
+            }
+            let mut left = -(jacobian * shift);
+            for row in rows {
+                left[row] += misfits[row];
+            }
+            for (explained, left) in explained.iter_mut().zip(left.iter()) {
+                *explained += (doubt.u * left).powi(2);
+            }
+        }
+    }
+    explained
 }
 
 /// Every average of samples scatters by itself.

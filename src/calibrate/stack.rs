@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::experiment::{Experiment, Observed};
+use super::experiment::{Experiment, Observed, Target};
 use super::trouble::Trouble;
 use crate::least_squares::{Errors, Problem, Response, Scale, Solution, Spread, solve};
 
@@ -131,6 +131,31 @@ impl<'e> Stack<'e> {
             }
         }
         jacobian
+    }
+
+    /// Change of each row's misfit by a unit error of a target: of what is observed there, less that of
+    /// its equation.
+    pub fn misfit_by(&self, target: &Target, parameters: &[f64]) -> Vec<f64> {
+        let experiment = self.experiment;
+        let place = match target {
+            Target::Input(place) => Some(experiment.input_places().start + place),
+            Target::Reading(name) => experiment.columns.iter().position(|c| c.name == *name),
+        };
+        let mut slopes = vec![0.0; experiment.symbols()];
+        let mut of_row = |(index, row): (usize, &Row)| {
+            let Row::Reading { response, .. } = row else {
+                return 0.0;
+            };
+            let symbols = self.symbols(index, parameters);
+            experiment.equations.at(*response, &symbols, &mut slopes);
+            let observed = match (&experiment.observed[*response], target) {
+                (Observed::Column(name), Target::Reading(column)) => name == column,
+                (Observed::Input(own), Target::Input(place)) => own == place,
+                _ => false,
+            };
+            f64::from(u8::from(observed)) - place.map_or(0.0, |place| slopes[place])
+        };
+        self.rows.iter().enumerate().map(&mut of_row).collect()
     }
 
     /// The parameters of least squares, with rows of these standard uncertainties.

@@ -308,3 +308,32 @@ file = "run.csv"
     near(c[3].value, b[2], 1e-6);
     assert!(c[1].u > 0.0 && c[1].u < 0.2, "{}", c[1].u);
 }
+
+#[test]
+fn written_budgets_give_the_same_uncertainty_by_both_methods() {
+    use crate::propagate::{Options, evaluate};
+    let toml = RATE.to_owned()
+        + "[reading.U]\nhalf_width = 0.1\n[input.e_scale]\nu = 3e-4\ndof = 7\nscope = \"each\"\n";
+    let toml = toml.replace("(1 + e_rate)", "(1 + e_rate + e_scale)");
+    let experiment = experiment(&toml, RATES);
+    let found = calibrate(&experiment).expect("coefficients");
+    for places in [vec![0], vec![1], vec![0, 1]] {
+        let text = super::super::budget(&experiment, &found, &places);
+        let loaded = crate::budget::read(&text, "budget.toml", "".as_ref())
+            .unwrap_or_else(|rejection| panic!("{}\n{text}", rejection.render(false)));
+        let budget = &loaded.rows[0].budget;
+        let evaluation = evaluate(budget, &Options::default()).expect("a result");
+        for (result, place) in evaluation.results.iter().zip(&places) {
+            let one = &found.figures.coefficients[*place];
+            near(result.gum.estimate, one.value, 1e-12);
+            near(result.gum.u, one.u, 1e-9);
+            let trials = result.monte_carlo.as_ref().expect("trials");
+            near(trials.u.expect("a standard deviation"), one.u, 0.01);
+        }
+        if let (Some(joint), [_, _]) = (&evaluation.joint, places.as_slice()) {
+            let v = &found.figures.covariance;
+            let r = v[(0, 1)] / (v[(0, 0)] * v[(1, 1)]).sqrt();
+            assert!((joint.correlation[(0, 1)] - r).abs() < 1e-9);
+        }
+    }
+}

@@ -148,11 +148,10 @@ fn what_cannot_be_found_is_said() {
         panic!("undetermined");
     };
     assert_eq!(combinations.len(), 1);
-    let no_start = RATE
-        .replace("K*omega + b", "K*omega*b")
-        .replace("b = {}", "b = { unit = \"mV·s/deg\" }");
+    let no_start = RATE.replace("K*omega + b", "K*omega/b");
     let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
-    assert!(matches!(trouble(&no_start, csv), Trouble::NoStart { .. }));
+    let found = trouble(&no_start, csv);
+    assert!(matches!(found, Trouble::NoStart { .. }), "{found:?}");
     let dwells = format!("scatter = \"dwells\"\n{RATE}");
     assert_eq!(trouble(&dwells, csv), Trouble::NoSamples);
 }

@@ -7,7 +7,7 @@ use super::super::joint::matrix;
 use super::super::language::{Language, Word};
 use super::super::number::{NONE, aligned, freedom, percent, probability, significant};
 use super::super::symbol;
-use super::super::table::{Cell, ColumnKind, Table};
+use super::super::table::{Cell, Column, ColumnKind, Row, Table};
 use super::trouble::in_words;
 use crate::calibrate::{
     Alias, Calibration, Cause, Coefficient, Combination, Experiment, Figures, Identifiability,
@@ -19,6 +19,9 @@ const DIGITS: u8 = 3;
 
 /// More coefficients than these share one table of causes.
 const SINGLE_BUDGETS: usize = 6;
+
+/// Contributions smaller than this share of u are rounding errors, or might as well be.
+const NOTHING: f64 = 1e-6;
 
 /// More residuals than these are not listed.
 const RESIDUALS: usize = 12;
@@ -174,45 +177,84 @@ pub(super) fn parts(found: &Calibration, l: Language) -> Vec<Block> {
     if found.parts.is_empty() {
         return Vec::new();
     }
-    let mut blocks = vec![Block::Section(l.pick("One by one", "分别计算").to_owned())];
-    for (index, whole) in found.figures.coefficients.iter().enumerate() {
-        let unit = symbol(&whole.unit);
-        let head = if unit.is_empty() {
-            whole.name.clone()
-        } else {
-            format!("{} / {unit}", whole.name)
-        };
-        let mut table = Table::new([
-            ("", ColumnKind::Names),
-            (&head, ColumnKind::Numbers),
-            ("u", ColumnKind::Numbers),
-        ]);
-        let values: Vec<f64> = found
-            .parts
-            .iter()
-            .map(|(_, part)| part.figures.coefficients[index].value)
-            .collect();
-        let (mean, s) = mean_and_deviation(&values);
-        for (label, part) in &found.parts {
-            let one = &part.figures.coefficients[index];
-            table.push(vec![
-                label.as_str().into(),
-                aligned(one.value, s.min(one.u).max(s * 0.01), DIGITS).into(),
-                shown_u(one.u).into(),
-            ]);
-        }
-        table.rows.push(super::super::table::Row::Rule);
-        table.push(vec![
-            l.pick("mean", "平均值").into(),
-            aligned(mean, s, DIGITS).into(),
-        ]);
-        table.push(vec![
-            l.pick("standard deviation", "标准偏差").into(),
-            shown_u(s).into(),
-        ]);
-        blocks.push(Block::Table(table));
+    let coefficients = &found.figures.coefficients;
+    let mut table = Table {
+        columns: vec![column("", ColumnKind::Names)],
+        rows: Vec::new(),
+    };
+    let heads = coefficients.iter().map(head_of);
+    table
+        .columns
+        .extend(heads.map(|head| column(&head, ColumnKind::Numbers)));
+    let statistics: Vec<Statistics> = (0..coefficients.len())
+        .map(|index| {
+            let values = found
+                .parts
+                .iter()
+                .map(|(_, part)| part.figures.coefficients[index].value);
+            Statistics::of(&values.collect::<Vec<_>>())
+        })
+        .collect();
+    for (label, part) in &found.parts {
+        let values = part.figures.coefficients.iter().zip(&statistics);
+        let mut cells: Vec<Cell> = vec![label.as_str().into()];
+        cells.extend(values.map(|(one, all)| Cell::Text(aligned(one.value, all.s, DIGITS))));
+        table.push(cells);
     }
-    blocks
+    table.rows.push(Row::Rule);
+    let mut row = |label: &str, shown: &dyn Fn(&Statistics) -> String| {
+        let mut cells: Vec<Cell> = vec![label.into()];
+        cells.extend(statistics.iter().map(|one| Cell::Text(shown(one))));
+        table.push(cells);
+    };
+    row(l.pick("mean", "平均值"), &|one| {
+        aligned(one.mean, one.s, DIGITS)
+    });
+    row(l.pick("standard deviation", "标准偏差"), &|one| {
+        shown_u(one.s)
+    });
+    row(l.pick("range", "极差"), &|one| shown_u(one.range));
+    vec![
+        Block::Section(l.pick("One by one", "分别计算").to_owned()),
+        Block::Table(table),
+        Block::Paragraph(l.pick(
+            "The coefficients above are those of all points together; the scatter between the parts is in their residuals.",
+            "上列系数由全部测量点一并求得；各部分之间的分散已含在残差中。",
+        ).to_owned()),
+    ]
+}
+
+/// How the results of parts scatter.
+struct Statistics {
+    mean: f64,
+    s: f64,
+    range: f64,
+}
+
+impl Statistics {
+    fn of(values: &[f64]) -> Statistics {
+        let (mean, s) = mean_and_deviation(values);
+        let extreme = |better: fn(f64, f64) -> f64| values.iter().copied().reduce(better);
+        let range = extreme(f64::max)
+            .zip(extreme(f64::min))
+            .map_or(f64::NAN, |(a, b)| a - b);
+        Statistics { mean, s, range }
+    }
+}
+
+fn column(head: &str, kind: ColumnKind) -> Column {
+    Column {
+        head: head.to_owned(),
+        kind,
+    }
+}
+
+/// Name and unit of a coefficient, as the head of a column.
+fn head_of(one: &Coefficient) -> String {
+    match symbol(&one.unit) {
+        none if none.is_empty() => one.name.clone(),
+        unit => format!("{} / {unit}", one.name),
+    }
 }
 
 fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
@@ -231,10 +273,12 @@ pub(super) fn correlations(figures: &Figures, l: Language) -> Vec<Block> {
         .iter()
         .map(|one| one.name.as_str())
         .collect();
-    let of = l.pick("coefficients", "系数");
+    let mut table = matrix(l, &names, &correlation(figures), "");
+    // The section says it.
+    table.columns[0].head = String::new();
     vec![
         Block::Section(l.word(Word::Correlation).to_owned()),
-        Block::Table(matrix(l, &names, &correlation(figures), of)),
+        Block::Table(table),
     ]
 }
 
@@ -321,7 +365,7 @@ fn budget(figures: &Figures, index: usize, one: &Coefficient, l: Language) -> Ta
     causes.sort_by(|a, b| b.contribution(index).total_cmp(&a.contribution(index)));
     for cause in causes {
         let contribution = cause.contribution(index);
-        if contribution == 0.0 {
+        if contribution <= NOTHING * one.u {
             continue;
         }
         let share = (contribution / one.u).powi(2);
@@ -335,7 +379,7 @@ fn budget(figures: &Figures, index: usize, one: &Coefficient, l: Language) -> Ta
             Cell::Share(share),
         ]);
     }
-    table.rows.push(super::super::table::Row::Rule);
+    table.rows.push(Row::Rule);
     table.push(vec![
         l.word(Word::CombinedUncertainty).into(),
         "".into(),
@@ -347,23 +391,13 @@ fn budget(figures: &Figures, index: usize, one: &Coefficient, l: Language) -> Ta
 
 fn all_budgets(figures: &Figures, l: Language) -> Table {
     let mut table = Table {
-        columns: vec![super::super::table::Column {
-            head: l.pick("cause", "来源").to_owned(),
-            kind: ColumnKind::Names,
-        }],
+        columns: vec![column(l.pick("cause", "来源"), ColumnKind::Names)],
         rows: Vec::new(),
     };
-    for one in &figures.coefficients {
-        let unit = symbol(&one.unit);
-        table.columns.push(super::super::table::Column {
-            head: if unit.is_empty() {
-                one.name.clone()
-            } else {
-                format!("{} / {unit}", one.name)
-            },
-            kind: ColumnKind::Numbers,
-        });
-    }
+    let heads = figures.coefficients.iter().map(head_of);
+    table
+        .columns
+        .extend(heads.map(|head| column(&head, ColumnKind::Numbers)));
     for cause in &figures.causes {
         let (name, scope) = cause_words(cause, l);
         let head = if scope.is_empty() {
@@ -372,18 +406,18 @@ fn all_budgets(figures: &Figures, l: Language) -> Table {
             format!("{name} ({scope})")
         };
         let mut cells: Vec<Cell> = vec![head.into()];
-        cells.extend((0..figures.coefficients.len()).map(
-            |index| match cause.contribution(index) {
-                0.0 => Cell::Text("0".to_owned()),
+        cells.extend(figures.coefficients.iter().enumerate().map(|(index, one)| {
+            match cause.contribution(index) {
+                small if small <= NOTHING * one.u => Cell::Text("0".to_owned()),
                 contribution => Cell::Text(significant(
                     cause.effect(index).unwrap_or(contribution),
                     DIGITS,
                 )),
-            },
-        ));
+            }
+        }));
         table.push(cells);
     }
-    table.rows.push(super::super::table::Row::Rule);
+    table.rows.push(Row::Rule);
     let mut cells: Vec<Cell> = vec![l.word(Word::CombinedUncertainty).into()];
     cells.extend(
         figures
@@ -466,8 +500,8 @@ pub(super) fn residuals(experiment: &Experiment, found: &Calibration, l: Languag
     }
     let way = match found.scatter {
         Scatter::Residuals => l.pick(
-            "The scatter of the readings in the uncertainties above is that of the residuals.",
-            "上列不确定度中的读数分散性取自残差。",
+            "The scatter of the readings in the uncertainties above is the part of the residuals that the stated errors do not explain.",
+            "上列不确定度中的读数分散性取残差中已给出误差不能解释的部分。",
         ),
         Scatter::Dwells => l.pick(
             "The scatter of the readings in the uncertainties above is that of the samples of each dwell; compare it with the residuals.",

@@ -15,7 +15,11 @@ use super::super::{Experiment, calibrate, estimates};
 use super::experiment;
 
 /// Simulated calibrations; fewer where the program is slow.
-const TRIALS: usize = if cfg!(debug_assertions) { 1_500 } else { 10_000 };
+const TRIALS: usize = if cfg!(debug_assertions) {
+    1_500
+} else {
+    10_000
+};
 
 /// Calibrations over which the predicted covariance is averaged.
 const PREDICTIONS: usize = TRIALS / 15;

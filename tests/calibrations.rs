@@ -359,3 +359,156 @@ fn the_65_positions_as_predicted_and_as_found() {
         near(coefficient(&found, name).u, expected * scale, 0.25);
     }
 }
+
+/// The blocks of a page that are calibration files whose recordings are in `calibrations/`.
+fn examples(page: &str) -> Vec<String> {
+    page.split("```toml calibration\n")
+        .skip(1)
+        .filter_map(|rest| rest.split("```").next())
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn every_example_of_the_page_of_procedures_is_a_file_that_evaluates() {
+    let path = common::root().join("docs/procedures.md");
+    let examples = examples(&std::fs::read_to_string(path).expect("the page"));
+    let mut files: Vec<String> = common::files("calibrations", "toml")
+        .iter()
+        .map(|path| std::fs::read_to_string(path).expect("a file"))
+        .collect();
+    for example in examples {
+        let Some(place) = files.iter().position(|file| *file == example) else {
+            panic!("no file of calibrations/ is\n{example}");
+        };
+        files.remove(place);
+        let folder = common::root().join("calibrations");
+        let purpose = match example.contains("[recording]") {
+            true => Purpose::Calibrate,
+            false => Purpose::Plan,
+        };
+        let experiment = read(&example, "docs/procedures.md", &folder, purpose)
+            .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+        match purpose {
+            Purpose::Calibrate => drop(calibrate(&experiment).expect("coefficients")),
+            Purpose::Plan => drop(plan(&experiment).expect("a plan")),
+        }
+    }
+    assert!(files.is_empty(), "not in docs/procedures.md:\n{files:?}");
+}
+
+#[test]
+fn the_list_of_procedures_is_fresh() {
+    let mut page = String::from(
+        "# Procedures of the library\n\nMade from the procedures themselves. [procedures.md](../procedures.md) says how to use them, with an example of each.\n",
+    );
+    for procedure in gumption::calibrate::procedure::PROCEDURES {
+        page += &listed(procedure.name, procedure.text);
+    }
+    let path = common::root().join("docs/reference/procedures.md");
+    let stale: Vec<String> = common::stale(&path, &page).into_iter().collect();
+    common::assert_fresh(&stale);
+}
+
+/// A procedure as a section.
+fn listed(name: &str, text: &str) -> String {
+    let table: toml::Table = text.parse().expect("a procedure is TOML");
+    let word = |table: &toml::Table, key: &str| -> String {
+        let value = table.get(key).and_then(toml::Value::as_str);
+        value.unwrap_or_default().trim().to_owned()
+    };
+    let mut section = format!(
+        "\n## {name}\n\n{} / {}. {}\n\n{}\n\n```text\n",
+        word(&table, "title"),
+        word(&table, "title_zh"),
+        word(&table, "reference"),
+        word(&table, "description"),
+    );
+    let statements = word(&table, "model");
+    let equations = table.get("equations").and_then(toml::Value::as_array);
+    let equations = equations
+        .into_iter()
+        .flatten()
+        .filter_map(toml::Value::as_str);
+    for line in statements.lines().chain(equations) {
+        section += line;
+        section.push('\n');
+    }
+    section += "```\n\n| kind | name | unit | what it is |\n|---|---|---|---|\n";
+    for (kind, key) in [
+        ("column", "column"),
+        ("parameter", "parameter"),
+        ("input", "input"),
+        ("result", "result"),
+        ("omitted effect", "omitted"),
+    ] {
+        let entries = table.get(key).and_then(toml::Value::as_table);
+        for (name, entry) in entries.into_iter().flatten() {
+            let entry = entry.as_table().expect("an entry is a table");
+            let unit = match (word(entry, "unit"), word(entry, "like")) {
+                (unit, like) if unit.is_empty() && !like.is_empty() => format!("like `{like}`"),
+                (unit, _) if unit.is_empty() => String::new(),
+                (unit, _) => format!("`{unit}`"),
+            };
+            let mut what = format!(
+                "{} / {}",
+                word(entry, "description"),
+                word(entry, "description_zh")
+            );
+            let scope = (word(entry, "scope"), word(entry, "by"));
+            match scope {
+                (scope, _) if scope == "each" => what += " (one error for each point)",
+                (_, by) if !by.is_empty() => what += &format!(" (one error for each {by})"),
+                _ => {}
+            }
+            if entry.get("required").and_then(toml::Value::as_bool) == Some(true) {
+                what += " (must be stated)";
+            }
+            let term = word(entry, "term");
+            if !term.is_empty() {
+                what += &format!(": `{term}`");
+            }
+            section += &format!("| {kind} | `{name}` | {unit} | {what} |\n");
+        }
+    }
+    if let Some(positions) = table.get("positions").and_then(toml::Value::as_table) {
+        let labels = positions.get("at").and_then(toml::Value::as_table);
+        let labels: Vec<String> = labels
+            .into_iter()
+            .flatten()
+            .map(|(label, _)| format!("`{label}`"))
+            .collect();
+        section += &format!(
+            "\nLabels of `{}`: {}.\n",
+            word(positions, "column"),
+            labels.join(", ")
+        );
+    }
+    section
+}
+
+#[test]
+fn the_example_of_the_page_of_recordings_evaluates() {
+    let path = common::root().join("docs/recordings.md");
+    let page = std::fs::read_to_string(path).expect("the page");
+    let block = |opening: &str| {
+        let rest = page.split(opening).nth(1).expect("a block");
+        rest.split("```").next().expect("its end").to_owned()
+    };
+    let folder = std::env::temp_dir().join(format!("gumption-recordings-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::write(folder.join("samples.csv"), block("```text\n")).expect("a file");
+    let toml = block("```toml calibration-file\n");
+    let experiment = read(&toml, "docs/recordings.md", &folder, Purpose::Calibrate)
+        .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+    let found = calibrate(&experiment).expect("coefficients");
+    // The first sample of each dwell is left out: means of 1001.1, 1001.2, 1001.3 and −998.9, −998.7, −998.9.
+    let means = [1001.2, -2996.5 / 3.0];
+    near(
+        coefficient(&found, "K").value,
+        (means[0] - means[1]) / 2.0,
+        1e-12,
+    );
+    assert!(coefficient(&found, "K").u > 0.0);
+    std::fs::remove_dir_all(&folder).expect("the folder goes");
+}

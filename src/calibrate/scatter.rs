@@ -251,7 +251,8 @@ impl Scatters {
 }
 
 /// The mean square of each row's residual that the stated errors let expect: Σ u²·(d − J·∂β/∂y·d)² over
-/// their errors, each of which changes the misfits by d.
+/// their errors, each of which changes the misfits by d. One error that acts on all points counts for nothing:
+/// it may happen to be small, and what the residuals do not show of it explains nothing of them.
 fn explained(
     stack: &Stack<'_>,
     solution: &Solution,
@@ -260,7 +261,8 @@ fn explained(
 ) -> Vec<f64> {
     let parameters = solution.parameters.len();
     let mut explained = vec![0.0; stack.rows.len()];
-    for doubt in &stack.experiment.doubts {
+    let doubts = stack.experiment.doubts.iter();
+    for doubt in doubts.filter(|doubt| doubt.scope != Scope::Common) {
         let mut misfits = vec![0.0; stack.rows.len()];
         for act in &doubt.acts {
             let by = stack.misfit_by(&act.on, &solution.parameters);

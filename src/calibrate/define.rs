@@ -295,11 +295,16 @@ impl Definer<'_> {
     /// The unit of a response that is not recorded yet.
     fn planned_unit(&self, name: &str) -> Option<Unit> {
         let table = &self.source.table;
-        let entry = entries(&table.column)
+        let column = entries(&table.column)
             .iter()
             .find(|(other, _)| other == name);
-        let stated =
-            entry.and_then(|(_, entry)| entry.value.unit.as_ref().or(entry.value.like.as_ref()));
+        let reading = entries(&table.reading)
+            .iter()
+            .find(|(other, _)| other == name);
+        let stated = column
+            .and_then(|(_, entry)| entry.value.unit.as_ref())
+            .or_else(|| reading.and_then(|(_, entry)| entry.value.input.unit.as_ref()))
+            .or_else(|| column.and_then(|(_, entry)| entry.value.like.as_ref()));
         stated.map_or_else(
             || Some(Unit::one()),
             |stated| self.units.parse(&stated.value).ok(),

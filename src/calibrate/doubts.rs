@@ -38,6 +38,8 @@ struct Known<'t> {
     name: &'t str,
     entry: &'t Stated<KnownTable>,
     unit: Unit,
+    /// Its unit in the unit of the readings; 1 for inputs.
+    factor: f64,
     is_reading: bool,
 }
 
@@ -189,26 +191,23 @@ fn known<'t>(
             name,
             entry,
             unit,
+            factor: 1.0,
             is_reading: false,
         });
     }
     for (name, entry) in entries(&source.table.reading) {
-        let Some(column) = columns.iter().find(|column| column.name == *name) else {
-            // A plan has no readings, but knows their errors.
-            if names.responses.contains(name) {
-                let unit = entry.value.input.unit.as_ref();
-                let unit = match unit {
-                    Some(text) => definer.unit(text)?,
-                    None => definer.response_unit(name),
-                };
-                all.push(Known {
-                    name,
-                    entry,
-                    unit,
-                    is_reading: true,
-                });
-                continue;
-            }
+        let column = columns.iter().find(|column| column.name == *name);
+        // A plan has no readings, but knows their errors.
+        let planned = || {
+            names
+                .responses
+                .contains(name)
+                .then(|| definer.response_unit(name))
+        };
+        let Some(own) = column
+            .map(|column| column.unit.difference())
+            .or_else(planned)
+        else {
             let known: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
             definer.faults.push(
                 Fault::new(
@@ -221,10 +220,28 @@ fn known<'t>(
             );
             continue;
         };
+        let stated = entry.value.input.unit.as_ref();
+        let unit = match stated {
+            Some(text) => definer.unit(text)?,
+            None => own.clone(),
+        };
+        let Some(conversion) = unit.difference().conversion_to(&own) else {
+            let place = stated.map_or(entry.key.clone(), |text| text.span.clone());
+            definer.faults.push(
+                Fault::new(
+                    KEY,
+                    place,
+                    format!("{name} is in {}, not in {}", own.symbol, unit.symbol),
+                )
+                .label(format!("expected {} or a unit like it", own.symbol)),
+            );
+            continue;
+        };
         all.push(Known {
             name,
             entry,
-            unit: column.unit.difference(),
+            unit,
+            factor: conversion.apply(1.0) - conversion.apply(0.0),
             is_reading: true,
         });
     }
@@ -445,7 +462,7 @@ fn components(budget: &Budget, known: &[Known<'_>], inputs: &[String]) -> Vec<Do
                 }
                 acts.push(Act {
                     on,
-                    coefficient: term.coefficient,
+                    coefficient: term.coefficient * one.factor,
                 });
             }
         }

@@ -195,7 +195,7 @@ fn near_alias(
     let fit = basis.clone().svd(true, true).solve(&target, 1e-14).ok()?;
     let remainder = (&target - &basis * &fit).norm();
     let inflation = 1.0 / remainder;
-    if !(inflation > INFLATION) {
+    if inflation.is_nan() || inflation <= INFLATION {
         return None;
     }
     let mut direction = DVector::zeros(parameters.len());

@@ -185,7 +185,7 @@ impl Definer<'_> {
                 ))
             }
             Err(faults) => {
-                let faults: Vec<Fault> = faults.into_iter().map(|f| f.moved(&place)).collect();
+                let faults: Vec<Fault> = faults.into_iter().map(|f| f.moved(place)).collect();
                 self.faults.extend(faults);
                 None
             }

@@ -1,6 +1,6 @@
 //! Coefficients and uncertainties that can be written down.
 
-use super::super::{calibrate, plan};
+use super::super::{Origin, calibrate, plan};
 use super::{experiment, near, planned};
 
 /// A line through readings: `U = K*omega*(1 + e_rate) + b`.
@@ -118,6 +118,16 @@ unit = "V"
     let k1 = &found.figures.coefficients[1];
     assert_eq!((k1.name.as_str(), k1.unit.symbol.as_str()), ("K1", "mA/gn"));
     near(k1.value, (99.9047 + 99.9304) / 2.0 / 500.0, 1e-6);
+    // The voltmeter's error of 11 µV, stated in V for a column in mV.
+    let voltmeter = found.figures.causes.iter().find(
+        |cause| matches!(&cause.origin, Origin::Stated { name, .. } if name.starts_with("E")),
+    );
+    let expected = 0.011 / 3.0_f64.sqrt() / 2.0_f64.sqrt() / 500.0;
+    near(
+        voltmeter.expect("a voltmeter").contribution(1),
+        expected,
+        1e-3,
+    );
     let k0 = &found.figures.coefficients[0];
     let mean = (0.0601 + 99.9047 - 0.1018 - 99.9304) / 4.0;
     near(k0.value, mean / 500.0 / k1.value, 1e-6);

@@ -148,7 +148,9 @@ fn what_cannot_be_found_is_said() {
         panic!("undetermined");
     };
     assert_eq!(combinations.len(), 1);
-    let no_start = RATE.replace("K*omega + b", "K*omega/b");
+    let no_start = RATE
+        .replace("K*omega + b", "K*omega/b")
+        .replace("K = {}", "K = { unit = \"mV·s/deg\" }");
     let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
     let found = trouble(&no_start, csv);
     assert!(matches!(found, Trouble::NoStart { .. }), "{found:?}");

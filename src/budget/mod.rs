@@ -14,6 +14,7 @@ mod check;
 mod claim;
 mod decision;
 mod distributions;
+pub(crate) mod doubts;
 pub mod faults;
 mod files;
 mod fit;

@@ -3,8 +3,10 @@
 //! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
 //! composed once; [`json`] is the machine form.
 
+mod allan;
 mod analyses;
 mod budget_table;
+mod calibration;
 mod claim;
 mod comparison;
 mod compose;
@@ -32,6 +34,11 @@ mod fixtures;
 #[cfg(test)]
 mod tests;
 
+pub use allan::{AllanReport, allan_json, allan_markdown, allan_text};
+pub use calibration::{
+    calibration_json, calibration_markdown, calibration_text, calibration_trouble, plan_json,
+    plan_markdown, plan_text,
+};
 pub use json::{FORMAT, json};
 pub use language::Language;
 pub use markdown::markdown;

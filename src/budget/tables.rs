@@ -163,6 +163,18 @@ table! {
         max_trials: u64,
         /// Seed of the random numbers; the same seed gives the same result everywhere.
         seed: u64,
+        /// What trials are made of. Quasi-random points are run until the results are stable, as adaptive trials are, and give way to random ones where they are not far more accurate.
+        points: PointsWord,
+    }
+}
+
+words! {
+    /// What trials are made of.
+    PointsWord {
+        /// Random numbers (JCGM 101).
+        Random "random",
+        /// Scrambled Sobol' points.
+        QuasiRandom "quasi-random",
     }
 }
 

@@ -26,7 +26,7 @@ pub use decide::{
     DetectionResult, GlobalRisk, Verdict,
 };
 pub use findings::is_residue;
-pub use monte_carlo::{Consequence, MissingMoments, Side};
+pub use monte_carlo::{Consequence, MissingMoments, Quasi, QuasiRun, Side, WhyRandom};
 
 use nalgebra::DMatrix;
 
@@ -238,6 +238,8 @@ pub struct Run {
     pub coverage_probability: f64,
     /// For an adaptive run: procedure, δ of each measurand, whether it was reached.
     pub adaptive: Option<AdaptiveRun>,
+    /// Where quasi-random points were asked for: whether they were used; `trials` is their number then.
+    pub quasi: Option<Quasi>,
 }
 
 /// What an adaptive run reached.
@@ -571,6 +573,9 @@ fn draw(
     let Trials::Decisive { most, .. } = settings.trials else {
         return Ok(outcome);
     };
+    if let Some(Quasi::Used(_)) = outcome.run.quasi {
+        return Ok(outcome);
+    }
     let open = gums.iter().zip(&outcome.outputs).any(|(gum, mc)| {
         let both = validation::validate(gum, mc);
         validation::at(&both, budget.conventions.digits).verdict == Clause8::Undecided

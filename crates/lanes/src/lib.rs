@@ -14,6 +14,7 @@
 //! | [`sampler`] | blocks of draws from the distributions of JCGM 101, 6.4, and others |
 //! | [`sobol`] | scrambled Sobol' points |
 //! | [`quantile`] | from uniform numbers to values of a distribution, by its quantile function |
+//! | [`kernel`] | averages of distribution functions over points |
 //! | [`bins`] | counts in equal bins, and the values of chosen ones |
 //! | [`moments`] | sums of powers, extremes and the count of trials that have no finite value |
 //!
@@ -42,6 +43,7 @@
 pub mod bins;
 pub mod elementary;
 pub mod generator;
+pub mod kernel;
 pub mod level;
 pub mod moments;
 pub mod ops;

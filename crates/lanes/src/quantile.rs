@@ -39,6 +39,15 @@ pub enum Quantile {
         /// Expectation above the origin.
         mean: f64,
     },
+    /// Triangular, with the mode anywhere between the limits.
+    Triangular {
+        /// Lower limit.
+        lower: f64,
+        /// Most probable value.
+        mode: f64,
+        /// Upper limit.
+        upper: f64,
+    },
     /// Isosceles trapezoid; a triangle where `beta` is zero.
     Trapezoidal {
         /// Lower limit.
@@ -110,6 +119,23 @@ impl Quantile {
                     block,
                     #[inline(always)]
                     move |u| (-mean).mul_add(ln_normal(1.0 - u), origin),
+                );
+            }
+            Quantile::Triangular { lower, mode, upper } => {
+                let (left, right) = (
+                    (upper - lower) * (mode - lower),
+                    (upper - lower) * (upper - mode),
+                );
+                let at_mode = (mode - lower) / (upper - lower);
+                map(
+                    level,
+                    block,
+                    #[inline(always)]
+                    move |u| {
+                        let below = lower + (left * u).sqrt();
+                        let above = upper - (right * (1.0 - u)).sqrt();
+                        if u < at_mode { below } else { above }
+                    },
                 );
             }
             Quantile::Trapezoidal { lower, upper, beta } => {
@@ -340,8 +366,10 @@ impl Curve {
     #[inline(always)]
     pub fn with_slope(&self, x: f64) -> [f64; 2] {
         let (cell, t) = self.cell(x);
-        let slope = horner(t, [cell[1], 2.0 * cell[2], 3.0 * cell[3]]);
-        [horner(t, *cell), slope * self.density]
+        let slope = horner(t, [cell[1], 2.0 * cell[2], 3.0 * cell[3]]) * self.density;
+        let place = (x - self.start) * self.density;
+        let inside = place > 0.0 && place < CELLS as f64;
+        [horner(t, *cell), if inside { slope } else { 0.0 }]
     }
 
     /// Replaces arguments by values.

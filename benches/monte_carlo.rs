@@ -73,6 +73,7 @@ fn whole(name: &str, text: &str, trial: impl Fn(&mut Xoshiro256PlusPlus) -> f64)
     let budget = budget(text);
     let settings = MonteCarloSettings {
         points: Points::Random,
+        indices: false,
         seed: 1,
         trials: Trials::Fixed(TRIALS as u64),
     };

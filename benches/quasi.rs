@@ -75,6 +75,7 @@ fn line(name: &str, text: &str) {
                 max: 100_000_000,
             },
             points,
+            indices: false,
         }))
     };
     let gum = best_of(RUNS, || evaluate(&budget, &options(MonteCarloChoice::Off)));

@@ -365,6 +365,8 @@ pub struct MonteCarloSettings {
     pub trials: Trials,
     /// What trials are made of.
     pub points: Points,
+    /// Whether Sobol' sensitivity indices are wanted, too.
+    pub indices: bool,
 }
 
 /// What the trials of the Monte Carlo method are made of.

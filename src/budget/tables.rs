@@ -165,6 +165,8 @@ table! {
         seed: u64,
         /// What trials are made of. Quasi-random points are run until the results are stable, as adaptive trials are, and give way to random ones where they are not far more accurate.
         points: PointsWord,
+        /// Give Sobol' sensitivity indices, too: the part of the variance that each input makes alone, and takes part in.
+        indices: bool,
     }
 }
 

@@ -37,6 +37,9 @@ pub(super) struct Args {
     /// than random trials; `random` as in JCGM 101 [default: as the file says, else random]
     #[arg(long, value_name = "KIND", value_parser = parse_points, conflicts_with = "no_mc")]
     points: Option<Points>,
+    /// Give Sobol' sensitivity indices, too: the part of the variance that each input makes
+    #[arg(long, conflicts_with = "no_mc")]
+    indices: bool,
     /// Worker threads; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -171,8 +174,6 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
 fn options(args: &Args, budget: &Budget) -> Options {
     let monte_carlo = if args.no_mc {
         MonteCarloChoice::Off
-    } else if args.trials.is_none() && args.seed.is_none() && args.points.is_none() {
-        MonteCarloChoice::AsBudget
     } else {
         MonteCarloChoice::With(settings(args, &budget.monte_carlo))
     };
@@ -195,6 +196,7 @@ fn settings(args: &Args, of: &MonteCarloSettings) -> MonteCarloSettings {
         seed: args.seed.unwrap_or(of.seed),
         trials,
         points: args.points.unwrap_or(of.points),
+        indices: args.indices || of.indices,
     }
 }
 

@@ -149,6 +149,7 @@ impl Draft {
             },
             monte_carlo: MonteCarloSettings {
                 points: Points::Random,
+                indices: false,
                 seed: 1,
                 trials: Trials::Fixed(200_000),
             },

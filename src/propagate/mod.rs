@@ -26,7 +26,9 @@ pub use decide::{
     DetectionResult, GlobalRisk, Verdict,
 };
 pub use findings::is_residue;
-pub use monte_carlo::{Consequence, MissingMoments, Quasi, QuasiRun, Side, WhyRandom};
+pub use monte_carlo::{
+    Consequence, MissingMoments, Quasi, QuasiRun, SensitivityIndices, Side, SobolIndex, WhyRandom,
+};
 
 use nalgebra::DMatrix;
 
@@ -45,6 +47,8 @@ pub struct Evaluation {
     pub joint: Option<JointResult>,
     /// How Monte Carlo was run; `None` when it was not.
     pub run: Option<Run>,
+    /// Where they were asked for.
+    pub indices: Option<SensitivityIndices>,
     /// What the reader must know before using the numbers.
     pub findings: Vec<Finding>,
     /// Conformity assessments, in the order of the budget.
@@ -502,6 +506,12 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
     let monte_carlo = settings
         .map(|settings| draw(budget, settings, &gums, options.threads))
         .transpose()?;
+    let indices = settings
+        .filter(|settings| settings.indices)
+        .map(|settings| {
+            let (scales, outcome) = (scales(&gums), monte_carlo.as_ref());
+            monte_carlo::indices(budget, settings.seed, &scales, outcome, options.threads)
+        });
     let results: Vec<MeasurandResult> = gums
         .into_iter()
         .zip(&second_order)
@@ -535,6 +545,7 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         results,
         joint,
         run,
+        indices,
         findings,
         conformity: decisions.conformity,
         detection: decisions.detection,
@@ -562,13 +573,7 @@ fn draw(
     gums: &[Gum],
     threads: usize,
 ) -> Result<McOutcome, EvaluationError> {
-    let scales: Vec<GumForMc> = gums
-        .iter()
-        .map(|gum| GumForMc {
-            estimate: gum.estimate,
-            u: gum.u,
-        })
-        .collect();
+    let scales = scales(gums);
     let outcome = monte_carlo::run(budget, settings, &scales, threads)?;
     let Trials::Decisive { most, .. } = settings.trials else {
         return Ok(outcome);
@@ -588,6 +593,14 @@ fn draw(
         ..settings.clone()
     };
     monte_carlo::run(budget, &settings, &scales, threads)
+}
+
+fn scales(gums: &[Gum]) -> Vec<GumForMc> {
+    let of = |gum: &Gum| GumForMc {
+        estimate: gum.estimate,
+        u: gum.u,
+    };
+    gums.iter().map(of).collect()
 }
 
 /// The GUM result of one measurand.

@@ -147,6 +147,7 @@ impl Bench {
             conventions: PROFILES[0].conventions(),
             monte_carlo: MonteCarloSettings {
                 points: Points::Random,
+                indices: false,
                 seed: 1,
                 trials: Trials::Fixed(1_000_000),
             },
@@ -316,6 +317,7 @@ fn alone(gum: Gum) -> Evaluation {
         run: None,
         conformity: Vec::new(),
         detection: Vec::new(),
+        indices: None,
         findings: Vec::new(),
         figures: Vec::new(),
     }

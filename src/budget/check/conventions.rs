@@ -227,6 +227,7 @@ impl Checker<'_> {
             seed,
             trials,
             points,
+            indices: table.indices.as_ref().is_some_and(|stated| stated.value),
         }
     }
 

@@ -105,6 +105,7 @@ pub(super) fn characteristic_limits(evidence: &Evidence<'_>) -> Vec<DetectionRes
                 detection,
                 settings: MonteCarloSettings {
                     points: Points::Random,
+                    indices: false,
                     seed: run.seed,
                     trials: Trials::Fixed(run.trials),
                 },

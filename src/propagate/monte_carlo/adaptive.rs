@@ -302,6 +302,7 @@ mod tests {
     ) -> (McOutcome, AdaptiveRun) {
         let settings = MonteCarloSettings {
             points: Points::Random,
+            indices: false,
             seed: 1,
             trials: Trials::Adaptive {
                 procedure,

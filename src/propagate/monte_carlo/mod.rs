@@ -15,6 +15,7 @@
 //! | [`heavy`] | components that are known to leave the output without moments |
 //! | [`fractions`] | fractions of the trials between given limits |
 //! | [`adaptive`] | how many trials |
+//! | [`indices`] | Sobol' sensitivity indices |
 //! | [`quasi`] | quasi-random points in place of trials |
 //! | [`comoments`] | covariance of several outputs |
 //! | [`region`] | coverage regions of several outputs |
@@ -30,6 +31,7 @@ mod factor;
 mod fractions;
 mod heavy;
 mod histogram;
+mod indices;
 mod interval;
 mod joint_draw;
 mod moments;
@@ -54,6 +56,8 @@ pub use existence::{Consequence, MissingMoments, Side};
 use existence::{Tail, Verdict};
 pub(crate) use fractions::fractions;
 use heavy::HeavyComponent;
+pub(crate) use indices::indices;
+pub use indices::{SensitivityIndices, SobolIndex};
 use interval::{Around, Ordered, Ranked, Ranks};
 use moments::{Moments, Pivot};
 pub use quasi::{Quasi, QuasiRun, WhyRandom};

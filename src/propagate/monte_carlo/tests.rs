@@ -7,6 +7,7 @@ use crate::budget::Adaptive;
 fn fixed(trials: u64) -> MonteCarloSettings {
     MonteCarloSettings {
         points: Points::Random,
+        indices: false,
         seed: 1,
         trials: Trials::Fixed(trials),
     }
@@ -242,6 +243,7 @@ fn several_outputs_have_covariance_and_regions() {
 fn adaptive_run_reports_what_it_did() {
     let settings = MonteCarloSettings {
         points: Points::Random,
+        indices: false,
         seed: 3,
         trials: Trials::Adaptive {
             procedure: Adaptive::Stein,

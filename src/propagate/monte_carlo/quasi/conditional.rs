@@ -14,7 +14,7 @@ use super::super::engine::parallel_map;
 use super::super::moments::{Moments, Pivot};
 use super::points::{Points, Scratch};
 use super::tails::{Node, Tails};
-use super::{Figures, REPLICATES, Summary, Trouble, shapes, threads_for};
+use super::{Figures, Pooled, REPLICATES, Trouble, shapes, threads_for};
 use crate::budget::Budget;
 use crate::propagate::Histogram;
 
@@ -217,19 +217,9 @@ impl<'p, 'b> Conditional<'p, 'b> {
         }
     }
 
-    /// The results so far.
-    pub(super) fn summary(&self) -> Summary {
-        let pooled = self.tallies.iter().fold(
-            Tally {
-                places: vec![[0.0; 2]; self.places.len()],
-                ..Tally::default()
-            },
-            |all, tally| all.plus(tally),
-        );
-        let tails = self.tails(&pooled);
-        let moments = self.moments(&pooled);
-        let below = tails.shortest(self.p);
-        let symmetric = self.symmetric(&tails);
+    /// The results of every scramble so far.
+    pub(super) fn replicates(&self) -> Vec<Figures> {
+        let below = self.tails(&self.total()).shortest(self.p);
         let replicates = self.tallies.iter().map(|tally| {
             let (tails, moments) = (self.tails(tally), self.moments(tally));
             Figures {
@@ -239,14 +229,22 @@ impl<'p, 'b> Conditional<'p, 'b> {
                 shortest: tails.covering(tails.shortest_near(below, self.p), self.p),
             }
         });
+        replicates.collect()
+    }
+
+    /// The results of all points.
+    pub(super) fn pooled(&self) -> Pooled {
+        let total = self.total();
+        let tails = self.tails(&total);
+        let moments = self.moments(&total);
+        let symmetric = self.symmetric(&tails);
         let outside = 0.5 * (1.0 - self.p);
-        let binomial = (outside * (1.0 - outside) / pooled.points as f64).sqrt();
+        let binomial = (outside * (1.0 - outside) / total.points as f64).sqrt();
         let errors = symmetric.map(|end| binomial / tails.density(end));
-        Summary {
-            replicates: replicates.collect(),
+        Pooled {
             median: tails.quantile(0.5),
             symmetric,
-            shortest: tails.covering(below, self.p),
+            shortest: tails.covering(tails.shortest(self.p), self.p),
             plain_errors: [
                 moments.mean_error(),
                 moments.sd_error(),
@@ -255,6 +253,15 @@ impl<'p, 'b> Conditional<'p, 'b> {
             ],
             moments,
         }
+    }
+
+    /// The sums over all scrambles.
+    fn total(&self) -> Tally {
+        let none = Tally {
+            places: vec![[0.0; 2]; self.places.len()],
+            ..Tally::default()
+        };
+        self.tallies.iter().fold(none, |all, tally| all.plus(tally))
     }
 
     fn symmetric(&self, tails: &Tails) -> [f64; 2] {

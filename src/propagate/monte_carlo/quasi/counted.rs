@@ -8,7 +8,7 @@ use super::super::histogram::histogram;
 use super::super::interval::{Ordered, Ranked, Ranks};
 use super::super::moments::{Moments, Pivot};
 use super::points::Points;
-use super::{Figures, REPLICATES, Summary, Trouble, threads_for};
+use super::{Figures, Pooled, REPLICATES, Trouble, threads_for};
 use crate::propagate::Histogram;
 
 /// Values at the points of every scramble.
@@ -61,32 +61,34 @@ impl<'p, 'b> Counted<'p, 'b> {
         }
     }
 
-    /// The results so far.
-    pub(super) fn summary(&self, threads: usize) -> Result<Summary, Trouble> {
-        let (replicates, _) = parallel_map(
-            self.values.iter().collect(),
-            threads,
-            || (),
-            |(), values| {
-                let (order, ranks) = self.ordered(values);
-                let moments = Moments::of(values, self.pivot);
-                Figures {
-                    mean: moments.mean(),
-                    u: moments.sd(),
-                    symmetric: order.symmetric(ranks),
-                    shortest: order.shortest(ranks),
-                }
-            },
-            |()| (),
-        );
+    /// The results of every scramble so far.
+    pub(super) fn replicates(&self, threads: usize) -> Vec<Figures> {
+        let of = |values: &Vec<f64>| {
+            let ranks = Ranks::new(values.len(), self.p);
+            let order = Ordered::by_selection(values.clone(), ranks.last);
+            let moments = Moments::of(values, self.pivot);
+            Figures {
+                mean: moments.mean(),
+                u: moments.sd(),
+                symmetric: order.symmetric(ranks),
+                shortest: order.shortest(ranks),
+            }
+        };
+        let values = self.values.iter().collect();
+        parallel_map(values, threads, || (), |(), values| of(values), |()| ()).0
+    }
+
+    /// The results of all points.
+    pub(super) fn pooled(&self) -> Result<Pooled, Trouble> {
         let all = self.values.concat();
-        let (order, ranks) = self.ordered(&all);
+        let ranks = Ranks::new(all.len(), self.p);
+        let depth = ranks.last.max(Tail::reach(all.len()) + 2).min(all.len());
+        let moments = Moments::of(&all, self.pivot);
+        let order = Ordered::by_selection(all, depth);
         if !Verdict::new(None, &Tail::heavier(&order)).has_deviation() {
             return Err(Trouble::HeavyTail);
         }
-        let moments = Moments::of(&all, self.pivot);
-        Ok(Summary {
-            replicates,
+        Ok(Pooled {
             median: order.median(),
             symmetric: order.symmetric(ranks),
             shortest: order.shortest(ranks),
@@ -98,15 +100,6 @@ impl<'p, 'b> Counted<'p, 'b> {
             ],
             moments,
         })
-    }
-
-    fn ordered(&self, values: &[f64]) -> (Ordered, Ranks) {
-        let ranks = Ranks::new(values.len(), self.p);
-        let depth = ranks
-            .last
-            .max(Tail::reach(values.len()) + 2)
-            .min(values.len());
-        (Ordered::new(values, depth, 1), ranks)
     }
 
     /// The picture of all values.

@@ -3,7 +3,7 @@
 //! Several independently scrambled Sobol' sequences are run side by side. Each gives its own estimate,
 //! standard uncertainty and coverage intervals, without bias; their scatter tells the error of what all of
 //! them give together (randomised quasi-Monte Carlo; L'Ecuyer and Lemieux 2002, Owen 1997). Points are
-//! doubled until all results are stable to the numerical tolerance δ of JCGM 101, 7.9.2.
+//! added until all results are stable to the numerical tolerance δ of JCGM 101, 7.9.2.
 //!
 //! Nothing is believed on trust: where the scatter is not far below that of random trials of the same number,
 //! where points have no value, and where a check beforehand finds what the method cannot have, random trials
@@ -46,8 +46,8 @@ const REPLICATES: usize = 16;
 /// Most points, which are kept in memory where values are counted.
 const MOST_POINTS: u64 = 1 << 22;
 
-/// Times that points are doubled before their gain is judged: it grows with their number.
-const TRIES: u32 = 3;
+/// Attempts before the gain is judged: it grows with the number of points.
+const TRIES: i32 = 3;
 
 /// Random trials that a point must replace; a point takes the time of some.
 const LEAST_GAIN: f64 = 8.0;
@@ -134,15 +134,12 @@ struct Figures {
     shortest: [f64; 2],
 }
 
-/// Results so far.
-struct Summary {
-    /// Of all points together.
+/// Results of all points together.
+struct Pooled {
     moments: Moments,
     median: f64,
     symmetric: [f64; 2],
     shortest: [f64; 2],
-    /// One per scramble.
-    replicates: Vec<Figures>,
     /// Errors that random trials of the same number would have: estimate, u, both ends.
     plain_errors: [f64; 4],
 }
@@ -254,10 +251,17 @@ impl Method<'_, '_> {
         }
     }
 
-    fn summary(&self, threads: usize) -> Result<Summary, Trouble> {
+    fn replicates(&self, threads: usize) -> Vec<Figures> {
         match self {
-            Method::Conditional(of) => Ok(of.summary()),
-            Method::Counted(of) => of.summary(threads),
+            Method::Conditional(of) => of.replicates(),
+            Method::Counted(of) => of.replicates(threads),
+        }
+    }
+
+    fn pooled(&self) -> Result<Pooled, Trouble> {
+        match self {
+            Method::Conditional(of) => Ok(of.pooled()),
+            Method::Counted(of) => of.pooled(),
         }
     }
 
@@ -289,10 +293,10 @@ struct Goal {
 
 /// A run that ended with results.
 struct Found {
-    summary: Summary,
+    pooled: Pooled,
+    scatter: Scatter,
     picture: Histogram,
     points: u64,
-    errors: [f64; 4],
     gain: f64,
     digits: u8,
     delta: f64,
@@ -312,7 +316,7 @@ impl Goal {
         }
     }
 
-    /// Doubles the points until the results are stable, or it is plain that random trials are no worse.
+    /// Adds points until the results are stable, or it is plain that random trials are no worse.
     ///
     /// At attempt k all four results are held to be within δ where t times their errors is, for a risk of
     /// 5 %/2ᵏ shared among them: over all attempts the risk stays below 5 %.
@@ -325,39 +329,71 @@ impl Goal {
                 .extend(done..blocks, points.ilog2(), threads)
                 .map_err(Stop::Trouble)?;
             done = blocks;
-            let summary = method.summary(threads).map_err(Stop::Trouble)?;
-            let errors = summary.errors();
-            let delta = numerical_tolerance(summary.moments.sd(), self.digits);
-            let risk = RISK * 0.5_f64.powi(attempt as i32) / (2 * errors.len()) as f64;
-            let t = student_t_upper_quantile(risk, (REPLICATES - 1) as f64);
-            let reached = errors.iter().all(|error| t * error <= delta);
-            let gain = summary.gain(&errors);
             let all = points * REPLICATES as u64;
-            let enough = gain * all as f64 >= self.otherwise as f64 && 2 * all > self.most;
+            let scatter = Scatter(method.replicates(threads));
+            let delta = numerical_tolerance(scatter.mean_of(|f| f.u), self.digits);
+            let risk = RISK * 0.5_f64.powi(attempt) / 8.0;
+            let t = student_t_upper_quantile(risk, (REPLICATES - 1) as f64);
+            let missing = t * largest(&scatter.errors()) / delta;
+            let reached = missing <= 1.0;
+            let last = 2 * all > self.most;
+            if !reached && !last && attempt < TRIES {
+                blocks *= factor(missing, self.most / all);
+                continue;
+            }
+            let pooled = method.pooled().map_err(Stop::Trouble)?;
+            let gain = gain(&scatter.errors(), &pooled.plain_errors);
+            let enough = last && gain * all as f64 >= self.otherwise as f64;
             if reached || enough {
-                let picture = method.picture(summary.symmetric, all, threads);
                 return Ok(Found {
-                    summary,
-                    picture,
+                    picture: method.picture(pooled.symmetric, all, threads),
+                    pooled,
+                    scatter,
                     points: all,
-                    errors,
                     gain,
                     digits: self.digits,
                     delta,
                     reached,
                 });
             }
-            if (attempt >= TRIES && gain < LEAST_GAIN) || 2 * all > self.most {
+            if last || gain < LEAST_GAIN {
                 return Err(Stop::NoGain(gain));
             }
-            blocks *= 2;
+            blocks *= factor(missing, self.most / all);
         }
         // The loop has no end of its own.
         Err(Stop::NoGain(0.0))
     }
 }
 
-impl Summary {
+/// The power of two by which to multiply the points where errors are so many times too large: they fall
+/// about with the power ¾ of their number, or faster.
+fn factor(missing: f64, most: u64) -> u64 {
+    let wanted = libm::pow(missing.max(1.0), 4.0 / 3.0).min(16.0) as u64 + 1;
+    let allowed = 1 << most.max(2).ilog2();
+    wanted.next_power_of_two().clamp(2, allowed)
+}
+
+/// The largest of the errors that are known.
+fn largest(errors: &[f64; 4]) -> f64 {
+    let known = errors.iter().copied().filter(|error| error.is_finite());
+    known.fold(0.0, f64::max)
+}
+
+/// Random trials that a point replaces, for the result that needs most of them.
+fn gain(errors: &[f64; 4], plain: &[f64; 4]) -> f64 {
+    let (ours, plain) = (largest(errors), largest(plain));
+    if ours > 0.0 {
+        (plain / ours) * (plain / ours)
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// The results of all scrambles.
+struct Scatter(Vec<Figures>);
+
+impl Scatter {
     /// Standard errors of estimate, u and both ends of the symmetric interval.
     fn errors(&self) -> [f64; 4] {
         [
@@ -368,33 +404,16 @@ impl Summary {
         ]
     }
 
-    /// The standard deviation of the scrambles' results over the root of their number.
-    fn error_of(&self, figure: impl Fn(&Figures) -> f64) -> f64 {
-        let n = self.replicates.len() as f64;
-        let mean = self.replicates.iter().map(&figure).sum::<f64>() / n;
-        let squares: f64 = self
-            .replicates
-            .iter()
-            .map(|f| (figure(f) - mean) * (figure(f) - mean))
-            .sum();
-        (squares / ((n - 1.0) * n)).sqrt()
+    fn mean_of(&self, figure: impl Fn(&Figures) -> f64) -> f64 {
+        self.0.iter().map(figure).sum::<f64>() / self.0.len() as f64
     }
 
-    /// Random trials that a point replaces, for the result that needs most.
-    fn gain(&self, errors: &[f64; 4]) -> f64 {
-        let largest = |errors: &[f64; 4]| {
-            errors
-                .iter()
-                .copied()
-                .filter(|e| e.is_finite())
-                .fold(0.0, f64::max)
-        };
-        let (ours, plain) = (largest(errors), largest(&self.plain_errors));
-        if ours > 0.0 {
-            (plain / ours).powi(2)
-        } else {
-            f64::INFINITY
-        }
+    /// The standard deviation of the scrambles' results over the root of their number.
+    fn error_of(&self, figure: impl Fn(&Figures) -> f64) -> f64 {
+        let n = self.0.len() as f64;
+        let mean = self.mean_of(&figure);
+        let square = |f: &Figures| (figure(f) - mean) * (figure(f) - mean);
+        (self.0.iter().map(square).sum::<f64>() / ((n - 1.0) * n)).sqrt()
     }
 }
 
@@ -405,14 +424,14 @@ impl Found {
         settings: &MonteCarloSettings,
         averaged: Option<String>,
     ) -> McOutcome {
-        let Summary {
+        let Pooled {
             moments,
             median,
             symmetric,
             shortest,
             ..
-        } = self.summary;
-        let shortest_errors = [0, 1].map(|end| self.summary.error_of(|f| f.shortest[end]));
+        } = self.pooled;
+        let shortest_errors = [0, 1].map(|end: usize| self.scatter.error_of(|f| f.shortest[end]));
         let output = MonteCarlo {
             estimate: Some(moments.mean()),
             u: Some(moments.sd()),
@@ -421,7 +440,7 @@ impl Found {
             shortest,
             skewness: moments.skewness(),
             excess_kurtosis: moments.excess_kurtosis(),
-            standard_errors: self.errors,
+            standard_errors: self.scatter.errors(),
             failed: 0,
             histogram: self.picture,
         };

@@ -255,7 +255,7 @@ mod tests {
                 let error = (x - exact).abs() / (sd + exact.abs());
                 // One part in 10⁴ of so small a probability shows there.
                 let allowed = if (1e-3..=0.999).contains(u) {
-                    1e-5
+                    5e-5
                 } else {
                     1e-4
                 };

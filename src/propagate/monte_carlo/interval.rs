@@ -433,7 +433,7 @@ mod tests {
             let values: Vec<f64> = (0..count).map(|_| stream.uniform()).collect();
             let ranks = Ranks::new(count, 0.95);
             let selected = Ordered::by_selection(values.clone(), ranks.last);
-            let (symmetric, median, width) = by_full_sort(&values, 0.95);
+            let (symmetric, width, median) = by_full_sort(&values, 0.95);
             assert_eq!(selected.symmetric(ranks), symmetric);
             assert_eq!(selected.median(), median);
             let [low, high] = selected.shortest(ranks);

@@ -24,11 +24,11 @@ mod rejection;
 pub(crate) mod saved;
 mod series;
 mod shelf;
-mod strings;
-mod table;
-mod tables;
-mod values;
-mod variants;
+pub(crate) mod strings;
+pub(crate) mod table;
+pub(crate) mod tables;
+pub(crate) mod values;
+pub(crate) mod variants;
 
 use nalgebra::DMatrix;
 

@@ -350,7 +350,7 @@ macro_rules! table {
     (@spelling $key:ident) => { stringify!($key) };
     (@spelling $key:ident $spelling:literal) => { $spelling };
 }
-pub(super) use table;
+pub(crate) use table;
 
 /// Defines a choice of words, each with its documentation; further spellings after `|`.
 macro_rules! words {
@@ -415,7 +415,7 @@ macro_rules! words {
         }
     };
 }
-pub(super) use words;
+pub(crate) use words;
 
 /// The fault for a word that is none of the choice.
 pub fn unknown_word(value: &Raw<'_>, word: &str, known: &[&'static str], expected: &str) -> Fault {

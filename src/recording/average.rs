@@ -147,7 +147,7 @@ impl Drift {
         let u_slope = (variance / t.squares()).sqrt();
         let duration = points.last()?.0 - points.first()?.0;
         let p_value = match u_slope > 0.0 {
-            true => student_t_two_sided(slope / u_slope, dof),
+            true => student_t_two_sided((slope / u_slope).abs(), dof),
             false if slope == 0.0 => 1.0,
             false => 0.0,
         };

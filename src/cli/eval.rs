@@ -8,6 +8,7 @@ use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, 
 use gumption::report::{self, Language, Page, Report};
 use serde_json::Value;
 
+use super::progress::Progress;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -142,6 +143,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
         }
     };
     let mut rows = Vec::with_capacity(loaded.rows.len());
+    let progress = Progress::shown();
     for budget::Row { label, budget } in loaded.rows {
         match propagate::evaluate(&budget, &options(args, &budget)) {
             Ok(evaluation) => {
@@ -167,6 +169,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
             }
         }
     }
+    drop(progress);
     rows
 }
 

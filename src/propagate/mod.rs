@@ -13,6 +13,7 @@ mod freedom;
 mod gum;
 mod joint;
 mod monte_carlo;
+mod progress;
 mod second_order;
 mod shape;
 #[cfg(test)]
@@ -29,6 +30,7 @@ pub use findings::is_residue;
 pub use monte_carlo::{
     Consequence, MissingMoments, Quasi, QuasiRun, SensitivityIndices, Side, SobolIndex, WhyRandom,
 };
+pub use progress::trials_drawn;
 
 use nalgebra::DMatrix;
 

@@ -97,3 +97,64 @@ fn sentences(report: &Report<'_>, indices: &SensitivityIndices, of: &[SobolIndex
     }
     lines
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Language, Page, fixtures, json, markdown, text};
+    use super::*;
+
+    fn case() -> fixtures::Case {
+        let mut case = fixtures::resistor();
+        let index = |first, total| SobolIndex {
+            first,
+            first_error: 0.0004,
+            total,
+            total_error: 0.0006,
+        };
+        let inputs = case.budget.inputs.len();
+        case.evaluation.indices = Some(SensitivityIndices {
+            trials: 1 << 20,
+            factors: vec![vec![0, 1], (2..inputs).collect()],
+            measurands: vec![Some(vec![index(0.25, 0.3), index(0.7, 0.75)])],
+        });
+        case
+    }
+
+    #[test]
+    fn the_largest_total_index_comes_first() {
+        let case = case();
+        let page = Page {
+            width: 100,
+            styled: false,
+        };
+        let english = text(&case.report(Language::English), page);
+        let (first, second) = (english.find("0.750"), english.find("0.300"));
+        assert!(first.is_some() && first < second, "{english}");
+        assert!(english.contains("sum to 0.950") && english.contains("indices together only"));
+        let chinese = text(&case.report(Language::Chinese), page);
+        assert!(chinese.contains("灵敏度指数") && chinese.contains("仅给出其整体指数"));
+        assert!(markdown(&case.report(Language::English)).contains("| 0.750 |"));
+    }
+
+    #[test]
+    fn machines_get_them_by_factor() {
+        let case = case();
+        let value = json(&case.report(Language::English));
+        let indices = &value["sensitivity_indices"];
+        assert_eq!(indices["measurands"][0][1]["total"], 0.75);
+        assert_eq!(indices["factors"][0].as_array().map(Vec::len), Some(2));
+    }
+
+    #[test]
+    fn without_a_standard_deviation_there_are_none() {
+        let mut case = case();
+        if let Some(indices) = &mut case.evaluation.indices {
+            indices.measurands = vec![None];
+        }
+        let blocks = blocks(&case.report(Language::English), 0);
+        assert!(matches!(
+            &blocks[..],
+            [Block::Section(_), Block::Paragraph(_)]
+        ));
+    }
+}

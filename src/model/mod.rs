@@ -274,6 +274,11 @@ impl Model {
         self.unused.clone()
     }
 
+    /// Whether no operation has a corner, a step or a branch anywhere.
+    pub(crate) fn is_smooth(&self) -> bool {
+        hints::smooth(&self.graph)
+    }
+
     /// Operations whose derivative does not exist or hides something at `x`: kinks, steps, branches, points
     /// of tables.
     pub fn irregularities(&self, x: &[f64]) -> Vec<Notice> {

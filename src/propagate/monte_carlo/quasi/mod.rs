@@ -49,6 +49,10 @@ const MOST_POINTS: u64 = 1 << 22;
 /// Attempts before the gain is judged: it grows with the number of points.
 const TRIES: i32 = 3;
 
+/// Blocks of every scramble that a model with corners, steps or branches takes at least: what happens in few
+/// places only must be met.
+const ROUGH_BLOCKS: u64 = 16;
+
 /// Random trials that a point must replace; a point takes the time of some.
 const LEAST_GAIN: f64 = 8.0;
 
@@ -157,7 +161,12 @@ pub(super) fn run(
     let pivot = gum
         .first()
         .map_or(Pivot::new(0.0, 1.0), |gum| Pivot::new(gum.estimate, gum.u));
-    let goal = Goal::new(&settings.trials);
+    let least_blocks = if budget.model.is_smooth() {
+        1
+    } else {
+        ROUGH_BLOCKS
+    };
+    let goal = Goal::new(&settings.trials, least_blocks);
     let averaged = conditional::candidate(budget, &points);
     let smooth = averaged.and_then(|component| Conditional::new(budget, &points, component, pivot));
     let p = budget.conventions.coverage_probability;
@@ -285,6 +294,8 @@ impl Method<'_, '_> {
 /// What a run is to reach.
 struct Goal {
     digits: u8,
+    /// Fewest blocks of every scramble.
+    least_blocks: u64,
     /// Most points of all scrambles.
     most: u64,
     /// Random trials that would be run otherwise.
@@ -304,13 +315,14 @@ struct Found {
 }
 
 impl Goal {
-    fn new(trials: &Trials) -> Goal {
+    fn new(trials: &Trials, least_blocks: u64) -> Goal {
         let (digits, most) = match *trials {
             Trials::Fixed(most) | Trials::Decisive { least: most, .. } => (2, most),
             Trials::Adaptive { digits, max, .. } => (digits, max),
         };
         Goal {
             digits,
+            least_blocks,
             most: most.min(MOST_POINTS),
             otherwise: most,
         }
@@ -322,7 +334,7 @@ impl Goal {
     /// 5 %/2ᵏ shared among them: over all attempts the risk stays below 5 %.
     fn pursue(&self, mut method: Method<'_, '_>, threads: usize) -> Result<Found, Stop> {
         let mut done = 0;
-        let mut blocks = method.first();
+        let mut blocks = method.first().max(self.least_blocks);
         for attempt in 1.. {
             let points = blocks * LANES as u64;
             method

@@ -8,6 +8,7 @@ mod eval;
 mod explain;
 mod new;
 mod output;
+mod progress;
 mod schema;
 mod verify;
 

@@ -37,7 +37,7 @@ const INTEGER: f64 = 6_755_399_441_055_744.0;
 
 /// c₀ + c₁x + c₂x² + …, each step fused.
 #[inline(always)]
-fn horner<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
+pub(crate) fn horner<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
     let mut sum = coefficients[N - 1];
     for &c in coefficients.iter().rev().skip(1) {
         sum = sum.mul_add(x, c);

@@ -28,12 +28,11 @@ impl Generator {
     /// The 1024 bits of state are hashed from all three numbers through a 128-bit key, so that
     /// two of even 10⁹ addresses of a run share a key with probability 10⁻²¹.
     pub fn new(seed: u64, chunk: u64, stream: u64) -> Generator {
-        let key = [FIRST_KEY, SECOND_KEY]
-            .map(|salt| [seed, chunk, stream].into_iter().fold(salt, absorb));
+        let key = Key::new([seed, chunk, stream]);
         let mut counter = 0;
         let mut next_word = || {
             counter += 1;
-            squeeze(key, counter)
+            key.word(counter)
         };
         // A lane would have to draw four zero words in a row (2⁻²⁵⁶) to get stuck.
         Generator {
@@ -97,7 +96,7 @@ fn step([s0, s1, s2, s3]: &mut [[u64; WIDTH]; 4]) -> [u64; WIDTH] {
 
 /// The upper 52 bits as a number in (0, 1): (2j + 1)·2⁻⁵³, exactly.
 #[inline(always)]
-fn open_unit(bits: u64) -> f64 {
+pub(crate) fn open_unit(bits: u64) -> f64 {
     // 1 + j·2⁻⁵² has the mantissa bits j; one subtraction, exact, moves it down to (0, 1).
     const ONE: u64 = 1.0_f64.to_bits();
     const BELOW_ONE: f64 = 1.0 - 0.5 * f64::EPSILON;
@@ -115,10 +114,21 @@ fn absorb(hash: u64, value: u64) -> u64 {
     mix(mix(hash.wrapping_add(GOLDEN)) ^ mix(value.wrapping_add(GOLDEN)))
 }
 
-/// Word number `counter` of a 128-bit key.
-fn squeeze(key: [u64; 2], counter: u64) -> u64 {
-    let step = GOLDEN.wrapping_mul(counter);
-    mix(key[0].wrapping_add(step)) ^ mix(key[1].wrapping_sub(step)).rotate_left(32)
+/// Random words that an address names, in any order.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Key([u64; 2]);
+
+impl Key {
+    /// The 128-bit hash of an address.
+    pub(crate) fn new(address: [u64; 3]) -> Key {
+        Key([FIRST_KEY, SECOND_KEY].map(|salt| address.into_iter().fold(salt, absorb)))
+    }
+
+    /// Word number `counter`.
+    pub(crate) fn word(self, counter: u64) -> u64 {
+        let step = GOLDEN.wrapping_mul(counter);
+        mix(self.0[0].wrapping_add(step)) ^ mix(self.0[1].wrapping_sub(step)).rotate_left(32)
+    }
 }
 
 /// The finaliser of SplitMix64: a bijection in which every bit of the input moves every bit of

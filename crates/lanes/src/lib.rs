@@ -13,6 +13,7 @@
 //! | [`ops`] | arithmetic and functions on whole blocks |
 //! | [`sampler`] | blocks of draws from the distributions of JCGM 101, 6.4, and others |
 //! | [`bins`] | counts in equal bins, and the values of chosen ones |
+//! | [`sift`] | the values outside of two stretches, and counts of the others |
 //! | [`moments`] | sums of powers, extremes and the count of trials that have no finite value |
 //!
 //! Every kernel takes the [`Level`] first. A small Monte Carlo evaluation of y = x₁², x₁ normal:
@@ -44,6 +45,7 @@ pub mod level;
 pub mod moments;
 pub mod ops;
 pub mod sampler;
+pub mod sift;
 
 pub use generator::Generator;
 pub use level::{Level, level, levels};

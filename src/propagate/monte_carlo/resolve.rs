@@ -67,14 +67,15 @@ impl Resolved {
         output: usize,
         again: &impl Again,
     ) -> Self {
-        let (mut cells, bins) = sieve.cells();
+        let (mut cells, rows) = sieve.cells();
         let needed = wanted.cells(&cells, 0.0);
-        let chosen = || bins.iter().zip(&needed).filter(|(_, n)| **n);
-        let kept = sieve.kept(chosen().map(|(bin, _)| *bin));
+        let chosen = rows.iter().zip(&needed).filter(|(_, needed)| **needed);
+        let kept = sieve.kept(chosen.flat_map(|(row, _)| row.clone()));
         let mut runs = runs(&cells, &needed);
         for run in &mut runs {
-            let at = |rank| bins[cell_of(&cells, rank)];
-            [run.low, run.high] = sieve.span(at(run.below + 1), at(run.below + run.count));
+            let at = |rank| &rows[cell_of(&cells, rank)];
+            let (first, last) = (at(run.below + 1), at(run.below + run.count));
+            [run.low, run.high] = sieve.span(*first.start()..=*last.end());
         }
         let mut known = Vec::new();
         let mut memory = kept.map(|values| inside(&runs, values));
@@ -237,8 +238,9 @@ fn runs(cells: &[Cell], chosen: &[bool]) -> Vec<Run> {
 
 /// The run that holds a value.
 fn run_of(runs: &[Run], value: f64) -> Option<usize> {
-    let index = runs.iter().position(|run| value <= run.high)?;
-    (runs[index].low <= value).then_some(index)
+    let index = runs.partition_point(|run| run.high < value);
+    let run = runs.get(index)?;
+    (run.low <= value).then_some(index)
 }
 
 /// The values that lie in runs.

@@ -79,7 +79,7 @@ impl Sieve {
     }
 
     /// Only counts from now on.
-    fn keep_nothing(&mut self) {
+    pub(super) fn keep_nothing(&mut self) {
         self.keeps.fill(false);
         self.kept = Vec::new();
     }
@@ -113,7 +113,7 @@ impl Sieve {
             *kept &= keeps[near].iter().any(|near| *near);
         }
         let (grid, keeps) = (&self.grid, &self.keeps);
-        self.kept.retain(|value| keeps[grid.bin(*value)]);
+        keep_only(&mut self.kept, |value| keeps[grid.bin(value)]);
         if self.count() >= PICTURED && keeps.contains(&true) {
             self.lump(&cells, &rows, wanted.middle());
         }
@@ -245,6 +245,17 @@ impl Sieve {
         let counts = self.picture.as_ref().unwrap_or(&self.counts);
         histogram::from_grid(&self.grid, counts, self.range, interval)
     }
+}
+
+/// As [`Vec::retain`], for conditions that cannot be foreseen: every value is moved, no branch taken.
+pub(super) fn keep_only(values: &mut Vec<f64>, condition: impl Fn(f64) -> bool) {
+    let mut kept = 0;
+    for index in 0..values.len() {
+        let value = values[index];
+        values[kept] = value;
+        kept += usize::from(condition(value));
+    }
+    values.truncate(kept);
 }
 
 /// A grid over the middle of some values, wide enough for the ends of intervals and fine where they

@@ -63,8 +63,7 @@ impl Strainer {
         if !all_finite(level, block) {
             return false;
         }
-        self.counter
-            .add(level, &self.grid, block, &mut self.picked);
+        self.counter.add(level, &self.grid, block, &mut self.picked);
         self.widen(min_max(level, block));
         true
     }
@@ -93,9 +92,7 @@ impl Strainer {
         let gap = self.gaps.and_then(|gaps| gaps.into_iter().position(inside));
         match gap {
             Some(gap) => self.taken[gap] += 1,
-            None => self
-                .counter
-                .add_one(&self.grid, value, &mut self.picked),
+            None => self.counter.add_one(&self.grid, value, &mut self.picked),
         }
     }
 

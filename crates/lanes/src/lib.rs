@@ -16,6 +16,7 @@
 //! | [`quantile`] | from uniform numbers to values of a distribution, by its quantile function |
 //! | [`kernel`] | averages of distribution functions over points |
 //! | [`bins`] | counts in equal bins, and the values of chosen ones |
+//! | [`sift`] | the values outside of two stretches, and counts of the others |
 //! | [`moments`] | sums of powers, extremes and the count of trials that have no finite value |
 //!
 //! Every kernel takes the [`Level`] first. A small Monte Carlo evaluation of y = x₁², x₁ normal:
@@ -49,6 +50,7 @@ pub mod moments;
 pub mod ops;
 pub mod quantile;
 pub mod sampler;
+pub mod sift;
 pub mod sobol;
 
 pub use generator::Generator;

@@ -13,7 +13,8 @@
 
 use fearless_simd::{Level, dispatch};
 
-use crate::generator::{Key, open_unit};
+use crate::generator::Key;
+use crate::sampler::open_unit;
 use crate::{Block, LANES};
 
 /// Dimensions that have direction numbers.

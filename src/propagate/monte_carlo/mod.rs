@@ -7,6 +7,7 @@
 //! | [`engine`] | chunks of trials shared among threads, handed on in order |
 //! | [`collect`] | the first trials kept, the others counted and summed |
 //! | [`sieve`] | counts of all values, and the values that matter for their order |
+//! | [`strainer`] | how one thread takes values into a sieve |
 //! | [`cells`] | which values matter |
 //! | [`resolve`] | exact order statistics, where needed from trials drawn again |
 //! | [`moments`] | mean, standard deviation, skewness, kurtosis |
@@ -42,6 +43,7 @@ mod sampler;
 #[cfg(test)]
 mod samples;
 mod sieve;
+mod strainer;
 
 use nalgebra::DMatrix;
 

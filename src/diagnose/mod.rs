@@ -7,6 +7,7 @@
 //! | [`case`] | the case file: model, recording, claims |
 //! | `frame` | the rows as numbers; the model at any parameters |
 //! | `fit` | the declared model fitted to the recording |
+//! | [`rivals`] | methods in common use, to be compared with |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 
 mod adopt;
@@ -22,6 +23,7 @@ mod frame;
 mod improved;
 mod noise;
 mod place;
+pub mod rivals;
 mod run;
 mod simulate;
 

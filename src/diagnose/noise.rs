@@ -121,9 +121,17 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
                 let squares: f64 = rest.readings.iter().map(|x| (x - mean) * (x - mean)).sum();
                 vec![squares / (n - 1.0); case.rows]
             };
-            let fewest = readings.iter().map(|rest| rest.readings.len()).min().unwrap_or(0);
+            let fewest = readings
+                .iter()
+                .map(|rest| rest.readings.len())
+                .min()
+                .unwrap_or(0);
             let dof = (fewest.max(2) - 1) as f64;
-            (readings.iter().map(scatter).collect(), dof, Origin::AtRest(file.clone()))
+            (
+                readings.iter().map(scatter).collect(),
+                dof,
+                Origin::AtRest(file.clone()),
+            )
         }
         NoiseClaim::PerRow(column) => {
             let column = &case.columns[*column];
@@ -190,9 +198,20 @@ fn in_time(
     let case = frame.case;
     let clock = frame.time();
     let factor = hours(&case.columns[clock.column?].unit, &case.units)?;
-    let times: Vec<f64> = frame.reduced(&clock.values).iter().map(|t| t * factor).collect();
-    let counts: Vec<f64> = frame.blocks.iter().map(|block| block.len() as f64).collect();
-    let rows = at_rest::Rows { times: &times, counts: &counts };
+    let times: Vec<f64> = frame
+        .reduced(&clock.values)
+        .iter()
+        .map(|t| t * factor)
+        .collect();
+    let counts: Vec<f64> = frame
+        .blocks
+        .iter()
+        .map(|block| block.len() as f64)
+        .collect();
+    let rows = at_rest::Rows {
+        times: &times,
+        counts: &counts,
+    };
     let found: Option<Vec<at_rest::RestNoise>> = readings
         .iter()
         .enumerate()
@@ -201,7 +220,12 @@ fn in_time(
                 times: rest.times.as_deref()?,
                 readings: &rest.readings,
             };
-            at_rest::from_rest(&at_rest, &rows, REST_DRAWS, case.settings.seed + response as u64)
+            at_rest::from_rest(
+                &at_rest,
+                &rows,
+                REST_DRAWS,
+                case.settings.seed + response as u64,
+            )
         })
         .collect();
     let found = found?;
@@ -212,7 +236,11 @@ fn in_time(
         let mut rows = vec![0.0; case.rows];
         add_columns(frame, fit, response, &mut rows);
         let n = counts[block];
-        frame.blocks[block].iter().map(|row| rows[*row]).sum::<f64>() / (n * n)
+        frame.blocks[block]
+            .iter()
+            .map(|row| rows[*row])
+            .sum::<f64>()
+            / (n * n)
     });
     let assembled = |of: &dyn Fn(&at_rest::RestNoise) -> &DMatrix<f64>| {
         let mut whole = DMatrix::from_diagonal(&extra);
@@ -226,7 +254,9 @@ fn in_time(
     let mean = assembled(&|noise| &noise.covariance);
     let u = mean.diagonal().map(f64::sqrt);
     let over_u = |matrix: DMatrix<f64>| {
-        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / (u[i] * u[j]))
+        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+            matrix[(i, j)] / (u[i] * u[j])
+        })
     };
     let draws = (0..REST_DRAWS).map(|draw| over_u(assembled(&|noise| &noise.draws[draw])));
     Some(Claimed {

@@ -537,13 +537,21 @@ impl Checker<'_> {
     ) -> NoiseClaim {
         let Some(file) = &stated.value.file else {
             self.faults.push(
-                Fault::new(NOISE, stated.span.clone(), "a recording at rest has a `file`")
-                    .label("expected `file`"),
+                Fault::new(
+                    NOISE,
+                    stated.span.clone(),
+                    "a recording at rest has a `file`",
+                )
+                .label("expected `file`"),
             );
             return NoiseClaim::Estimated;
         };
         let path = self.folder.join(&file.value);
-        let named = stated.value.column.as_ref().map(|column| column.value.as_str());
+        let named = stated
+            .value
+            .column
+            .as_ref()
+            .map(|column| column.value.as_str());
         match super::at_rest::read(self.files, &path, named, columns, responses, &self.units) {
             Ok(readings) => NoiseClaim::AtRest {
                 file: file.value.clone(),

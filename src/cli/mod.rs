@@ -1,5 +1,7 @@
 //! Subcommands, exit codes and output.
 
+mod allan;
+mod calibrate;
 mod concepts;
 mod date;
 mod diagnose;
@@ -7,6 +9,7 @@ mod eval;
 mod explain;
 mod new;
 mod output;
+mod progress;
 mod schema;
 mod simulate;
 mod verify;
@@ -56,6 +59,12 @@ enum Command {
     Simulate(simulate::Args),
     /// Hold published examples, or your own files with claims, against their figures
     Verify(verify::Args),
+    /// Allan deviation of a recording at rest: white noise, bias instability, random walk
+    Allan(allan::Args),
+    /// Find coefficients with their covariance from a recording and measurement equations
+    Calibrate(calibrate::Args),
+    /// Say what a calibration would tell, from its schedule alone
+    Plan(calibrate::PlanArgs),
     /// Write a commented budget file to start from
     New(new::Args),
     /// Print the JSON Schema of budget files or of what the program writes
@@ -71,6 +80,9 @@ pub(crate) fn run() -> ExitCode {
         Command::Diagnose(args) => diagnose::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Allan(args) => allan::run(&args),
+        Command::Calibrate(args) => calibrate::run(&args),
+        Command::Plan(args) => calibrate::run_plan(&args),
         Command::New(args) => new::run(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Explain(args) => explain::run(&args),

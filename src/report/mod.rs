@@ -3,8 +3,10 @@
 //! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
 //! composed once; [`json`] is the machine form.
 
+mod allan;
 mod analyses;
 mod budget_table;
+mod calibration;
 mod claim;
 mod comparison;
 mod compose;
@@ -13,12 +15,14 @@ mod diagnosis;
 mod document;
 mod fits;
 mod how;
+mod indices;
 mod joint;
 mod json;
 mod language;
 mod markdown;
 mod moments;
 mod number;
+mod quasi;
 mod remarks;
 mod save;
 mod schema;
@@ -33,6 +37,11 @@ mod fixtures;
 #[cfg(test)]
 mod tests;
 
+pub use allan::{AllanReport, allan_json, allan_markdown, allan_text};
+pub use calibration::{
+    calibration_json, calibration_markdown, calibration_text, calibration_trouble, plan_json,
+    plan_markdown, plan_text,
+};
 pub use diagnosis::{
     FORMAT as DIAGNOSIS_FORMAT, failure as diagnosis_failure, json as diagnosis_json,
     markdown as diagnosis_markdown, plots as diagnosis_plots, text as diagnosis_text,

@@ -233,11 +233,7 @@ fn tables(table: &DeTable<'_>, profile: Option<&Profile>, reader: &mut Reader<'_
 }
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
-<<<<<<< HEAD
 pub(crate) fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
-=======
-pub(super) fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
->>>>>>> main
     let mut faults: Vec<Fault> = Vec::new();
     let mut seen = Vec::new();
     for error in errors {

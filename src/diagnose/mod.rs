@@ -3,14 +3,11 @@
 //!
 //! | chapter | holds |
 //! |---|---|
-<<<<<<< HEAD
 //! | [`faults`] | codes of what is refused |
 //! | [`case`] | the case file: model, recording, claims |
 //! | `frame` | the rows as numbers; the model at any parameters |
 //! | `fit` | the declared model fitted to the recording |
-=======
 //! | [`rivals`] | methods in common use, to be compared with |
->>>>>>> main
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 
 mod adopt;
@@ -19,7 +16,6 @@ pub mod catalogue;
 mod confirm;
 mod correlation;
 pub mod evidence;
-<<<<<<< HEAD
 pub mod faults;
 mod fit;
 mod frame;
@@ -36,6 +32,4 @@ pub use improved::{RECORDING as IMPROVED_RECORDING, improved};
 pub use noise::{Claimed, Origin};
 pub use run::{Adopted, Diagnosis, Estimated, Failure, Omitted, diagnose};
 pub use simulate::{Sheet, simulate};
-=======
 pub mod rivals;
->>>>>>> main

@@ -2,11 +2,13 @@
 
 mod allan;
 mod calibrate;
+mod challenge;
 mod concepts;
 mod date;
 mod diagnose;
 mod eval;
 mod explain;
+mod grade;
 mod new;
 mod output;
 mod progress;
@@ -67,6 +69,10 @@ enum Command {
     Plan(calibrate::PlanArgs),
     /// Write a commented budget file to start from
     New(new::Args),
+    /// Make a sealed case: recordings of a simulated calibration in which something is concealed
+    Challenge(challenge::Args),
+    /// Hold a diagnosis against the truth of a sealed case
+    Grade(grade::Args),
     /// Print the JSON Schema of budget files or of what the program writes
     Schema(schema::Args),
     /// Explain a distribution, function, profile, error code or concept
@@ -84,6 +90,8 @@ pub(crate) fn run() -> ExitCode {
         Command::Calibrate(args) => calibrate::run(&args),
         Command::Plan(args) => calibrate::run_plan(&args),
         Command::New(args) => new::run(&args),
+        Command::Challenge(args) => challenge::run(&args),
+        Command::Grade(args) => grade::run(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Explain(args) => explain::run(&args),
     };

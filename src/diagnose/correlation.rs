@@ -23,10 +23,6 @@ const DRAWS: usize = 6;
 pub struct Correlated {
     /// Correlation matrix of the observations.
     pub matrix: DMatrix<f64>,
-    /// Time constant, in the unit of the clock.
-    pub time_constant: f64,
-    /// Share ρ of the variance.
-    pub share: f64,
     /// Other matrices that the residuals allow, as likely as they occur.
     pub draws: Vec<DMatrix<f64>>,
 }
@@ -84,8 +80,6 @@ pub(super) fn estimate(
     };
     Some(Correlated {
         matrix: full(best),
-        time_constant: best.time_constant,
-        share: best.share,
         draws: drawn(&points).into_iter().map(full).collect(),
     })
 }

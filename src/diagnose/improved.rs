@@ -154,6 +154,9 @@ fn claims(case: &Case) -> String {
                 .collect();
             format!("\n[noise]\nreplicates = [{}]\n", names.join(", "))
         }
+        NoiseClaim::AtRest { file, .. } => {
+            format!("\n[noise]\nat_rest = {{ file = {} }}\n", quoted(file))
+        }
         NoiseClaim::Estimated | NoiseClaim::PerRow(_) => String::new(),
     };
     format!(

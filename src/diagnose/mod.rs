@@ -11,6 +11,7 @@
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 
 mod adopt;
+pub mod at_rest;
 pub mod case;
 pub mod catalogue;
 mod confirm;
@@ -22,6 +23,7 @@ mod frame;
 mod improved;
 mod noise;
 mod place;
+pub mod rivals;
 mod run;
 mod simulate;
 
@@ -32,4 +34,3 @@ pub use improved::{RECORDING as IMPROVED_RECORDING, improved};
 pub use noise::{Claimed, Origin};
 pub use run::{Adopted, Diagnosis, Estimated, Failure, Omitted, diagnose};
 pub use simulate::{Sheet, simulate};
-pub mod rivals;

@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::case::{Case, NoiseClaim, NoiseOrigin, Role};
+use super::at_rest;
+use super::case::{Case, NoiseClaim, NoiseOrigin, RestReadings, Role, hours};
 use super::correlation::{self, Correlated};
 use super::evidence::{Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
@@ -109,10 +110,28 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
             let of = |u: &f64| counts.iter().map(|n| u * u / n).collect();
             let origin = match origin {
                 NoiseOrigin::Case => Origin::Case,
-                NoiseOrigin::AtRest(file) => Origin::AtRest(file.clone()),
                 NoiseOrigin::Budget(file) => Origin::Budget(file.clone()),
             };
             (u.iter().map(of).collect(), *dof, origin)
+        }
+        NoiseClaim::AtRest { file, readings } => {
+            let scatter = |rest: &RestReadings| {
+                let n = rest.readings.len() as f64;
+                let mean = rest.readings.iter().sum::<f64>() / n;
+                let squares: f64 = rest.readings.iter().map(|x| (x - mean) * (x - mean)).sum();
+                vec![squares / (n - 1.0); case.rows]
+            };
+            let fewest = readings
+                .iter()
+                .map(|rest| rest.readings.len())
+                .min()
+                .unwrap_or(0);
+            let dof = (fewest.max(2) - 1) as f64;
+            (
+                readings.iter().map(scatter).collect(),
+                dof,
+                Origin::AtRest(file.clone()),
+            )
         }
         NoiseClaim::PerRow(column) => {
             let column = &case.columns[*column];
@@ -152,11 +171,101 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
     let valid = squares
         .iter()
         .all(|variance| *variance > 0.0 && variance.is_finite());
-    valid.then(|| Claimed {
+    let claimed = valid.then(|| Claimed {
         u: squares.map(f64::sqrt),
         dof,
         origin,
         correlated: None,
+    })?;
+    match &case.noise {
+        NoiseClaim::AtRest { readings, .. } => {
+            Some(in_time(frame, fit, readings, &claimed).unwrap_or(claimed))
+        }
+        _ => Some(claimed),
+    }
+}
+
+/// Draws of the covariance matrix from what a recording at rest leaves open.
+const REST_DRAWS: usize = 24;
+
+/// The noise of a recording at rest with its course in time, where both recordings have a time.
+fn in_time(
+    frame: &Frame<'_>,
+    fit: Option<&Fit>,
+    readings: &[RestReadings],
+    claimed: &Claimed,
+) -> Option<Claimed> {
+    let case = frame.case;
+    let clock = frame.time();
+    let factor = hours(&case.columns[clock.column?].unit, &case.units)?;
+    let times: Vec<f64> = frame
+        .reduced(&clock.values)
+        .iter()
+        .map(|t| t * factor)
+        .collect();
+    let counts: Vec<f64> = frame
+        .blocks
+        .iter()
+        .map(|block| block.len() as f64)
+        .collect();
+    let rows = at_rest::Rows {
+        times: &times,
+        counts: &counts,
+    };
+    let found: Option<Vec<at_rest::RestNoise>> = readings
+        .iter()
+        .enumerate()
+        .map(|(response, rest)| {
+            let at_rest = at_rest::AtRest {
+                times: rest.times.as_deref()?,
+                readings: &rest.readings,
+            };
+            at_rest::from_rest(
+                &at_rest,
+                &rows,
+                REST_DRAWS,
+                case.settings.seed + response as u64,
+            )
+        })
+        .collect();
+    let found = found?;
+    // What uncertain columns add comes on top, row by row.
+    let blocks = times.len();
+    let extra = DVector::from_fn(frame.observations(), |observation, _| {
+        let (response, block) = frame.place(observation);
+        let mut rows = vec![0.0; case.rows];
+        add_columns(frame, fit, response, &mut rows);
+        let n = counts[block];
+        frame.blocks[block]
+            .iter()
+            .map(|row| rows[*row])
+            .sum::<f64>()
+            / (n * n)
+    });
+    let assembled = |of: &dyn Fn(&at_rest::RestNoise) -> &DMatrix<f64>| {
+        let mut whole = DMatrix::from_diagonal(&extra);
+        for (response, noise) in found.iter().enumerate() {
+            let at = response * blocks;
+            let mut part = whole.view_mut((at, at), (blocks, blocks));
+            part += of(noise);
+        }
+        whole
+    };
+    let mean = assembled(&|noise| &noise.covariance);
+    let u = mean.diagonal().map(f64::sqrt);
+    let over_u = |matrix: DMatrix<f64>| {
+        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+            matrix[(i, j)] / (u[i] * u[j])
+        })
+    };
+    let draws = (0..REST_DRAWS).map(|draw| over_u(assembled(&|noise| &noise.draws[draw])));
+    Some(Claimed {
+        correlated: Some(Correlated {
+            draws: draws.collect(),
+            matrix: over_u(mean),
+        }),
+        u: u.clone(),
+        ..claimed.clone()
     })
 }
 

@@ -522,7 +522,7 @@ impl Checker<'_> {
             return NoiseClaim::Replicates(found);
         }
         if let Some(at_rest) = &table.at_rest {
-            return self.at_rest(at_rest, responses.len());
+            return self.at_rest(at_rest, columns, responses);
         }
         if let Some(path) = &table.budget {
             return self.budget(path, responses);
@@ -533,64 +533,40 @@ impl Checker<'_> {
     fn at_rest(
         &mut self,
         stated: &Stated<super::tables::StaticTable>,
-        responses: usize,
+        columns: &[Column],
+        responses: &[super::Response],
     ) -> NoiseClaim {
-        let (Some(file), Some(column)) = (&stated.value.file, &stated.value.column) else {
+        let Some(file) = &stated.value.file else {
             self.faults.push(
                 Fault::new(
                     NOISE,
                     stated.span.clone(),
-                    "a recording at rest has a `file` and a `column`",
+                    "a recording at rest has a `file`",
                 )
-                .label("expected both"),
+                .label("expected `file`"),
             );
             return NoiseClaim::Estimated;
         };
-        let requests = [Request::numbers("rest", &column.value)];
-        match Recording::open(
-            self.files,
-            &self.folder.join(&file.value),
-            &requests,
-            &self.units,
-        ) {
-            Ok(recording) => {
-                let readings: Vec<f64> = recording
-                    .numbers("rest")
-                    .unwrap_or(&[])
-                    .iter()
-                    .copied()
-                    .filter(|x| x.is_finite())
-                    .collect();
-                let n = readings.len() as f64;
-                let mean = readings.iter().sum::<f64>() / n;
-                let squares: f64 = readings.iter().map(|x| (x - mean) * (x - mean)).sum();
-                let u = (squares / (n - 1.0)).sqrt();
-                if n >= 3.0 && u > 0.0 {
-                    return NoiseClaim::Stated {
-                        u: vec![u; responses],
-                        dof: n - 1.0,
-                        origin: NoiseOrigin::AtRest(file.value.clone()),
-                    };
-                }
-                self.faults.push(Fault::new(
-                    NOISE,
-                    stated.span.clone(),
-                    "the recording at rest has too few readings, or no scatter",
-                ));
-            }
-            Err(rejection) => {
-                let first = rejection
-                    .faults
-                    .first()
-                    .map_or_else(String::new, |fault| fault.message.clone());
+        let path = self.folder.join(&file.value);
+        let named = stated
+            .value
+            .column
+            .as_ref()
+            .map(|column| column.value.as_str());
+        match super::at_rest::read(self.files, &path, named, columns, responses, &self.units) {
+            Ok(readings) => NoiseClaim::AtRest {
+                file: file.value.clone(),
+                readings,
+            },
+            Err(why) => {
                 self.faults.push(Fault::new(
                     NOISE,
                     file.span.clone(),
-                    format!("the recording at rest: {first}"),
+                    format!("the recording at rest: {why}"),
                 ));
+                NoiseClaim::Estimated
             }
         }
-        NoiseClaim::Estimated
     }
 
     /// The noise that a budget claims: the combined standard uncertainty of the measurand that is called like

@@ -1,5 +1,6 @@
 //! The case file: a declared model, a recording, and what is claimed about both.
 
+mod at_rest;
 mod check;
 mod declared;
 mod tables;
@@ -13,6 +14,7 @@ use crate::model::Symbol;
 use crate::quantity::{Unit, UnitTable};
 use crate::recording::Labels;
 
+pub(super) use at_rest::hours;
 pub use tables::RoleWord as Role;
 
 /// A checked case.
@@ -141,6 +143,22 @@ pub enum NoiseClaim {
     PerRow(usize),
     /// Rows that agree in these columns are replicates.
     Replicates(Vec<usize>),
+    /// A recording at rest.
+    AtRest {
+        /// Its file.
+        file: String,
+        /// One for each response.
+        readings: Vec<RestReadings>,
+    },
+}
+
+/// What an output showed at rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RestReadings {
+    /// Times, h; `None` where the file has none.
+    pub times: Option<Vec<f64>>,
+    /// Readings in the unit of the response.
+    pub readings: Vec<f64>,
 }
 
 /// Where a stated noise comes from.
@@ -148,8 +166,6 @@ pub enum NoiseClaim {
 pub enum NoiseOrigin {
     /// The case itself.
     Case,
-    /// A recording at rest.
-    AtRest(String),
     /// A budget.
     Budget(String),
 }

@@ -253,7 +253,7 @@ table! {
     StaticTable "at_rest" {
         /// Path of the CSV file.
         file: String,
-        /// Name of the column in it.
+        /// Name of the column in it; that of the output if left out.
         column: String,
     }
 }

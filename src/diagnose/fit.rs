@@ -261,8 +261,8 @@ impl Problem<'_, '_> {
         let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
         let r = jacobian.qr().r();
         for (at, length) in lengths.iter().enumerate() {
-            // Also true where the length is not a number.
-            if !(r[(at, at)].abs() > DEPENDENT * length) {
+            let own = r[(at, at)].abs();
+            if own.is_nan() || own <= DEPENDENT * length {
                 return Err(NoFit::Undetermined(self.frame.unknowns[at].name.clone()));
             }
         }

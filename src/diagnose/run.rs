@@ -165,7 +165,8 @@ pub fn diagnose(
     let located = if examination.verdict == Verdict::None {
         Vec::new()
     } else {
-        let levels = place::cells(&ground);
+        let mut levels = place::cells(&ground);
+        levels.retain(|cell| white.visibility(&cell.column) > TRACE);
         let found = evidence::locate(&baseline, &levels, &settings)?;
         found
             .into_iter()
@@ -191,6 +192,8 @@ pub fn diagnose(
     })
 }
 
+/// Visible share of an effect below which it is the curvature of the model that shows.
+const TRACE: f64 = 1e-4;
 /// So often noise and effects are estimated in turn.
 const ROUNDS: u8 = 2;
 
@@ -270,7 +273,6 @@ pub(super) fn question(
 /// the model makes of an exact alias; it would take sizes that are out of the question. What has no
 /// visible part at all is kept: it is listed as invisible.
 fn shows(baseline: &Baseline, shape: &Shape) -> bool {
-    const TRACE: f64 = 1e-4;
     const NOTHING: f64 = 1e-6;
     let Shape::Columns(columns) = shape else {
         return true;

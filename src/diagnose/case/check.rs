@@ -344,7 +344,8 @@ impl Checker<'_> {
             let present = headings
                 .iter()
                 .any(|h| h.text == *header || h.name == *header);
-            if !present && !(self.purpose == Purpose::Plan && role == RoleWord::Output) {
+            let expected = self.purpose == Purpose::Plan && role == RoleWord::Output;
+            if !present && !expected {
                 let span = table
                     .column
                     .as_ref()

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{map, map2, range};
 use super::response::{on_node, words};
-use super::{Cell, Term, Variation, effect};
+use super::{Cell, Term, Variants, Variation, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 use crate::quantity::UnitTable;
@@ -33,7 +33,7 @@ fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let harmonics: Vec<u32> = (1..=HIGHEST)
         .filter(|k| f64::from(*k) * (most - least) > PI)
         .collect();
-    let variants: Vec<(String, Vec<(Vec<f64>, String)>)> = harmonics
+    let variants: Variants = harmonics
         .iter()
         .map(|k| {
             let times = f64::from(*k);

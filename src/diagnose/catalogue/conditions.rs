@@ -4,10 +4,8 @@
 use super::ground::{Ground, Node};
 use super::modifiers::{centred, figure, lag, map, map2, mean, range, rate};
 use super::response::{on_node, on_outputs, time_constants, words};
-use super::{Cell, Words};
+use super::{Cell, Variants, Words};
 use crate::diagnose::case::Role;
-
-type Variants = Vec<(String, Vec<(Vec<f64>, String)>)>;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {

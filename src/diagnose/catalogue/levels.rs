@@ -1,13 +1,11 @@
 //! Levels of factors: runs, instruments, operators, mounts, directions.
 
-use super::Cell;
 use super::ground::{Ground, Node};
 use super::modifiers::map;
 use super::response::{on_node, words};
+use super::{Cell, Variants};
 use crate::diagnose::case::Role;
 use crate::recording::Labels;
-
-type Variants = Vec<(String, Vec<(Vec<f64>, String)>)>;
 
 /// Cells of the columns of labels.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -52,7 +50,7 @@ pub(super) fn indicator(labels: &Labels, level: u32) -> Vec<f64> {
         .collect()
 }
 
-fn text<'l>(labels: &'l Labels, level: u32) -> &'l str {
+fn text(labels: &Labels, level: u32) -> &str {
     labels.levels.get(level as usize).map_or("", String::as_str)
 }
 

@@ -142,6 +142,12 @@ pub struct ShapeParameter {
     pub unit: String,
 }
 
+/// A modifier, row by row and as a formula.
+type Modifier = (Vec<f64>, String);
+
+/// Labels of variants with the modifiers of their terms.
+type Variants = Vec<(String, Vec<Modifier>)>;
+
 /// A disturbance of one node, with one coefficient.
 #[derive(Debug, Clone)]
 pub struct Term {

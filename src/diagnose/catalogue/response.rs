@@ -3,7 +3,7 @@
 
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{centred, direction, figure, grid, lag, map, map2, mean, play, range, rate};
-use super::{Cell, Term, Variation, Words, effect};
+use super::{Cell, Term, Variants, Variation, Words, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -40,7 +40,7 @@ pub(super) fn on_outputs(
     id: &str,
     words: Words,
     along: &str,
-    variants: Vec<(String, Vec<(Vec<f64>, String)>)>,
+    variants: Variants,
 ) -> Cell {
     on_node(ground, id, words, along, Node::Output, variants)
 }
@@ -52,7 +52,7 @@ pub(super) fn on_node(
     words: Words,
     along: &str,
     node: Node,
-    variants: Vec<(String, Vec<(Vec<f64>, String)>)>,
+    variants: Variants,
 ) -> Cell {
     let responses = &ground.case().responses;
     let mut all = Vec::new();
@@ -418,7 +418,8 @@ fn axes(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
         }
     }
     cells.push(cell("cross-axis", singles_and_all(pairs)));
-    let laws: [(&str, &str, fn(f64) -> f64); 3] = [
+    type Law = fn(f64) -> f64;
+    let laws: [(&str, &str, Law); 3] = [
         ("axis-quadratic", "^2", |x| x * x),
         ("axis-cubic", "^3", |x| x * x * x),
         ("axis-asymmetry", " as modulus", f64::abs),

@@ -1,16 +1,14 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
-use super::Cell;
 use super::conditions::single;
 use super::ground::{Ground, Node};
 use super::modifiers::{centred, figure, grid, map, range};
 use super::response::{on_node, words};
+use super::{Cell, Variants};
 use crate::diagnose::case::Role;
 
 /// More steps than that are not scanned.
 const MOST_STEPS: usize = 80;
-
-type Variants = Vec<(String, Vec<(Vec<f64>, String)>)>;
 
 /// Cells of the time, or of the order of the rows.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {

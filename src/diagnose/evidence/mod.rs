@@ -29,6 +29,7 @@
 
 mod baseline;
 mod closed_form;
+mod confusion;
 mod examine;
 mod findings;
 mod fit;

@@ -123,6 +123,10 @@ pub trait Table: Default {
     /// Notes that the table has a key that is not known.
     fn refuse(&mut self);
 
+    /// What this table says, and where it says nothing, what `below` says.
+    #[must_use]
+    fn over(self, below: Self) -> Self;
+
     /// Every key, in the order of the definition.
     fn keys() -> Vec<&'static str>;
 
@@ -279,6 +283,16 @@ macro_rules! table {
                 self.refused = true;
                 self.unknown = true;
                 $( self.$rest.refuse(); )?
+            }
+
+            fn over(self, below: Self) -> Self {
+                $name {
+                    $( $key: self.$key.or(below.$key), )*
+                    $( $rest: $crate::budget::table::Table::over(self.$rest, below.$rest), )?
+                    present: self.present.into_iter().chain(below.present).collect(),
+                    refused: self.refused || below.refused,
+                    unknown: self.unknown || below.unknown,
+                }
             }
 
             fn keys() -> Vec<&'static str> {

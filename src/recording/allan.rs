@@ -222,8 +222,8 @@ fn variance(phase: &[f64], m: usize) -> f64 {
 
 /// The kind of noise at an averaging time, from the autocorrelation of successive averages (after Riley and
 /// Greenhall 2004): ρ/(1 + ρ) is −α/2 for a stationary spectral density f^α, so that ρ < ⅓ is nearest to
-/// white. Others are differenced; theory then expects −0.22 for flicker (9 ln 3 − 16 ln 2 over 8 ln 2) and
-/// ¼ for random walk.
+/// white. Others are differenced; theory then expects −½ for white noise (over slower noise), −0.22 for
+/// flicker (9 ln 3 − 16 ln 2 over 8 ln 2), or −⅓ where readings are taken at instants, and ¼ for random walk.
 fn noise(phase: &[f64], m: usize) -> Option<PowerLaw> {
     let sums: Vec<f64> = phase.iter().copied().step_by(m).collect();
     let averages = differences(&sums);
@@ -233,7 +233,7 @@ fn noise(phase: &[f64], m: usize) -> Option<PowerLaw> {
     }
     let (rho, rho_of_steps) = (successive(&averages)?, successive(&steps)?);
     Some(match () {
-        () if rho < 1.0 / 3.0 => PowerLaw::White,
+        () if rho < 1.0 / 3.0 || rho_of_steps < -0.4 => PowerLaw::White,
         () if rho_of_steps < 0.0 => PowerLaw::Flicker,
         () => PowerLaw::RandomWalk,
     })

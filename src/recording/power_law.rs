@@ -21,7 +21,7 @@ const FINE: usize = 16;
 /// limits the sum, only random walk still correlates them, and its covariances have no finer structure.
 const COARSE: usize = 512;
 /// Lags that count, in averaging times; only those of flicker go on, and fade.
-const REACH: i64 = 8;
+const REACH: i64 = 3;
 
 impl PowerLaw {
     /// All kinds, from short to long averaging times.

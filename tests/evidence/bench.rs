@@ -206,7 +206,7 @@ fn directions(
 ) -> Option<DMatrix<f64>> {
     let seen = truth.project(columns);
     let whole = lower.solve_lower_triangular(columns)?.norm_squared();
-    if !(seen.norm_squared() > 1e-3 * whole) {
+    if seen.norm_squared() <= 1e-3 * whole {
         return None;
     }
     let svd = seen.svd(true, false);

@@ -208,7 +208,7 @@ fn by_axis_and_channel(time: &[f64]) -> Covariance {
     Covariance::Dense(DMatrix::from_fn(9 * n, 9 * n, |i, j| {
         if i / n != j / n {
             0.0
-        } else if (i / n) % 3 == 0 {
+        } else if (i / n).is_multiple_of(3) {
             one[(i % n, j % n)]
         } else if i == j {
             1.0

@@ -11,7 +11,7 @@ use super::super::table::{Cell, Column, ColumnKind, Row, Table};
 use super::trouble::in_words;
 use crate::calibrate::{
     Alias, Calibration, Cause, Coefficient, Combination, Experiment, Figures, Identifiability,
-    Origin, Plan, Scatter, Scope, Words,
+    Origin, Plan, ResponseScatter, Scatter, Scope, Words,
 };
 
 /// Digits of standard uncertainties.
@@ -732,6 +732,30 @@ fn is_felt(alias: &Alias, index: usize) -> bool {
     alias.shifts[index].abs() > 1e-9 * largest
 }
 
+/// Residuals that are larger or smaller than the known errors of the readings let expect. Where the
+/// residuals tell the scatter themselves, they may be larger.
+fn misfit(one: &ResponseScatter, way: Scatter, l: Language) -> Option<String> {
+    /// Probability of a χ² as far out.
+    const RARE: f64 = 0.005;
+    let test = one.test?;
+    let ratio = significant(test.chi_squared / test.dof, 3);
+    let response = &one.response;
+    if test.p_value < RARE && way != Scatter::Residuals {
+        let p = significant(test.p_value, 2);
+        Some(l.pick(
+            format!("The residuals of {response} are larger than the errors of its readings let expect (χ²/ν = {ratio}, p = {p}): the equations leave something out, or the errors are larger than stated. The uncertainties above do not contain this."),
+            format!("{response} 的残差大于其读数误差的预期（χ²/ν = {ratio}，p = {p}）：方程有遗漏，或误差大于所给出的值。上列不确定度未包含这一差异。"),
+        ))
+    } else if test.p_value > 1.0 - RARE {
+        Some(l.pick(
+            format!("The residuals of {response} are smaller than the errors of its readings let expect (χ²/ν = {ratio}): these errors may be stated too large, or be common to the readings."),
+            format!("{response} 的残差小于其读数误差的预期（χ²/ν = {ratio}）：误差可能给得过大，或为各读数共有。"),
+        ))
+    } else {
+        None
+    }
+}
+
 /// What a reader must know.
 pub(super) fn remarks(
     experiment: &Experiment,
@@ -753,16 +777,12 @@ pub(super) fn remarks(
                 format!("有 {} 个读数因缺值而未使用。", found.left_out),
             ));
         }
-        for one in &found.responses {
-            if let Some(test) = one.test
-                && !(0.01..=0.99).contains(&test.p_value)
-            {
-                items.push(l.pick(
-                    format!("The residuals of {} are not as large as the errors of its readings let expect: χ²/ν = {}, p = {}.", one.response, significant(test.chi_squared / test.dof, 3), significant(test.p_value, 2)),
-                    format!("{} 的残差与其读数误差的预期不符：χ²/ν = {}，p = {}。", one.response, significant(test.chi_squared / test.dof, 3), significant(test.p_value, 2)),
-                ));
-            }
-        }
+        items.extend(
+            found
+                .responses
+                .iter()
+                .filter_map(|one| misfit(one, found.scatter, l)),
+        );
     }
     if !assumed.is_empty() {
         let names = assumed.join(", ");

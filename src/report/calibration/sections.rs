@@ -734,13 +734,19 @@ fn is_felt(alias: &Alias, index: usize) -> bool {
 
 /// Residuals that are larger or smaller than the known errors of the readings let expect. Where the
 /// residuals tell the scatter themselves, they may be larger.
-fn misfit(one: &ResponseScatter, way: Scatter, l: Language) -> Option<String> {
+fn misfit(one: &ResponseScatter, way: Scatter, sampled: bool, l: Language) -> Option<String> {
     /// Probability of a χ² as far out.
     const RARE: f64 = 0.005;
     let test = one.test?;
     let ratio = significant(test.chi_squared / test.dof, 3);
     let response = &one.response;
-    if test.p_value < RARE && way != Scatter::Residuals {
+    if test.p_value < RARE && way == Scatter::Residuals && sampled {
+        let times = significant((test.chi_squared / test.dof).sqrt(), 2);
+        Some(l.pick(
+            format!("The residuals of {response} are {times} times as large as the samples of the dwells let expect: something changes from dwell to dwell that is still within each, labels or reference values are wrong, or the equations leave something out."),
+            format!("{response} 的残差为驻留段采样预期的 {times} 倍：可能有在驻留段内稳定、段间变化的因素，标签或参考值有误，或方程有遗漏。"),
+        ))
+    } else if test.p_value < RARE && way != Scatter::Residuals {
         let p = significant(test.p_value, 2);
         Some(l.pick(
             format!("The residuals of {response} are larger than the errors of its readings let expect (χ²/ν = {ratio}, p = {p}): the equations leave something out, or the errors are larger than stated. The uncertainties above do not contain this."),
@@ -777,12 +783,16 @@ pub(super) fn remarks(
                 format!("有 {} 个读数因缺值而未使用。", found.left_out),
             ));
         }
-        items.extend(
-            found
-                .responses
-                .iter()
-                .filter_map(|one| misfit(one, found.scatter, l)),
-        );
+        if let Some([first, second]) = &found.swapped {
+            items.push(l.pick(
+                format!("The readings of {first} and {second} look exchanged: with each in the other's place the residuals would be less than a tenth of what they are. Check their labels before using these figures."),
+                format!("{first} 与 {second} 的读数疑似互换：交换后残差不到现在的十分之一。使用结果前请核对其标签。"),
+            ));
+        }
+        let columns = &experiment.points.columns;
+        let sampled = columns.iter().any(|column| !column.averages.is_empty());
+        let misfit = |one: &ResponseScatter| misfit(one, found.scatter, sampled, l);
+        items.extend(found.responses.iter().filter_map(misfit));
     }
     if !assumed.is_empty() {
         let names = assumed.join(", ");

@@ -98,6 +98,18 @@ impl Counter {
         picked.extend_from_slice(&self.picked.0[..count]);
     }
 
+    /// Counts some numbers, one block full at most, and appends those of picked bins to `picked`.
+    pub fn add_few(&mut self, grid: &Grid, x: &[f64], picked: &mut Vec<f64>) {
+        let mut count = 0;
+        for x in x {
+            let word = &mut self.words[grid.bin(*x)];
+            self.picked.0[count % LANES] = *x;
+            count += (*word >> 31) as usize;
+            *word += 1;
+        }
+        picked.extend_from_slice(&self.picked.0[..count.min(LANES)]);
+    }
+
     /// Counts one number.
     pub fn add_one(&mut self, grid: &Grid, x: f64, picked: &mut Vec<f64>) {
         let word = &mut self.words[grid.bin(x)];

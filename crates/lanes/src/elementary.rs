@@ -33,11 +33,11 @@ const HALF_PI: [f64; 3] = [
 ];
 
 /// Adding 1.5·2⁵² to |x| < 2⁵¹ rounds to an integer, which then stands in the low bits.
-const INTEGER: f64 = 6_755_399_441_055_744.0;
+pub(crate) const INTEGER: f64 = 6_755_399_441_055_744.0;
 
 /// c₀ + c₁x + c₂x² + …, each step fused.
 #[inline(always)]
-fn horner<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
+pub(crate) fn horner<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
     let mut sum = coefficients[N - 1];
     for &c in coefficients.iter().rev().skip(1) {
         sum = sum.mul_add(x, c);
@@ -71,7 +71,7 @@ fn exp_parts(x: f64) -> (f64, f64, f64) {
 
 /// 2ᵏ for an integer −1022 ≤ k ≤ 1023.
 #[inline(always)]
-fn power_of_two(k: f64) -> f64 {
+pub(crate) fn power_of_two(k: f64) -> f64 {
     f64::from_bits((k + INTEGER).to_bits().wrapping_add(1023) << 52)
 }
 
@@ -98,13 +98,6 @@ pub fn exp(x: f64) -> f64 {
     let (k, r, tail) = exp_parts(clamp(x, -746.0, 710.0));
     let half = (k * 0.5 + INTEGER) - INTEGER;
     add_three(1.0, r, tail) * power_of_two(half) * power_of_two(k - half)
-}
-
-/// eˣ for 0 ≤ x ≤ 700, within 1.5 ulp.
-#[inline(always)]
-pub(crate) fn exp_positive(x: f64) -> f64 {
-    let (k, r, tail) = exp_parts(x);
-    (1.0 + (r + tail)) * power_of_two(k)
 }
 
 /// eˣ − 1, accurate for small x too.
@@ -236,39 +229,6 @@ fn sin_cos_reducible(x: f64) -> (f64, f64) {
     let low = k.mul_add(-HALF_PI[2], sum_low - product_low);
     let r = sum + low;
     turn(sin_cos_core(r, (sum - r) + low), shifted.to_bits())
-}
-
-/// (sin 2πv, cos 2πv) for 0 ≤ v ≤ 1; the reduction is exact.
-#[inline(always)]
-pub(crate) fn sin_cos_turns(v: f64) -> (f64, f64) {
-    let shifted = v.mul_add(4.0, INTEGER);
-    let rest = (shifted - INTEGER).mul_add(-0.25, v);
-    turn(
-        sin_cos_core(rest * std::f64::consts::TAU, 0.0),
-        shifted.to_bits(),
-    )
-}
-
-/// sin πw for |w| ≤ ½, within 2 ulp.
-#[inline(always)]
-pub(crate) fn sin_half_turns(w: f64) -> f64 {
-    /// ∓1/(2n + 1)!
-    const SERIES: [f64; 11] = [
-        -0.166_666_666_666_666_66,
-        0.008_333_333_333_333_333,
-        -0.000_198_412_698_412_698_4,
-        2.755_731_922_398_589e-6,
-        -2.505_210_838_544_172e-8,
-        1.605_904_383_682_161_3e-10,
-        -7.647_163_731_819_816e-13,
-        2.811_457_254_345_520_6e-15,
-        -8.220_635_246_624_33e-18,
-        1.957_294_106_339_126_3e-20,
-        -3.868_170_170_630_684e-23,
-    ];
-    let x = w * std::f64::consts::PI;
-    let z = x * x;
-    (z * x).mul_add(horner(z, SERIES), x)
 }
 
 /// sin x for |x| ≤ [`REDUCIBLE`].

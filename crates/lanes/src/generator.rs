@@ -10,6 +10,7 @@
 
 use fearless_simd::{Level, dispatch};
 
+use crate::sampler::open_unit;
 use crate::{Block, LANES};
 
 /// Generators that run side by side.
@@ -28,12 +29,11 @@ impl Generator {
     /// The 1024 bits of state are hashed from all three numbers through a 128-bit key, so that
     /// two of even 10⁹ addresses of a run share a key with probability 10⁻²¹.
     pub fn new(seed: u64, chunk: u64, stream: u64) -> Generator {
-        let key = [FIRST_KEY, SECOND_KEY]
-            .map(|salt| [seed, chunk, stream].into_iter().fold(salt, absorb));
+        let key = Key::new([seed, chunk, stream]);
         let mut counter = 0;
         let mut next_word = || {
             counter += 1;
-            squeeze(key, counter)
+            key.word(counter)
         };
         // A lane would have to draw four zero words in a row (2⁻²⁵⁶) to get stuck.
         Generator {
@@ -49,26 +49,58 @@ impl Generator {
     /// 256 uniform numbers in the open interval (0, 1): odd multiples of 2⁻⁵³, so neither 0 nor 1
     /// can occur and the distribution is symmetric about one half.
     pub fn uniforms(&mut self, level: Level, out: &mut Block) {
-        dispatch!(level, _ => self.fill_uniforms(&mut out.0))
+        dispatch!(level, _ => self.fill_with(&mut out.0, open_unit))
     }
 
-    /// As [`Generator::uniforms`], for kernels that are inside a dispatch already. `N` is a
-    /// multiple of 16.
+    /// Puts a function of each word into `out`; `N` is a multiple of 16. For kernels that are inside a
+    /// dispatch already, as the functions below.
     #[inline(always)]
-    pub(crate) fn fill_uniforms<const N: usize>(&mut self, out: &mut [f64; N]) {
-        self.fill_with(out, open_unit);
-    }
-
-    /// Puts a function of each word into `out`.
-    #[inline(always)]
-    fn fill_with<const N: usize, T>(&mut self, out: &mut [T; N], f: impl Fn(u64) -> T) {
+    pub(crate) fn fill_with<const N: usize, T>(&mut self, out: &mut [T; N], f: impl Fn(u64) -> T) {
         const { assert!(N.is_multiple_of(WIDTH)) };
         // A copy, which the compiler keeps in registers through the loop.
         let mut state = self.state;
         for row in out.as_chunks_mut::<WIDTH>().0 {
             let words = step(&mut state);
-            for (out, word) in row.iter_mut().zip(words) {
-                *out = f(word);
+            for lane in 0..WIDTH {
+                row[lane] = f(words[lane]);
+            }
+        }
+        self.state = state;
+    }
+
+    /// Puts a function of two words into `out`; `N` is a multiple of 16.
+    #[inline(always)]
+    pub(crate) fn fill_with_two<const N: usize>(
+        &mut self,
+        out: &mut [f64; N],
+        f: impl Fn(u64, u64) -> f64,
+    ) {
+        const { assert!(N.is_multiple_of(WIDTH)) };
+        let mut state = self.state;
+        for row in out.as_chunks_mut::<WIDTH>().0 {
+            let (first, second) = (step(&mut state), step(&mut state));
+            for lane in 0..WIDTH {
+                row[lane] = f(first[lane], second[lane]);
+            }
+        }
+        self.state = state;
+    }
+
+    /// Puts two functions of two words into lanes i and i + N/2 of `out`; `N` is a multiple of 32.
+    #[inline(always)]
+    pub(crate) fn fill_with_pairs<const N: usize>(
+        &mut self,
+        out: &mut [f64; N],
+        f: impl Fn(u64, u64) -> (f64, f64),
+    ) {
+        const { assert!(N.is_multiple_of(2 * WIDTH)) };
+        let mut state = self.state;
+        let (front, back) = out.split_at_mut(N / 2);
+        let rows = front.as_chunks_mut::<WIDTH>().0.iter_mut();
+        for (x, y) in rows.zip(back.as_chunks_mut::<WIDTH>().0) {
+            let (first, second) = (step(&mut state), step(&mut state));
+            for lane in 0..WIDTH {
+                (x[lane], y[lane]) = f(first[lane], second[lane]);
             }
         }
         self.state = state;
@@ -95,15 +127,6 @@ fn step([s0, s1, s2, s3]: &mut [[u64; WIDTH]; 4]) -> [u64; WIDTH] {
     words
 }
 
-/// The upper 52 bits as a number in (0, 1): (2j + 1)·2⁻⁵³, exactly.
-#[inline(always)]
-fn open_unit(bits: u64) -> f64 {
-    // 1 + j·2⁻⁵² has the mantissa bits j; one subtraction, exact, moves it down to (0, 1).
-    const ONE: u64 = 1.0_f64.to_bits();
-    const BELOW_ONE: f64 = 1.0 - 0.5 * f64::EPSILON;
-    f64::from_bits(bits >> 12 | ONE) - BELOW_ONE
-}
-
 // Fractional digits of √2 and √3: two unrelated starting points of the hash.
 const FIRST_KEY: u64 = 0x6a09_e667_f3bc_c908;
 const SECOND_KEY: u64 = 0xbb67_ae85_84ca_a73b;
@@ -115,10 +138,21 @@ fn absorb(hash: u64, value: u64) -> u64 {
     mix(mix(hash.wrapping_add(GOLDEN)) ^ mix(value.wrapping_add(GOLDEN)))
 }
 
-/// Word number `counter` of a 128-bit key.
-fn squeeze(key: [u64; 2], counter: u64) -> u64 {
-    let step = GOLDEN.wrapping_mul(counter);
-    mix(key[0].wrapping_add(step)) ^ mix(key[1].wrapping_sub(step)).rotate_left(32)
+/// Random words that an address names, in any order.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Key([u64; 2]);
+
+impl Key {
+    /// The 128-bit hash of an address.
+    pub(crate) fn new(address: [u64; 3]) -> Key {
+        Key([FIRST_KEY, SECOND_KEY].map(|salt| address.into_iter().fold(salt, absorb)))
+    }
+
+    /// Word number `counter`.
+    pub(crate) fn word(self, counter: u64) -> u64 {
+        let step = GOLDEN.wrapping_mul(counter);
+        mix(self.0[0].wrapping_add(step)) ^ mix(self.0[1].wrapping_sub(step)).rotate_left(32)
+    }
 }
 
 /// The finaliser of SplitMix64: a bijection in which every bit of the input moves every bit of
@@ -172,13 +206,6 @@ mod tests {
             Xoshiro256PlusPlus::from_seed(state),
             Xoshiro256PlusPlus::seed_from_u64(0)
         );
-    }
-
-    #[test]
-    fn uniforms_stay_inside_the_open_interval() {
-        assert_eq!(open_unit(0), 0.5 * f64::EPSILON);
-        assert_eq!(open_unit(u64::MAX), 1.0 - 0.5 * f64::EPSILON);
-        assert_eq!(open_unit(1 << 63), 0.5 + 0.5 * f64::EPSILON);
     }
 
     #[test]

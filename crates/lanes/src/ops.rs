@@ -141,6 +141,10 @@ unary! {
     sqrt = |a| a.sqrt();
     /// a².
     sq = |a| a * a;
+    /// a³.
+    cube = |a| a * (a * a);
+    /// a⁴.
+    fourth_power = |a| { let square = a * a; square * square };
     /// −1, 0 or 1 as a is negative, zero or positive.
     sign = |a| if a > 0.0 { 1.0 } else if a < 0.0 { -1.0 } else { a };
     /// 1 where a is 0, otherwise 0.
@@ -264,7 +268,14 @@ pub fn powi(level: Level, a: &Block, n: i32, out: &mut Block) {
         map(a, out, |a| libm::pow(a, f64::from(n)));
         return;
     }
-    fill(level, 1.0, out);
+    match n {
+        // As below, in one pass.
+        1 => return copy(level, a, out),
+        2 => return sq(level, a, out),
+        3 => return cube(level, a, out),
+        4 => return fourth_power(level, a, out),
+        _ => fill(level, 1.0, out),
+    }
     let mut square = *a;
     let mut rest = n.unsigned_abs();
     dispatch!(level, _ => while rest != 0 {

@@ -167,7 +167,7 @@ fn missing_readings_are_left_out_and_counted() {
 
 #[test]
 fn exchanged_labels_are_found() {
-    let good = "position,U [mV]\nup,1.001\ndown,-0.999\nlevel,0.002\nup,1.000\ndown,-1.001\nlevel,-0.001\n";
+    let good = "position,U [mV]\nup,1.001\ndown,-0.999\nlevel,0.002\nup,1.000\ndown,-1.001\nlevel,-0.001\nup,0.999\ndown,-1.002\n";
     assert_eq!(
         calibrate(&experiment(POSITIONS, good))
             .expect("figures")

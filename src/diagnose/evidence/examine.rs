@@ -4,8 +4,10 @@ use std::ops::ControlFlow;
 
 use nalgebra::DMatrix;
 
+use super::closed_form::Scale;
 use super::findings::{Examination, Invisible, Slot, State, Verdict};
 use super::fit::fitted;
+use super::guard::{leftover, margin, stands};
 use super::question::{Question, Refusal, Shape};
 use super::search::{Search, frame_of, search};
 use super::slots::{Member, slot};
@@ -15,6 +17,8 @@ use super::space::Space;
 const NAMED_STANDS: f64 = 0.3;
 /// Up to this probability of generics the named set is contested, beyond it is refuted.
 const CONTESTED: f64 = 0.9;
+/// Less than this probability of what is left beside named effects means that something is left.
+const LEFT: f64 = 0.01;
 /// Named effects beside an unexplained one count if they explain this share of the excess χ².
 const MOST: f64 = 0.8;
 
@@ -33,13 +37,23 @@ pub fn examine(
     let space = Space::new(question)?;
     let search = search(&space, question, progress)?;
     let generic_probability = search.generic_probability();
-    let (named, generic, contested) = explanation(&search, generic_probability);
-    let slots = slots(&space, question, &named, generic);
-    let set = frame_of(&space, &named);
+    let explanation = explanation(&search, generic_probability);
+    let (named, generic) = (&explanation.named, explanation.generic);
+    let mut slots = slots(&space, question, named, generic);
+    let margin = margin(&space, named);
+    let leftover = if named.is_empty() || generic.is_some() {
+        1.0
+    } else {
+        leftover(&space, question, named)
+    };
+    if leftover < LEFT {
+        slots.push(nameless());
+    }
+    let set = frame_of(&space, named);
     let explained = explained(&space, set.fit, set.basis.ncols());
     let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
         Verdict::None
-    } else if contested {
+    } else if explanation.contested || (!named.is_empty() && !stands(margin, named.len())) {
         Verdict::Contested
     } else {
         verdict(&slots, explained)
@@ -50,6 +64,8 @@ pub fn examine(
         fitted: (!named.is_empty()).then(|| fitted(&space, question, &set)),
         explained,
         generic_probability,
+        margin,
+        leftover,
         chi_squared: question.baseline.chi_squared(),
         dof: question.baseline.dof(),
         invisible: invisible(&space, question),
@@ -57,21 +73,43 @@ pub fn examine(
     })
 }
 
-/// Named blocks, a generic, and whether the two compete.
-fn explanation(search: &Search, generic_probability: f64) -> (Vec<usize>, Option<usize>, bool) {
-    let with_generic = || match search.best_with_generic() {
-        Some(set) => (set.named.clone(), set.generic, false),
-        None => (
-            search.best().map_or(Vec::new(), |set| set.named.clone()),
-            None,
-            false,
-        ),
+/// The most probable explanation.
+struct Explanation {
+    named: Vec<usize>,
+    generic: Option<usize>,
+    /// A smooth effect without a name competes with the named ones.
+    contested: bool,
+}
+
+fn explanation(search: &Search, generic_probability: f64) -> Explanation {
+    let by_name = |set: &[usize], contested| Explanation {
+        named: set.to_vec(),
+        generic: None,
+        contested,
     };
     match &search.complete {
-        Some(set) if set.is_empty() => (Vec::new(), None, false),
-        Some(set) if generic_probability < NAMED_STANDS => (set.clone(), None, false),
-        Some(set) if generic_probability < CONTESTED => (set.clone(), None, true),
-        Some(_) | None => with_generic(),
+        Some(set) if set.is_empty() => by_name(set, false),
+        Some(set) if generic_probability < NAMED_STANDS => by_name(set, false),
+        Some(set) if generic_probability < CONTESTED => by_name(set, true),
+        Some(_) | None => match search.best_with_generic().or_else(|| search.best()) {
+            Some(set) => Explanation {
+                named: set.named.clone(),
+                generic: set.generic,
+                contested: false,
+            },
+            None => by_name(&[], false),
+        },
+    }
+}
+
+/// What is left beside named effects, when none of the competitors says where.
+fn nameless() -> Slot {
+    Slot {
+        state: State::Unexplained,
+        named: Vec::new(),
+        generic: Vec::new(),
+        generic_share: 1.0,
+        family: None,
     }
 }
 
@@ -92,10 +130,15 @@ fn slots(space: &Space, question: &Question, named: &[usize], generic: Option<us
     slots
 }
 
-/// Share of the excess χ² that named effects with this fit explain.
+/// Share of the excess χ² that named effects with this fit explain; of χ² itself if nothing is known of
+/// the noise beforehand.
 fn explained(space: &Space, fit: f64, d: usize) -> f64 {
-    let before = space.z.norm_squared() - space.dof as f64;
-    let after = space.z.norm_squared() - fit - (space.dof - d) as f64;
+    let chi_squared = space.z.norm_squared();
+    if matches!(space.scale, Scale::Estimated { .. }) && space.offset == 0.0 {
+        return fit / chi_squared;
+    }
+    let before = chi_squared - space.dof as f64;
+    let after = chi_squared - fit - (space.dof - d) as f64;
     if before > 0.0 {
         (1.0 - after.max(0.0) / before).clamp(0.0, 1.0)
     } else {

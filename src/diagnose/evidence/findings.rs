@@ -13,7 +13,7 @@ pub enum Verdict {
     Ambiguous,
     /// Some effects are named, and something without a name is left.
     Partly,
-    /// Named effects, or else a smooth effect without a name: both explain the recording.
+    /// Named effects, or else an effect without a name or outside the catalogue: both explain the recording.
     Contested,
     /// Something is there that no candidate explains; the slots say where.
     Unexplained,
@@ -34,6 +34,12 @@ pub struct Examination {
     pub explained: f64,
     /// Posterior probability that an effect without a name is there.
     pub generic_probability: f64,
+    /// By how much the named effects are better than an unlisted effect that resembles the catalogue, as
+    /// the logarithm of a Bayes factor; ∞ if nothing is named.
+    pub margin: f64,
+    /// Probability that as much is left beside the named effects as there is, in the directions that the
+    /// catalogue cares for or at all, if they are all there is.
+    pub leftover: f64,
     /// χ² before any effect is added.
     pub chi_squared: f64,
     /// Its degrees of freedom.

@@ -85,7 +85,7 @@ fn stage(frame: &Frame) -> u64 {
 
 /// Probability that the better placed of the two statistics is placed as well, by ranks among the
 /// draws and the observation: exact, however the two depend on each other.
-fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
+pub(super) fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
     let pool = || std::iter::once(&observed).chain(draws);
     let ranks: Vec<Vec<usize>> = (0..2)
         .map(|which| {
@@ -162,20 +162,7 @@ impl<'a> Panel<'a> {
 
     fn simulated(&self, chunk: &Chunk, pairs: Option<&Pairs>) -> Vec<[f64; 2]> {
         let lanes = chunk.errors.nrows();
-        let mut chi_squared: Vec<f64> = squares(&chunk.errors);
-        for basis in self.absorbed {
-            let absorbed = squares(&(&chunk.errors * basis));
-            for (whole, part) in chi_squared.iter_mut().zip(absorbed) {
-                *whole = (*whole - part).max(0.0);
-            }
-        }
-        let residuals: Vec<Residual> = (0..lanes)
-            .map(|lane| Residual {
-                chi_squared: chi_squared[lane],
-                rss: chi_squared[lane] + chunk.offsets[lane],
-                ..self.residual
-            })
-            .collect();
+        let residuals = chunk.residuals(&self.absorbed, self.residual);
         let components = &chunk.errors * &self.basis;
         let mut out = vec![[f64::NEG_INFINITY; 2]; lanes];
         for (i, block) in self.blocks.iter().enumerate() {
@@ -194,17 +181,6 @@ impl<'a> Panel<'a> {
         }
         out
     }
-}
-
-/// Sums of the squares of the rows.
-fn squares(matrix: &DMatrix<f64>) -> Vec<f64> {
-    let mut out = vec![0.0; matrix.nrows()];
-    for column in matrix.column_iter() {
-        for (sum, x) in out.iter_mut().zip(column.iter()) {
-            *sum += x * x;
-        }
-    }
-    out
 }
 
 #[cfg(test)]

@@ -34,6 +34,7 @@ mod findings;
 mod fit;
 mod gate;
 mod generic;
+mod guard;
 mod locate;
 mod noise;
 mod null;

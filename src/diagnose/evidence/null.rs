@@ -8,6 +8,7 @@ use gumption_lanes::{Block as Lanes, Generator, LANES, level};
 use nalgebra::DMatrix;
 
 use super::baseline::Baseline;
+use super::space::Residual;
 
 /// Simulated recordings of one null distribution.
 #[derive(Debug, Clone, Copy)]
@@ -70,6 +71,40 @@ impl<'a> Null<'a> {
         }
         Chunk { errors, offsets }
     }
+}
+
+impl Chunk {
+    /// What the residuals of each recording are when two orthonormal bases are absorbed; degrees of
+    /// freedom and scale as those of `like`.
+    pub(super) fn residuals(&self, absorbed: &[&DMatrix<f64>; 2], like: Residual) -> Vec<Residual> {
+        let mut chi_squared = squares(&self.errors);
+        for basis in absorbed {
+            let part = squares(&(&self.errors * *basis));
+            for (whole, part) in chi_squared.iter_mut().zip(part) {
+                *whole = (*whole - part).max(0.0);
+            }
+        }
+        chi_squared
+            .into_iter()
+            .zip(&self.offsets)
+            .map(|(chi_squared, offset)| Residual {
+                chi_squared,
+                rss: chi_squared + offset,
+                ..like
+            })
+            .collect()
+    }
+}
+
+/// Sums of the squares of the rows.
+fn squares(matrix: &DMatrix<f64>) -> Vec<f64> {
+    let mut out = vec![0.0; matrix.nrows()];
+    for column in matrix.column_iter() {
+        for (sum, x) in out.iter_mut().zip(column.iter()) {
+            *sum += x * x;
+        }
+    }
+    out
 }
 
 /// f(0) … f(count − 1), computed side by side.

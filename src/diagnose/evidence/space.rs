@@ -357,7 +357,7 @@ fn visible(baseline: &Baseline, columns: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f6
 }
 
 /// Principal directions and eigenvalues of MMᵀ.
-fn smooth(columns: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
+pub(super) fn smooth(columns: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
     let eigen = SymmetricEigen::new(columns.tr_mul(&columns));
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len())
         .filter(|k| eigen.eigenvalues[*k] > 1e-6)

@@ -47,19 +47,34 @@ impl Wanted {
     /// The same where the values are the first of more: ranks move in proportion, and
     /// by chance.
     pub(super) fn widened(&self) -> Wanted {
-        let n = self.count as f64;
-        let reach = |rank: u64| {
-            let share = rank as f64 / n;
-            (ERRORS * (n * share * (1.0 - share)).max(1.0).sqrt()).ceil() as u64 + 2
-        };
         let widen = |[first, last]: &[u64; 2]| {
-            let first = first.saturating_sub(reach(*first)).max(1);
-            [first, (last + reach(*last)).min(self.count)]
+            let first = first.saturating_sub(self.reach(*first)).max(1);
+            [first, (last + self.reach(*last)).min(self.count)]
         };
         Wanted {
             ranks: self.ranks.iter().map(widen).collect(),
             ..self.clone()
         }
+    }
+
+    /// The first and the last rank between which no candidate for the shortest interval ends, nor
+    /// will when more values have come.
+    pub(super) fn middle(&self) -> [u64; 2] {
+        match self.shortest {
+            Some(ranks) => {
+                let [last, covered] = [ranks.last as u64, ranks.covered as u64];
+                let [above, below] = [last, covered].map(|rank| self.reach(rank));
+                [last + above, covered.saturating_sub(below)]
+            }
+            None => [0, self.count],
+        }
+    }
+
+    /// By how much a rank of now may differ from that of the same share of more values.
+    fn reach(&self, rank: u64) -> u64 {
+        let n = self.count as f64;
+        let share = rank as f64 / n;
+        (ERRORS * (n * share * (1.0 - share)).max(1.0).sqrt()).ceil() as u64 + 2
     }
 
     /// Which of the cells (ascending, none empty, perhaps with gaps) decide what is wanted.

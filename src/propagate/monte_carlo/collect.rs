@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use gumption_lanes::bins::{Counter, Grid};
-use gumption_lanes::moments::{PowerSums, all_finite, min_max};
+use gumption_lanes::moments::PowerSums;
 use gumption_lanes::{Block, LANES, Level, level};
 
 use super::cells::Wanted;
@@ -11,7 +10,8 @@ use super::comoments::CoMoments;
 use super::engine::{CHUNK, Layout, Sink, Source, simulate};
 use super::interval::{Ordered, Ranked};
 use super::moments::{Moments, Pivot};
-use super::sieve::{MOST_KEPT, Sieve};
+use super::sieve::Sieve;
+use super::strainer::Strainer;
 
 /// Trials that are kept before the others are sieved.
 pub(super) const PILOT: u64 = 4 * CHUNK;
@@ -241,10 +241,7 @@ impl Sieved {
         }
         for tally in tallies {
             for (sieve, counts) in self.sieves.iter_mut().zip(tally.outputs) {
-                sieve.absorb(&counts.counter, &counts.picked, counts.range);
-                if counts.overflowed {
-                    sieve.keep_nothing();
-                }
+                sieve.absorb(&counts.strainer);
             }
         }
         // From fewer values nothing can be planned; they are few enough to be kept.
@@ -268,13 +265,8 @@ struct Tally {
 }
 
 struct Output {
-    grid: Grid,
     pivot: Pivot,
-    counter: Counter,
-    picked: Vec<f64>,
-    /// Whether there was more to pick out than can be kept.
-    overflowed: bool,
-    range: [f64; 2],
+    strainer: Strainer,
     sums: PowerSums,
     count: u64,
     failed: u64,
@@ -283,12 +275,8 @@ struct Output {
 impl Tally {
     fn new(sieved: &Sieved) -> Self {
         let output = |(sieve, pivot): (&Sieve, &Pivot)| Output {
-            grid: *sieve.grid(),
             pivot: *pivot,
-            counter: sieve.counter(),
-            picked: Vec::new(),
-            overflowed: false,
-            range: [f64::INFINITY, f64::NEG_INFINITY],
+            strainer: sieve.strainer(),
             sums: PowerSums::default(),
             count: 0,
             failed: 0,
@@ -308,34 +296,20 @@ impl Tally {
 
 impl Output {
     fn take(&mut self, level: Level, block: &Block, lanes: usize) {
-        if lanes == LANES && all_finite(level, block) {
-            self.counter.add(level, &self.grid, block, &mut self.picked);
+        if lanes == LANES && self.strainer.take(level, block) {
             self.sums.add(level, block, self.pivot.coordinates());
-            let (low, high) = min_max(level, block);
-            self.range = [self.range[0].min(low), self.range[1].max(high)];
             self.count += LANES as u64;
-            if self.picked.len() > MOST_KEPT {
-                self.overflow();
-            }
             return;
         }
         for &value in &block.0[..lanes] {
             if value.is_finite() {
-                self.counter.add_one(&self.grid, value, &mut self.picked);
+                self.strainer.take_one(value);
                 self.sums.add_one(value, self.pivot.coordinates());
-                self.range = [self.range[0].min(value), self.range[1].max(value)];
                 self.count += 1;
             } else {
                 self.failed += 1;
             }
         }
-    }
-
-    /// Goes on without picking values out.
-    fn overflow(&mut self) {
-        self.overflowed = true;
-        self.counter.stop_picking();
-        self.picked = Vec::new();
     }
 
     fn close(&mut self) -> Moments {

@@ -27,6 +27,10 @@ pub(super) struct JointDraw<'b> {
     level: Level,
     /// How each component is drawn; `None` for members of groups and for what no input uses.
     alone: Vec<Option<Sampler>>,
+    /// Per input the component that it consists of, if no other input has it.
+    single: Vec<Option<usize>>,
+    /// Whether a component is one of these.
+    with_input: Vec<bool>,
     groups: Vec<JointSampler>,
     /// Streams of a chunk: one per component, then one per group.
     streams: u64,
@@ -46,13 +50,16 @@ impl<'b> JointDraw<'b> {
             used[term.component] |= term.coefficient != 0.0;
         }
         let grouped = |index: usize| groups.iter().any(|group| group.members.contains(&index));
-        let alone = components
+        let alone: Vec<Option<Sampler>> = components
             .iter()
             .enumerate()
             .map(|(i, component)| {
                 (used[i] && !grouped(i)).then(|| sampler(&component.distribution))
             })
             .collect();
+        let single = single_components(inputs, &alone);
+        let mut with_input = vec![false; components.len()];
+        single.iter().flatten().for_each(|i| with_input[*i] = true);
         let joint = groups
             .iter()
             .zip(components.len()..)
@@ -64,6 +71,8 @@ impl<'b> JointDraw<'b> {
             seed,
             level: level(),
             alone,
+            single,
+            with_input,
             groups: joint,
             streams: (components.len() + groups.len()) as u64,
             largest_group: groups
@@ -94,21 +103,33 @@ impl<'b> JointDraw<'b> {
 
     /// The next 256 trials of the chunk, one block per input.
     pub(super) fn next(&self, scratch: &mut Scratch, inputs: &mut [Block]) {
-        for (i, sampler) in self.alone.iter().enumerate() {
-            if let Some(sampler) = sampler {
-                sampler.fill(
-                    self.level,
-                    &mut scratch.generators[i],
-                    &mut scratch.errors[i],
-                );
-            }
+        let Scratch {
+            generators, errors, ..
+        } = scratch;
+        for (i, sampler) in self.drawn_apart() {
+            sampler.fill(self.level, &mut generators[i], &mut errors[i]);
         }
         for group in &self.groups {
             group.draw(self.level, scratch);
         }
-        for (input, block) in self.inputs.iter().zip(inputs) {
-            self.sum(input, &scratch.errors, block);
+        for ((input, single), block) in self.inputs.iter().zip(&self.single).zip(inputs) {
+            let sampler = single.and_then(|i| Some((i, self.alone[i].as_ref()?)));
+            match (sampler, input.terms.as_slice()) {
+                (Some((i, sampler)), [term]) => {
+                    let scale = [term.coefficient, input.estimate];
+                    sampler.fill_scaled(self.level, &mut scratch.generators[i], scale, block);
+                }
+                _ => self.sum(input, &scratch.errors, block),
+            }
         }
+    }
+
+    /// The components that are drawn before the inputs that they belong to.
+    fn drawn_apart(&self) -> impl Iterator<Item = (usize, &Sampler)> {
+        let samplers = self.alone.iter().zip(&self.with_input).enumerate();
+        samplers.filter_map(|(i, (sampler, with_input))| {
+            sampler.as_ref().filter(|_| !with_input).map(|s| (i, s))
+        })
     }
 
     /// The deviations are summed first, so that the estimate is added with one rounding.
@@ -126,6 +147,19 @@ impl<'b> JointDraw<'b> {
         }
         block.0.iter_mut().for_each(|x| *x += input.estimate);
     }
+}
+
+/// Per input the component that makes it up alone, is drawn alone, and belongs to no other input.
+fn single_components(inputs: &[Input], alone: &[Option<Sampler>]) -> Vec<Option<usize>> {
+    let mut uses = vec![0; alone.len()];
+    for term in inputs.iter().flat_map(|input| &input.terms) {
+        uses[term.component] += 1;
+    }
+    let single = |input: &Input| match input.terms.as_slice() {
+        [term] => Some(term.component).filter(|i| uses[*i] == 1 && alone[*i].is_some()),
+        _ => None,
+    };
+    inputs.iter().map(single).collect()
 }
 
 /// What a thread needs to draw.

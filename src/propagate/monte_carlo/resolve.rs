@@ -10,10 +10,10 @@ use gumption_lanes::{Block, LANES};
 use super::cells::{Cell, Wanted, cell_of, for_each_pair};
 use super::engine::{Layout, Sink, Source, simulate};
 use super::interval::{Ranked, Ranks};
-use super::sieve::{MOST_KEPT, Sieve};
+use super::sieve::{MOST_KEPT, Sieve, keep_only};
 
 /// Values that are sorted without a look at finer counts.
-const SORTED: u64 = 1 << 15;
+const SORTED: u64 = 1 << 18;
 
 /// Consecutive values between two numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,14 +67,15 @@ impl Resolved {
         output: usize,
         again: &impl Again,
     ) -> Self {
-        let (mut cells, bins) = sieve.cells();
+        let (mut cells, rows) = sieve.cells();
         let needed = wanted.cells(&cells, 0.0);
-        let chosen = || bins.iter().zip(&needed).filter(|(_, n)| **n);
-        let kept = sieve.kept(chosen().map(|(bin, _)| *bin));
+        let chosen = rows.iter().zip(&needed).filter(|(_, needed)| **needed);
+        let kept = sieve.kept(chosen.flat_map(|(row, _)| row.clone()));
         let mut runs = runs(&cells, &needed);
         for run in &mut runs {
-            let at = |rank| bins[cell_of(&cells, rank)];
-            [run.low, run.high] = sieve.span(at(run.below + 1), at(run.below + run.count));
+            let at = |rank| &rows[cell_of(&cells, rank)];
+            let (first, last) = (at(run.below + 1), at(run.below + run.count));
+            [run.low, run.high] = sieve.span(*first.start()..=*last.end());
         }
         let mut known = Vec::new();
         let mut memory = kept.map(|values| inside(&runs, values));
@@ -235,18 +236,29 @@ fn runs(cells: &[Cell], chosen: &[bool]) -> Vec<Run> {
     runs
 }
 
-/// The run that holds a value.
+/// The run that holds a value; runs ascend.
 fn run_of(runs: &[Run], value: f64) -> Option<usize> {
-    let index = runs.iter().position(|run| value <= run.high)?;
-    (runs[index].low <= value).then_some(index)
+    let index = runs.partition_point(|run| run.high < value);
+    let run = runs.get(index)?;
+    (run.low <= value).then_some(index)
 }
 
 /// The values that lie in runs.
 fn inside(runs: &[Run], values: &[f64]) -> Vec<f64> {
-    let mut gather = Gather::new(runs);
-    values.iter().for_each(|value| gather.add(*value));
-    gather.values
+    let holds = |run: &Run, value: f64| (run.low <= value) & (value <= run.high);
+    let mut values = values.to_vec();
+    if runs.len() <= FEW_RUNS {
+        // Without a branch on what cannot be foreseen.
+        let any = |value| runs.iter().fold(false, |any, run| any | holds(run, value));
+        keep_only(&mut values, any);
+    } else {
+        keep_only(&mut values, |value| run_of(runs, value).is_some());
+    }
+    values
 }
+
+/// Runs that are looked at one by one.
+const FEW_RUNS: usize = 8;
 
 /// Takes values one by one.
 trait Keeper: Send {

@@ -1,19 +1,26 @@
 //! Order statistics of values that pass by once: all are counted, few are kept.
 //!
 //! Counts in the bins of a grid say more and more precisely, as the values come, where quantiles and
-//! the shortest interval lie. Values elsewhere are only counted. What is kept grows like the square
-//! root of the number of values; should it be too much all the same, or should a plan have
-//! been wrong (by six standard errors), the values are drawn again ([`super::resolve`]).
+//! the shortest interval lie. Values elsewhere are only counted, those of the middle, where no interval
+//! can end, without regard to their bins. What is kept grows like the two-thirds power of the number of
+//! values; should it be too much all the same, or should a plan have been wrong (by six standard
+//! errors), the values are drawn again ([`super::resolve`]).
 
-use gumption_lanes::bins::{BINS, Counter, Grid};
+use std::ops::RangeInclusive;
+
+use gumption_lanes::bins::{BINS, Grid};
 
 use super::cells::{Cell, Wanted};
 use super::histogram;
 use super::interval::{Ordered, Ranked};
+use super::strainer::{Gap, Strainer};
 use crate::propagate::Histogram;
 
 /// Most values kept.
 pub(super) const MOST_KEPT: usize = 1 << 21;
+
+/// Values that make the picture of the distribution; bins are counted one by one until then.
+const PICTURED: u64 = 1 << 18;
 
 /// Counts of all values, and the values where they matter.
 #[derive(Debug)]
@@ -23,6 +30,12 @@ pub(super) struct Sieve {
     /// Whether the values of a bin have been kept from the first one on.
     keeps: Vec<bool>,
     kept: Vec<f64>,
+    /// Bins whose counts have a meaning only together with those of their neighbours of this kind.
+    lumped: Vec<bool>,
+    /// Rows of lumped bins that later values are not told apart in.
+    gaps: Vec<Gap>,
+    /// The counts before any were lumped.
+    picture: Option<Vec<u64>>,
     /// Smallest and largest value.
     range: [f64; 2],
 }
@@ -35,29 +48,33 @@ impl Sieve {
             counts: vec![0; BINS],
             keeps: vec![true; BINS],
             kept: Vec::new(),
+            lumped: vec![false; BINS],
+            gaps: Vec::new(),
+            picture: None,
             range: [f64::INFINITY, f64::NEG_INFINITY],
         }
     }
 
-    /// The bins.
-    pub(super) fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
-    /// A counter for further values.
-    pub(super) fn counter(&self) -> Counter {
-        Counter::new(|bin| self.keeps[bin])
+    /// Takes further values in, on one thread.
+    pub(super) fn strainer(&self) -> Strainer {
+        Strainer::new(self.grid, |bin| self.keeps[bin], &self.gaps)
     }
 
     /// Takes over what was counted.
-    pub(super) fn absorb(&mut self, counter: &Counter, picked: &[f64], range: [f64; 2]) {
-        for (all, count) in self.counts.iter_mut().zip(counter.counts()) {
+    pub(super) fn absorb(&mut self, strained: &Strainer) {
+        for (all, count) in self.counts.iter_mut().zip(strained.counts()) {
             *all += count;
         }
-        self.range = [self.range[0].min(range[0]), self.range[1].max(range[1])];
-        self.kept.extend_from_slice(picked);
-        if self.kept.len() > MOST_KEPT {
-            self.keep_nothing();
+        for (gap, taken) in self.gaps.iter().zip(strained.taken()) {
+            self.counts[*gap.bins.start()] += taken;
+        }
+        let [low, high] = strained.range();
+        self.range = [self.range[0].min(low), self.range[1].max(high)];
+        match strained.picked() {
+            Some(picked) if self.kept.len() + picked.len() <= MOST_KEPT => {
+                self.kept.extend_from_slice(picked);
+            }
+            _ => self.keep_nothing(),
         }
     }
 
@@ -74,7 +91,7 @@ impl Sieve {
 
     /// Stops keeping what will not matter when more values have come.
     pub(super) fn plan(&mut self, wanted: &Wanted) {
-        let (cells, bins) = self.cells();
+        let (cells, rows) = self.cells();
         let needed = wanted
             .widened()
             .cells(&cells, self.scatter_of_widths(wanted));
@@ -82,11 +99,11 @@ impl Sieve {
         let mut keeps = vec![false; BINS];
         let mut next = 0;
         let mut open = true;
-        for (bin, needed) in bins.into_iter().zip(needed) {
+        for (row, needed) in rows.iter().zip(needed) {
             if needed {
-                keeps[if open { next } else { bin }..=bin].fill(true);
+                keeps[if open { next } else { *row.start() }..=*row.end()].fill(true);
             }
-            (next, open) = (bin + 1, needed);
+            (next, open) = (row.end() + 1, needed);
         }
         if open {
             keeps[next..].fill(true);
@@ -96,7 +113,40 @@ impl Sieve {
             *kept &= keeps[near].iter().any(|near| *near);
         }
         let (grid, keeps) = (&self.grid, &self.keeps);
-        self.kept.retain(|value| keeps[grid.bin(*value)]);
+        keep_only(&mut self.kept, |value| keeps[grid.bin(value)]);
+        if self.count() >= PICTURED && keeps.contains(&true) {
+            self.lump(&cells, &rows, wanted.middle());
+        }
+    }
+
+    /// From now on does not tell the bins of the two richest rows apart that are not kept and hold the
+    /// `middle` ranks only.
+    fn lump(&mut self, cells: &[Cell], rows: &[RangeInclusive<usize>], middle: [u64; 2]) {
+        self.picture.get_or_insert_with(|| self.counts.clone());
+        let mut gaps: Vec<(u64, RangeInclusive<usize>)> = Vec::new();
+        for (cell, row) in cells.iter().zip(rows) {
+            let inside = middle[0] <= cell.below && cell.end() <= middle[1];
+            if !inside || self.keeps[*row.start()] {
+                continue;
+            }
+            match gaps.last_mut() {
+                // Empty bins between are kept only where they lie beside others that are.
+                Some((count, gap)) if !self.keeps[*gap.start()..*row.end()].contains(&true) => {
+                    *count += cell.count;
+                    *gap = *gap.start()..=*row.end();
+                }
+                _ => gaps.push((cell.count, row.clone())),
+            }
+        }
+        gaps.sort_unstable_by_key(|(count, _)| std::cmp::Reverse(*count));
+        let gap = |(_, bins): (u64, RangeInclusive<usize>)| Gap {
+            span: self.span(bins.clone()),
+            bins,
+        };
+        self.gaps = gaps.into_iter().take(2).map(gap).collect();
+        for gap in &self.gaps {
+            self.lumped[gap.bins.clone()].fill(true);
+        }
     }
 
     /// By how much the widths of two candidates for the shortest interval may still change, one
@@ -121,29 +171,39 @@ impl Sieve {
         let per_value = [ranks.symmetric, ranks.symmetric + ranks.covered].map(|rank| {
             let middle = place(rank);
             let first = middle.saturating_sub(AROUND / 2);
-            let around = &self.counts[first..(first + AROUND).min(BINS)];
-            around.len() as f64 * self.grid.width() / around.iter().sum::<u64>() as f64
+            let around = (first..(first + AROUND).min(BINS)).filter(|bin| !self.lumped[*bin]);
+            let (bins, count) = around.fold((0.0, 0), |(bins, count), bin| {
+                (bins + 1.0, count + self.counts[bin])
+            });
+            bins * self.grid.width() / count as f64
         });
         6.0 * std::f64::consts::SQRT_2 * per_value[0].max(per_value[1])
     }
 
-    /// The bins that hold values, as cells, and their numbers.
-    pub(super) fn cells(&self) -> (Vec<Cell>, Vec<usize>) {
+    /// Rows of bins that hold values, as cells, and their numbers: single ones, but for lumped ones.
+    pub(super) fn cells(&self) -> (Vec<Cell>, Vec<RangeInclusive<usize>>) {
         let mut below = 0;
         let mut cells = Vec::new();
-        let mut bins = Vec::new();
-        for (bin, &count) in self.counts.iter().enumerate().filter(|(_, n)| **n > 0) {
-            let [low, high] = self.bounds(bin);
-            cells.push(Cell {
-                low,
-                high,
-                below,
-                count,
-            });
-            bins.push(bin);
-            below += count;
+        let mut rows = Vec::new();
+        let mut next = 0;
+        while next < BINS {
+            let first = next;
+            let together = self.lumped[first..].iter().take_while(|lumped| **lumped);
+            next += together.count().max(1);
+            let count: u64 = self.counts[first..next].iter().sum();
+            if count > 0 {
+                let [low, high] = [self.bounds(first)[0], self.bounds(next - 1)[1]];
+                cells.push(Cell {
+                    low,
+                    high,
+                    below,
+                    count,
+                });
+                rows.push(first..=next - 1);
+                below += count;
+            }
         }
-        (cells, bins)
+        (cells, rows)
     }
 
     /// Bounds of the values of a bin, widened by what rounding may do to its edges.
@@ -162,7 +222,8 @@ impl Sieve {
     }
 
     /// The smallest and the largest number that belong to a row of bins.
-    pub(super) fn span(&self, first: usize, last: usize) -> [f64; 2] {
+    pub(super) fn span(&self, bins: RangeInclusive<usize>) -> [f64; 2] {
+        let (first, last) = bins.into_inner();
         let [mut low, mut high] = self.range;
         if first > 0 {
             low = low.max(least(|x| self.grid.bin(x) >= first));
@@ -181,8 +242,20 @@ impl Sieve {
 
     /// The picture of the distribution, with edges that are edges of the grid.
     pub(super) fn histogram(&self, interval: [f64; 2]) -> Histogram {
-        histogram::from_grid(&self.grid, &self.counts, self.range, interval)
+        let counts = self.picture.as_ref().unwrap_or(&self.counts);
+        histogram::from_grid(&self.grid, counts, self.range, interval)
     }
+}
+
+/// As [`Vec::retain`], for conditions that cannot be foreseen: every value is moved, no branch taken.
+pub(super) fn keep_only(values: &mut Vec<f64>, condition: impl Fn(f64) -> bool) {
+    let mut kept = 0;
+    for index in 0..values.len() {
+        let value = values[index];
+        values[kept] = value;
+        kept += usize::from(condition(value));
+    }
+    values.truncate(kept);
 }
 
 /// A grid over the middle of some values, wide enough for the ends of intervals and fine where they
@@ -242,24 +315,21 @@ mod tests {
     fn spans_hold_exactly_the_numbers_of_their_bins() {
         let sample: Vec<f64> = (0..1000).map(|i| f64::from(i).sin()).collect();
         let mut sieve = Sieve::new(&sample, 0.95);
-        let mut counter = sieve.counter();
-        let mut picked = Vec::new();
-        for x in &sample {
-            counter.add_one(sieve.grid(), *x, &mut picked);
-        }
-        sieve.absorb(&counter, &picked, [-1.0, 1.0]);
+        let mut strainer = sieve.strainer();
+        sample.iter().for_each(|x| strainer.take_one(*x));
+        sieve.absorb(&strainer);
         assert_eq!(
             (sieve.count(), sieve.kept(0..BINS).unwrap().len()),
             (1000, 1000)
         );
-        let [low, high] = sieve.span(100, 200);
+        let [low, high] = sieve.span(100..=200);
         assert_eq!(sieve.grid.bin(low), 100);
         assert_eq!(sieve.grid.bin(low.next_down()), 99);
         assert_eq!(sieve.grid.bin(high), 200);
         assert_eq!(sieve.grid.bin(high.next_up()), 201);
-        let (cells, bins) = sieve.cells();
-        for (cell, bin) in cells.iter().zip(bins) {
-            let inside = |x: &&f64| sieve.grid.bin(**x) == bin;
+        let (cells, rows) = sieve.cells();
+        for (cell, row) in cells.iter().zip(rows) {
+            let inside = |x: &&f64| row.contains(&sieve.grid.bin(**x));
             assert_eq!(sample.iter().filter(inside).count() as u64, cell.count);
             assert!(
                 sample

@@ -1,5 +1,6 @@
 use statrs::distribution::{Beta, ContinuousCDF, Gamma, StudentsT};
 
+use super::discrete::element;
 use super::*;
 use crate::testing::{same_on_all_levels, ulp};
 use crate::{level, levels, moments};
@@ -437,19 +438,36 @@ fn element_never_runs_over_the_end() {
     }
 }
 
-/// Both halves of a Box-Muller block, and the words behind them, by the system's own functions.
+/// Both halves of a Box-Muller block, from the words behind them and by the system's own functions.
 #[test]
-fn normals_are_box_muller_of_the_uniforms() {
+fn normals_are_box_muller_of_the_words() {
     let mut generator = Generator::new(7, 8, 9);
-    let (mut u, mut v, mut z) = (Block::ZERO, Block::ZERO, Block::ZERO);
-    generator.clone().uniforms(level(), &mut u);
+    let mut words = [[0; LANES]; 2];
+    let mut z = Block::ZERO;
+    let mut again = generator.clone();
+    words
+        .iter_mut()
+        .for_each(|words| again.bits(level(), words));
     normal_block(level(), &mut generator, &mut z);
-    v.0.copy_from_slice(&[&u.0[LANES / 2..], &u.0[..LANES / 2]].concat());
-    for lane in 0..LANES / 2 {
-        let radius = (-2.0 * u.0[lane].ln()).sqrt();
-        let (sin, cos) = (std::f64::consts::TAU * v.0[lane]).sin_cos();
-        assert!((z.0[lane] - radius * cos).abs() < 8.0 * ulp(radius));
-        assert!((z.0[lane + LANES / 2] - radius * sin).abs() < 8.0 * ulp(radius));
+    // Rows of 16 words give radii and angles in turn.
+    let rows = words
+        .as_flattened()
+        .chunks_exact(32)
+        .map(|rows| rows.split_at(16));
+    let pairs = rows.flat_map(|(radii, angles)| radii.iter().zip(angles));
+    for (lane, (a, b)) in pairs.take(LANES / 2).enumerate() {
+        let unit = |word: u64| ((word >> 12) as f64 + 0.5) * 2_f64.powi(-52);
+        let radius = (-2.0 * unit(*a).ln()).sqrt();
+        let turn = ((b >> 13) as f64 + 0.5) * 2_f64.powi(-51) - 0.5;
+        let (sin, cos) = (turn * std::f64::consts::FRAC_PI_2).sin_cos();
+        let (x, y) = if b & 1 == 1 { (sin, cos) } else { (cos, sin) };
+        let sign = |bit: u64| if b & bit == 0 { radius } else { -radius };
+        for (found, exact) in [
+            (z.0[lane], x * sign(2)),
+            (z.0[lane + LANES / 2], y * sign(4)),
+        ] {
+            assert!((found - exact).abs() < 3.0 * ulp(radius), "{found} {exact}");
+        }
     }
     // The two halves, and neighbouring blocks, are uncorrelated.
     let draws = sample(&Sampler::Normal { mean: 0.0, sd: 1.0 });

@@ -73,6 +73,7 @@
 
 pub mod budget;
 pub mod calibrate;
+pub mod challenge;
 mod dd;
 pub mod diagnose;
 pub mod distribution;

@@ -41,6 +41,7 @@ pub use decision::{
 pub use files::Files;
 pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};
+pub(crate) use reader::syntax_faults;
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use rejection::Rejection;
 pub use saved::{RESULT_FORMAT, result_schema};

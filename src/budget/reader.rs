@@ -233,7 +233,7 @@ fn tables(table: &DeTable<'_>, profile: Option<&Profile>, reader: &mut Reader<'_
 }
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
-pub(super) fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
+pub(crate) fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
     let mut faults: Vec<Fault> = Vec::new();
     let mut seen = Vec::new();
     for error in errors {

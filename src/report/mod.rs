@@ -11,6 +11,7 @@ mod claim;
 mod comparison;
 mod compose;
 mod decisions;
+mod diagnosis;
 mod document;
 mod fits;
 mod how;
@@ -40,6 +41,10 @@ pub use allan::{AllanReport, allan_json, allan_markdown, allan_text};
 pub use calibration::{
     calibration_json, calibration_markdown, calibration_text, calibration_trouble, plan_json,
     plan_markdown, plan_text,
+};
+pub use diagnosis::{
+    FORMAT as DIAGNOSIS_FORMAT, failure as diagnosis_failure, json as diagnosis_json,
+    markdown as diagnosis_markdown, plots as diagnosis_plots, text as diagnosis_text,
 };
 pub use json::{FORMAT, json};
 pub use language::Language;

@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 use fearless_simd::{Level, dispatch};
 
-use crate::elementary::{exp, horner, ln_normal, sin_reducible};
+use crate::elementary::{exp, horner, ln_normal};
+use crate::sampler::sin_pi;
 use crate::{Block, LANES};
 
 /// From a uniform number to a value.
@@ -110,7 +111,7 @@ impl Quantile {
                     level,
                     block,
                     #[inline(always)]
-                    move |u| half.mul_add(sin_reducible((u - 0.5) * std::f64::consts::PI), middle),
+                    move |u| half.mul_add(sin_pi(u - 0.5), middle),
                 );
             }
             Quantile::Exponential { origin, mean } => {

@@ -10,7 +10,7 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::{best_of, budget};
-use gumption::budget::{MonteCarloSettings, Trials};
+use gumption::budget::{MonteCarloSettings, Points, Trials};
 use gumption::propagate::{MonteCarloChoice, Options, evaluate};
 use gumption_lanes::{Block, Generator, LANES, Sampler, level};
 use rand::rngs::Xoshiro256PlusPlus;
@@ -72,6 +72,8 @@ fn gauge_block(t: &[StudentT<f64>; 4], rng: &mut Xoshiro256PlusPlus) -> f64 {
 fn whole(name: &str, text: &str, trial: impl Fn(&mut Xoshiro256PlusPlus) -> f64) {
     let budget = budget(text);
     let settings = MonteCarloSettings {
+        points: Points::Random,
+        indices: false,
         seed: 1,
         trials: Trials::Fixed(TRIALS as u64),
     };

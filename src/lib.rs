@@ -16,9 +16,12 @@
 //! | [`distribution`] | the distributions an input may have |
 //! | [`least_squares`] | parameters of a response from observed points |
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
+//! | [`equations`] | measurement equations over rows of data |
 //! | [`budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
+//! | [`calibrate`] | recordings and measurement equations → coefficients |
+//! | [`diagnose`] | which physics a measurement model left out of a recording |
 //! | [`verify`] | published examples held against their published figures |
 //! | [`report`] | text, Markdown, JSON, the certificate's sentence, saved results, the dossier |
 //!
@@ -69,8 +72,12 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod budget;
+pub mod calibrate;
+pub mod challenge;
 mod dd;
+pub mod diagnose;
 pub mod distribution;
+pub mod equations;
 pub mod fault;
 pub mod least_squares;
 pub mod model;

@@ -14,6 +14,7 @@ mod check;
 mod claim;
 mod decision;
 mod distributions;
+pub(crate) mod doubts;
 pub mod faults;
 mod files;
 mod fit;
@@ -24,11 +25,11 @@ mod rejection;
 pub(crate) mod saved;
 mod series;
 mod shelf;
-mod strings;
-mod table;
-mod tables;
-mod values;
-mod variants;
+pub(crate) mod strings;
+pub(crate) mod table;
+pub(crate) mod tables;
+pub(crate) mod values;
+pub(crate) mod variants;
 
 use nalgebra::DMatrix;
 
@@ -40,6 +41,7 @@ pub use decision::{
 pub use files::Files;
 pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};
+pub(crate) use reader::syntax_faults;
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use rejection::Rejection;
 pub use saved::{RESULT_FORMAT, result_schema};
@@ -363,6 +365,20 @@ pub struct MonteCarloSettings {
     pub seed: u64,
     /// How many trials.
     pub trials: Trials,
+    /// What trials are made of.
+    pub points: Points,
+    /// Whether Sobol' sensitivity indices are wanted, too.
+    pub indices: bool,
+}
+
+/// What the trials of the Monte Carlo method are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Points {
+    /// Random numbers, as JCGM 101 has it.
+    #[default]
+    Random,
+    /// Scrambled Sobol' points wherever they are far more accurate, else random numbers.
+    QuasiRandom,
 }
 
 /// How many trials.

@@ -55,11 +55,38 @@ pub fn load_from(
     path: &Path,
     profile: Option<&Profile>,
 ) -> Result<Loaded, Rejection> {
-    let bytes = files.read(path).map_err(|error| {
+    let bytes = bytes_of(files, path)?;
+    load_bytes(&Shelf::new(files), path, bytes, profile)
+}
+
+fn bytes_of(files: Files<'_>, path: &Path) -> Result<Vec<u8>, Rejection> {
+    files.read(path).map_err(|error| {
         let fault = unreadable(files, path, &error);
         Rejection::new(&path.display().to_string(), "", vec![fault])
-    })?;
-    load_bytes(&Shelf::new(files), path, bytes, profile)
+    })
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// It cannot be read, or is not UTF-8.
+pub(super) fn text_of(files: Files<'_>, path: &Path) -> Result<String, Rejection> {
+    decoded(bytes_of(files, path)?, &path.display().to_string())
+}
+
+fn decoded(bytes: Vec<u8>, name: &str) -> Result<String, Rejection> {
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
+        let fault = Fault::new(
+            NOT_UTF8,
+            at..at,
+            format!("{name} is not UTF-8 text from byte {} on", at + 1),
+        )
+        .label("the readable part ends here")
+        .help("save the file as UTF-8");
+        Rejection::new(name, &valid, vec![fault])
+    })
 }
 
 /// Reads and checks a budget file of this content.
@@ -77,18 +104,7 @@ pub(super) fn load_bytes(
     {
         return Err(refuse(not_a_budget(&name)));
     }
-    let text = String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
-        let fault = Fault::new(
-            NOT_UTF8,
-            at..at,
-            format!("{name} is not UTF-8 text from byte {} on", at + 1),
-        )
-        .label("the readable part ends here")
-        .help("save the file as UTF-8");
-        Rejection::new(&name, &valid, vec![fault])
-    })?;
+    let text = decoded(bytes, &name)?;
     let origin = Origin {
         shelf,
         directory: path.parent().unwrap_or_else(|| Path::new("")),
@@ -217,7 +233,7 @@ fn tables(table: &DeTable<'_>, profile: Option<&Profile>, reader: &mut Reader<'_
 }
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
-fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
+pub(crate) fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
     let mut faults: Vec<Fault> = Vec::new();
     let mut seen = Vec::new();
     for error in errors {
@@ -237,7 +253,7 @@ fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
 }
 
 /// Whether what stands on the other lines can be judged all the same.
-fn leaves_the_rest(error: &toml::de::Error) -> bool {
+pub(super) fn leaves_the_rest(error: &toml::de::Error) -> bool {
     let message = error.message();
     [
         "string values must be quoted",
@@ -250,7 +266,7 @@ fn leaves_the_rest(error: &toml::de::Error) -> bool {
 }
 
 /// The faults that no line with a syntax error has part in.
-fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str) -> Vec<Fault> {
+pub(super) fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str) -> Vec<Fault> {
     let line = |at: usize| text[..text.floor_char_boundary(at)].matches('\n').count();
     let broken: Vec<usize> = syntax.iter().map(|fault| line(fault.span.start)).collect();
     let touches = |fault: &Fault| {

@@ -123,6 +123,10 @@ pub trait Table: Default {
     /// Notes that the table has a key that is not known.
     fn refuse(&mut self);
 
+    /// What this table says, and where it says nothing, what `below` says.
+    #[must_use]
+    fn over(self, below: Self) -> Self;
+
     /// Every key, in the order of the definition.
     fn keys() -> Vec<&'static str>;
 
@@ -281,6 +285,16 @@ macro_rules! table {
                 $( self.$rest.refuse(); )?
             }
 
+            fn over(self, below: Self) -> Self {
+                $name {
+                    $( $key: self.$key.or(below.$key), )*
+                    $( $rest: $crate::budget::table::Table::over(self.$rest, below.$rest), )?
+                    present: self.present.into_iter().chain(below.present).collect(),
+                    refused: self.refused || below.refused,
+                    unknown: self.unknown || below.unknown,
+                }
+            }
+
             fn keys() -> Vec<&'static str> {
                 #[allow(unused_mut)]
                 let mut keys = vec![ $( table!(@spelling $key $( $spelling )?) ),* ];
@@ -350,7 +364,7 @@ macro_rules! table {
     (@spelling $key:ident) => { stringify!($key) };
     (@spelling $key:ident $spelling:literal) => { $spelling };
 }
-pub(super) use table;
+pub(crate) use table;
 
 /// Defines a choice of words, each with its documentation; further spellings after `|`.
 macro_rules! words {
@@ -415,7 +429,7 @@ macro_rules! words {
         }
     };
 }
-pub(super) use words;
+pub(crate) use words;
 
 /// The fault for a word that is none of the choice.
 pub fn unknown_word(value: &Raw<'_>, word: &str, known: &[&'static str], expected: &str) -> Fault {

@@ -163,6 +163,20 @@ table! {
         max_trials: u64,
         /// Seed of the random numbers; the same seed gives the same result everywhere.
         seed: u64,
+        /// What trials are made of. Quasi-random points are run until the results are stable, as adaptive trials are, and give way to random ones where they are not far more accurate.
+        points: PointsWord,
+        /// Give Sobol' sensitivity indices, too: the part of the variance that each input makes alone, and takes part in.
+        indices: bool,
+    }
+}
+
+words! {
+    /// What trials are made of.
+    PointsWord {
+        /// Random numbers (JCGM 101).
+        Random "random",
+        /// Scrambled Sobol' points.
+        QuasiRandom "quasi-random",
     }
 }
 

@@ -3,11 +3,12 @@
 use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 
-use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Profile, Trials};
+use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
 use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
 use gumption::report::{self, Language, Page, Report};
 use serde_json::Value;
 
+use super::progress::Progress;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -33,6 +34,13 @@ pub(super) struct Args {
     /// Seed of the random numbers; the same seed gives the same result to the last bit
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
+    /// `quasi-random`: scrambled Sobol' points until the results are stable, where they are far more accurate
+    /// than random trials; `random` as in JCGM 101 [default: as the file says, else random]
+    #[arg(long, value_name = "KIND", value_parser = parse_points, conflicts_with = "no_mc")]
+    points: Option<Points>,
+    /// Give Sobol' sensitivity indices, too: the part of the variance that each input makes
+    #[arg(long, conflicts_with = "no_mc")]
+    indices: bool,
     /// Worker threads; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
@@ -135,6 +143,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
         }
     };
     let mut rows = Vec::with_capacity(loaded.rows.len());
+    let progress = Progress::shown();
     for budget::Row { label, budget } in loaded.rows {
         match propagate::evaluate(&budget, &options(args, &budget)) {
             Ok(evaluation) => {
@@ -160,6 +169,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
             }
         }
     }
+    drop(progress);
     rows
 }
 
@@ -167,16 +177,8 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
 fn options(args: &Args, budget: &Budget) -> Options {
     let monte_carlo = if args.no_mc {
         MonteCarloChoice::Off
-    } else if args.trials.is_none() && args.seed.is_none() {
-        MonteCarloChoice::AsBudget
     } else {
-        MonteCarloChoice::With(MonteCarloSettings {
-            seed: args.seed.unwrap_or(budget.monte_carlo.seed),
-            trials: args
-                .trials
-                .clone()
-                .unwrap_or_else(|| budget.monte_carlo.trials.clone()),
-        })
+        MonteCarloChoice::With(settings(args, &budget.monte_carlo))
     };
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     Options {
@@ -184,6 +186,29 @@ fn options(args: &Args, budget: &Budget) -> Options {
         threads: args.threads.map_or(cores, usize::from),
     }
 }
+
+/// The budget's settings with what the arguments change.
+fn settings(args: &Args, of: &MonteCarloSettings) -> MonteCarloSettings {
+    let trials = match (&args.trials, args.points, &of.trials) {
+        (Some(trials), _, _) => trials.clone(),
+        // Such points are run until the results are stable, if the file does not say how many.
+        (None, Some(Points::QuasiRandom), Trials::Decisive { .. }) => ADAPTIVE,
+        (None, _, trials) => trials.clone(),
+    };
+    MonteCarloSettings {
+        seed: args.seed.unwrap_or(of.seed),
+        trials,
+        points: args.points.unwrap_or(of.points),
+        indices: args.indices || of.indices,
+    }
+}
+
+/// Until two digits are stable.
+const ADAPTIVE: Trials = Trials::Adaptive {
+    procedure: Adaptive::Stein,
+    digits: 2,
+    max: 100_000_000,
+};
 
 /// One file as text or Markdown: a series as a table, then its first row, or all, in full.
 fn render(args: &Args, rows: &[Row]) -> String {
@@ -229,11 +254,7 @@ fn parse_trials(text: &str) -> Result<Trials, String> {
     /// Fewer say nothing about an interval; more would run for days.
     const RANGE: std::ops::RangeInclusive<f64> = 1e3..=1e12;
     if text == "adaptive" {
-        return Ok(Trials::Adaptive {
-            procedure: Adaptive::Stein,
-            digits: 2,
-            max: 100_000_000,
-        });
+        return Ok(ADAPTIVE);
     }
     let number: f64 = text
         .replace('_', "")
@@ -243,6 +264,14 @@ fn parse_trials(text: &str) -> Result<Trials, String> {
         return Err("write a whole number of trials from 1000 to 1e12, or `adaptive`".to_string());
     }
     Ok(Trials::Fixed(number as u64))
+}
+
+fn parse_points(text: &str) -> Result<Points, String> {
+    match text {
+        "random" => Ok(Points::Random),
+        "quasi-random" => Ok(Points::QuasiRandom),
+        _ => Err("write `random` or `quasi-random`".to_string()),
+    }
 }
 
 /// Columns of the page: a file is as wide as pages usually are.

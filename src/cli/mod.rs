@@ -1,12 +1,19 @@
 //! Subcommands, exit codes and output.
 
+mod allan;
+mod calibrate;
+mod challenge;
 mod concepts;
 mod date;
+mod diagnose;
 mod eval;
 mod explain;
+mod grade;
 mod new;
 mod output;
+mod progress;
 mod schema;
+mod simulate;
 mod verify;
 
 use std::process::ExitCode;
@@ -48,10 +55,24 @@ struct Cli {
 enum Command {
     /// Evaluate budget files: budget table, GUM and Monte Carlo, statement for the certificate
     Eval(eval::Args),
+    /// Confront a declared model with a recording: does it agree, and which physics was left out
+    Diagnose(diagnose::Args),
+    /// Write the recording that a declared model and its claimed noise predict
+    Simulate(simulate::Args),
     /// Hold published examples, or your own files with claims, against their figures
     Verify(verify::Args),
+    /// Allan deviation of a recording at rest: white noise, bias instability, random walk
+    Allan(allan::Args),
+    /// Find coefficients with their covariance from a recording and measurement equations
+    Calibrate(calibrate::Args),
+    /// Say what a calibration would tell, from its schedule alone
+    Plan(calibrate::PlanArgs),
     /// Write a commented budget file to start from
     New(new::Args),
+    /// Make a sealed case: recordings of a simulated calibration in which something is concealed
+    Challenge(challenge::Args),
+    /// Hold a diagnosis against the truth of a sealed case
+    Grade(grade::Args),
     /// Print the JSON Schema of budget files or of what the program writes
     Schema(schema::Args),
     /// Explain a distribution, function, profile, error code or concept
@@ -62,8 +83,15 @@ enum Command {
 pub(crate) fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Eval(args) => eval::run(&args),
+        Command::Diagnose(args) => diagnose::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Allan(args) => allan::run(&args),
+        Command::Calibrate(args) => calibrate::run(&args),
+        Command::Plan(args) => calibrate::run_plan(&args),
         Command::New(args) => new::run(&args),
+        Command::Challenge(args) => challenge::run(&args),
+        Command::Grade(args) => grade::run(&args),
         Command::Schema(args) => schema::run(&args),
         Command::Explain(args) => explain::run(&args),
     };

@@ -10,6 +10,16 @@ use super::operation::{Rule, Smoothness};
 use super::{ModelFault, Output, Place};
 use crate::fault::Fault;
 
+/// Whether every operation is smooth inside its domain.
+pub fn smooth(graph: &Graph) -> bool {
+    graph.ops.iter().all(|op| match op {
+        Op::Unary(row, _) => row.smoothness == Smoothness::Smooth,
+        Op::Binary(row, ..) => row.smoothness == Smoothness::Smooth,
+        Op::Select(..) => false,
+        _ => true,
+    })
+}
+
 /// Operations whose derivative does not exist or hides something here.
 pub fn irregularities(graph: &Graph, x: &[f64]) -> Vec<Notice> {
     let mut found = Vec::new();

@@ -31,6 +31,7 @@ mod printer;
 mod reductions;
 mod space;
 mod syntax;
+mod tree;
 mod units;
 
 #[cfg(test)]
@@ -46,6 +47,7 @@ pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
 pub use notice::{Notice, Office};
 pub use outline::{Outline, outline};
+pub(crate) use tree::Leaf;
 
 use jet::Jet;
 
@@ -226,6 +228,19 @@ impl Model {
         self.graph.outputs.iter().map(sweep).collect()
     }
 
+    /// Derivatives of up to third order of one output, divided by `unit`, for every input that it uses and whose
+    /// variance is not zero, where each is used once; see [`Leaf`]. Takes one pass for any number of inputs.
+    pub(crate) fn leaves(
+        &self,
+        x: &[f64],
+        output: usize,
+        variances: &[f64],
+        unit: f64,
+    ) -> Option<Vec<Leaf>> {
+        let of = *self.graph.outputs.get(output)?;
+        tree::leaves(&self.graph, x, of, variances, unit)
+    }
+
     /// Whether each input takes part in any nonlinear operation; the others have no second derivatives.
     pub fn nonlinear_inputs(&self) -> Vec<bool> {
         let blocks = self.interactions();
@@ -257,6 +272,11 @@ impl Model {
     /// Which of the request's symbols no measurand depends on.
     pub fn unused_symbols(&self) -> Vec<usize> {
         self.unused.clone()
+    }
+
+    /// Whether no operation has a corner, a step or a branch anywhere.
+    pub(crate) fn is_smooth(&self) -> bool {
+        hints::smooth(&self.graph)
     }
 
     /// Operations whose derivative does not exist or hides something at `x`: kinks, steps, branches, points

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::budget::{
     Budget, Component, Conventions, CoverageRule, DofRule, Evaluation, Group, Heading, Input, Law,
-    Measurand, MonteCarloSettings, OutputShape, Owner, TScale, Term, Trials,
+    Measurand, MonteCarloSettings, OutputShape, Owner, Points, TScale, Term, Trials,
 };
 use crate::distribution::Distribution;
 use crate::model::{MeasurandSource, Request, Role, Symbol, compile};
@@ -148,6 +148,8 @@ impl Draft {
                 state_probability: true,
             },
             monte_carlo: MonteCarloSettings {
+                points: Points::Random,
+                indices: false,
                 seed: 1,
                 trials: Trials::Fixed(200_000),
             },

@@ -13,6 +13,7 @@ mod freedom;
 mod gum;
 mod joint;
 mod monte_carlo;
+mod progress;
 mod second_order;
 mod shape;
 #[cfg(test)]
@@ -26,7 +27,10 @@ pub use decide::{
     DetectionResult, GlobalRisk, Verdict,
 };
 pub use findings::is_residue;
-pub use monte_carlo::{Consequence, MissingMoments, Side};
+pub use monte_carlo::{
+    Consequence, MissingMoments, Quasi, QuasiRun, SensitivityIndices, Side, SobolIndex, WhyRandom,
+};
+pub use progress::trials_drawn;
 
 use nalgebra::DMatrix;
 
@@ -45,6 +49,8 @@ pub struct Evaluation {
     pub joint: Option<JointResult>,
     /// How Monte Carlo was run; `None` when it was not.
     pub run: Option<Run>,
+    /// Where they were asked for.
+    pub indices: Option<SensitivityIndices>,
     /// What the reader must know before using the numbers.
     pub findings: Vec<Finding>,
     /// Conformity assessments, in the order of the budget.
@@ -238,6 +244,8 @@ pub struct Run {
     pub coverage_probability: f64,
     /// For an adaptive run: procedure, δ of each measurand, whether it was reached.
     pub adaptive: Option<AdaptiveRun>,
+    /// Where quasi-random points were asked for: whether they were used; `trials` is their number then.
+    pub quasi: Option<Quasi>,
 }
 
 /// What an adaptive run reached.
@@ -500,6 +508,12 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
     let monte_carlo = settings
         .map(|settings| draw(budget, settings, &gums, options.threads))
         .transpose()?;
+    let indices = settings
+        .filter(|settings| settings.indices)
+        .map(|settings| {
+            let (scales, outcome) = (scales(&gums), monte_carlo.as_ref());
+            monte_carlo::indices(budget, settings.seed, &scales, outcome, options.threads)
+        });
     let results: Vec<MeasurandResult> = gums
         .into_iter()
         .zip(&second_order)
@@ -533,6 +547,7 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         results,
         joint,
         run,
+        indices,
         findings,
         conformity: decisions.conformity,
         detection: decisions.detection,
@@ -560,17 +575,14 @@ fn draw(
     gums: &[Gum],
     threads: usize,
 ) -> Result<McOutcome, EvaluationError> {
-    let scales: Vec<GumForMc> = gums
-        .iter()
-        .map(|gum| GumForMc {
-            estimate: gum.estimate,
-            u: gum.u,
-        })
-        .collect();
+    let scales = scales(gums);
     let outcome = monte_carlo::run(budget, settings, &scales, threads)?;
     let Trials::Decisive { most, .. } = settings.trials else {
         return Ok(outcome);
     };
+    if let Some(Quasi::Used(_)) = outcome.run.quasi {
+        return Ok(outcome);
+    }
     let open = gums.iter().zip(&outcome.outputs).any(|(gum, mc)| {
         let both = validation::validate(gum, mc);
         validation::at(&both, budget.conventions.digits).verdict == Clause8::Undecided
@@ -583,6 +595,14 @@ fn draw(
         ..settings.clone()
     };
     monte_carlo::run(budget, &settings, &scales, threads)
+}
+
+fn scales(gums: &[Gum]) -> Vec<GumForMc> {
+    let of = |gum: &Gum| GumForMc {
+        estimate: gum.estimate,
+        u: gum.u,
+    };
+    gums.iter().map(of).collect()
 }
 
 /// The GUM result of one measurand.

@@ -15,15 +15,15 @@
 //! The derivatives along one direction cost one sweep through the model. Directions that move
 //! different blocks of inputs ([`crate::model::Model::interactions`]) share a sweep, and the sums
 //! run only over directions that have a block in common: Σ xᵢ² takes one sweep for any number of
-//! inputs.
+//! inputs. A formula that uses every input once, as x₁x₂…x_n, takes one pass.
 
 use super::SecondOrder;
 use super::covariance::Covariance;
-use super::gum::Linear;
+use super::gum::{Linear, MeasurandForm};
 use super::validation::numerical_tolerance;
 use crate::budget::{Budget, Component, Input};
 use crate::distribution::Distribution;
-use crate::model::Along;
+use crate::model::{Along, Leaf};
 
 /// Third and fourth standardised moment of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,7 +73,52 @@ pub(super) enum Terms {
 
 /// Second-order terms of every measurand.
 pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
-    over(budget, linear, &budget.model.interactions())
+    let blocks = budget.model.interactions();
+    let directions = directions(
+        &linear.covariance,
+        &budget.inputs,
+        &budget.components,
+        &blocks,
+    );
+    let plan = Plan::new(&directions, &blocks);
+    if plan.sweeps.len() > MANY_SWEEPS
+        && let Some(outcomes) = single_use(budget, linear, &directions)
+    {
+        return outcomes;
+    }
+    accumulate(linear, &directions, &plan, |direction| {
+        budget.model.along(&linear.x, direction)
+    })
+}
+
+/// So many sweeps take the time of one pass through a formula that uses every input once.
+const MANY_SWEEPS: usize = 3;
+
+/// The same where inputs are independent and every measurand uses each of them once.
+fn single_use(budget: &Budget, linear: &Linear, directions: &[Direction]) -> Option<Vec<Outcome>> {
+    let mut variances = vec![0.0; linear.x.len()];
+    let mut mover: Vec<Option<&Direction>> = vec![None; linear.x.len()];
+    for direction in directions {
+        let [(input, change)] = direction.steps[..] else {
+            return None;
+        };
+        if mover[input].replace(direction).is_some() {
+            return None;
+        }
+        variances[input] = change * change;
+    }
+    let outcome = |(output, measurand): (usize, &MeasurandForm)| {
+        let unit = unit(measurand.u);
+        let leaves = budget.model.leaves(&linear.x, output, &variances, unit)?;
+        let mut sums = Sums::new(measurand, unit, linear.x.len(), 0);
+        for leaf in leaves {
+            if let Some(direction) = mover[leaf.input] {
+                sums.add_leaf(&leaf, direction);
+            }
+        }
+        Some(sums.outcome(unit))
+    };
+    linear.measurands.iter().enumerate().map(outcome).collect()
 }
 
 /// Second-order terms when only the inputs marked in `changing` change, the others staying at their
@@ -216,6 +261,40 @@ struct Sums {
 }
 
 impl Sums {
+    /// Nothing added yet.
+    fn new(measurand: &MeasurandForm, unit: f64, inputs: usize, directions: usize) -> Self {
+        Sums {
+            g: measurand.standard.iter().map(|g| g / unit).collect(),
+            shift: 0.0,
+            added: 0.0,
+            curvature: 0.0,
+            nonlinear: false,
+            slope: vec![0.0; inputs],
+            met: vec![[0.0; 2]; directions],
+        }
+    }
+
+    /// Adds all terms in which an input that is used once is the second index.
+    fn add_leaf(&mut self, leaf: &Leaf, direction: &Direction) {
+        let Moments { third, fourth } = direction.moments;
+        let change = direction.steps.first().map_or(0.0, |(_, change)| *change);
+        let variance = change * change;
+        let (g, h, t) = (
+            leaf.slope * change,
+            leaf.second * variance,
+            leaf.third * variance * change,
+        );
+        let curvature = 0.25 * h * h * (fourth - 1.0);
+        // Σ h_kl² and Σ g_k t_kll over the other inputs.
+        let mixed = variance * leaf.mixed;
+        let drift = variance * leaf.drift - g * t;
+        self.nonlinear |= h != 0.0 || t != 0.0 || mixed != 0.0 || drift != 0.0;
+        self.shift += 0.5 * h;
+        self.curvature += curvature + 0.5 * mixed;
+        self.added += g * h * third + curvature + g * t * fourth / 3.0 + 0.5 * mixed + drift;
+        self.slope[leaf.input] = leaf.second * leaf.second * variance + leaf.mixed;
+    }
+
     /// Adds the terms in which direction `l` is the second index.
     fn add(&mut self, l: usize, along: &Along, directions: &[Direction], plan: &Plan) {
         let meeting = || plan.moved[l].iter().flat_map(|block| &plan.steps[*block]);
@@ -291,15 +370,7 @@ fn accumulate(
         .measurands
         .iter()
         .zip(&units)
-        .map(|(measurand, unit)| Sums {
-            g: measurand.standard.iter().map(|g| g / unit).collect(),
-            shift: 0.0,
-            added: 0.0,
-            curvature: 0.0,
-            nonlinear: false,
-            slope: vec![0.0; linear.x.len()],
-            met: vec![[0.0; 2]; directions.len()],
-        })
+        .map(|(measurand, unit)| Sums::new(measurand, *unit, linear.x.len(), directions.len()))
         .collect();
     let mut whole = vec![0.0; linear.x.len()];
     for sweep in &plan.sweeps {
@@ -353,6 +424,49 @@ mod tests {
                 component,
                 coefficient: 1.0,
             }],
+        }
+    }
+
+    /// One pass through a formula that uses every input once gives what sweeps give.
+    #[test]
+    fn a_formula_of_single_uses_by_both_ways() {
+        for (model, nonlinear) in [
+            ("a * b * c * d * e", true),
+            ("a / (b + exp(c * d)) - e", true),
+            ("sqrt(a^2 + b^2) * sin(c) + atan2(d, e)", true),
+            ("(a - b)^3 * hypot(c, d)^1.5 / e", true),
+            ("a + 2 * b - c + d - e", false),
+        ] {
+            let text = format!(
+                "title = \"T\"\n[measurand.Y]\nmodel = \"{model}\"\n[input]\na = {{ value = 1.5, u = 0.1 }}\nb = {{ value = -0.7, half_width = 0.2 }}\nc = {{ value = 0.4, limits = [0, 1], distribution = \"triangular\" }}\nd = {{ value = 1.1, u = 0.05, dof = 5 }}\ne = {{ value = 2, u = 0.3 }}\n"
+            );
+            let loaded = crate::budget::read(&text, "t", std::path::Path::new("")).unwrap();
+            let budget = &loaded.rows[0].budget;
+            let linear = super::super::gum::linearise(budget).unwrap();
+            let blocks = budget.model.interactions();
+            let directions = directions(
+                &linear.covariance,
+                &budget.inputs,
+                &budget.components,
+                &blocks,
+            );
+            let swept = over(budget, &linear, &blocks).remove(0);
+            let passed = single_use(budget, &linear, &directions).unwrap().remove(0);
+            let near = |a: f64, b: f64| {
+                assert!(
+                    (a - b).abs() <= 1e-12 * (a.abs() + b.abs()),
+                    "{model}: {a} {b}"
+                )
+            };
+            near(swept.shift, passed.shift);
+            near(swept.curvature, passed.curvature);
+            for (a, b) in swept.slope_deviation.iter().zip(&passed.slope_deviation) {
+                near(*a, *b);
+            }
+            match (swept.terms, passed.terms) {
+                (Terms::Found(a), Terms::Found(b)) => near(a.u, b.u),
+                (a, b) => assert_eq!((a, b, nonlinear), (Terms::Linear, Terms::Linear, false)),
+            }
         }
     }
 

@@ -63,14 +63,14 @@ pub enum Unsuitable {
     Interval(f64),
     /// The probability is not between 0 and 1.
     Probability(f64),
-    /// The intervals are not equal: one is less than half or more than one and a half times the mean one.
+    /// The intervals are not equal: one is less than half or more than one and a half times the median one.
     Irregular {
         /// The row after that interval, from 0.
         row: usize,
         /// The interval.
         interval: f64,
-        /// The mean interval.
-        mean: f64,
+        /// The median interval.
+        median: f64,
     },
 }
 
@@ -92,10 +92,10 @@ impl fmt::Display for Unsuitable {
             Unsuitable::Irregular {
                 row,
                 interval,
-                mean,
+                median,
             } => write!(
                 f,
-                "reading {} comes {interval} after the one before, where {mean} is the mean interval",
+                "reading {} comes {interval} after the one before, where {median} is the median interval",
                 row + 1
             ),
         }
@@ -120,17 +120,25 @@ pub fn regular_interval(times: &[f64]) -> Result<f64, Unsuitable> {
     if mean.is_nan() || mean <= 0.0 {
         return Err(Unsuitable::Interval(mean));
     }
-    let odd = times
-        .windows(2)
-        .position(|pair| ((pair[1] - pair[0]) / mean - 1.0).abs() > 0.5);
+    let intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    // A lost row raises the mean of few intervals, but not the median.
+    let median = median(intervals.clone());
+    let odd = intervals
+        .iter()
+        .position(|interval| interval.is_nan() || (interval - median).abs() > 0.5 * median);
     match odd {
         Some(before) => Err(Unsuitable::Irregular {
             row: before + 1,
-            interval: times[before + 1] - times[before],
-            mean,
+            interval: intervals[before],
+            median,
         }),
         None => Ok(mean),
     }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 impl Allan {
@@ -212,30 +220,27 @@ fn variance(phase: &[f64], m: usize) -> f64 {
     squares / count / (2.0 * (m * m) as f64)
 }
 
-/// The kind of noise at an averaging time, from the autocorrelation of successive averages (Riley and
-/// Greenhall 2004): δ = ρ_1/(1 + ρ_1) is −α/2 for a spectral density f^α; series with δ ≥ ¼ are not
-/// stationary and are differenced first.
+/// The kind of noise at an averaging time, from the autocorrelation of successive averages (after Riley and
+/// Greenhall 2004): ρ/(1 + ρ) is −α/2 for a stationary spectral density f^α, so that ρ < ⅓ is nearest to
+/// white. Others are differenced; theory then expects −½ for white noise (over slower noise), −0.22 for
+/// flicker (9 ln 3 − 16 ln 2 over 8 ln 2), or −⅓ where readings are taken at instants, and ¼ for random walk.
 fn noise(phase: &[f64], m: usize) -> Option<PowerLaw> {
     let sums: Vec<f64> = phase.iter().copied().step_by(m).collect();
-    let mut series: Vec<f64> = sums.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    let mut differences = 0.0;
-    loop {
-        if series.len() < TELLING {
-            return None;
-        }
-        let rho = successive(&series)?;
-        let delta = rho / (1.0 + rho);
-        if delta < 0.25 || differences >= 2.0 {
-            let alpha = -2.0 * (delta + differences);
-            return Some(match alpha {
-                _ if alpha > -0.5 => PowerLaw::White,
-                _ if alpha > -1.5 => PowerLaw::Flicker,
-                _ => PowerLaw::RandomWalk,
-            });
-        }
-        series = series.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        differences += 1.0;
+    let averages = differences(&sums);
+    let steps = differences(&averages);
+    if steps.len() < TELLING {
+        return None;
     }
+    let (rho, rho_of_steps) = (successive(&averages)?, successive(&steps)?);
+    Some(match () {
+        () if rho < 1.0 / 3.0 || rho_of_steps < -0.4 => PowerLaw::White,
+        () if rho_of_steps < 0.0 => PowerLaw::Flicker,
+        () => PowerLaw::RandomWalk,
+    })
+}
+
+fn differences(series: &[f64]) -> Vec<f64> {
+    series.windows(2).map(|pair| pair[1] - pair[0]).collect()
 }
 
 /// Autocorrelation of successive values; nothing for equal ones.

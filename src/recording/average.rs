@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::special::student_t_two_sided;
+use crate::special::student_t_sf;
 use crate::statistics::{Dd, Series};
 
 /// Longer series are taken in blocks of successive readings, so that their serial correlation takes
@@ -147,7 +147,7 @@ impl Drift {
         let u_slope = (variance / t.squares()).sqrt();
         let duration = points.last()?.0 - points.first()?.0;
         let p_value = match u_slope > 0.0 {
-            true => student_t_two_sided(slope / u_slope, dof),
+            true => 2.0 * student_t_sf((slope / u_slope).abs(), dof),
             false if slope == 0.0 => 1.0,
             false => 0.0,
         };

@@ -167,7 +167,9 @@ fn last_group(text: &str, open: char, close: char) -> Option<(&str, Range<usize>
             _ if c == close => depth += 1,
             _ if c == open && depth > 0 => depth -= 1,
             _ if c == open => {
-                let name = &text[..at];
+                // In the quotient notation `a/(m/s^2)` the solidus is not part of the name.
+                let before = text[..at].trim_end();
+                let name = before.strip_suffix('/').unwrap_or(before);
                 return (!name.trim().is_empty()).then_some((name, at + 1..inner.len()));
             }
             _ => {}
@@ -176,7 +178,7 @@ fn last_group(text: &str, open: char, close: char) -> Option<(&str, Range<usize>
     None
 }
 
-/// The quotient notation `a/(m/s^2)`: everything behind the first solidus.
+/// The quotient notation `a/m`: everything behind the first solidus.
 fn after_solidus(text: &str) -> Option<(&str, Range<usize>)> {
     let at = text.find('/')?;
     let name = &text[..at];
@@ -225,7 +227,7 @@ mod tests {
         assert_eq!(parts("U (mV)"), pair("U", "mV"));
         assert_eq!(parts("a (m/(s·s))"), pair("a", "m/(s·s)"));
         assert_eq!(parts("T / °C"), pair("T", "°C"));
-        assert_eq!(parts("a/(m/s^2)"), pair("a", "(m/s^2)"));
+        assert_eq!(parts("a/(m/s^2)"), pair("a", "m/s^2"));
         assert_eq!(parts("oven_degC"), pair("oven", "°C"));
         assert_eq!(parts("温度 [°C]"), pair("温度", "°C"));
         assert_eq!(parts("resistivity_ohm_cm"), pair("resistivity", "Ω·cm"));

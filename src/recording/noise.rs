@@ -92,13 +92,7 @@ impl Allan {
                     u: u / (2.0 * value) * scale.sqrt(),
                 });
             }
-            let mut with: Vec<PowerLaw> = laws.clone();
-            with.push(law);
-            let fit = problem.with_weights_of(&fit, &with)?;
-            let place = with.len() - 1;
-            let u = fit.covariance[(place, place)].sqrt();
-            let square = fit.squares[place].max(0.0) + normal_quantile(0.95) * u;
-            let limit = (square * scale).sqrt();
+            let limit = (problem.limit(&fit, law)? * scale).sqrt();
             Some(Coefficient::Hidden { limit })
         };
         let dof = self.points.len() - laws.len();
@@ -149,16 +143,17 @@ impl Variances {
         let squares: Vec<f64> = squares.collect();
         let unit = squares.iter().copied().fold(f64::INFINITY, f64::min);
         let steps: Vec<usize> = allan.points.iter().map(|point| point.intervals).collect();
-        let row = |a: usize| {
-            steps
-                .iter()
-                .map(|b| covariances(allan.readings, a, *b))
-                .collect()
-        };
+        let mut terms = vec![vec![[[0.0; 3]; 3]; steps.len()]; steps.len()];
+        for (i, a) in steps.iter().enumerate() {
+            for (j, b) in steps.iter().enumerate().skip(i) {
+                terms[i][j] = covariances(allan.readings, *a, *b);
+                terms[j][i] = terms[i][j];
+            }
+        }
         Variances {
             observed: DVector::from_iterator(squares.len(), squares.iter().map(|v| v / unit)),
             taus: steps.iter().map(|m| *m as f64).collect(),
-            terms: steps.iter().map(|a| row(*a)).collect(),
+            terms,
             unit,
         }
     }
@@ -176,8 +171,22 @@ impl Variances {
         Some(self.in_units(fit))
     }
 
-    fn with_weights_of(&self, fit: &Fit, laws: &[PowerLaw]) -> Option<Fit> {
-        Some(self.in_units(self.solve(laws, fit.weights.clone())?))
+    /// The upper limit of the square of a coefficient that a fit does without: twice, because the scatter
+    /// of its estimate grows with the coefficient, so that the covariances are those at the limit.
+    fn limit(&self, without: &Fit, law: PowerLaw) -> Option<f64> {
+        let mut laws = without.laws.clone();
+        laws.push(law);
+        let place = laws.len() - 1;
+        let upper = |fit: &Fit| {
+            let u = fit.covariance[(place, place)].sqrt();
+            fit.squares[place].max(0.0) + normal_quantile(0.95) * u
+        };
+        let mut fit = self.solve(&laws, without.weights.clone())?;
+        let first = upper(&fit);
+        fit.squares = without.squares.map(|square| square / self.unit).push(first);
+        let at_limit = self.weights(&fit)?;
+        let second = upper(&self.solve(&laws, at_limit)?);
+        Some(first.max(second) * self.unit)
     }
 
     fn solve(&self, laws: &[PowerLaw], weights: DMatrix<f64>) -> Option<Fit> {

@@ -15,12 +15,13 @@ pub enum PowerLaw {
     RandomWalk,
 }
 
-/// Allan variances whose averaging times are farther apart than this count as uncorrelated.
-const NEAR: usize = 32;
 /// Steps of the sum over lags in the shorter averaging time.
 const FINE: usize = 16;
+/// The most steps of the sum in the longer averaging time. Where the two are so far apart that this
+/// limits the sum, only random walk still correlates them, and its covariances have no finer structure.
+const COARSE: usize = 512;
 /// Lags that count, in averaging times; only those of flicker go on, and fade.
-const REACH: i64 = 8;
+const REACH: i64 = 3;
 
 impl PowerLaw {
     /// All kinds, from short to long averaging times.
@@ -69,11 +70,8 @@ impl PowerLaw {
 pub(super) fn covariances(n: usize, a: usize, b: usize) -> [[f64; 3]; 3] {
     let (a, b) = (a.min(b), a.max(b));
     let mut terms = [[0.0; 3]; 3];
-    if b > NEAR * a {
-        return terms;
-    }
     let counts = [n + 1 - 2 * a, n + 1 - 2 * b].map(|count| count as i64);
-    let stride = (a / FINE).max(1) as i64;
+    let stride = (a / FINE).max(b / COARSE).max(1) as i64;
     let steps = [a as i64, b as i64];
     // Where both differences have the same middle.
     let middle = steps[0] - steps[1];

@@ -95,13 +95,14 @@ pub fn by_steps(stimulus: &[f64], steps: &Steps) -> Vec<Dwell> {
     let fewest = steps.fewest.max(1);
     let tolerance = steps.tolerance.unwrap_or_else(|| usual(stimulus, fewest));
     // The longest first, of equal ones the earliest.
-    let mut waiting: BinaryHeap<(usize, Reverse<usize>)> = longest_from(stimulus, tolerance)
-        .map(|rows| (rows.len(), Reverse(rows.start)))
-        .filter(|(length, _)| *length >= fewest)
+    // Length, start, and the length before others took rows of it.
+    let mut waiting: BinaryHeap<(usize, Reverse<usize>, usize)> = longest_from(stimulus, tolerance)
+        .map(|rows| (rows.len(), Reverse(rows.start), rows.len()))
+        .filter(|(length, ..)| *length >= fewest)
         .collect();
     let mut taken: BTreeMap<usize, usize> = BTreeMap::new();
     let mut dwells = Vec::new();
-    while let Some((length, Reverse(start))) = waiting.pop() {
+    while let Some((length, Reverse(start), whole)) = waiting.pop() {
         let before = taken.range(..=start).next_back();
         if before.is_some_and(|(_, end)| *end > start) {
             // What is left of it waits under its own beginning.
@@ -110,13 +111,14 @@ pub fn by_steps(stimulus: &[f64], steps: &Steps) -> Vec<Dwell> {
         let after = taken.range(start..).next().map(|(other, _)| *other);
         if let Some(other) = after.filter(|other| *other < start + length) {
             if other - start >= fewest {
-                waiting.push((other - start, Reverse(start)));
+                waiting.push((other - start, Reverse(start), whole));
             }
             continue;
         }
         let rows = start..start + length;
         taken.insert(rows.start, rows.end);
-        if !creeps(&stimulus[rows.clone()], tolerance) {
+        // What is left between two pieces of a ramp is a piece of it, too short to show that by itself.
+        if !creeps(&stimulus[start..start + whole], tolerance) {
             dwells.push(Dwell { label: None, rows });
         }
     }

@@ -10,8 +10,8 @@ use crate::fault::Fault;
 
 /// A CSV text whose first line was read.
 ///
-/// Columns are separated by `,`, `;` or tab, whichever occurs most in the first line. Empty lines and
-/// lines that begin with `#` do not count.
+/// Columns are separated by `,`, `;` or tab: whichever occurs as often in the first row as in the line of
+/// names, and of these the one that occurs most. Empty lines and lines that begin with `#` do not count.
 #[derive(Debug, Clone)]
 pub struct Sheet<'a> {
     text: &'a str,
@@ -39,11 +39,7 @@ impl<'a> Sheet<'a> {
     pub fn new(text: &'a str) -> Result<Sheet<'a>, Box<Fault>> {
         let first = start_of_record(text, 0);
         let line = text[first..].lines().next().unwrap_or_default();
-        let separator = *[b',', b';', b'\t']
-            .iter()
-            .rev()
-            .max_by_key(|separator| line.bytes().filter(|byte| byte == *separator).count())
-            .unwrap_or(&b',');
+        let separator = separator(text, first, line);
         let whole = first..first + line.len();
         let missing = |message: &str, label: &str| {
             Box::new(
@@ -236,6 +232,22 @@ impl Iterator for Rows<'_> {
             Err(error) => Some(Err(error.to_string())),
         }
     }
+}
+
+/// The separator of a text whose line of names begins at `first`.
+fn separator(text: &str, first: usize, names: &str) -> u8 {
+    let second = start_of_record(text, first + names.len());
+    let row = text[second..].lines().next().unwrap_or_default();
+    let count = |line: &str, separator: u8| line.bytes().filter(|byte| *byte == separator).count();
+    let evidence = |separator: u8| {
+        let in_names = count(names, separator);
+        (in_names > 0 && count(row, separator) == in_names, in_names)
+    };
+    // The last of equal ones wins.
+    [b'\t', b';', b',']
+        .into_iter()
+        .max_by_key(|separator| evidence(*separator))
+        .unwrap_or(b',')
 }
 
 /// Where the next line begins that is neither empty nor a comment.

@@ -1,7 +1,7 @@
 //! GUM and Monte Carlo side by side, with the verdict of JCGM 101 clause 8.
 
 use crate::propagate::{
-    Clause8, Coverage, CoverageBasis, FindingKind, MeasurandResult, Run, Validation,
+    Clause8, Coverage, CoverageBasis, FindingKind, MeasurandResult, Quasi, Run, Validation,
 };
 
 use super::document::Block;
@@ -9,6 +9,7 @@ use super::language::{Language, Word};
 use super::number::{
     NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, grouped, print, probability, significant,
 };
+use super::quasi;
 use super::remarks::tolerance;
 use super::table::{Cell, ColumnKind, Table};
 use super::{Report, difference_symbol, symbol};
@@ -17,6 +18,10 @@ use super::{Report, difference_symbol, symbol};
 pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
     let result = &report.evaluation.results[measurand];
     let mut blocks = vec![Block::Table(table(report, measurand, result))];
+    let run = report.evaluation.run.as_ref();
+    if let Some(quasi) = run.and_then(|run| run.quasi.as_ref()) {
+        blocks.push(Block::Paragraph(quasi::sentence(quasi, report.language)));
+    }
     match (&result.validation, &report.evaluation.run) {
         (Some(validation), _) => blocks.push(Block::List(
             validation
@@ -146,7 +151,10 @@ fn table(report: &Report<'_>, measurand: usize, result: &MeasurandResult) -> Tab
         row(
             l.word(Word::Trials).into(),
             String::new(),
-            Some(trials(run, measurand, l)),
+            Some(match &run.quasi {
+                Some(Quasi::Used(quasi)) => quasi::points(run, quasi, l),
+                _ => trials(run, measurand, l),
+            }),
         );
     }
     table

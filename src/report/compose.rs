@@ -7,7 +7,8 @@ use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{exact, probability};
 use super::{
-    Report, analyses, budget_table, claim, comparison, decisions, fits, joint, remarks, statement,
+    Report, analyses, budget_table, claim, comparison, decisions, fits, indices, joint, remarks,
+    statement,
 };
 
 /// All blocks of a report.
@@ -33,6 +34,7 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
             head.to_string()
         }));
         blocks.extend(comparison::blocks(report, m));
+        blocks.extend(indices::blocks(report, m));
     }
     blocks.extend(joint::blocks(report));
     blocks.extend(decisions::blocks(report));

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use crate::budget::{
     Budget, Certificate, Claim, ClaimedFigure, ClaimedMethod, Component, Confidence, CoverageRule,
     Evaluation as Kind, Figure, Group, Heading, Input, Law, Measurand, MonteCarloSettings, Owner,
-    PROFILES, Remark, Term, Trials,
+    PROFILES, Points, Remark, Term, Trials,
 };
 use crate::distribution::Distribution;
 use crate::model::{MeasurandSource, Model, Notice, Office, Request, Role, Symbol, compile};
@@ -146,6 +146,8 @@ impl Bench {
             },
             conventions: PROFILES[0].conventions(),
             monte_carlo: MonteCarloSettings {
+                points: Points::Random,
+                indices: false,
                 seed: 1,
                 trials: Trials::Fixed(1_000_000),
             },
@@ -282,6 +284,7 @@ fn run() -> Run {
         seed: 1,
         coverage_probability: 0.95,
         adaptive: None,
+        quasi: None,
     }
 }
 
@@ -314,6 +317,7 @@ fn alone(gum: Gum) -> Evaluation {
         run: None,
         conformity: Vec::new(),
         detection: Vec::new(),
+        indices: None,
         findings: Vec::new(),
         figures: Vec::new(),
     }

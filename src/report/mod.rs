@@ -3,21 +3,26 @@
 //! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
 //! composed once; [`json`] is the machine form.
 
+mod allan;
 mod analyses;
 mod budget_table;
+mod calibration;
 mod claim;
 mod comparison;
 mod compose;
 mod decisions;
+mod diagnosis;
 mod document;
 mod fits;
 mod how;
+mod indices;
 mod joint;
 mod json;
 mod language;
 mod markdown;
 mod moments;
 mod number;
+mod quasi;
 mod remarks;
 mod save;
 mod schema;
@@ -32,6 +37,15 @@ mod fixtures;
 #[cfg(test)]
 mod tests;
 
+pub use allan::{AllanReport, allan_json, allan_markdown, allan_text};
+pub use calibration::{
+    calibration_json, calibration_markdown, calibration_text, calibration_trouble, plan_json,
+    plan_markdown, plan_text,
+};
+pub use diagnosis::{
+    FORMAT as DIAGNOSIS_FORMAT, failure as diagnosis_failure, json as diagnosis_json,
+    markdown as diagnosis_markdown, plots as diagnosis_plots, text as diagnosis_text,
+};
 pub use json::{FORMAT, json};
 pub use language::Language;
 pub use markdown::markdown;

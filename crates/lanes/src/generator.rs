@@ -29,12 +29,11 @@ impl Generator {
     /// The 1024 bits of state are hashed from all three numbers through a 128-bit key, so that
     /// two of even 10⁹ addresses of a run share a key with probability 10⁻²¹.
     pub fn new(seed: u64, chunk: u64, stream: u64) -> Generator {
-        let key = [FIRST_KEY, SECOND_KEY]
-            .map(|salt| [seed, chunk, stream].into_iter().fold(salt, absorb));
+        let key = Key::new([seed, chunk, stream]);
         let mut counter = 0;
         let mut next_word = || {
             counter += 1;
-            squeeze(key, counter)
+            key.word(counter)
         };
         // A lane would have to draw four zero words in a row (2⁻²⁵⁶) to get stuck.
         Generator {
@@ -139,10 +138,21 @@ fn absorb(hash: u64, value: u64) -> u64 {
     mix(mix(hash.wrapping_add(GOLDEN)) ^ mix(value.wrapping_add(GOLDEN)))
 }
 
-/// Word number `counter` of a 128-bit key.
-fn squeeze(key: [u64; 2], counter: u64) -> u64 {
-    let step = GOLDEN.wrapping_mul(counter);
-    mix(key[0].wrapping_add(step)) ^ mix(key[1].wrapping_sub(step)).rotate_left(32)
+/// Random words that an address names, in any order.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Key([u64; 2]);
+
+impl Key {
+    /// The 128-bit hash of an address.
+    pub(crate) fn new(address: [u64; 3]) -> Key {
+        Key([FIRST_KEY, SECOND_KEY].map(|salt| address.into_iter().fold(salt, absorb)))
+    }
+
+    /// Word number `counter`.
+    pub(crate) fn word(self, counter: u64) -> u64 {
+        let step = GOLDEN.wrapping_mul(counter);
+        mix(self.0[0].wrapping_add(step)) ^ mix(self.0[1].wrapping_sub(step)).rotate_left(32)
+    }
 }
 
 /// The finaliser of SplitMix64: a bijection in which every bit of the input moves every bit of

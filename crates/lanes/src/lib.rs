@@ -12,6 +12,9 @@
 //! | [`elementary`] | `exp`, `ln`, `sin`, `cos` as branch-free polynomial kernels |
 //! | [`ops`] | arithmetic and functions on whole blocks |
 //! | [`sampler`] | blocks of draws from the distributions of JCGM 101, 6.4, and others |
+//! | [`sobol`] | scrambled Sobol' points |
+//! | [`quantile`] | from uniform numbers to values of a distribution, by its quantile function |
+//! | [`kernel`] | averages of distribution functions over points |
 //! | [`bins`] | counts in equal bins, and the values of chosen ones |
 //! | [`sift`] | the values outside of two stretches, and counts of the others |
 //! | [`moments`] | sums of powers, extremes and the count of trials that have no finite value |
@@ -41,15 +44,20 @@
 pub mod bins;
 pub mod elementary;
 pub mod generator;
+pub mod kernel;
 pub mod level;
 pub mod moments;
 pub mod ops;
+pub mod quantile;
 pub mod sampler;
 pub mod sift;
+pub mod sobol;
 
 pub use generator::Generator;
 pub use level::{Level, level, levels};
+pub use quantile::Quantile;
 pub use sampler::Sampler;
+pub use sobol::Sobol;
 
 /// Trials in a block.
 pub const LANES: usize = 256;

@@ -15,7 +15,7 @@ use fearless_simd::{Level, dispatch};
 use crate::elementary::exp;
 use crate::{Block, Generator, LANES};
 pub use discrete::AliasTable;
-pub(crate) use shapes::open_unit;
+pub(crate) use shapes::{open_unit, sin_pi};
 
 /// A distribution ready to be drawn from.
 ///

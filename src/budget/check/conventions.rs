@@ -5,12 +5,13 @@ use crate::budget::faults::{CONVENTIONS, NOT_POSITIVE, PROBABILITY, TRIALS, UNKN
 use crate::budget::profile::{PROFILES, profile_named};
 use crate::budget::table::Stated;
 use crate::budget::tables::{
-    ConventionsTable, FactorWord, FileTable, FreedomWord, MonteCarloTable, ProcedureWord,
-    ResolutionWord, RoundingWord, ShapeWord, TScaleWord,
+    ConventionsTable, FactorWord, FileTable, FreedomWord, MonteCarloTable, PointsWord,
+    ProcedureWord, ResolutionWord, RoundingWord, ShapeWord, TScaleWord,
 };
 use crate::budget::variants::TrialsEntry;
 use crate::budget::{
-    Adaptive, Conventions, CoverageRule, DofRule, MonteCarloSettings, OutputShape, TScale, Trials,
+    Adaptive, Conventions, CoverageRule, DofRule, MonteCarloSettings, OutputShape, Points, TScale,
+    Trials,
 };
 use crate::fault::{Fault, nearest};
 use crate::quantity::Rounding;
@@ -202,11 +203,16 @@ impl Checker<'_> {
             .as_ref()
             .map_or(&none, |stated| &stated.value);
         let seed = table.seed.as_ref().map_or(1, |seed| seed.value);
+        let points = match table.points.as_ref().map(|word| word.value) {
+            Some(PointsWord::QuasiRandom) => Points::QuasiRandom,
+            Some(PointsWord::Random) | None => Points::Random,
+        };
         let trials = match &table.trials {
             Some(Stated {
                 value: TrialsEntry::Adaptive,
                 ..
             }) => self.adaptive(table),
+            None if points == Points::QuasiRandom => self.adaptive(table),
             stated => {
                 self.fixed_only(table, stated.as_ref());
                 let decisive = Trials::Decisive {
@@ -217,7 +223,12 @@ impl Checker<'_> {
                 stated.map_or(decisive, |stated| Trials::Fixed(fixed(stated)))
             }
         };
-        MonteCarloSettings { seed, trials }
+        MonteCarloSettings {
+            seed,
+            trials,
+            points,
+            indices: table.indices.as_ref().is_some_and(|stated| stated.value),
+        }
     }
 
     fn fixed_only(&mut self, table: &MonteCarloTable, trials: Option<&Stated<TrialsEntry>>) {

@@ -3,7 +3,7 @@
 
 use super::Evidence;
 use super::response::Response;
-use crate::budget::{Budget, Detection, MonteCarloSettings, Trials};
+use crate::budget::{Budget, Detection, MonteCarloSettings, Points, Trials};
 use crate::propagate::monte_carlo::{self, GumForMc};
 use crate::special::{normal_cdf, normal_pdf, normal_quantile, normal_upper_quantile};
 
@@ -104,6 +104,8 @@ pub(super) fn characteristic_limits(evidence: &Evidence<'_>) -> Vec<DetectionRes
                 response,
                 detection,
                 settings: MonteCarloSettings {
+                    points: Points::Random,
+                    indices: false,
                     seed: run.seed,
                     trials: Trials::Fixed(run.trials),
                 },

@@ -292,7 +292,7 @@ mod tests {
     use super::super::samples::Sampled;
     use super::super::{McOutcome, Question};
     use super::*;
-    use crate::budget::{MonteCarloSettings, Trials};
+    use crate::budget::{MonteCarloSettings, Points, Trials};
     use crate::propagate::MonteCarlo;
 
     fn adapt(
@@ -301,6 +301,8 @@ mod tests {
         threads: usize,
     ) -> (McOutcome, AdaptiveRun) {
         let settings = MonteCarloSettings {
+            points: Points::Random,
+            indices: false,
             seed: 1,
             trials: Trials::Adaptive {
                 procedure,

@@ -10,6 +10,8 @@ use std::sync::{Mutex, PoisonError};
 
 use gumption_lanes::{Block, LANES};
 
+use crate::propagate::progress;
+
 /// Most trials in a chunk: 64 blocks of 256.
 pub(super) const CHUNK: u64 = 1 << 14;
 
@@ -104,6 +106,7 @@ pub(super) fn simulate<S: Source, K: Sink>(
                 source.next(worker, outputs);
                 sink.take(outputs, LANES.min(trials - start));
             }
+            progress::count(trials as u64);
             sink.close()
         },
         |(_, _, sink)| sink,

@@ -114,6 +114,36 @@ impl Ordered {
         })
     }
 
+    /// The same for values that are too few for a pilot to pay, by selection.
+    pub(super) fn by_selection(mut values: Vec<f64>, depth: usize) -> Self {
+        let (count, depth) = (values.len(), depth.max(1));
+        if 4 * depth >= count {
+            return Ordered::sorted(values);
+        }
+        let (low, last, rest) = values.select_nth_unstable_by(depth - 1, f64::total_cmp);
+        let mut low = low.to_vec();
+        low.push(*last);
+        let inner = rest.len() - depth;
+        let (middle, first, high) = rest.select_nth_unstable_by(inner, f64::total_cmp);
+        let mut high = high.to_vec();
+        high.push(*first);
+        low.sort_unstable_by(f64::total_cmp);
+        high.sort_unstable_by(f64::total_cmp);
+        let upper = count / 2 - depth;
+        let (below, upper_value, _) = middle.select_nth_unstable_by(upper, f64::total_cmp);
+        let lower_value = if count.is_multiple_of(2) {
+            below.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+        } else {
+            *upper_value
+        };
+        Ordered {
+            count,
+            median: midpoint(lower_value, *upper_value),
+            low,
+            high,
+        }
+    }
+
     fn sorted(mut values: Vec<f64>) -> Self {
         values.sort_unstable_by(f64::total_cmp);
         let count = values.len();
@@ -394,6 +424,21 @@ mod tests {
             (y[m / 2 - 1] + y[m / 2]) / 2.0
         };
         ([y[r - 1], y[r + q - 1]], shortest, median)
+    }
+
+    #[test]
+    fn selection_gives_what_a_sort_does() {
+        let mut stream = Stream::new(11);
+        for count in [41, 400, 4096, 5001] {
+            let values: Vec<f64> = (0..count).map(|_| stream.uniform()).collect();
+            let ranks = Ranks::new(count, 0.95);
+            let selected = Ordered::by_selection(values.clone(), ranks.last);
+            let (symmetric, width, median) = by_full_sort(&values, 0.95);
+            assert_eq!(selected.symmetric(ranks), symmetric);
+            assert_eq!(selected.median(), median);
+            let [low, high] = selected.shortest(ranks);
+            assert_eq!(high - low, width);
+        }
     }
 
     #[test]

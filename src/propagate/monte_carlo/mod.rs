@@ -16,6 +16,8 @@
 //! | [`heavy`] | components that are known to leave the output without moments |
 //! | [`fractions`] | fractions of the trials between given limits |
 //! | [`adaptive`] | how many trials |
+//! | [`indices`] | Sobol' sensitivity indices |
+//! | [`quasi`] | quasi-random points in place of trials |
 //! | [`comoments`] | covariance of several outputs |
 //! | [`region`] | coverage regions of several outputs |
 
@@ -30,9 +32,11 @@ mod factor;
 mod fractions;
 mod heavy;
 mod histogram;
+mod indices;
 mod interval;
 mod joint_draw;
 mod moments;
+mod quasi;
 mod region;
 mod resolve;
 mod sampler;
@@ -44,7 +48,7 @@ mod strainer;
 use nalgebra::DMatrix;
 
 use super::{AdaptiveRun, EvaluationError, Histogram, MonteCarlo, Regions, Run};
-use crate::budget::{Budget, MonteCarloSettings, Trials};
+use crate::budget::{Budget, MonteCarloSettings, Points, Trials};
 use adaptive::Target;
 pub(crate) use adaptive::{batch_size, least_batch};
 use cells::Wanted;
@@ -54,8 +58,11 @@ pub use existence::{Consequence, MissingMoments, Side};
 use existence::{Tail, Verdict};
 pub(crate) use fractions::fractions;
 use heavy::HeavyComponent;
+pub(crate) use indices::indices;
+pub use indices::{SensitivityIndices, SobolIndex};
 use interval::{Around, Ordered, Ranked, Ranks};
 use moments::{Moments, Pivot};
+pub use quasi::{Quasi, QuasiRun, WhyRandom};
 use resolve::{Redraw, Resolved};
 
 /// What the GUM found for one output; moments are formed about it.
@@ -89,6 +96,13 @@ pub(crate) fn run(
     gum: &[GumForMc],
     threads: usize,
 ) -> Result<McOutcome, EvaluationError> {
+    let refused = match settings.points {
+        Points::Random => None,
+        Points::QuasiRandom => match quasi::run(budget, settings, gum, threads) {
+            Ok(outcome) => return Ok(outcome),
+            Err(why) => Some(Quasi::Refused(why)),
+        },
+    };
     let source = budget_source::BudgetSource::new(budget, settings.seed);
     let question = Question {
         settings,
@@ -97,11 +111,13 @@ pub(crate) fn run(
         heavy: heavy::heavy_components(budget),
         threads,
     };
-    question
+    let mut outcome = question
         .ask(&source)
         .map_err(|output| EvaluationError::AllTrialsFailed {
             measurand: budget.model.outputs()[output].name.clone(),
-        })
+        })?;
+    outcome.run.quasi = refused;
+    Ok(outcome)
 }
 
 /// What is asked of a source of trials.
@@ -134,6 +150,7 @@ impl Question<'_> {
             seed: self.settings.seed,
             coverage_probability: self.p,
             adaptive,
+            quasi: None,
         };
         let redraw = Redraw {
             source,

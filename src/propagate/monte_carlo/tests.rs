@@ -6,6 +6,8 @@ use crate::budget::Adaptive;
 
 fn fixed(trials: u64) -> MonteCarloSettings {
     MonteCarloSettings {
+        points: Points::Random,
+        indices: false,
         seed: 1,
         trials: Trials::Fixed(trials),
     }
@@ -240,6 +242,8 @@ fn several_outputs_have_covariance_and_regions() {
 #[test]
 fn adaptive_run_reports_what_it_did() {
     let settings = MonteCarloSettings {
+        points: Points::Random,
+        indices: false,
         seed: 3,
         trials: Trials::Adaptive {
             procedure: Adaptive::Stein,

@@ -305,6 +305,14 @@ fn drifts_scatter_as_they_say() {
         // Where there is a drift the mean seems to scatter more than the line through it.
         let readings: Vec<f64> = noise[..n].iter().zip(&times).map(|(x, t)| x + t).collect();
         let average = Average::of(&readings).expect("readings");
-        assert!(Drift::of(&times, &readings).expect("a line").u_middle < 0.2 * average.u);
+        let drift = Drift::of(&times, &readings).expect("a line");
+        assert!(drift.u_middle < 0.2 * average.u && drift.p_value < 1e-9);
+        // Without drift the p-values are spread evenly over 0 to 1.
+        let below = noise
+            .chunks(n + 1)
+            .filter_map(|chunk| Drift::of(&times, &autoregressive(phi, chunk)))
+            .filter(|drift| drift.p_value < 0.3)
+            .count() as f64;
+        assert!((below / runs - 0.3).abs() < 0.1, "{}", below / runs);
     }
 }

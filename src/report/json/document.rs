@@ -10,7 +10,8 @@ use super::understood::{
     TakenJson,
 };
 use crate::budget::{Adaptive, Law};
-use crate::propagate::Run;
+use crate::propagate::{Quasi, Run, SobolIndex};
+use crate::report::indices::names;
 use crate::report::{Report, analyses, language::Language, remarks, schema::record, statement};
 
 use super::{
@@ -50,6 +51,8 @@ record! {
         joint: Option<JointJson>,
         /// How the Monte Carlo method was run.
         monte_carlo_run: Option<RunJson>,
+        /// Sobol' sensitivity indices, where they were asked for.
+        sensitivity_indices: Option<SensitivityJson<'a>>,
         /// Conformity assessments.
         conformity: Vec<ConformityJson<'a>>,
         /// Characteristic limits.
@@ -78,6 +81,58 @@ record! {
         coverage_probability: Number,
         /// What an adaptive run reached.
         adaptive: Option<AdaptiveJson>,
+        /// Where quasi-random points were asked for: what became of it.
+        quasi: Option<QuasiJson>,
+    }
+}
+
+record! {
+    /// Sobol' sensitivity indices.
+    SensitivityJson<'a> {
+        /// Trials of each of the two independent samples.
+        trials: u64,
+        /// Inputs that are independent of all others, or together those that are not independent of one another.
+        factors: Vec<Vec<&'a str>>,
+        /// Per measurand: one per factor, or null where it has no standard deviation.
+        measurands: Vec<Option<Vec<IndexJson>>>,
+    }
+}
+
+record! {
+    /// Indices of one factor.
+    IndexJson {
+        /// First-order index.
+        first_order: Number,
+        /// Its standard error.
+        first_order_error: Number,
+        /// Total index.
+        total: Number,
+        /// Its standard error.
+        total_error: Number,
+    }
+}
+
+record! {
+    /// Quasi-random points.
+    QuasiJson {
+        /// Whether they were used; `trials` is their number then. Otherwise random trials were run.
+        used: bool,
+        /// Why random trials were run, or what the points gained.
+        note: String,
+        /// Independent scrambles.
+        replicates: Option<u64>,
+        /// The component that was averaged over in place of being drawn.
+        averaged: Option<String>,
+        /// Significant digits of u asked for.
+        digits: Option<u64>,
+        /// Numerical tolerance.
+        delta: Option<Number>,
+        /// Whether the results are stable to it.
+        reached: Option<bool>,
+        /// Random trials that would have errors as small.
+        equivalent_trials: Option<Number>,
+        /// Standard errors of both ends of the shortest interval.
+        shortest_standard_errors: Option<Vec<Number>>,
     }
 }
 
@@ -224,6 +279,7 @@ impl<'a> Document<'a> {
             fits: budget.fits.iter().map(fits::fit).collect(),
             joint: evaluation.joint.as_ref().map(joint::joint),
             monte_carlo_run: evaluation.run.as_ref().map(run),
+            sensitivity_indices: sensitivity(report),
             conformity: decisions::conformity(report),
             detection: decisions::detection(report),
             figures: evaluation
@@ -287,5 +343,48 @@ fn run(run: &Run) -> RunJson {
             delta: numbers(&a.delta),
             reached: a.reached,
         }),
+        quasi: run.quasi.as_ref().map(quasi),
+    }
+}
+
+fn sensitivity<'a>(report: &Report<'a>) -> Option<SensitivityJson<'a>> {
+    let indices = report.evaluation.indices.as_ref()?;
+    let index = |index: &SobolIndex| IndexJson {
+        first_order: number(index.first),
+        first_order_error: number(index.first_error),
+        total: number(index.total),
+        total_error: number(index.total_error),
+    };
+    let of = |found: &Option<Vec<SobolIndex>>| {
+        found
+            .as_ref()
+            .map(|found| found.iter().map(index).collect())
+    };
+    Some(SensitivityJson {
+        trials: indices.trials,
+        factors: indices
+            .factors
+            .iter()
+            .map(|factor| names(report, factor))
+            .collect(),
+        measurands: indices.measurands.iter().map(of).collect(),
+    })
+}
+
+fn quasi(of: &Quasi) -> QuasiJson {
+    let run = match of {
+        Quasi::Used(run) => Some(run),
+        Quasi::Refused(_) => None,
+    };
+    QuasiJson {
+        used: run.is_some(),
+        note: crate::report::quasi::sentence(of, Language::English),
+        replicates: run.map(|run| run.replicates as u64),
+        averaged: run.and_then(|run| run.averaged.clone()),
+        digits: run.map(|run| u64::from(run.digits)),
+        delta: run.map(|run| number(run.delta)),
+        reached: run.map(|run| run.reached),
+        equivalent_trials: run.map(|run| number(run.equivalent_trials)),
+        shortest_standard_errors: run.map(|run| numbers(&run.shortest_errors)),
     }
 }

@@ -104,6 +104,12 @@ fn sin_cos_quarter(x: f64) -> (f64, f64) {
 /// sin πw for the [`centred`] number w of a word: one coordinate of a random direction.
 #[inline(always)]
 pub(super) fn sin_half_turns(word: u64) -> f64 {
+    sin_pi(centred(word))
+}
+
+/// sin πw for |w| ≤ ½, with an absolute error below 5·10⁻¹⁶.
+#[inline(always)]
+pub(crate) fn sin_pi(w: f64) -> f64 {
     const SERIES: [f64; 10] = [
         std::f64::consts::PI,
         -5.167_712_780_049_97,
@@ -116,7 +122,6 @@ pub(super) fn sin_half_turns(word: u64) -> f64 {
         7.948_539_037_372_32e-7,
         -2.228_371_216_069_697e-8,
     ];
-    let w = centred(word);
     w * horner(w * w, SERIES)
 }
 

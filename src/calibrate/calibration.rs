@@ -1,0 +1,336 @@
+//! The coefficients of an experiment with everything that is known of them.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::causes::{Cause, causes};
+use super::experiment::{Experiment, Scatter, Weights, Words};
+use super::gain::Gain;
+use super::identify::{Alias, Identifiability, alias};
+use super::scatter::{ResponseScatter, Scatters, weights};
+use super::stack::{Readings, Row, Stack};
+use super::trouble::Trouble;
+use crate::least_squares::Solution;
+use crate::quantity::Unit;
+use crate::special::{student_t_sf, student_t_two_sided_quantile};
+
+/// A calibration that was evaluated.
+#[derive(Debug, Clone)]
+pub struct Calibration {
+    /// Coefficients with their covariance and its causes.
+    pub figures: Figures,
+    /// Number of readings used, without known values of parameters.
+    pub readings: usize,
+    /// Readings left out, because a value is missing.
+    pub left_out: usize,
+    /// What tells the scatter.
+    pub scatter: Scatter,
+    /// The scatter of each response.
+    pub responses: Vec<ResponseScatter>,
+    /// What is left of each reading.
+    pub residuals: Vec<Residual>,
+    /// What the experiment tells apart.
+    pub identifiability: Identifiability,
+    /// What each omitted effect would shift.
+    pub aliases: Vec<Alias>,
+    /// Steps of the search; 0 for linear equations.
+    pub iterations: usize,
+    /// The calibrations of the parts, where the file wants them one by one.
+    pub parts: Vec<(String, Calibration)>,
+}
+
+/// Coefficients: parameters first, then results.
+#[derive(Debug, Clone)]
+pub struct Figures {
+    /// One by one.
+    pub coefficients: Vec<Coefficient>,
+    /// Their covariance matrix.
+    pub covariance: DMatrix<f64>,
+    /// What their uncertainty comes from.
+    pub causes: Vec<Cause>,
+}
+
+/// A coefficient.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coefficient {
+    /// As the equations call it.
+    pub name: String,
+    /// What it is.
+    pub description: Option<Words>,
+    /// Its unit.
+    pub unit: Unit,
+    /// Estimate; for a plan, the value that was assumed.
+    pub value: f64,
+    /// Standard uncertainty.
+    pub u: f64,
+    /// Effective degrees of freedom (GUM G.4.1).
+    pub dof: f64,
+    /// Coverage factor.
+    pub k: f64,
+    /// The probability that a coefficient that is zero comes out as far from it (two-sided t test).
+    pub p_value: f64,
+}
+
+/// What is left of a reading.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Residual {
+    /// The point.
+    pub point: String,
+    /// The response.
+    pub response: String,
+    /// What was read.
+    pub observed: f64,
+    /// What the equation gives.
+    pub fitted: f64,
+    /// Their difference over its standard deviation, s·√(1 − h); NaN where that is zero.
+    pub standardised: f64,
+}
+
+/// The values of the coefficients alone, parameters first.
+///
+/// # Errors
+/// As [`calibrate`].
+pub fn estimates(experiment: &Experiment) -> Result<Vec<f64>, Trouble> {
+    let stack = Stack::new(experiment, Readings::Taken);
+    let (solution, ..) = solved(&stack)?;
+    Ok(values(experiment, &solution.parameters))
+}
+
+/// Parameters and results.
+fn values(experiment: &Experiment, parameters: &[f64]) -> Vec<f64> {
+    let inputs = experiment.inputs.iter().map(|input| input.value);
+    let symbols: Vec<f64> = parameters.iter().copied().chain(inputs).collect();
+    let results = experiment.results.iter();
+    let results = results.map(|result| result.equation.value(0, &symbols));
+    parameters.iter().copied().chain(results).collect()
+}
+
+/// Steps of the iteration of weights.
+const ROUNDS: usize = 50;
+
+/// Evaluates an experiment.
+///
+/// # Errors
+/// A [`Trouble`] says why there are no coefficients.
+pub fn calibrate(experiment: &Experiment) -> Result<Calibration, Trouble> {
+    let mut calibration = whole(experiment)?;
+    if let Some(labels) = experiment
+        .separately
+        .as_ref()
+        .and_then(|name| experiment.points.labels(name))
+    {
+        for (level, label) in labels.levels.iter().enumerate() {
+            let rows: Vec<usize> = (0..experiment.points.len())
+                .filter(|row| labels.of_row[*row] as usize == level)
+                .collect();
+            let part = whole(&experiment.of_points(&rows)).map_err(|trouble| Trouble::InPart {
+                label: label.clone(),
+                trouble: Box::new(trouble),
+            })?;
+            calibration.parts.push((label.clone(), part));
+        }
+    }
+    Ok(calibration)
+}
+
+fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
+    let stack = Stack::new(experiment, Readings::Taken);
+    let count = experiment.parameters.len();
+    if stack.rows.len() < count || stack.readings() == 0 {
+        return Err(Trouble::TooFew {
+            readings: stack.rows.len(),
+            parameters: count,
+        });
+    }
+    let (solution, u, scatters) = solved(&stack)?;
+    let gain = Gain::of_solution(&stack, &solution);
+    let causes = causes(&stack, &gain, &scatters, &u);
+    let jacobian = stack.jacobian(&solution.parameters, &u);
+    Ok(Calibration {
+        figures: figures(experiment, &solution.parameters, causes),
+        readings: stack.readings(),
+        left_out: stack.left_out,
+        scatter: scatters.way,
+        residuals: residuals(&stack, &solution, &gain, &scatters, &u),
+        responses: scatters.responses,
+        identifiability: Identifiability::of(&jacobian, &experiment.parameters),
+        aliases: aliases(&stack, &solution.parameters, &u),
+        iterations: solution.iterations,
+        parts: Vec::new(),
+    })
+}
+
+/// The solution with its weights. Where known values of parameters stand beside readings of equal weight,
+/// the scatter of the readings says how much each counts, and follows from the solution in turn.
+fn solved(stack: &Stack<'_>) -> Result<(Solution, Vec<f64>, Scatters), Trouble> {
+    let mut start = match stack.is_linear() {
+        true => None,
+        false => Some(stack.start()?),
+    };
+    let mut u = weights(stack)?;
+    let couples = stack.readings() < stack.rows.len() && stack.experiment.weights == Weights::Equal;
+    if couples {
+        first_scale(stack, &mut u);
+    }
+    let mut rounds = 0;
+    loop {
+        let solution = stack.solve(&u, start)?;
+        let gain = Gain::of_solution(stack, &solution);
+        let scatters = Scatters::of(stack, &solution, &gain, &u)?;
+        rounds += 1;
+        if !couples || scatters.way != Scatter::Residuals || rounds == ROUNDS {
+            return Ok((solution, u, scatters));
+        }
+        let mut change: f64 = 0.0;
+        for (row, u) in stack.rows.iter().zip(&mut u) {
+            if let Row::Reading { response, .. } = row {
+                let s = scatters.responses[*response].s;
+                change = change.max((s - 1.0).abs());
+                *u *= s;
+            }
+        }
+        if change < 1e-9 {
+            return Ok((solution, u, scatters));
+        }
+        start = (!stack.is_linear()).then(|| solution.parameters.clone());
+    }
+}
+
+/// Readings that count much, for the first round.
+fn first_scale(stack: &Stack<'_>, u: &mut [f64]) {
+    let size = stack
+        .observed
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    for (row, u) in stack.rows.iter().zip(u) {
+        if matches!(row, Row::Reading { .. }) {
+            *u = 1e-4 * size.max(f64::MIN_POSITIVE);
+        }
+    }
+}
+
+/// Coefficients with their covariance from the causes.
+pub(super) fn figures(experiment: &Experiment, parameters: &[f64], causes: Vec<Cause>) -> Figures {
+    let parameters_first = experiment
+        .parameters
+        .iter()
+        .map(|p| (&p.name, &p.description, &p.unit));
+    let all = parameters_first
+        .chain(
+            experiment
+                .results
+                .iter()
+                .map(|r| (&r.name, &r.description, &r.unit)),
+        )
+        .zip(values(experiment, parameters));
+    let count = experiment.parameters.len() + experiment.results.len();
+    let mut covariance = DMatrix::zeros(count, count);
+    for cause in &causes {
+        covariance += &cause.effects * cause.effects.transpose();
+    }
+    let coefficients = all
+        .enumerate()
+        .map(|(index, ((name, description, unit), value))| {
+            let u = covariance[(index, index)].sqrt();
+            let dof = effective(&causes, index, u);
+            Coefficient {
+                name: name.clone(),
+                description: description.clone(),
+                unit: unit.clone(),
+                value,
+                u,
+                dof,
+                k: student_t_two_sided_quantile(experiment.coverage_probability, dof),
+                p_value: 2.0 * student_t_sf((value / u).abs(), dof),
+            }
+        })
+        .collect();
+    Figures {
+        coefficients,
+        covariance,
+        causes,
+    }
+}
+
+/// Welch–Satterthwaite (GUM G.2b) over causes.
+fn effective(causes: &[Cause], coefficient: usize, u: f64) -> f64 {
+    let sum: f64 = causes
+        .iter()
+        .map(|cause| cause.contribution(coefficient).powi(4) / cause.contribution_dof(coefficient))
+        .filter(|term| term.is_finite())
+        .sum();
+    u.powi(4) / sum
+}
+
+fn residuals(
+    stack: &Stack<'_>,
+    solution: &Solution,
+    gain: &Gain,
+    scatters: &Scatters,
+    u: &[f64],
+) -> Vec<Residual> {
+    let experiment = stack.experiment;
+    let ones = vec![1.0; stack.rows.len()];
+    let jacobian = stack.jacobian(&solution.parameters, &ones);
+    let count = experiment.parameters.len();
+    let mut residuals = Vec::new();
+    for (index, row) in stack.rows.iter().enumerate() {
+        let Row::Reading { point, response } = row else {
+            continue;
+        };
+        let leverage: f64 = jacobian
+            .row(index)
+            .transpose()
+            .dot(&gain.by_observed.column(index).rows(0, count));
+        let free = (1.0 - leverage).max(0.0);
+        let s = scatters.responses[*response].s * u[index] * free.sqrt();
+        let residual = solution.residuals[index];
+        residuals.push(Residual {
+            point: experiment.points.names[*point].clone(),
+            response: experiment.equations.responses()[*response].name.clone(),
+            observed: stack.observed[index],
+            fitted: stack.observed[index] - residual,
+            standardised: if free > 1e-9 && s > 0.0 {
+                residual / s
+            } else {
+                f64::NAN
+            },
+        });
+    }
+    residuals
+}
+
+/// What each omitted effect would shift, by the linearised estimator.
+pub(super) fn aliases(stack: &Stack<'_>, parameters: &[f64], u: &[f64]) -> Vec<Alias> {
+    let experiment = stack.experiment;
+    let Some(gain) = Gain::linear(stack, parameters, u) else {
+        return Vec::new();
+    };
+    let jacobian = stack.jacobian(parameters, u);
+    // The gain by values in units of their standard uncertainty.
+    let mut scaled = gain.by_observed.clone();
+    for (mut column, u) in scaled.column_iter_mut().zip(u) {
+        column *= *u;
+    }
+    let mut slopes = vec![0.0; experiment.symbols() + 1];
+    let of = |omitted: &super::experiment::Omitted| {
+        let effect = stack.rows.iter().enumerate().map(|(index, row)| match row {
+            Row::Reading { response, .. } if *response == omitted.response => {
+                let mut symbols = stack.symbols(index, parameters);
+                symbols.push(0.0);
+                omitted.equation.at(0, &symbols, &mut slopes);
+                slopes.last().copied().unwrap_or(f64::NAN) / u[index]
+            }
+            _ => 0.0,
+        });
+        let column = DVector::from_iterator(stack.rows.len(), effect);
+        alias(
+            &omitted.name,
+            &column,
+            &jacobian,
+            &scaled,
+            experiment.parameters.len(),
+        )
+    };
+    let mut of = of;
+    experiment.omitted.iter().map(&mut of).collect()
+}

@@ -1,0 +1,597 @@
+//! The points of a calibration file: from its recording, or from its schedule.
+
+use std::collections::HashSet;
+use std::path::Path;
+
+use super::define::{Definer, Purpose, entries};
+use super::dwells::Dwelling;
+use super::faults::{KEY, NO_DATA, POSITION, RECORDING, SCHEDULE, UNKNOWN_SYMBOL};
+use super::names::Names;
+use super::points::{PointColumn, Points};
+use super::tables::{HoldsWord, PositionsTable, RecordingTable};
+use crate::budget::doubts::text_of;
+use crate::budget::table::Stated;
+use crate::budget::values::Cell;
+use crate::budget::{Files, Rejection};
+use crate::fault::{Fault, nearest};
+use crate::quantity::Unit;
+use crate::recording::{
+    Checks, Finding, Heading, Labels, Recording, Request, Settling, Severity, check, headings,
+};
+
+/// The points; `None` after faults of the calibration file.
+pub(super) fn points(
+    definer: &mut Definer<'_>,
+    names: &Names,
+    folder: &Path,
+    purpose: Purpose,
+) -> Result<Option<Points>, Box<Rejection>> {
+    let table = &definer.source.table;
+    let recording = table.recording.as_ref();
+    let file = recording.and_then(|recording| recording.value.file.as_ref());
+    match (file, &table.schedule, purpose) {
+        (_, Some(_), Purpose::Plan) => Ok(scheduled(definer, names)),
+        (Some(file), _, _) => recorded(definer, names, file, folder, purpose),
+        (None, _, _) => {
+            if !table.refused && !recording.is_some_and(|recording| recording.value.refused) {
+                definer.faults.push(no_data(purpose));
+            }
+            Ok(None)
+        }
+    }
+}
+
+fn no_data(purpose: Purpose) -> Fault {
+    match purpose {
+        Purpose::Calibrate => Fault::new(NO_DATA, 0..0, "the calibration has no recording")
+            .help("name it: [recording], file = \"run.csv\"; before there are readings, `gumption plan` says what a [schedule] would tell"),
+        Purpose::Plan => Fault::new(NO_DATA, 0..0, "the plan has no schedule")
+            .help("list its points: [schedule], \"theta [deg]\" = [0, 90, 180, 270]; or name a CSV file of them: [recording], file = \"schedule.csv\""),
+    }
+}
+
+/// Columns of labels that the file refers to.
+fn label_columns(definer: &Definer<'_>) -> Vec<String> {
+    let table = &definer.source.table;
+    let mut labels: Vec<String> = Vec::new();
+    let mut add = |name: &str| {
+        if !labels.iter().any(|other| other == name) {
+            labels.push(name.to_owned());
+        }
+    };
+    let positions = table.positions.as_ref();
+    if let Some(column) = positions.and_then(|stated| stated.value.column.as_ref()) {
+        add(&column.value);
+    }
+    for (_, entry) in entries(&table.input).iter().chain(entries(&table.reading)) {
+        if let Some(by) = &entry.value.by {
+            add(&by.value);
+        }
+    }
+    if let Some(separately) = &table.separately {
+        add(&separately.value);
+    }
+    let recording = table.recording.as_ref();
+    let dwells = recording.and_then(|stated| stated.value.dwells.as_ref());
+    for column in dwells.iter().flat_map(|list| &list.value) {
+        add(&column.value);
+    }
+    for (name, entry) in entries(&table.column) {
+        let holds = entry.value.holds.as_ref().map(|word| word.value);
+        if holds == Some(HoldsWord::Labels) {
+            add(name);
+        }
+    }
+    labels
+}
+
+fn recorded(
+    definer: &mut Definer<'_>,
+    names: &Names,
+    file: &Stated<String>,
+    folder: &Path,
+    purpose: Purpose,
+) -> Result<Option<Points>, Box<Rejection>> {
+    let path = folder.join(&file.value);
+    let text = text_of(&path).map_err(|mut rejection| {
+        // The file that names it is at fault when it is not there.
+        rejection.name = path.display().to_string();
+        Box::new(rejection)
+    })?;
+    let shown = path.display().to_string();
+    let found = headings(&text, &definer.units)
+        .map_err(|fault| Box::new(Rejection::new(&shown, &text, vec![*fault])))?;
+    let Some(stated) = definer.source.table.recording.as_ref() else {
+        return Ok(None);
+    };
+    let Some(requests) = requests(definer, names, &stated.value, &found) else {
+        return Ok(None);
+    };
+    let recording =
+        Recording::open(Files::Disk, &path, &requests, &definer.units).map_err(Box::new)?;
+    Ok(averaged(definer, names, &recording, stated, purpose))
+}
+
+/// The header of a role: as the file says, else the role's own name.
+fn header<'t>(table: &'t RecordingTable, role: &'t str) -> &'t str {
+    let columns = entries(&table.columns);
+    let mapped = columns.iter().find(|(name, _)| name == role);
+    mapped.map_or(role, |(_, header)| header.value.as_str())
+}
+
+fn is_there(found: &[Heading], header: &str) -> bool {
+    let wanted = header.trim();
+    found
+        .iter()
+        .any(|heading| heading.name == wanted || heading.text == wanted)
+}
+
+/// What to ask the recording for. Names that are neither declared nor recorded are faults of the file.
+fn requests(
+    definer: &mut Definer<'_>,
+    names: &Names,
+    table: &RecordingTable,
+    found: &[Heading],
+) -> Option<Vec<Request>> {
+    let before = definer.faults.len();
+    let mut requests = Vec::new();
+    for (role, place) in &names.columns {
+        let header = header(table, role);
+        let entry = entries(&definer.source.table.column)
+            .iter()
+            .find(|(name, _)| name == role)
+            .map(|(_, entry)| entry.value.clone());
+        let mapped = entries(&table.columns).iter().any(|(name, _)| name == role);
+        if !mapped && !is_there(found, header) {
+            let declared = entry.is_some();
+            definer
+                .faults
+                .push(not_recorded(role, place.clone(), declared, found, names));
+            continue;
+        }
+        let mut request = Request::numbers(role, header);
+        if let Some(unit) = entry.as_ref().and_then(|entry| entry.unit.as_ref()) {
+            request = request.in_unit(definer.unit(unit)?);
+        }
+        if let Some(like) = entry.as_ref().and_then(|entry| entry.like.as_ref()) {
+            request = request.like(definer.unit(like)?);
+        }
+        requests.push(request);
+    }
+    for role in &names.optional {
+        let header = header(table, role);
+        let known = requests.iter().any(|request| request.role == *role);
+        if !known && is_there(found, header) {
+            requests.push(Request::numbers(role, header));
+        }
+    }
+    for role in label_columns(definer) {
+        requests.push(Request::labels(&role, header(table, &role)));
+    }
+    for stated in [&table.time, &table.steps].into_iter().flatten() {
+        let role = &stated.value;
+        if !requests.iter().any(|request| request.role == *role) {
+            requests.push(Request::numbers(role, header(table, role)));
+        }
+    }
+    (definer.faults.len() == before).then_some(requests)
+}
+
+fn not_recorded(
+    role: &str,
+    place: std::ops::Range<usize>,
+    declared: bool,
+    found: &[Heading],
+    names: &Names,
+) -> Fault {
+    let headers: Vec<&str> = found.iter().map(|heading| heading.name.as_str()).collect();
+    let listed = headers.join(", ");
+    if declared {
+        return Fault::new(
+            UNKNOWN_SYMBOL,
+            place,
+            format!("the recording has no column {role}"),
+        )
+        .label("a column of the recording")
+        .help(format!(
+            "say which column it is: [recording] columns = {{ {role} = \"…\" }}; there are {listed}"
+        ));
+    }
+    let fault = Fault::new(
+        UNKNOWN_SYMBOL,
+        place,
+        format!("{role} is neither a parameter, an input nor a constant, and the recording has no such column"),
+    )
+    .label("not known");
+    let near = nearest(
+        role,
+        names.known().filter(|name| *name != role).chain(headers),
+    );
+    match near {
+        Some(near) => fault.help(format!("did you mean `{near}`?")),
+        None => fault.help(format!(
+            "list it under [parameter] if it is to be found, under [input] or [constant] if it is known; the columns are {listed}"
+        )),
+    }
+}
+
+/// The points of a recording: its rows, or the averages of its dwells.
+fn averaged(
+    definer: &mut Definer<'_>,
+    names: &Names,
+    recording: &Recording,
+    stated: &Stated<RecordingTable>,
+    purpose: Purpose,
+) -> Option<Points> {
+    let table = &stated.value;
+    let findings = findings(definer, names, recording, table);
+    let grave = findings
+        .iter()
+        .filter(|finding| finding.severity() == Severity::Error);
+    let mut refused = false;
+    for finding in grave {
+        refused = true;
+        let place = table
+            .file
+            .as_ref()
+            .map_or(stated.key.clone(), |file| file.span.clone());
+        definer.faults.push(
+            Fault::new(
+                RECORDING,
+                place,
+                format!("{}: {}", recording.name, finding.message()),
+            )
+            .label("this recording")
+            .help(finding.advice()),
+        );
+    }
+    if refused {
+        return None;
+    }
+    let tells_dwells = table.dwells.is_some() || table.steps.is_some();
+    let averages = table.averages.as_ref().map(|stated| stated.value);
+    let samples = averages.map_or(tells_dwells, |averages| !averages);
+    let mut points = if purpose == Purpose::Plan || !samples {
+        Points::of_rows(recording)
+    } else {
+        if !tells_dwells {
+            let place = table
+                .averages
+                .as_ref()
+                .map_or(stated.key.clone(), |s| s.span.clone());
+            definer.faults.push(
+                Fault::new(KEY, place, "samples are averaged in dwells, and nothing tells the dwells apart")
+                    .label("samples")
+                    .help("name the columns of labels that do, dwells = [\"position\"], or the stimulus, steps = \"omega\""),
+            );
+            return None;
+        }
+        let dwelling = dwelling(definer, recording, table)?;
+        let (points, lost) = Points::of_dwells(recording, &dwelling);
+        for dwell in &lost {
+            let name = dwell.label.clone().unwrap_or_default();
+            let line = recording.line(dwell.rows.start);
+            let rows = dwell.rows.len();
+            let place = stated.key.clone();
+            definer.faults.push(
+                Fault::new(RECORDING, place, format!(
+                    "{}: the dwell {name} from line {line} on has too few samples: {rows} before settling is left out", recording.name))
+                    .label("too few samples are left")
+                    .help("record longer, shorten `settle`, or lower `fewest`"),
+            );
+        }
+        points
+    };
+    points.findings = findings;
+    Some(points)
+}
+
+fn dwelling(
+    definer: &mut Definer<'_>,
+    recording: &Recording,
+    table: &RecordingTable,
+) -> Option<Dwelling> {
+    let time = table.time.as_ref().map(|stated| stated.value.clone());
+    let unit = time
+        .as_ref()
+        .and_then(|role| recording.column(role))
+        .and_then(|column| column.unit.clone())
+        .unwrap_or_else(Unit::one);
+    let mut in_time = |stated: &Option<Stated<crate::budget::values::Amount>>| match stated {
+        Some(amount) => definer.amount(amount, &unit).map(Some),
+        None => Some(None),
+    };
+    let settle = in_time(&table.settle)?.unwrap_or(0.0);
+    let dwell = in_time(&table.dwell)?;
+    let fewest = table.fewest.as_ref().map_or(2, |stated| stated.value);
+    Some(Dwelling {
+        labels: table
+            .dwells
+            .iter()
+            .flat_map(|list| &list.value)
+            .map(|stated| stated.value.clone())
+            .collect(),
+        stimulus: table.steps.as_ref().map(|stated| stated.value.clone()),
+        tolerance: table.tolerance.as_ref().map(|stated| stated.value),
+        time,
+        settling: Settling {
+            settle,
+            dwell,
+            fewest: usize::try_from(fewest).unwrap_or(usize::MAX).max(2),
+        },
+    })
+}
+
+/// What is doubtful in the recording.
+fn findings(
+    definer: &Definer<'_>,
+    names: &Names,
+    recording: &Recording,
+    table: &RecordingTable,
+) -> Vec<Finding> {
+    let outputs: Vec<&str> = names.responses.iter().map(String::as_str).collect();
+    let ranges: Vec<(&str, [f64; 2])> = entries(&table.ranges)
+        .iter()
+        .filter_map(|(role, range)| match range.value.as_slice() {
+            [low, high] => Some((role.as_str(), [low.value, high.value])),
+            _ => None,
+        })
+        .collect();
+    let positions = definer.source.table.positions.as_ref();
+    let expected: Vec<&str> = positions.map_or_else(Vec::new, |stated| expected(&stated.value));
+    let column = positions.and_then(|stated| stated.value.column.as_ref());
+    let averages = table.averages.as_ref().map(|stated| stated.value);
+    let samples = averages.map_or(table.dwells.is_some() || table.steps.is_some(), |a| !a);
+    let mut findings = check(
+        recording,
+        &Checks {
+            time: table.time.as_ref().map(|stated| stated.value.as_str()),
+            outputs: if samples { &outputs } else { &[] },
+            ranges: &ranges,
+            expected: column.map(|column| (column.value.as_str(), expected.as_slice())),
+            fewest: 1,
+        },
+    );
+    let optional = positions.map_or_else(HashSet::new, |stated| optional(&stated.value));
+    findings.retain(|finding| match &finding.problem {
+        crate::recording::Problem::LabelUnknown { label, .. } => !optional.contains(label.as_str()),
+        _ => true,
+    });
+    if !samples {
+        // Rows that are averages repeat positions, and equal averages are no saturation.
+        findings.retain(|finding| {
+            !matches!(
+                finding.problem,
+                crate::recording::Problem::LabelAgain { .. }
+            )
+        });
+    }
+    findings
+}
+
+/// Labels that must occur.
+fn expected(table: &PositionsTable) -> Vec<&str> {
+    let optional = optional(table);
+    let at = table.at.iter().flat_map(|named| &named.value.entries);
+    at.map(|(label, _)| label.as_str())
+        .filter(|label| !optional.contains(label))
+        .collect()
+}
+
+/// Labels that may be missing.
+fn optional(table: &PositionsTable) -> HashSet<&str> {
+    let listed = table.optional.iter().flat_map(|list| &list.value);
+    listed.map(|stated| stated.value.as_str()).collect()
+}
+
+/// Adds the quantities that positions give; whether that was possible.
+pub(super) fn positions(definer: &mut Definer<'_>, points: &mut Points) -> bool {
+    let Some(stated) = definer.source.table.positions.as_ref() else {
+        return true;
+    };
+    let table = &stated.value;
+    let before = definer.faults.len();
+    let (Some(column), Some(gives), Some(at)) = (&table.column, &table.gives, &table.at) else {
+        if !table.refused {
+            definer.faults.push(
+                Fault::new(POSITION, stated.key.clone(), "[positions] is not complete")
+                    .label("expected `column`, `gives` and `at`")
+                    .help("write column = \"position\", gives = [\"nx\", \"ny\", \"nz\"], at = { \"x up\" = [1, 0, 0] }"),
+            );
+        }
+        return false;
+    };
+    let count = gives.value.len();
+    for (label, values) in &at.value.entries {
+        if values.value.len() != count {
+            definer.faults.push(
+                Fault::new(
+                    POSITION,
+                    values.span.clone(),
+                    format!(
+                        "\"{label}\" has {} values, `gives` {count} names",
+                        values.value.len()
+                    ),
+                )
+                .label(format!("expected {count} values"))
+                .related(gives.span.clone(), "the names"),
+            );
+        }
+    }
+    let units = given_units(definer, table, count);
+    let Some(labels) = points.labels(&column.value).cloned() else {
+        definer.faults.push(
+            Fault::new(
+                POSITION,
+                column.span.clone(),
+                format!("there is no column {}", column.value),
+            )
+            .label("expected a column of labels"),
+        );
+        return false;
+    };
+    let rows: Option<Vec<&Vec<Stated<f64>>>> = (0..points.len())
+        .map(|row| {
+            let label = labels.text(row);
+            let found = at.value.entries.iter().find(|(name, _)| name == label);
+            if found.is_none() {
+                definer
+                    .faults
+                    .push(unknown_position(label, &points.names[row], table, stated));
+            }
+            found.map(|(_, values)| &values.value)
+        })
+        .collect();
+    let (Some(rows), Some(units)) = (rows, units) else {
+        return false;
+    };
+    if definer.faults.len() > before {
+        return false;
+    }
+    for (place, (name, unit)) in gives.value.iter().zip(units).enumerate() {
+        points.columns.push(PointColumn {
+            name: name.value.clone(),
+            unit,
+            values: rows.iter().map(|values| values[place].value).collect(),
+            averages: Vec::new(),
+        });
+    }
+    true
+}
+
+fn given_units(
+    definer: &mut Definer<'_>,
+    table: &PositionsTable,
+    count: usize,
+) -> Option<Vec<Unit>> {
+    let Some(units) = &table.units else {
+        return Some(vec![Unit::one(); count]);
+    };
+    if units.value.len() != count {
+        definer.faults.push(
+            Fault::new(
+                POSITION,
+                units.span.clone(),
+                format!("`units` has {} entries, `gives` {count}", units.value.len()),
+            )
+            .label(format!("expected {count} units")),
+        );
+        return None;
+    }
+    units.value.iter().map(|unit| definer.unit(unit)).collect()
+}
+
+fn unknown_position(
+    label: &str,
+    point: &str,
+    table: &PositionsTable,
+    stated: &Stated<PositionsTable>,
+) -> Fault {
+    let known: Vec<&str> = table
+        .at
+        .iter()
+        .flat_map(|named| &named.value.entries)
+        .map(|(name, _)| name.as_str())
+        .collect();
+    let fault = Fault::new(
+        POSITION,
+        stated.key.clone(),
+        format!("the position \"{label}\" of {point} is not known"),
+    )
+    .label("the known positions");
+    match nearest(label, known.iter().copied()) {
+        Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+        None => fault.help(format!("the positions are {}", known.join(", "))),
+    }
+}
+
+/// The points of a schedule in the file.
+fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Points> {
+    let table = &definer.source.table;
+    let stated = table.schedule.as_ref()?;
+    let before = definer.faults.len();
+    let mut points = Points::default();
+    let mut length: Option<(usize, std::ops::Range<usize>)> = None;
+    for (key, list) in entries(&table.schedule) {
+        let (first, place) = length.get_or_insert((list.value.len(), list.span.clone()));
+        if list.value.len() != *first {
+            definer.faults.push(
+                Fault::new(
+                    SCHEDULE,
+                    list.span.clone(),
+                    format!(
+                        "{key} has {} points, the first column {first}",
+                        list.value.len()
+                    ),
+                )
+                .label(format!("expected {first}"))
+                .related(place.clone(), "the first column"),
+            );
+            continue;
+        }
+        let heading = Heading::read(key, &definer.units);
+        let unit = match heading.unit {
+            Ok(unit) => unit.unwrap_or_else(Unit::one),
+            Err(error) => {
+                definer
+                    .faults
+                    .push(Fault::from(error).moved(|_| list.key.clone()));
+                continue;
+            }
+        };
+        let numbers: Option<Vec<f64>> = list
+            .value
+            .iter()
+            .map(|cell| match cell.value {
+                Cell::Number(number) => Some(number),
+                Cell::Text(_) => None,
+            })
+            .collect();
+        let is_label = label_columns(definer).contains(&heading.name);
+        match numbers {
+            Some(values) if !is_label => points.columns.push(PointColumn {
+                name: heading.name,
+                unit,
+                values,
+                averages: Vec::new(),
+            }),
+            _ => points.labels.push((heading.name, labels(&list.value))),
+        }
+    }
+    let count = length.map_or(0, |(count, _)| count);
+    points.names = (1..=count).map(|point| format!("point {point}")).collect();
+    for (role, place) in &names.columns {
+        if points.column(role).is_none() {
+            definer.faults.push(
+                Fault::new(
+                    SCHEDULE,
+                    stated.key.clone(),
+                    format!("the schedule has no column {role}"),
+                )
+                .label("the schedule")
+                .related(place.clone(), "needed here")
+                .help(format!(
+                    "add \"{role} [unit]\" = […] with one value for each point"
+                )),
+            );
+        }
+    }
+    (definer.faults.len() == before).then_some(points)
+}
+
+fn labels(cells: &[Stated<Cell>]) -> Labels {
+    let mut labels = Labels::default();
+    for cell in cells {
+        let text = match &cell.value {
+            Cell::Text(text) => text.clone(),
+            Cell::Number(number) => number.to_string(),
+        };
+        let level = labels.levels.iter().position(|other| *other == text);
+        let level = level.unwrap_or_else(|| {
+            labels.levels.push(text);
+            labels.levels.len() - 1
+        });
+        labels.of_row.push(u32::try_from(level).unwrap_or(u32::MAX));
+    }
+    labels
+}

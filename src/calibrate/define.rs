@@ -1,0 +1,807 @@
+//! From the tables of a file to a checked experiment.
+//!
+//! All faults of the file are told at once, each at its place; what a procedure of the library says wrong
+//! in the units of this recording is told at the place of its name.
+
+use std::path::Path;
+
+use super::data;
+use super::doubts;
+use super::experiment::{
+    Experiment, FunctionResult, Heading, Input, Observed, Omitted, Parameter, Scatter, Weights,
+    Words,
+};
+use super::faults::{NO_EQUATIONS, NO_PARAMETERS, RESULT, TERM, UNIT};
+use super::names::{Kind, Names};
+use super::points::Points;
+use super::source::{self, Source};
+use super::tables::{CalibrationTable, ScatterWord, WeightsWord};
+use crate::budget::Rejection;
+use crate::budget::doubts::text_of;
+use crate::budget::table::Stated;
+use crate::budget::values::{Amount, Named};
+use crate::equations::{EquationText, Equations, Quantity};
+use crate::fault::Fault;
+use crate::model::{Role, Symbol, outline};
+use crate::quantity::{Unit, UnitTable};
+
+/// What an experiment is read for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Its readings.
+    Calibrate,
+    /// Its schedule, before there are readings.
+    Plan,
+}
+
+/// Reads and checks a calibration file and what it names.
+///
+/// # Errors
+/// The file, or its recording, cannot be read or has faults.
+pub fn load(path: &Path, purpose: Purpose) -> Result<Experiment, Rejection> {
+    let text = text_of(path)?;
+    let folder = path.parent().unwrap_or_else(|| Path::new(""));
+    read(&text, &path.display().to_string(), folder, purpose)
+}
+
+/// Checks the text of a calibration file; its recording is looked up in `folder`.
+///
+/// # Errors
+/// As [`load`].
+pub fn read(
+    text: &str,
+    name: &str,
+    folder: &Path,
+    purpose: Purpose,
+) -> Result<Experiment, Rejection> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let reject = |faults| Rejection::new(name, text, faults);
+    let source = source::read(text).map_err(&reject)?;
+    let mut definer = Definer {
+        units: units_of(&source.table),
+        faults: source.faults.clone(),
+        source: &source,
+    };
+    let experiment = definer.experiment(folder, purpose);
+    let faults: Vec<Fault> = definer
+        .faults
+        .into_iter()
+        .map(|fault| source.in_own_text(fault))
+        .collect();
+    match experiment {
+        Ok(Some(experiment)) if faults.is_empty() => Ok(experiment),
+        Ok(_) => Err(reject(faults)),
+        // What is wrong in the recording is told after what is wrong in the file.
+        Err(recording) if faults.is_empty() => Err(*recording),
+        Err(recording) => {
+            let mut rejection = reject(faults);
+            rejection.others.push(*recording);
+            Err(rejection)
+        }
+    }
+}
+
+fn units_of(table: &CalibrationTable) -> UnitTable {
+    let mut units = UnitTable::default();
+    let stated = entries(&table.unit);
+    let pairs = stated
+        .iter()
+        .map(|(name, definition)| (name.as_str(), definition.value.as_str()));
+    // Wrong definitions are told by the check of the inputs.
+    let _ = units.define_all(pairs);
+    units
+}
+
+/// The named entries of an optional table.
+pub(super) fn entries<T>(named: &Option<Stated<Named<T>>>) -> &[(String, Stated<T>)] {
+    named.as_ref().map_or(&[], |stated| &stated.value.entries)
+}
+
+impl Source {
+    /// A fault inside the procedure's text, at the place of the procedure's name.
+    fn in_own_text(&self, mut fault: Fault) -> Fault {
+        let own = |span: &std::ops::Range<usize>| span.start <= self.own;
+        fault.related.retain(|(span, _)| own(span));
+        let Some(procedure) = self.procedure.as_ref().filter(|_| !own(&fault.span)) else {
+            return fault;
+        };
+        let line = self.text[..fault.span.start]
+            .rfind('\n')
+            .map_or(0, |at| at + 1);
+        let said = self.text[line..].lines().next().unwrap_or_default().trim();
+        fault.message = format!(
+            "{}, in the procedure {}: {said}",
+            fault.message, procedure.value
+        );
+        fault.span = procedure.span.clone();
+        fault
+    }
+}
+
+/// What all checks share.
+pub(super) struct Definer<'s> {
+    pub units: UnitTable,
+    pub faults: Vec<Fault>,
+    pub source: &'s Source,
+}
+
+impl Definer<'_> {
+    fn experiment(
+        &mut self,
+        folder: &Path,
+        purpose: Purpose,
+    ) -> Result<Option<Experiment>, Box<Rejection>> {
+        let table = &self.source.table;
+        if table
+            .equations
+            .as_ref()
+            .is_none_or(|list| list.value.is_empty())
+        {
+            if !table.refused {
+                let place = table
+                    .equations
+                    .as_ref()
+                    .map_or(0..0, |list| list.span.clone());
+                self.faults.push(
+                    Fault::new(NO_EQUATIONS, place, "the calibration has no equations")
+                        .help("name a `procedure`, or write equations = [\"U = K*omega + b\"]"),
+                );
+            }
+            return Ok(None);
+        }
+        if entries(&table.parameter).is_empty() {
+            self.faults.push(
+                Fault::new(NO_PARAMETERS, 0..0, "the calibration has no parameters")
+                    .help("list what is to be found: [parameter], then a line `K = {}` for each"),
+            );
+            return Ok(None);
+        }
+        let Some(names) = Names::of(self, purpose) else {
+            return Ok(None);
+        };
+        let Some(mut points) = data::points(self, &names, folder, purpose)? else {
+            return Ok(None);
+        };
+        if !data::positions(self, &mut points) {
+            return Ok(None);
+        }
+        Ok(self.compiled(&names, points, folder))
+    }
+
+    /// Units, equations and doubts, once the columns are known.
+    fn compiled(&mut self, names: &Names, points: Points, folder: &Path) -> Option<Experiment> {
+        let table = &self.source.table;
+        let columns: Vec<Quantity> = points
+            .columns
+            .iter()
+            .filter(|column| names.kind(&column.name) == Some(Kind::Column))
+            .map(|column| Quantity {
+                name: column.name.clone(),
+                unit: column.unit.clone(),
+            })
+            .collect();
+        let doubts = doubts::of(self, names, &columns, folder)?;
+        let constants: Vec<Symbol> = doubts
+            .constants
+            .iter()
+            .map(|(name, unit, values)| Symbol {
+                name: name.clone(),
+                unit: unit.clone(),
+                role: match values.as_slice() {
+                    [value] => Role::Constant(*value),
+                    values => Role::ConstantVector(values.to_vec()),
+                },
+            })
+            .collect();
+        let responses = self.responses(names, &columns, &doubts.inputs, &doubts.constants);
+        let parameters = self.parameters(&columns, &doubts, &constants, &responses.quantities)?;
+        let symbols: Vec<Quantity> = columns
+            .iter()
+            .cloned()
+            .chain(parameters.iter().map(|p| quantity(&p.name, &p.unit)))
+            .chain(doubts.inputs.iter().map(|i| quantity(&i.name, &i.unit)))
+            .collect();
+        let shared = table.model.as_ref().map(equation_text);
+        let texts: Vec<EquationText<'_>> = table
+            .equations
+            .iter()
+            .flat_map(|list| &list.value)
+            .map(equation_text)
+            .collect();
+        let equations = Equations::compile_after(
+            shared.as_ref(),
+            &texts,
+            &symbols,
+            &responses.quantities,
+            &constants,
+            &self.units,
+        );
+        let equations = match equations {
+            Ok(equations) => equations,
+            Err(faults) => {
+                self.faults.extend(faults);
+                return None;
+            }
+        };
+        self.idle(&equations, &columns, &parameters, &doubts.inputs);
+        let omitted = self.omitted(&equations, &symbols, &constants);
+        let results = self.results(&parameters, &doubts.inputs, &constants);
+        Some(Experiment {
+            heading: self.heading(),
+            units: self.units.clone(),
+            own_units: entries(&table.unit)
+                .iter()
+                .map(|(name, definition)| (name.clone(), definition.value.clone()))
+                .collect(),
+            observed: responses.observed_of(&equations),
+            points,
+            columns,
+            parameters,
+            inputs: doubts.inputs,
+            equations,
+            doubts: doubts.doubts,
+            omitted,
+            results,
+            scatter: table.scatter.as_ref().map(|word| match word.value {
+                ScatterWord::Residuals => Scatter::Residuals,
+                ScatterWord::Dwells => Scatter::Dwells,
+                ScatterWord::Stated => Scatter::Stated,
+            }),
+            weights: match table.weights.as_ref().map(|word| word.value) {
+                Some(WeightsWord::Readings) => Weights::Readings,
+                _ => Weights::Equal,
+            },
+            separately: table.separately.as_ref().map(|stated| stated.value.clone()),
+            coverage_probability: doubts.coverage_probability,
+            remarks: doubts.remarks,
+        })
+    }
+
+    fn responses(
+        &self,
+        names: &Names,
+        columns: &[Quantity],
+        inputs: &[Input],
+        constants: &[(String, Unit, Vec<f64>)],
+    ) -> Responses {
+        let mut responses = Responses::default();
+        let mut add = |name: &str, unit: &Unit, observed: Observed| {
+            responses.quantities.push(quantity(name, unit));
+            responses.observed.push(observed);
+        };
+        for name in &names.responses {
+            if let Some(column) = columns.iter().find(|column| column.name == *name) {
+                add(name, &column.unit, Observed::Column(name.clone()));
+            } else if let Some(place) = inputs.iter().position(|input| input.name == *name) {
+                add(name, &inputs[place].unit, Observed::Input(place));
+            } else if let Some((_, unit, values)) =
+                constants.iter().find(|(other, ..)| other == name)
+                && let [value] = values.as_slice()
+            {
+                add(name, unit, Observed::Constant(*value));
+            } else if let Some(unit) = self.planned_unit(name) {
+                // A plan has no readings; the unit of its responses is stated, or follows.
+                add(name, &unit, Observed::Column(name.clone()));
+            }
+        }
+        responses
+    }
+
+    /// The unit of a response that is not recorded yet, for its errors.
+    pub(super) fn response_unit(&self, name: &str) -> Unit {
+        self.planned_unit(name).unwrap_or_else(Unit::one)
+    }
+
+    /// The unit of a response that is not recorded yet.
+    fn planned_unit(&self, name: &str) -> Option<Unit> {
+        let table = &self.source.table;
+        let column = entries(&table.column)
+            .iter()
+            .find(|(other, _)| other == name);
+        let reading = entries(&table.reading)
+            .iter()
+            .find(|(other, _)| other == name);
+        let stated = column
+            .and_then(|(_, entry)| entry.value.unit.as_ref())
+            .or_else(|| reading.and_then(|(_, entry)| entry.value.input.unit.as_ref()))
+            .or_else(|| column.and_then(|(_, entry)| entry.value.like.as_ref()));
+        stated.map_or_else(
+            || Some(Unit::one()),
+            |stated| self.units.parse(&stated.value).ok(),
+        )
+    }
+
+    fn parameters(
+        &mut self,
+        columns: &[Quantity],
+        doubts: &doubts::Doubts,
+        constants: &[Symbol],
+        responses: &[Quantity],
+    ) -> Option<Vec<Parameter>> {
+        let stated = entries(&self.source.table.parameter);
+        let mut known: Vec<Symbol> = constants.to_vec();
+        let others = columns.iter().cloned().chain(
+            doubts
+                .inputs
+                .iter()
+                .map(|input| quantity(&input.name, &input.unit)),
+        );
+        known.extend(others.map(symbol));
+        let mut units: Vec<Option<Unit>> = Vec::new();
+        for (name, entry) in stated {
+            let unit = match (&entry.value.unit, &entry.value.like) {
+                (Some(text), _) => Some(self.unit(text)?),
+                (None, Some(like)) => Some(self.unit_like(like, &known, responses)?),
+                (None, None) => doubts
+                    .priors
+                    .iter()
+                    .find(|p| p.0 == *name)
+                    .map(|p| p.1.clone()),
+            };
+            if let Some(unit) = &unit {
+                known.push(symbol(quantity(name, unit)));
+            }
+            units.push(unit);
+        }
+        let open: Vec<String> = stated
+            .iter()
+            .zip(&units)
+            .filter(|(_, unit)| unit.is_none())
+            .map(|((name, _), _)| name.clone())
+            .collect();
+        let found = self.inferred(&open, &known, responses);
+        let mut parameters = Vec::new();
+        for ((name, entry), unit) in stated.iter().zip(units) {
+            let inferred = || {
+                let place = open.iter().position(|other| other == name)?;
+                found[place].clone()
+            };
+            // Where nothing tells the unit, it is one; the equation then says what does not fit.
+            let unit = unit.or_else(inferred).unwrap_or_else(Unit::one);
+            let start = match &entry.value.start {
+                Some(start) => Some(self.amount(start, &unit)?),
+                None => None,
+            };
+            let known = doubts.priors.iter().find(|p| p.0 == *name).map(|p| p.2);
+            parameters.push(Parameter {
+                name: name.clone(),
+                description: words(&entry.value.description, &entry.value.description_zh),
+                start: start.or(known.map(|prior| prior.value)),
+                unit,
+                known,
+            });
+        }
+        Some(parameters)
+    }
+
+    /// Units that parameters have because they are factors of a term of an equation.
+    fn inferred(
+        &self,
+        open: &[String],
+        known: &[Symbol],
+        responses: &[Quantity],
+    ) -> Vec<Option<Unit>> {
+        let mut found = vec![None; open.len()];
+        let table = &self.source.table;
+        let shared = table
+            .model
+            .as_ref()
+            .map_or("", |model| model.value.as_str());
+        for text in table.equations.iter().flat_map(|list| &list.value) {
+            let Ok(outline) = outline(&format!("{shared}\n{}", text.value), &self.units) else {
+                continue;
+            };
+            let gives = outline.gives.as_ref().map(|(name, _)| name.as_str());
+            let Some(response) = responses.iter().find(|r| Some(r.name.as_str()) == gives) else {
+                continue;
+            };
+            let units = outline.parameter_units(open, known, &response.unit, &self.units);
+            for (own, unit) in found.iter_mut().zip(units) {
+                if own.is_none() {
+                    *own = unit;
+                }
+            }
+        }
+        found
+    }
+
+    /// A unit as a formula of quantities: that of `U/omega`.
+    pub(super) fn unit_like(
+        &mut self,
+        like: &Stated<String>,
+        known: &[Symbol],
+        responses: &[Quantity],
+    ) -> Option<Unit> {
+        let mut symbols: Vec<Symbol> = known.to_vec();
+        for response in responses {
+            if !symbols.iter().any(|symbol| symbol.name == response.name) {
+                symbols.push(symbol(response.clone()));
+            }
+        }
+        let text = format!("unit_sought = unit_sought_factor * (1 / ({}))", like.value);
+        let unknown = ["unit_sought_factor".to_owned()];
+        let found = outline(&text, &self.units).ok().and_then(|outline| {
+            let units = outline.parameter_units(&unknown, &symbols, &Unit::one(), &self.units);
+            units.into_iter().next().flatten()
+        });
+        if found.is_none() {
+            self.faults.push(
+                Fault::new(
+                    UNIT,
+                    like.span.clone(),
+                    format!("the unit of `{}` cannot be found", like.value),
+                )
+                .label("expected a product or quotient of columns and inputs")
+                .help("state the unit itself: unit = \"mV/(deg/s)\""),
+            );
+        }
+        found
+    }
+
+    /// A stated unit.
+    pub(super) fn unit(&mut self, stated: &Stated<String>) -> Option<Unit> {
+        match self.units.parse(&stated.value) {
+            Ok(unit) => Some(unit),
+            Err(error) => {
+                self.faults
+                    .push(Fault::from(error).moved(|_| stated.span.clone()));
+                None
+            }
+        }
+    }
+
+    /// A stated amount in a unit.
+    pub(super) fn amount(&mut self, stated: &Stated<Amount>, unit: &Unit) -> Option<f64> {
+        let Some((text, place)) = &stated.value.unit else {
+            return Some(stated.value.number);
+        };
+        let own = match self.units.parse(text) {
+            Ok(own) => own,
+            Err(error) => {
+                self.faults
+                    .push(Fault::from(error).moved(|_| place.clone()));
+                return None;
+            }
+        };
+        let converted = own.conversion_to(unit);
+        if converted.is_none() {
+            self.faults.push(
+                Fault::new(
+                    UNIT,
+                    place.clone(),
+                    format!("{} cannot be converted to {}", own.symbol, unit.symbol),
+                )
+                .label(format!("expected {} or a unit like it", unit.symbol)),
+            );
+        }
+        converted.map(|conversion| conversion.apply(stated.value.number))
+    }
+
+    /// Parameters and inputs that no equation uses.
+    fn idle(
+        &mut self,
+        equations: &Equations,
+        columns: &[Quantity],
+        parameters: &[Parameter],
+        inputs: &[Input],
+    ) {
+        let used = |place: usize| {
+            (0..equations.responses().len()).any(|r| equations.uses(r).contains(&place))
+        };
+        let results = entries(&self.source.table.result);
+        let in_results = |name: &str| {
+            let contains = |text: &Stated<String>| {
+                outline(&text.value, &self.units)
+                    .is_ok_and(|outline| outline.needs.iter().any(|(need, _)| need == name))
+            };
+            results
+                .iter()
+                .any(|(_, entry)| entry.value.model.as_ref().is_some_and(contains))
+        };
+        let mut faults = Vec::new();
+        for (place, parameter) in parameters.iter().enumerate() {
+            if !used(columns.len() + place) {
+                let own = entries(&self.source.table.parameter);
+                let entry = own.iter().find(|(name, _)| *name == parameter.name);
+                let place = entry.map_or(0..0, |(_, entry)| entry.key.clone());
+                faults.push(unused(&parameter.name, place, "parameter"));
+            }
+        }
+        for (place, input) in inputs.iter().enumerate() {
+            let place = columns.len() + parameters.len() + place;
+            let is_response = equations.responses().iter().any(|r| r.name == input.name);
+            if !used(place) && !is_response && !in_results(&input.name) {
+                let entry = entries(&self.source.table.input)
+                    .iter()
+                    .find(|(n, _)| *n == input.name);
+                let place = entry.map_or(0..0, |(_, entry)| entry.key.clone());
+                faults.push(unused(&input.name, place, "input"));
+            }
+        }
+        self.faults.extend(faults);
+    }
+
+    fn omitted(
+        &mut self,
+        equations: &Equations,
+        symbols: &[Quantity],
+        constants: &[Symbol],
+    ) -> Vec<Omitted> {
+        let table = &self.source.table;
+        let shared = table.model.as_ref().map(equation_text);
+        let mut all = Vec::new();
+        for (name, entry) in entries(&table.omitted) {
+            // What is estimated, or known with an uncertainty, is no longer left out.
+            if symbols.iter().any(|symbol| symbol.name == *name)
+                || !self.has_columns(entry, symbols)
+            {
+                continue;
+            }
+            let found = self.omitted_one(name, entry, equations, symbols, constants, &shared);
+            all.extend(found);
+        }
+        all
+    }
+
+    /// Whether the recording has what a procedure's omitted term needs; a term of the file itself must
+    /// say what it needs.
+    fn has_columns(
+        &self,
+        entry: &Stated<super::tables::OmittedTable>,
+        symbols: &[Quantity],
+    ) -> bool {
+        let term = entry.value.term.as_ref();
+        if !self.source.is_base(&entry.key) {
+            return true;
+        }
+        let missing = |name: &String| {
+            !symbols.iter().any(|symbol| symbol.name == *name)
+                && entries(&self.source.table.column)
+                    .iter()
+                    .any(|(other, _)| other == name)
+        };
+        let needs = term.and_then(|term| outline(&term.value, &self.units).ok());
+        needs.is_none_or(|outline| !outline.needs.iter().any(|(name, _)| missing(name)))
+    }
+
+    fn omitted_one(
+        &mut self,
+        name: &str,
+        entry: &Stated<super::tables::OmittedTable>,
+        equations: &Equations,
+        symbols: &[Quantity],
+        constants: &[Symbol],
+        shared: &Option<EquationText<'_>>,
+    ) -> Option<Omitted> {
+        let fault =
+            |message: String, help: &str| Fault::new(TERM, entry.key.clone(), message).help(help);
+        let Some(term) = &entry.value.term else {
+            if !entry.value.refused {
+                self.faults.push(fault(
+                    format!("the omitted effect {name} has no `term`"),
+                    "write what it adds to the equation: term = \"k2*omega^2\"",
+                ));
+            }
+            return None;
+        };
+        let responses = equations.responses();
+        let response = match &entry.value.response {
+            Some(stated) => responses.iter().position(|r| r.name == stated.value),
+            None if responses.len() == 1 => Some(0),
+            None => None,
+        };
+        let Some(response) = response else {
+            let known: Vec<&str> = responses.iter().map(|r| r.name.as_str()).collect();
+            self.faults.push(fault(
+                format!("to which equation does the omitted effect {name} belong?"),
+                &format!("write response = \"…\" with one of {}", known.join(", ")),
+            ));
+            return None;
+        };
+        let result = &responses[response];
+        let line = format!("{} = {}", result.name, term.value);
+        let known: Vec<Symbol> = constants
+            .iter()
+            .cloned()
+            .chain(
+                symbols
+                    .iter()
+                    .filter(|s| s.name != result.name)
+                    .cloned()
+                    .map(symbol),
+            )
+            .collect();
+        let unit = match (&entry.value.unit, &entry.value.like) {
+            (Some(text), _) => self.unit(text)?,
+            (None, Some(like)) => self.unit_like(like, &known, responses)?,
+            (None, None) => {
+                let before = shared.as_ref().map_or("", |shared| shared.text);
+                let outline = outline(&format!("{before}\n{line}"), &self.units).ok();
+                let open = [name.to_owned()];
+                outline
+                    .and_then(|o| {
+                        let units = o.parameter_units(&open, &known, &result.unit, &self.units);
+                        units.into_iter().next().flatten()
+                    })
+                    .unwrap_or_else(Unit::one)
+            }
+        };
+        let typical = match &entry.value.typical {
+            Some(typical) => Some(self.amount(typical, &unit)?.abs()),
+            None => None,
+        };
+        let mut all = symbols.to_vec();
+        all.push(quantity(name, &unit));
+        let text = EquationText {
+            text: &line,
+            at: term.span.clone(),
+        };
+        let compiled = Equations::compile_after(
+            shared.as_ref(),
+            &[text],
+            &all,
+            responses,
+            constants,
+            &self.units,
+        );
+        match compiled {
+            Ok(equation) => Some(Omitted {
+                name: name.to_owned(),
+                description: words(&entry.value.description, &entry.value.description_zh),
+                term: term.value.clone(),
+                unit,
+                typical,
+                response,
+                equation,
+            }),
+            Err(faults) => {
+                let placed = faults
+                    .into_iter()
+                    .map(|fault| fault.moved(|_| term.span.clone()));
+                self.faults.extend(placed);
+                None
+            }
+        }
+    }
+
+    fn results(
+        &mut self,
+        parameters: &[Parameter],
+        inputs: &[Input],
+        constants: &[Symbol],
+    ) -> Vec<FunctionResult> {
+        let symbols: Vec<Quantity> = parameters
+            .iter()
+            .map(|p| quantity(&p.name, &p.unit))
+            .chain(inputs.iter().map(|i| quantity(&i.name, &i.unit)))
+            .collect();
+        let known: Vec<Symbol> = constants
+            .iter()
+            .cloned()
+            .chain(symbols.iter().cloned().map(symbol))
+            .collect();
+        let mut results = Vec::new();
+        for (name, entry) in entries(&self.source.table.result) {
+            let Some(model) = &entry.value.model else {
+                if !entry.value.refused {
+                    self.faults.push(
+                        Fault::new(
+                            RESULT,
+                            entry.key.clone(),
+                            format!("the result {name} has no `model`"),
+                        )
+                        .help("write its formula: model = \"sqrt(K1^2 + K2^2)\""),
+                    );
+                }
+                continue;
+            };
+            let unit = match (&entry.value.unit, &entry.value.like) {
+                (Some(text), _) => self.unit(text),
+                (None, Some(like)) => self.unit_like(like, &known, &[]),
+                (None, None) => Some(Unit::one()),
+            };
+            let Some(unit) = unit else { continue };
+            let line = format!("{name} = {}", model.value);
+            let text = EquationText {
+                text: &line,
+                at: model.span.clone(),
+            };
+            let response = [quantity(name, &unit)];
+            match Equations::compile(&[text], &symbols, &response, constants, &self.units) {
+                Ok(equation) => results.push(FunctionResult {
+                    name: name.clone(),
+                    description: words(&entry.value.description, &entry.value.description_zh),
+                    unit,
+                    equation,
+                }),
+                Err(faults) => {
+                    let placed = faults
+                        .into_iter()
+                        .map(|fault| fault.moved(|_| model.span.clone()));
+                    self.faults.extend(placed);
+                }
+            }
+        }
+        results
+    }
+
+    fn heading(&self) -> Heading {
+        let table = &self.source.table;
+        let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|s| s.value.clone());
+        Heading {
+            title: words(&table.title, &table.title_zh).unwrap_or_default(),
+            description: words(&table.description, &table.description_zh),
+            procedure: self
+                .source
+                .procedure
+                .as_ref()
+                .map(|stated| stated.value.clone()),
+            reference: text(&table.reference),
+            object: text(&table.object),
+            author: text(&table.author),
+            date: table.date.as_ref().map(|date| date.value.0.clone()),
+            note: text(&table.note),
+        }
+    }
+}
+
+/// The responses, whether or not they are in the points.
+#[derive(Default)]
+struct Responses {
+    quantities: Vec<Quantity>,
+    observed: Vec<Observed>,
+}
+
+impl Responses {
+    /// In the order of the equations.
+    fn observed_of(&self, equations: &Equations) -> Vec<Observed> {
+        let of = |response: &Quantity| {
+            let place = self.quantities.iter().position(|q| q.name == response.name);
+            place.map_or(Observed::Constant(f64::NAN), |place| {
+                self.observed[place].clone()
+            })
+        };
+        equations.responses().iter().map(of).collect()
+    }
+}
+
+fn unused(name: &str, place: std::ops::Range<usize>, what: &str) -> Fault {
+    Fault::new(
+        super::faults::UNUSED,
+        place,
+        format!("no equation uses the {what} {name}"),
+    )
+    .label("not used")
+    .help("use it in an equation, or remove it")
+}
+
+pub(super) fn equation_text(stated: &Stated<String>) -> EquationText<'_> {
+    EquationText {
+        text: &stated.value,
+        at: stated.span.clone(),
+    }
+}
+
+pub(super) fn words(en: &Option<Stated<String>>, zh: &Option<Stated<String>>) -> Option<Words> {
+    let en = en.as_ref()?.value.clone();
+    let zh = zh
+        .as_ref()
+        .map_or_else(|| en.clone(), |zh| zh.value.clone());
+    Some(Words { en, zh })
+}
+
+pub(super) fn quantity(name: &str, unit: &Unit) -> Quantity {
+    Quantity {
+        name: name.to_owned(),
+        unit: unit.clone(),
+    }
+}
+
+/// A symbol for the inference of units, where its place does not matter.
+fn symbol(quantity: Quantity) -> Symbol {
+    Symbol {
+        name: quantity.name,
+        unit: quantity.unit,
+        role: Role::Input(0),
+    }
+}

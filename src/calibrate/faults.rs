@@ -1,0 +1,56 @@
+//! Codes of the faults in calibration files.
+
+use crate::fault::Code;
+
+macro_rules! codes {
+    ($($name:ident = $id:literal, $title:literal, $explanation:literal;)*) => {
+        $(
+            #[doc = $title]
+            pub const $name: Code = Code { id: $id, title: $title, explanation: $explanation };
+        )*
+
+        /// All codes of this module.
+        pub const CODES: &[Code] = &[$($name),*];
+    };
+}
+
+codes! {
+    NO_PROCEDURE = "C0101", "a procedure is not in the library",
+        "`procedure` names a procedure of the library. A file without it states its own `equations`.";
+    NO_EQUATIONS = "C0102", "a calibration has no equations",
+        "What is observed, and how it depends on the coefficients, is said by `equations`, or by a `procedure` of the library.\n\n    equations = [\"U = K*omega + b\"]";
+    NO_PARAMETERS = "C0103", "a calibration estimates nothing",
+        "Coefficients that the calibration shall find are listed as parameters.\n\n    [parameter]\n    K = {}\n    b = {}";
+    UNKNOWN_SYMBOL = "C0104", "a name of the equations is not known",
+        "Names in equations are columns of the recording, quantities that [positions] gives, parameters, inputs or constants.";
+    NAME_TWICE = "C0105", "a name stands for two things",
+        "Columns, positions, inputs, constants and results need names of their own. Only a parameter may be an input as well: it is then partly known.";
+    UNUSED = "C0106", "something is stated that no equation uses",
+        "A parameter that no equation contains cannot be found; an input that none contains has no effect. A misspelt name is the usual cause.";
+    NO_DATA = "C0107", "a calibration has no data",
+        "`calibrate` needs a [recording] with the response columns; `plan` a [recording] or a [schedule] with the other columns.";
+    POSITION = "C0108", "a position is not known",
+        "[positions] says what each label of a column stands for. A label that occurs in the recording must be there, and each label there must occur in the recording, unless it is among `optional`.";
+    STATE_INPUT = "C0109", "a quantity of the set-up must be stated",
+        "The procedure needs a value that only the laboratory knows: a resistor, the local acceleration of free fall, a rate. State it in the file with its uncertainty, or as a [constant].";
+    VALUE_MISSING = "C0110", "a value is missing in a point",
+        "A point of the experiment lacks a value that the right side of an equation needs.";
+    TOO_FEW = "C0111", "there are too few points",
+        "The parameters cannot be found from fewer readings than parameters. To tell their scatter from the residuals, there must be more.";
+    SCATTER = "C0112", "the scatter of the readings is not known",
+        "With as many parameters as readings there are no residuals; averages without their samples do not tell their scatter. State the errors of the readings in [reading.NAME] and write scatter = \"stated\".";
+    START = "C0113", "a search has no place to begin",
+        "The equations are not linear in the parameters. State roughly where the search begins: [parameter.K] start = 0.2. Parameters that enter linearly once the others are held need none.";
+    KEY = "C0114", "a key has no meaning here",
+        "The key belongs to another way of stating the same, or to another table.";
+    UNIT = "C0115", "the unit cannot be found",
+        "State the unit: unit = \"mA/gn\".";
+    RECORDING = "C0116", "a recording cannot be used as it is",
+        "Times that go backwards, columns without any number, too few rows: nothing is computed from such a recording.";
+    SCHEDULE = "C0117", "a schedule is not well formed",
+        "[schedule] lists the points of an experiment column by column, all of one length; keys are headings with units.\n\n    [schedule]\n    \"theta [deg]\" = [0, 90, 180, 270]";
+    RESULT = "C0118", "a result cannot be evaluated",
+        "Results are formulas of parameters, inputs and constants.";
+    TERM = "C0119", "an omitted term is not well formed",
+        "The term is what the effect would add to the equation of its response; its coefficient is the name of the entry.\n\n    [omitted.k2]\n    term = \"k2*omega^2\"";
+}

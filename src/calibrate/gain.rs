@@ -1,0 +1,169 @@
+//! How coefficients follow readings, columns and inputs: the derivatives of the estimator.
+
+use nalgebra::DMatrix;
+
+use super::experiment::{Experiment, Observed, Scope, Target};
+use super::stack::{Row, Stack};
+use crate::least_squares::Solution;
+
+/// Derivatives of the coefficients (parameters, then results), one row for each, one column for each
+/// observed value.
+pub(super) struct Gain {
+    /// ∂coefficient/∂observed value.
+    pub by_observed: DMatrix<f64>,
+    /// ∂coefficient/∂column, for every column.
+    pub by_column: Vec<DMatrix<f64>>,
+    /// ∂coefficient/∂input in that row alone, for every input.
+    pub by_input: Vec<DMatrix<f64>>,
+    /// ∂result/∂input in the formula of the result itself: coefficients × inputs.
+    pub direct: DMatrix<f64>,
+}
+
+impl Gain {
+    /// The derivatives of the estimator, as the solver found them.
+    pub fn of_solution(stack: &Stack<'_>, solution: &Solution) -> Gain {
+        let columns = stack.experiment.columns.len();
+        let parts = Gain {
+            by_observed: solution.by_y.clone(),
+            by_column: solution.by_x[1..=columns].to_vec(),
+            by_input: solution.by_x[1 + columns..].to_vec(),
+            direct: DMatrix::zeros(0, 0),
+        };
+        parts.with_results(stack.experiment, &solution.parameters)
+    }
+
+    /// The derivatives of the estimator of the equations linearised at `parameters`, for rows of these
+    /// standard uncertainties.
+    pub fn linear(stack: &Stack<'_>, parameters: &[f64], u: &[f64]) -> Option<Gain> {
+        let experiment = stack.experiment;
+        let jacobian = stack.jacobian(parameters, u);
+        let mut by_observed = jacobian.pseudo_inverse(1e-12).ok()?;
+        for (mut column, u) in by_observed.column_iter_mut().zip(u) {
+            column /= *u;
+        }
+        let count = experiment.symbols();
+        let mut by_symbol = vec![by_observed.clone(); count];
+        let mut slopes = vec![0.0; count];
+        for (index, row) in stack.rows.iter().enumerate() {
+            match row {
+                Row::Reading { response, .. } => {
+                    let symbols = stack.symbols(index, parameters);
+                    experiment.equations.at(*response, &symbols, &mut slopes);
+                }
+                Row::Prior { .. } => slopes.fill(0.0),
+            }
+            for (gain, slope) in by_symbol.iter_mut().zip(&slopes) {
+                let mut column = gain.column_mut(index);
+                column *= if *slope == 0.0 { 0.0 } else { -slope };
+            }
+        }
+        let parts = Gain {
+            by_observed,
+            by_column: by_symbol[..experiment.columns.len()].to_vec(),
+            by_input: by_symbol[experiment.input_places()].to_vec(),
+            direct: DMatrix::zeros(0, 0),
+        };
+        Some(parts.with_results(experiment, parameters))
+    }
+
+    /// With a row for each result below those of the parameters.
+    fn with_results(self, experiment: &Experiment, parameters: &[f64]) -> Gain {
+        let (count, inputs) = (parameters.len(), experiment.inputs.len());
+        let all = count + experiment.results.len();
+        let mut map = DMatrix::zeros(all, count);
+        let mut direct = DMatrix::zeros(all, inputs);
+        map.view_mut((0, 0), (count, count)).fill_with_identity();
+        let values: Vec<f64> = parameters
+            .iter()
+            .copied()
+            .chain(experiment.inputs.iter().map(|input| input.value))
+            .collect();
+        let mut slopes = vec![0.0; values.len()];
+        for (index, result) in experiment.results.iter().enumerate() {
+            result.equation.at(0, &values, &mut slopes);
+            for (place, slope) in slopes.iter().enumerate() {
+                if place < count {
+                    map[(count + index, place)] = *slope;
+                } else {
+                    direct[(count + index, place - count)] = *slope;
+                }
+            }
+        }
+        let mapped = |matrices: Vec<DMatrix<f64>>| matrices.iter().map(|m| &map * m).collect();
+        Gain {
+            by_observed: &map * &self.by_observed,
+            by_column: mapped(self.by_column),
+            by_input: mapped(self.by_input),
+            direct,
+        }
+    }
+
+    /// Number of coefficients.
+    pub fn coefficients(&self) -> usize {
+        self.by_observed.nrows()
+    }
+
+    /// Change of the coefficients by an error of one of a target's values, row by row.
+    fn by_row(&self, stack: &Stack<'_>, target: &Target) -> DMatrix<f64> {
+        let mut gain = DMatrix::zeros(self.coefficients(), stack.rows.len());
+        let observes = |response: usize| match (&stack.experiment.observed[response], target) {
+            (Observed::Column(name), Target::Reading(column)) => name == column,
+            (Observed::Input(own), Target::Input(place)) => own == place,
+            _ => false,
+        };
+        for (index, row) in stack.rows.iter().enumerate() {
+            let Row::Reading { response, .. } = row else {
+                continue;
+            };
+            if observes(*response) {
+                let mut column = gain.column_mut(index);
+                column += self.by_observed.column(index);
+            }
+        }
+        match target {
+            Target::Input(place) => gain += &self.by_input[*place],
+            Target::Reading(name) => {
+                let columns = &stack.experiment.columns;
+                if let Some(place) = columns.iter().position(|column| column.name == *name) {
+                    gain += &self.by_column[place];
+                }
+            }
+        }
+        gain
+    }
+
+    /// Change of the coefficients by each of the errors of a target, which acts within a scope: one
+    /// column for each error.
+    pub fn by_errors(&self, stack: &Stack<'_>, target: &Target, scope: &Scope) -> DMatrix<f64> {
+        let by_row = self.by_row(stack, target);
+        let levels = levels(stack, scope);
+        let count = levels.iter().max().map_or(0, |last| last + 1);
+        let mut by_level = DMatrix::zeros(by_row.nrows(), count);
+        for (index, level) in levels.iter().enumerate() {
+            let mut column = by_level.column_mut(*level);
+            column += by_row.column(index);
+        }
+        if let (Target::Input(place), Scope::Common, true) = (target, scope, count > 0) {
+            let mut column = by_level.column_mut(0);
+            column += self.direct.column(*place);
+        }
+        by_level
+    }
+}
+
+/// Which error of a scope acts on each row.
+pub(super) fn levels(stack: &Stack<'_>, scope: &Scope) -> Vec<usize> {
+    let labels = match scope {
+        Scope::By(name) => stack.experiment.points.labels(name),
+        _ => None,
+    };
+    let level = |row: &Row| match (row, scope) {
+        (Row::Reading { point, .. }, Scope::Each) => *point,
+        (Row::Reading { point, .. }, Scope::By(_)) => {
+            let of_row = labels.and_then(|labels| labels.of_row.get(*point));
+            of_row.map_or(0, |level| *level as usize)
+        }
+        _ => 0,
+    };
+    stack.rows.iter().map(level).collect()
+}

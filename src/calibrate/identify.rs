@@ -1,0 +1,238 @@
+//! What an experiment tells, and what it cannot: rank, condition, aliases.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::experiment::Parameter;
+
+/// Changes of parameters that leave every reading as it is, each relative to the first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Combination {
+    /// Names, changes and units; the change of the first is 1.
+    pub changes: Vec<(String, f64, String)>,
+}
+
+/// How well the parameters are told apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identifiability {
+    /// Number of independent combinations of parameters that the readings determine.
+    pub rank: usize,
+    /// Number of parameters.
+    pub parameters: usize,
+    /// Largest over smallest singular value of the Jacobian, its columns scaled to length one.
+    pub condition: f64,
+    /// What the readings do not determine at all.
+    pub undetermined: Vec<Combination>,
+    /// Parameters that others imitate nearly.
+    pub near: Vec<NearAlias>,
+}
+
+/// A parameter whose effect others imitate nearly.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearAlias {
+    /// The parameter.
+    pub parameter: String,
+    /// By how much larger its standard uncertainty is than if all others were known.
+    pub inflation: f64,
+    /// The imitation: change of the parameter by 1, and the changes of others that bring the readings
+    /// nearly back.
+    pub combination: Combination,
+}
+
+/// What an omitted effect would do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alias {
+    /// Name of the coefficient of the effect.
+    pub name: String,
+    /// Share of the effect that the residuals would show: 0 hides completely, 1 shifts nothing.
+    pub visible: f64,
+    /// Whether it acts on any reading of this experiment.
+    pub acts: bool,
+    /// Change of each coefficient per unit of the effect, parameters first, then results.
+    pub shifts: Vec<f64>,
+}
+
+/// Columns whose remainder after projection on the others is smaller than this share of their length are
+/// combinations of them, for all that double precision tells.
+const SINGULAR: f64 = 1e-9;
+
+/// Standard uncertainties that grow by more than this are worth a word.
+const INFLATION: f64 = 10.0;
+
+/// Changes smaller than this share of the largest, in scaled columns, are left out of words.
+const NEGLIGIBLE: f64 = 1e-3;
+
+impl Identifiability {
+    /// From the Jacobian, its rows weighted.
+    pub(super) fn of(jacobian: &DMatrix<f64>, parameters: &[Parameter]) -> Identifiability {
+        let (scaled, lengths) = scaled(jacobian);
+        let singular = scaled.clone().svd(false, false).singular_values;
+        let largest = singular.max();
+        let smallest = singular.min();
+        let rank = singular.iter().filter(|s| **s > SINGULAR * largest).count();
+        let mut near = Vec::new();
+        if rank == parameters.len() {
+            for place in 0..parameters.len() {
+                near.extend(near_alias(&scaled, &lengths, place, parameters));
+            }
+        }
+        Identifiability {
+            rank,
+            parameters: parameters.len(),
+            condition: if rank < parameters.len() {
+                f64::INFINITY
+            } else {
+                largest / smallest
+            },
+            undetermined: combinations(jacobian, parameters),
+            near,
+        }
+    }
+}
+
+/// Columns of length one, and the lengths that they had.
+fn scaled(jacobian: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
+    let mut scaled = jacobian.clone();
+    let mut lengths = Vec::with_capacity(jacobian.ncols());
+    for mut column in scaled.column_iter_mut() {
+        let length = column.norm();
+        if length > 0.0 {
+            column /= length;
+        }
+        lengths.push(length);
+    }
+    (scaled, lengths)
+}
+
+/// The combinations of parameters that change no reading: the null space in reduced row echelon form, so
+/// that each combination is led by a parameter of its own.
+pub(super) fn combinations(jacobian: &DMatrix<f64>, parameters: &[Parameter]) -> Vec<Combination> {
+    let count = parameters.len();
+    let (scaled, lengths) = scaled(jacobian);
+    // A square matrix has all right singular vectors, also where rows are fewer than columns.
+    let square = scaled.transpose() * &scaled;
+    let eigen = square.symmetric_eigen();
+    let largest = eigen.eigenvalues.max().max(f64::MIN_POSITIVE);
+    // Eigenvalues are squares of singular values.
+    let mut null: Vec<DVector<f64>> = (0..count)
+        .filter(|k| eigen.eigenvalues[*k] < 1e-13 * largest)
+        .map(|k| eigen.eigenvectors.column(k).into_owned())
+        .collect();
+    let mut leads = Vec::new();
+    for k in 0..null.len() {
+        // Later parameters lead: terms of higher order are usually listed behind.
+        let lead = (0..count)
+            .filter(|place| !leads.contains(place))
+            .filter(|place| null[k][*place].abs() > 1e-6)
+            .max_by(|a, b| {
+                let size = |place: usize| null[k][place].abs() > 0.05;
+                size(*a).cmp(&size(*b)).then(a.cmp(b))
+            });
+        let Some(lead) = lead else { continue };
+        leads.push(lead);
+        let pivot = null[k][lead];
+        null[k] /= pivot;
+        let own = null[k].clone();
+        for (other, vector) in null.iter_mut().enumerate() {
+            if other != k {
+                let factor = vector[lead];
+                *vector -= factor * &own;
+            }
+        }
+    }
+    null.iter()
+        .zip(&leads)
+        .map(|(vector, lead)| combination(vector, *lead, &lengths, parameters))
+        .collect()
+}
+
+/// A direction of scaled parameters as changes in their units, led by one of them.
+fn combination(
+    direction: &DVector<f64>,
+    lead: usize,
+    lengths: &[f64],
+    parameters: &[Parameter],
+) -> Combination {
+    // A column that is zero has no length: its parameter changes freely.
+    let in_units = |place: usize| {
+        let length = lengths[place];
+        direction[place] / if length > 0.0 { length } else { 1.0 }
+    };
+    let one = in_units(lead);
+    let largest = direction.amax();
+    let mut order: Vec<usize> = vec![lead];
+    let others = (0..parameters.len())
+        .filter(|place| *place != lead && direction[*place].abs() > NEGLIGIBLE * largest);
+    order.extend(others);
+    Combination {
+        changes: order
+            .into_iter()
+            .map(|place| {
+                let parameter = &parameters[place];
+                (
+                    parameter.name.clone(),
+                    in_units(place) / one,
+                    parameter.unit.symbol.clone(),
+                )
+            })
+            .collect(),
+    }
+}
+
+fn near_alias(
+    scaled: &DMatrix<f64>,
+    lengths: &[f64],
+    place: usize,
+    parameters: &[Parameter],
+) -> Option<NearAlias> {
+    let others: Vec<usize> = (0..parameters.len())
+        .filter(|other| *other != place)
+        .collect();
+    if others.is_empty() {
+        return None;
+    }
+    let target = scaled.column(place).into_owned();
+    let basis = scaled.select_columns(&others);
+    let fit = basis.clone().svd(true, true).solve(&target, 1e-14).ok()?;
+    let remainder = (&target - &basis * &fit).norm();
+    let inflation = 1.0 / remainder;
+    if inflation.is_nan() || inflation <= INFLATION {
+        return None;
+    }
+    let mut direction = DVector::zeros(parameters.len());
+    direction[place] = 1.0;
+    for (other, value) in others.iter().zip(fit.iter()) {
+        direction[*other] = -value;
+    }
+    Some(NearAlias {
+        parameter: parameters[place].name.clone(),
+        inflation,
+        combination: combination(&direction, place, lengths, parameters),
+    })
+}
+
+/// The alias of an effect that adds `column` to the readings, by the gain of the estimator.
+pub(super) fn alias(
+    name: &str,
+    column: &DVector<f64>,
+    jacobian: &DMatrix<f64>,
+    gain: &DMatrix<f64>,
+    parameters: usize,
+) -> Alias {
+    let length = column.norm();
+    let acts = length > 0.0;
+    let shifts = gain * column;
+    let absorbed = jacobian * shifts.rows(0, parameters);
+    let share = (column - absorbed).norm() / length;
+    Alias {
+        name: name.to_owned(),
+        visible: if !acts {
+            1.0
+        } else if share < SINGULAR {
+            0.0
+        } else {
+            share
+        },
+        acts,
+        shifts: shifts.iter().copied().collect(),
+    }
+}

@@ -1,0 +1,226 @@
+//! What the names in the equations are.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::define::{Definer, Purpose, entries};
+use super::faults::NAME_TWICE;
+use crate::budget::strings::StringMap;
+use crate::budget::table::Stated;
+use crate::fault::Fault;
+use crate::model::outline;
+
+/// What a name is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A column of the points, or a quantity that positions give.
+    Column,
+    Parameter,
+    Input,
+    Constant,
+}
+
+/// The names of the equations.
+pub(super) struct Names {
+    kinds: HashMap<String, Kind>,
+    /// Columns of numbers that the points must have, each where it stands first.
+    pub columns: Vec<(String, Range<usize>)>,
+    /// Names on left sides, in the order of the equations.
+    pub responses: Vec<String>,
+    /// Those of them that no right side needs: a plan does without them.
+    pub only_left: Vec<String>,
+    /// Columns that only omitted terms need.
+    pub optional: Vec<String>,
+}
+
+impl Names {
+    /// Reads the equations; `None` if one is not well formed, or names are in doubt.
+    pub fn of(definer: &mut Definer<'_>, purpose: Purpose) -> Option<Names> {
+        let before = definer.faults.len();
+        let mut names = Names {
+            kinds: declared(definer),
+            columns: Vec::new(),
+            responses: Vec::new(),
+            only_left: Vec::new(),
+            optional: Vec::new(),
+        };
+        let table = &definer.source.table;
+        let mut needs: Vec<(String, Range<usize>)> = Vec::new();
+        let mut own: Vec<String> = Vec::new();
+        if let Some(model) = &table.model {
+            let (given, needed) = definer.outlined(model)?;
+            own.extend(given);
+            needs.extend(needed);
+        }
+        for text in table.equations.iter().flat_map(|list| &list.value) {
+            if let Some((given, needed)) = definer.outlined(text) {
+                needs.extend(needed.into_iter().filter(|(name, _)| !own.contains(name)));
+                if let Some(given) = given.last() {
+                    names.responses.push(given.clone());
+                    needs.push((given.clone(), text.span.clone()));
+                }
+            }
+        }
+        if definer.faults.len() > before {
+            return None;
+        }
+        let given = definer.given();
+        let right: Vec<String> = needs.iter().map(|(name, _)| name.clone()).collect();
+        for (name, place) in needs {
+            if names.kinds.contains_key(&name) && names.kind(&name) != Some(Kind::Column) {
+                continue;
+            }
+            names.kinds.insert(name.clone(), Kind::Column);
+            let known = names.columns.iter().any(|(other, _)| *other == name);
+            if !known && !given.contains(&name) {
+                names.columns.push((name, place));
+            }
+        }
+        names.only_left = names
+            .responses
+            .iter()
+            .filter(|name| right.iter().filter(|other| other == name).count() == 1)
+            .cloned()
+            .collect();
+        names.optional = definer.optional(&names, &own);
+        for name in &names.optional {
+            names.kinds.insert(name.clone(), Kind::Column);
+        }
+        if purpose == Purpose::Plan {
+            let left = names.only_left.clone();
+            names.columns.retain(|(name, _)| !left.contains(name));
+        }
+        Some(names)
+    }
+
+    /// What a name is.
+    pub fn kind(&self, name: &str) -> Option<Kind> {
+        self.kinds.get(name).copied()
+    }
+
+    /// All names that stand for something, for suggestions.
+    pub fn known(&self) -> impl Iterator<Item = &str> {
+        self.kinds.keys().map(String::as_str)
+    }
+}
+
+/// What the file declares.
+fn declared(definer: &mut Definer<'_>) -> HashMap<String, Kind> {
+    let table = &definer.source.table;
+    let mut kinds: HashMap<String, (Kind, Range<usize>)> = HashMap::new();
+    let mut faults = Vec::new();
+    let mut declare = |name: &str, kind: Kind, place: &Range<usize>| {
+        let before = kinds.get(name).map(|(kind, place)| (*kind, place.clone()));
+        let allowed = matches!(
+            (before.as_ref().map(|b| b.0), kind),
+            (None, _) | (Some(Kind::Parameter), Kind::Input)
+        );
+        if let Some((_, first)) = before.filter(|_| !allowed) {
+            faults.push(
+                Fault::new(
+                    NAME_TWICE,
+                    place.clone(),
+                    format!("the name {name} is used twice"),
+                )
+                .label("used again here")
+                .related(first, "first used here")
+                .help("choose another name for one of them"),
+            );
+        } else {
+            kinds
+                .entry(name.to_owned())
+                .or_insert_with(|| (kind, place.clone()));
+        }
+    };
+    for (name, entry) in entries(&table.parameter) {
+        declare(name, Kind::Parameter, &entry.key);
+    }
+    for (name, entry) in entries(&table.input) {
+        let replaced = entries(&table.constant)
+            .iter()
+            .any(|(other, _)| other == name);
+        if !(replaced && definer.source.is_base(&entry.key)) {
+            declare(name, Kind::Input, &entry.key);
+        }
+    }
+    for (name, entry) in entries(&table.constant) {
+        declare(name, Kind::Constant, &entry.key);
+    }
+    for (name, place) in definer.given_places() {
+        declare(&name, Kind::Column, &place);
+    }
+    definer.faults.extend(faults);
+    kinds
+        .into_iter()
+        .map(|(name, (kind, _))| (name, kind))
+        .collect()
+}
+
+/// Names that a text defines, and names that it needs with their places.
+type Outlined = (Vec<String>, Vec<(String, Range<usize>)>);
+
+impl Definer<'_> {
+    fn outlined(&mut self, text: &Stated<String>) -> Option<Outlined> {
+        let map = StringMap::new(&self.source.text, text.span.clone())
+            .filter(|map| map.text() == text.value);
+        let place = |range: Range<usize>| match &map {
+            Some(map) => map.place(range),
+            None => text.span.clone(),
+        };
+        match outline(&text.value, &self.units) {
+            Ok(outline) => {
+                let defined = outline.printed.lines().filter_map(|line| {
+                    let (left, _) = line.split_once(" = ")?;
+                    Some(left.split('(').next().unwrap_or(left).to_owned())
+                });
+                let mut defined: Vec<String> = defined.collect();
+                if let Some((name, _)) = &outline.gives {
+                    defined.retain(|other| other != name);
+                    defined.push(name.clone());
+                }
+                let needs = outline.needs.into_iter();
+                Some((
+                    defined,
+                    needs.map(|(name, span)| (name, place(span))).collect(),
+                ))
+            }
+            Err(faults) => {
+                let faults: Vec<Fault> = faults.into_iter().map(|f| f.moved(place)).collect();
+                self.faults.extend(faults);
+                None
+            }
+        }
+    }
+
+    /// Names that only omitted terms need.
+    fn optional(&self, names: &Names, own: &[String]) -> Vec<String> {
+        let mut optional = Vec::new();
+        for (name, entry) in entries(&self.source.table.omitted) {
+            let term = entry.value.term.as_ref();
+            let Some(outline) = term.and_then(|term| outline(&term.value, &self.units).ok()) else {
+                continue;
+            };
+            let needs = outline.needs.into_iter().map(|(need, _)| need);
+            let new = needs.filter(|need| need != name && !own.contains(need));
+            optional.extend(new.filter(|need| names.kind(need).is_none()));
+        }
+        optional.dedup();
+        optional
+    }
+
+    /// Quantities that positions give.
+    fn given(&self) -> Vec<String> {
+        self.given_places()
+            .into_iter()
+            .map(|(name, _)| name)
+            .collect()
+    }
+
+    fn given_places(&self) -> Vec<(String, Range<usize>)> {
+        let positions = self.source.table.positions.as_ref();
+        let gives = positions.and_then(|stated| stated.value.gives.as_ref());
+        let list = gives.iter().flat_map(|gives| &gives.value);
+        list.map(|name| (name.value.clone(), name.span.clone()))
+            .collect()
+    }
+}

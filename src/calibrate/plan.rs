@@ -1,0 +1,98 @@
+//! What a schedule would tell, before anything is measured.
+
+use super::calibration::{Figures, aliases, figures};
+use super::causes::causes;
+use super::experiment::Experiment;
+use super::gain::Gain;
+use super::identify::{Alias, Identifiability};
+use super::scatter::Scatters;
+use super::stack::{Readings, Row, Stack};
+use super::trouble::Trouble;
+
+/// What a schedule would tell.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// What it would tell apart.
+    pub identifiability: Identifiability,
+    /// Coefficients with the uncertainties to expect, at the values that were assumed; none where the
+    /// schedule does not determine all of them.
+    pub figures: Option<Figures>,
+    /// What each omitted effect would shift; empty where the schedule does not determine everything.
+    pub aliases: Vec<Alias>,
+    /// Number of readings.
+    pub readings: usize,
+    /// Parameters whose value is not stated and was taken as zero, although effects depend on it.
+    pub assumed: Vec<String>,
+}
+
+/// Examines a schedule.
+///
+/// # Errors
+/// Parameters of equations that are not linear in them have no start value.
+pub fn plan(experiment: &Experiment) -> Result<Plan, Trouble> {
+    let stack = Stack::new(experiment, Readings::Planned);
+    let open: Vec<String> = experiment
+        .parameters
+        .iter()
+        .filter(|parameter| parameter.start.is_none())
+        .map(|parameter| parameter.name.clone())
+        .collect();
+    if !stack.is_linear() && !open.is_empty() {
+        return Err(Trouble::NoStart { parameters: open });
+    }
+    if stack.rows.is_empty() {
+        return Err(Trouble::TooFew {
+            readings: 0,
+            parameters: experiment.parameters.len(),
+        });
+    }
+    let values: Vec<f64> = experiment
+        .parameters
+        .iter()
+        .map(|parameter| parameter.start.unwrap_or(0.0))
+        .collect();
+    let u = expected_u(&stack);
+    let jacobian = stack.jacobian(&values, &u);
+    let identifiability = Identifiability::of(&jacobian, &experiment.parameters);
+    let complete = identifiability.rank == experiment.parameters.len();
+    let gain = Gain::linear(&stack, &values, &u).filter(|_| complete);
+    Ok(Plan {
+        figures: gain.map(|gain| {
+            let causes = causes(&stack, &gain, &Scatters::stated(), &u);
+            figures(experiment, &values, causes)
+        }),
+        aliases: if complete {
+            aliases(&stack, &values, &u)
+        } else {
+            Vec::new()
+        },
+        identifiability,
+        readings: stack.readings(),
+        assumed: open,
+    })
+}
+
+/// What each row would scatter by: its stated errors, if all have them, else all alike.
+fn expected_u(stack: &Stack<'_>) -> Vec<f64> {
+    let experiment = stack.experiment;
+    let own = |response: usize| -> f64 {
+        let super::experiment::Observed::Column(name) = &experiment.observed[response] else {
+            return 0.0;
+        };
+        let each = experiment
+            .doubts
+            .iter()
+            .map(|doubt| doubt.of_each_reading(name).powi(2));
+        each.sum::<f64>().sqrt()
+    };
+    let of_row = |row: &Row| match row {
+        Row::Reading { response, .. } => own(*response),
+        Row::Prior { parameter } => experiment.parameters[*parameter].known.map_or(1.0, |p| p.u),
+    };
+    let u: Vec<f64> = stack.rows.iter().map(of_row).collect();
+    if u.iter().all(|u| *u > 0.0) {
+        u
+    } else {
+        vec![1.0; u.len()]
+    }
+}

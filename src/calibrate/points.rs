@@ -1,0 +1,110 @@
+//! The points of an experiment: what was set and what was read, once for each.
+
+use crate::quantity::Unit;
+use crate::recording::{Average, Data, Finding, Labels, Recording};
+
+/// The points of an experiment, column by column.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Points {
+    /// What each point is called in reports: the line of its row, or the label of its dwell.
+    pub names: Vec<String>,
+    /// Columns of numbers.
+    pub columns: Vec<PointColumn>,
+    /// Columns of labels, by name.
+    pub labels: Vec<(String, Labels)>,
+    /// What is doubtful in the recording.
+    pub findings: Vec<Finding>,
+}
+
+/// A column of numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointColumn {
+    /// The role that it plays in the equations.
+    pub name: String,
+    /// Unit of the values.
+    pub unit: Unit,
+    /// One value for each point; NaN where it is missing.
+    pub values: Vec<f64>,
+    /// Where each value is the average of a dwell: its statistics. Empty otherwise.
+    pub averages: Vec<Average>,
+}
+
+impl Points {
+    /// Each row of a recording as a point.
+    pub fn of_rows(recording: &Recording) -> Points {
+        let mut points = Points {
+            names: (0..recording.rows())
+                .map(|row| format!("line {}", recording.line(row)))
+                .collect(),
+            ..Points::default()
+        };
+        for column in &recording.columns {
+            match &column.data {
+                Data::Numbers(values) => points.columns.push(PointColumn {
+                    name: column.role.clone(),
+                    unit: column.unit.clone().unwrap_or_else(Unit::one),
+                    values: values.clone(),
+                    averages: Vec::new(),
+                }),
+                Data::Labels(labels) => points.labels.push((column.role.clone(), labels.clone())),
+            }
+        }
+        points
+    }
+
+    /// Some of the points, in the given order; places that do not exist are passed over.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Points {
+        let rows: Vec<usize> = rows
+            .iter()
+            .copied()
+            .filter(|row| *row < self.len())
+            .collect();
+        let column = |column: &PointColumn| PointColumn {
+            name: column.name.clone(),
+            unit: column.unit.clone(),
+            values: picked(&column.values, &rows),
+            averages: picked(&column.averages, &rows),
+        };
+        let labels = |(name, labels): &(String, Labels)| {
+            let labels = Labels {
+                levels: labels.levels.clone(),
+                of_row: picked(&labels.of_row, &rows),
+            };
+            (name.clone(), labels)
+        };
+        Points {
+            names: picked(&self.names, &rows),
+            columns: self.columns.iter().map(column).collect(),
+            labels: self.labels.iter().map(labels).collect(),
+            findings: self.findings.clone(),
+        }
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.names.is_empty()
+    }
+
+    /// The column of a name.
+    pub fn column(&self, name: &str) -> Option<&PointColumn> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// The labels of a name.
+    pub fn labels(&self, name: &str) -> Option<&Labels> {
+        let found = self.labels.iter().find(|(other, _)| other == name);
+        found.map(|(_, labels)| labels)
+    }
+}
+
+fn picked<T: Clone>(all: &[T], rows: &[usize]) -> Vec<T> {
+    rows.iter()
+        .filter_map(|row| all.get(*row).cloned())
+        .collect()
+}

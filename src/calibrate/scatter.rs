@@ -1,0 +1,328 @@
+//! The scatter of the readings: from residuals, from samples, or stated.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::causes::{Cause, Origin};
+use super::experiment::{Experiment, Observed, Scatter, Scope, Target, Weights};
+use super::gain::{Gain, levels};
+use super::stack::{Row, Stack};
+use super::trouble::Trouble;
+use crate::budget::Evaluation;
+use crate::least_squares::Solution;
+use crate::special::chi_squared_sf;
+
+/// The scatter of each response.
+pub(super) struct Scatters {
+    pub way: Scatter,
+    pub responses: Vec<ResponseScatter>,
+}
+
+/// The scatter of the readings of one response.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResponseScatter {
+    /// The response.
+    pub response: String,
+    /// Its readings.
+    pub readings: usize,
+    /// Root of the mean square of the residuals, in the unit of the response.
+    pub rms: f64,
+    /// Standard deviation of a reading from the residuals, √(Σr²/ν); of one of unit weight where the
+    /// readings have weights. NaN for ν = 0.
+    pub s: f64,
+    /// ν: the readings less the parameters that they determine, Σ(1 − h) over the leverages h.
+    pub dof: f64,
+    /// Standard deviation of a reading by itself: `s` without what the stated errors explain of the
+    /// residuals, in the same units.
+    pub own: f64,
+    /// Degrees of freedom of `own`.
+    pub own_dof: f64,
+    /// The test against what samples and stated errors of each reading say, where they say anything.
+    pub test: Option<ScatterTest>,
+}
+
+/// Whether residuals are as large as the known errors of the readings let expect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ScatterTest {
+    /// The residual standard deviation to expect, in the unit of the response.
+    pub expected: f64,
+    /// Σ(r/u)².
+    pub chi_squared: f64,
+    /// ν.
+    pub dof: f64,
+    /// The probability of a larger χ².
+    pub p_value: f64,
+}
+
+impl Experiment {
+    /// What tells the scatter: as the file says, else residuals where there are any, else samples.
+    pub(super) fn way_of_scatter(&self, rows: usize) -> Scatter {
+        let sampled = self
+            .points
+            .columns
+            .iter()
+            .any(|column| !column.averages.is_empty());
+        match self.scatter {
+            Some(way) => way,
+            None if rows > self.parameters.len() => Scatter::Residuals,
+            None if sampled => Scatter::Dwells,
+            None => Scatter::Stated,
+        }
+    }
+}
+
+/// Standard uncertainty of each row for its weight, before residuals say anything.
+///
+/// # Errors
+/// Weights by readings without uncertainty.
+pub(super) fn weights(stack: &Stack<'_>) -> Result<Vec<f64>, Trouble> {
+    let experiment = stack.experiment;
+    let own = known_u(stack, true);
+    let mut u = Vec::with_capacity(stack.rows.len());
+    for (index, row) in stack.rows.iter().enumerate() {
+        u.push(match row {
+            Row::Prior { parameter } => experiment.parameters[*parameter]
+                .known
+                .map_or(1.0, |prior| prior.u),
+            Row::Reading { response, .. } => match experiment.weights {
+                Weights::Equal => 1.0,
+                Weights::Readings if own[index] > 0.0 => own[index],
+                Weights::Readings => {
+                    return Err(Trouble::NoWeights {
+                        response: experiment.equations.responses()[*response].name.clone(),
+                    });
+                }
+            },
+        });
+    }
+    Ok(u)
+}
+
+/// Standard uncertainty of each reading by itself: stated errors of each reading, and its samples if
+/// wanted. Zero where nothing is known.
+fn known_u(stack: &Stack<'_>, samples: bool) -> Vec<f64> {
+    let experiment = stack.experiment;
+    let of_row = |row: &Row| {
+        let Row::Reading { point, response } = row else {
+            return 0.0;
+        };
+        let Observed::Column(name) = &experiment.observed[*response] else {
+            return 0.0;
+        };
+        let stated: f64 = experiment
+            .doubts
+            .iter()
+            .map(|doubt| doubt.of_each_reading(name).powi(2))
+            .sum();
+        let column = experiment.points.column(name);
+        let sampled = column
+            .and_then(|column| column.averages.get(*point))
+            .filter(|_| samples);
+        (stated + sampled.map_or(0.0, |average| average.u * average.u)).sqrt()
+    };
+    stack.rows.iter().map(of_row).collect()
+}
+
+impl Scatters {
+    /// The scatter of a solution whose rows had the standard uncertainties `u`.
+    ///
+    /// # Errors
+    /// The residuals shall tell it, but there are none; or the samples, but there are none.
+    pub fn of(
+        stack: &Stack<'_>,
+        solution: &Solution,
+        gain: &Gain,
+        u: &[f64],
+    ) -> Result<Scatters, Trouble> {
+        let experiment = stack.experiment;
+        let way = experiment.way_of_scatter(stack.rows.len());
+        let sampled = experiment
+            .points
+            .columns
+            .iter()
+            .any(|column| !column.averages.is_empty());
+        if way == Scatter::Dwells && !sampled {
+            return Err(Trouble::NoSamples);
+        }
+        let ones = vec![1.0; stack.rows.len()];
+        let jacobian = stack.jacobian(&solution.parameters, &ones);
+        let known = known_u(stack, true);
+        let parameters = experiment.parameters.len();
+        let explained = explained(stack, solution, gain, &jacobian);
+        let mut responses = Vec::new();
+        for (response, quantity) in experiment.equations.responses().iter().enumerate() {
+            let rows: Vec<usize> = (0..stack.rows.len())
+                .filter(|row| matches!(stack.rows[*row], Row::Reading { response: own, .. } if own == response))
+                .collect();
+            let free = |row: usize| {
+                let gain = gain.by_observed.column(row);
+                1.0 - jacobian.row(row).transpose().dot(&gain.rows(0, parameters))
+            };
+            let dof: f64 = rows.iter().map(|row| free(*row)).sum();
+            let sum = |u: &[f64]| -> f64 {
+                rows.iter()
+                    .map(|row| (solution.residuals[*row] / u[*row]).powi(2))
+                    .sum()
+            };
+            // A ν that is zero but for rounding.
+            let dof = if dof < 1e-6 * rows.len() as f64 {
+                0.0
+            } else {
+                dof
+            };
+            if way == Scatter::Residuals && dof == 0.0 && !rows.is_empty() {
+                return Err(Trouble::NoScatter {
+                    response: quantity.name.clone(),
+                    readings: rows.len(),
+                    parameters,
+                });
+            }
+            let explained: f64 = rows
+                .iter()
+                .map(|row| explained[*row] / (u[*row] * u[*row]))
+                .sum();
+            let total = sum(u);
+            let own = (total - explained).max(0.0);
+            let complete = !rows.is_empty() && rows.iter().all(|row| known[*row] > 0.0);
+            responses.push(ResponseScatter {
+                response: quantity.name.clone(),
+                readings: rows.len(),
+                rms: (sum(&ones) / rows.len() as f64).sqrt(),
+                s: (total / dof).sqrt(),
+                dof,
+                own: (own / dof).sqrt(),
+                // The difference has the variance of the whole sum.
+                own_dof: dof * (own / total).powi(2),
+                test: (complete && dof > 0.0).then(|| {
+                    let chi_squared = sum(&known);
+                    let expected: f64 = rows.iter().map(|row| known[*row].powi(2)).sum();
+                    ScatterTest {
+                        expected: (expected / rows.len() as f64).sqrt(),
+                        chi_squared,
+                        dof,
+                        p_value: chi_squared_sf(chi_squared, dof),
+                    }
+                }),
+            });
+        }
+        Ok(Scatters { way, responses })
+    }
+
+    /// For a plan: nothing but what is stated.
+    pub fn stated() -> Scatters {
+        Scatters {
+            way: Scatter::Stated,
+            responses: Vec::new(),
+        }
+    }
+
+    /// The scatter as causes of doubt.
+    pub fn causes(&self, stack: &Stack<'_>, gain: &Gain, u: &[f64]) -> Vec<Cause> {
+        match self.way {
+            Scatter::Stated => Vec::new(),
+            Scatter::Residuals => self.of_residuals(stack, gain, u),
+            Scatter::Dwells => of_samples(stack, gain),
+        }
+    }
+
+    fn of_residuals(&self, stack: &Stack<'_>, gain: &Gain, u: &[f64]) -> Vec<Cause> {
+        let cause = |(response, scatter): (usize, &ResponseScatter)| {
+            let own = |row: &usize| matches!(stack.rows[*row], Row::Reading { response: own, .. } if own == response);
+            let columns: Vec<_> = (0..stack.rows.len())
+                .filter(own)
+                .map(|row| gain.by_observed.column(row) * (scatter.own * u[row]))
+                .collect();
+            let effects = match columns.as_slice() {
+                [] => DMatrix::zeros(gain.coefficients(), 0),
+                columns => DMatrix::from_columns(columns),
+            };
+            Cause {
+                origin: Origin::Residuals {
+                    response: scatter.response.clone(),
+                },
+                effects,
+                dof: vec![scatter.own_dof],
+                distribution: None,
+                evaluation: Evaluation::TypeA,
+                how: "s".to_owned(),
+            }
+        };
+        self.responses.iter().enumerate().map(cause).collect()
+    }
+}
+
+/// The mean square of each row's residual that the stated errors let expect: Σ u²·(d − J·∂β/∂y·d)² over
+/// their errors, each of which changes the misfits by d. One error that acts on all points counts for nothing:
+/// it may happen to be small, and what the residuals do not show of it explains nothing of them.
+fn explained(
+    stack: &Stack<'_>,
+    solution: &Solution,
+    gain: &Gain,
+    jacobian: &DMatrix<f64>,
+) -> Vec<f64> {
+    let parameters = solution.parameters.len();
+    let mut explained = vec![0.0; stack.rows.len()];
+    let doubts = stack.experiment.doubts.iter();
+    for doubt in doubts.filter(|doubt| doubt.scope != Scope::Common) {
+        let mut misfits = vec![0.0; stack.rows.len()];
+        for act in &doubt.acts {
+            let by = stack.misfit_by(&act.on, &solution.parameters);
+            for (misfit, by) in misfits.iter_mut().zip(by) {
+                *misfit += act.coefficient * by;
+            }
+        }
+        let levels = levels(stack, &doubt.scope);
+        let count = levels.iter().max().map_or(0, |last| last + 1);
+        let mut of_level = vec![Vec::new(); count];
+        for (row, level) in levels.iter().enumerate() {
+            of_level[*level].push(row);
+        }
+        for rows in of_level {
+            let mut shift = DVector::zeros(parameters);
+            for row in &rows {
+                shift += gain.by_observed.column(*row).rows(0, parameters) * misfits[*row];
+            }
+            let mut left = -(jacobian * shift);
+            for row in rows {
+                left[row] += misfits[row];
+            }
+            for (explained, left) in explained.iter_mut().zip(left.iter()) {
+                *explained += (doubt.u * left).powi(2);
+            }
+        }
+    }
+    explained
+}
+
+/// Every average of samples scatters by itself.
+fn of_samples(stack: &Stack<'_>, gain: &Gain) -> Vec<Cause> {
+    let experiment = stack.experiment;
+    let sampled = experiment
+        .points
+        .columns
+        .iter()
+        .filter(|column| !column.averages.is_empty());
+    let cause = |column: &super::points::PointColumn| {
+        let target = Target::Reading(column.name.clone());
+        let mut effects = gain.by_errors(stack, &target, &Scope::Each);
+        let points = effects.ncols();
+        for (mut effect, average) in effects.column_iter_mut().zip(&column.averages) {
+            effect *= average.u;
+        }
+        Cause {
+            origin: Origin::Samples {
+                column: column.name.clone(),
+            },
+            effects,
+            dof: column
+                .averages
+                .iter()
+                .take(points)
+                .map(|average| average.dof)
+                .collect(),
+            distribution: None,
+            evaluation: Evaluation::TypeA,
+            how: "s/√n_eff".to_owned(),
+        }
+    };
+    sampled.map(cause).collect()
+}

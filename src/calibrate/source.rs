@@ -1,0 +1,185 @@
+//! From the text of a calibration file to its tables, with those of its procedure below them.
+
+use std::collections::HashSet;
+
+use super::faults::NO_PROCEDURE;
+use super::procedure::{PROCEDURES, procedure_named};
+use super::tables::CalibrationTable;
+use crate::budget::doubts::tables_of;
+use crate::budget::table::{Stated, Table};
+use crate::budget::values::Named;
+use crate::fault::{Fault, nearest};
+
+/// The tables of a file over those of its procedure.
+pub(super) struct Source {
+    /// The text of the file, and behind it that of the procedure: places refer to this.
+    pub text: String,
+    /// Length of the user's part.
+    pub own: usize,
+    pub table: CalibrationTable,
+    /// Names that the file itself lists as parameters and as inputs, before those of the procedure.
+    pub listed: Listed,
+    /// The procedure's name and its place.
+    pub procedure: Option<Stated<String>>,
+    pub faults: Vec<Fault>,
+}
+
+/// Names by their tables.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Listed {
+    pub parameters: HashSet<String>,
+    pub inputs: HashSet<String>,
+}
+
+/// Reads a file and the procedure that it names.
+pub(super) fn read(text: &str) -> Result<Source, Vec<Fault>> {
+    let (own, mut faults) = tables_of::<CalibrationTable>(text, "a calibration")?;
+    let listed = Listed {
+        parameters: names(&own.parameter),
+        inputs: names(&own.input),
+    };
+    let procedure = own.procedure.clone();
+    let below = match &procedure {
+        Some(stated) => procedure_named(&stated.value)
+            .map(|found| found.text)
+            .or_else(|| {
+                faults.push(no_procedure(stated));
+                None
+            }),
+        None => None,
+    };
+    let Some(below) = below else {
+        return Ok(Source {
+            text: text.to_owned(),
+            own: text.len(),
+            table: own,
+            listed,
+            procedure,
+            faults,
+        });
+    };
+    // Places in the procedure follow those in the file.
+    let padded = format!("{}\n{below}", " ".repeat(text.len()));
+    let (base, wrong) = tables_of::<CalibrationTable>(&padded, "a procedure")?;
+    faults.extend(wrong);
+    Ok(Source {
+        text: format!("{text}\n{below}"),
+        own: text.len(),
+        table: merged(own, base, &listed),
+        listed,
+        procedure,
+        faults,
+    })
+}
+
+fn names<T>(named: &Option<Stated<Named<T>>>) -> HashSet<String> {
+    let entries = named.iter().flat_map(|stated| &stated.value.entries);
+    entries.map(|(name, _)| name.clone()).collect()
+}
+
+fn no_procedure(stated: &Stated<String>) -> Fault {
+    let known = || PROCEDURES.iter().map(|procedure| procedure.name);
+    let fault = Fault::new(
+        NO_PROCEDURE,
+        stated.span.clone(),
+        format!("there is no procedure \"{}\"", stated.value),
+    )
+    .label("not in the library");
+    match nearest(&stated.value, known()) {
+        Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+        None => fault.help(format!(
+            "the procedures are {}; without one, state `equations`",
+            known().collect::<Vec<_>>().join(", ")
+        )),
+    }
+}
+
+/// The file's tables over those of the procedure, entry by entry and key by key.
+fn merged(own: CalibrationTable, base: CalibrationTable, listed: &Listed) -> CalibrationTable {
+    let moved = |own: &HashSet<String>, other: &HashSet<String>, name: &str| {
+        other.contains(name) && !own.contains(name)
+    };
+    let (mut parameter, mut input) = (base.parameter.clone(), base.input.clone());
+    // What the file knows is not estimated, what it estimates is not known.
+    if let Some(stated) = &mut parameter {
+        let keep = |name: &str| !moved(&listed.parameters, &listed.inputs, name);
+        stated.value.entries.retain(|(name, _)| keep(name));
+    }
+    if let Some(stated) = &mut input {
+        let keep = |name: &str| !moved(&listed.inputs, &listed.parameters, name);
+        stated.value.entries.retain(|(name, _)| keep(name));
+    }
+    CalibrationTable {
+        column: entries_over(own.column.clone(), base.column.clone()),
+        parameter: entries_over(own.parameter.clone(), parameter),
+        input: entries_over(own.input.clone(), input),
+        reading: entries_over(own.reading.clone(), base.reading.clone()),
+        result: entries_over(own.result.clone(), base.result.clone()),
+        omitted: entries_over(own.omitted.clone(), base.omitted.clone()),
+        positions: over(own.positions.clone(), base.positions.clone()),
+        recording: over(own.recording.clone(), base.recording.clone()),
+        constant: named_or(own.constant.clone(), base.constant.clone()),
+        unit: named_or(own.unit.clone(), base.unit.clone()),
+        ..own.over(base)
+    }
+}
+
+fn over<T: Table>(own: Option<Stated<T>>, base: Option<Stated<T>>) -> Option<Stated<T>> {
+    match (own, base) {
+        (Some(own), Some(base)) => Some(Stated {
+            value: own.value.over(base.value),
+            span: own.span,
+            key: own.key,
+        }),
+        (own, base) => own.or(base),
+    }
+}
+
+/// Entries of the procedure first, in its order, each under what the file says of it.
+fn entries_over<T: Table>(
+    own: Option<Stated<Named<T>>>,
+    base: Option<Stated<Named<T>>>,
+) -> Option<Stated<Named<T>>> {
+    let (mut own, base) = match (own, base) {
+        (Some(own), Some(base)) => (own, base),
+        (own, base) => return own.or(base),
+    };
+    let mut entries = Vec::new();
+    for (name, below) in base.value.entries {
+        let at = own
+            .value
+            .entries
+            .iter()
+            .position(|(other, _)| *other == name);
+        let above = at.map(|at| own.value.entries.remove(at).1);
+        let both = over(above, Some(below));
+        entries.extend(both.map(|entry| (name, entry)));
+    }
+    entries.append(&mut own.value.entries);
+    own.value.entries = entries;
+    Some(own)
+}
+
+/// Entries of both; one of the file replaces that of the procedure as a whole.
+fn named_or<T>(
+    own: Option<Stated<Named<T>>>,
+    base: Option<Stated<Named<T>>>,
+) -> Option<Stated<Named<T>>> {
+    let (mut own, base) = match (own, base) {
+        (Some(own), Some(base)) => (own, base),
+        (own, base) => return own.or(base),
+    };
+    for (name, entry) in base.value.entries {
+        if !own.value.entries.iter().any(|(other, _)| *other == name) {
+            own.value.entries.push((name, entry));
+        }
+    }
+    Some(own)
+}
+
+impl Source {
+    /// Whether a place is in the procedure's part.
+    pub fn is_base(&self, place: &std::ops::Range<usize>) -> bool {
+        place.start > self.own
+    }
+}

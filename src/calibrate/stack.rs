@@ -1,0 +1,347 @@
+//! All readings of an experiment under one another, as a problem of least squares.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::experiment::{Experiment, Observed, Target};
+use super::trouble::Trouble;
+use crate::least_squares::{Errors, Problem, Response, Scale, Solution, Spread, solve};
+
+/// One observed value: a response in a point, or what is known of a parameter beforehand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Row {
+    /// An equation in a point.
+    Reading { point: usize, response: usize },
+    /// A parameter that is partly known.
+    Prior { parameter: usize },
+}
+
+/// The readings of an experiment.
+pub(super) struct Stack<'e> {
+    pub experiment: &'e Experiment,
+    pub rows: Vec<Row>,
+    /// Observed values; empty for a plan.
+    pub observed: Vec<f64>,
+    /// Readings that were left out, because a value is missing.
+    pub left_out: usize,
+    linear: bool,
+}
+
+impl<'e> Stack<'e> {
+    /// The readings; without `readings`, those that the schedule will give.
+    pub fn new(experiment: &'e Experiment, readings: Readings) -> Stack<'e> {
+        let mut stack = Stack {
+            experiment,
+            rows: Vec::new(),
+            observed: Vec::new(),
+            left_out: 0,
+            linear: experiment
+                .equations
+                .are_affine_in(&experiment.parameter_places().collect::<Vec<_>>()),
+        };
+        for point in 0..experiment.points.len() {
+            for response in 0..experiment.equations.responses().len() {
+                let complete = experiment
+                    .equations
+                    .uses(response)
+                    .iter()
+                    .filter_map(|place| experiment.columns.get(*place))
+                    .all(|column| stack.column(&column.name, point).is_finite());
+                let observed = match readings {
+                    Readings::Taken => stack.observed(point, response),
+                    Readings::Planned => 0.0,
+                };
+                if complete && observed.is_finite() {
+                    stack.rows.push(Row::Reading { point, response });
+                    stack.observed.push(observed);
+                } else {
+                    stack.left_out += 1;
+                }
+            }
+        }
+        for (parameter, one) in experiment.parameters.iter().enumerate() {
+            if let Some(prior) = one.known {
+                stack.rows.push(Row::Prior { parameter });
+                stack.observed.push(prior.value);
+            }
+        }
+        stack
+    }
+
+    fn column(&self, name: &str, point: usize) -> f64 {
+        let column = self.experiment.points.column(name);
+        column
+            .and_then(|column| column.values.get(point).copied())
+            .unwrap_or(f64::NAN)
+    }
+
+    fn observed(&self, point: usize, response: usize) -> f64 {
+        match &self.experiment.observed[response] {
+            Observed::Column(name) => self.column(name, point),
+            Observed::Constant(value) => *value,
+            Observed::Input(place) => self.experiment.inputs[*place].value,
+        }
+    }
+
+    /// Number of rows that are readings; those of partly known parameters follow them.
+    pub fn readings(&self) -> usize {
+        let reading = |row: &&Row| matches!(row, Row::Reading { .. });
+        self.rows.iter().filter(reading).count()
+    }
+
+    /// Whether the equations are linear in the parameters.
+    pub fn is_linear(&self) -> bool {
+        self.linear
+    }
+
+    /// The values of all symbols in a row, at these parameters.
+    pub fn symbols(&self, row: usize, parameters: &[f64]) -> Vec<f64> {
+        let point = match self.rows[row] {
+            Row::Reading { point, .. } => point,
+            Row::Prior { .. } => 0,
+        };
+        let columns = self
+            .experiment
+            .columns
+            .iter()
+            .map(|column| self.column(&column.name, point));
+        let inputs = self.experiment.inputs.iter().map(|input| input.value);
+        columns
+            .chain(parameters.iter().copied())
+            .chain(inputs)
+            .collect()
+    }
+
+    /// ∂f/∂parameter, row by row; with `u` in units of the standard uncertainty of each row.
+    pub fn jacobian(&self, parameters: &[f64], u: &[f64]) -> DMatrix<f64> {
+        let places = self.experiment.parameter_places();
+        let mut jacobian = DMatrix::zeros(self.rows.len(), parameters.len());
+        let mut slopes = vec![0.0; self.experiment.symbols()];
+        for (index, row) in self.rows.iter().enumerate() {
+            match *row {
+                Row::Reading { response, .. } => {
+                    let symbols = self.symbols(index, parameters);
+                    self.experiment
+                        .equations
+                        .at(response, &symbols, &mut slopes);
+                    for (column, place) in places.clone().enumerate() {
+                        jacobian[(index, column)] = slopes[place] / u[index];
+                    }
+                }
+                Row::Prior { parameter } => jacobian[(index, parameter)] = 1.0 / u[index],
+            }
+        }
+        jacobian
+    }
+
+    /// Change of each row's misfit by a unit error of a target: of what is observed there, less that of
+    /// its equation.
+    pub fn misfit_by(&self, target: &Target, parameters: &[f64]) -> Vec<f64> {
+        let experiment = self.experiment;
+        let place = match target {
+            Target::Input(place) => Some(experiment.input_places().start + place),
+            Target::Reading(name) => experiment.columns.iter().position(|c| c.name == *name),
+        };
+        let mut slopes = vec![0.0; experiment.symbols()];
+        let mut of_row = |(index, row): (usize, &Row)| {
+            let Row::Reading { response, .. } = row else {
+                return 0.0;
+            };
+            let symbols = self.symbols(index, parameters);
+            experiment.equations.at(*response, &symbols, &mut slopes);
+            let observed = match (&experiment.observed[*response], target) {
+                (Observed::Column(name), Target::Reading(column)) => name == column,
+                (Observed::Input(own), Target::Input(place)) => own == place,
+                _ => false,
+            };
+            f64::from(u8::from(observed)) - place.map_or(0.0, |place| slopes[place])
+        };
+        self.rows.iter().enumerate().map(&mut of_row).collect()
+    }
+
+    /// The parameters of least squares, with rows of these standard uncertainties.
+    ///
+    /// # Errors
+    /// Too few rows, parameters that the rows do not tell apart, no minimum.
+    pub fn solve(&self, u: &[f64], start: Option<Vec<f64>>) -> Result<Solution, Trouble> {
+        let (columns, inputs) = (self.experiment.columns.len(), self.experiment.inputs.len());
+        let mut x = DMatrix::zeros(self.rows.len(), 1 + columns + inputs);
+        let zeros = vec![0.0; self.experiment.parameters.len()];
+        for index in 0..self.rows.len() {
+            x[(index, 0)] = index as f64;
+            let symbols = self.symbols(index, &zeros);
+            for place in 0..columns {
+                // Equations of other responses need not have all columns.
+                let value = symbols[place];
+                x[(index, 1 + place)] = if value.is_finite() { value } else { 0.0 };
+            }
+            for place in 0..inputs {
+                x[(index, 1 + columns + place)] = self.experiment.inputs[place].value;
+            }
+        }
+        let problem = Problem {
+            response: self,
+            y: DVector::from_column_slice(&self.observed),
+            errors: Errors {
+                y: Spread::Each(u.to_vec()),
+                x: vec![Spread::Exact; x.ncols()],
+                correlation: None,
+                scale: Scale::Stated,
+            },
+            x,
+            start,
+        };
+        solve(&problem).map_err(|failure| Trouble::of(failure, self))
+    }
+
+    /// Where the search begins: stated values, zero for some of the others, and for the rest, which enter
+    /// linearly once these are held, the linear solution. Of the ways to divide the parameters without a
+    /// stated start into these two, the one that describes the readings best.
+    ///
+    /// # Errors
+    /// No such way has a solution.
+    pub fn start(&self) -> Result<Vec<f64>, Trouble> {
+        let parameters = &self.experiment.parameters;
+        let stated: Vec<f64> = parameters.iter().map(|p| p.start.unwrap_or(0.0)).collect();
+        let open: Vec<usize> = (0..parameters.len())
+            .filter(|place| parameters[*place].start.is_none())
+            .collect();
+        if open.is_empty() {
+            return Ok(stated);
+        }
+        let mut tried: Vec<Vec<usize>> = Vec::new();
+        for first in &open {
+            let set = self.affine_with(*first, &open);
+            if !set.is_empty() && !tried.contains(&set) {
+                tried.push(set);
+            }
+        }
+        let found = tried
+            .iter()
+            .filter_map(|set| self.linear_start(&stated, set));
+        let best = found.min_by(|a, b| a.1.total_cmp(&b.1));
+        best.map(|(start, _)| start)
+            .ok_or_else(|| Trouble::NoStart {
+                parameters: open
+                    .iter()
+                    .map(|place| parameters[*place].name.clone())
+                    .collect(),
+            })
+    }
+
+    /// A largest set of open parameters with this one in which the equations are affine.
+    fn affine_with(&self, first: usize, open: &[usize]) -> Vec<usize> {
+        let offset = self.experiment.parameter_places().start;
+        let affine = |set: &[usize]| {
+            let places: Vec<usize> = set.iter().map(|place| offset + place).collect();
+            self.experiment.equations.are_affine_in(&places)
+        };
+        let mut set = vec![first];
+        if !affine(&set) {
+            return Vec::new();
+        }
+        for place in open.iter().filter(|place| **place != first) {
+            set.push(*place);
+            if !affine(&set) {
+                set.pop();
+            }
+        }
+        set.sort_unstable();
+        set
+    }
+
+    /// The linear solution for some parameters while the others are held, and the sum of squares that it
+    /// leaves; nothing where it is not finite.
+    fn linear_start(&self, held: &[f64], free: &[usize]) -> Option<(Vec<f64>, f64)> {
+        let mut start = held.to_vec();
+        let ones = vec![1.0; self.rows.len()];
+        let jacobian = self.jacobian(&start, &ones).select_columns(free);
+        let misfit: Vec<f64> = (0..self.rows.len())
+            .map(|row| self.observed[row] - self.value(row, &start))
+            .collect();
+        if !jacobian
+            .iter()
+            .chain(&misfit)
+            .all(|value| value.is_finite())
+        {
+            return None;
+        }
+        // Columns of length one: the units of the parameters must not decide what counts as zero.
+        let lengths: Vec<f64> = jacobian
+            .column_iter()
+            .map(|column| column.norm().max(f64::MIN_POSITIVE))
+            .collect();
+        let mut scaled = jacobian.clone();
+        for (mut column, length) in scaled.column_iter_mut().zip(&lengths) {
+            column /= *length;
+        }
+        let misfit = DVector::from_vec(misfit);
+        let solution = scaled.clone().svd(true, true).solve(&misfit, 1e-10).ok()?;
+        for ((place, value), length) in free.iter().zip(solution.iter()).zip(&lengths) {
+            start[*place] = value / length;
+        }
+        Some((start, (misfit - scaled * solution).norm_squared()))
+    }
+
+    /// The value of a row's equation.
+    pub fn value(&self, row: usize, parameters: &[f64]) -> f64 {
+        match self.rows[row] {
+            Row::Reading { response, .. } => {
+                let symbols = self.symbols(row, parameters);
+                self.experiment.equations.value(response, &symbols)
+            }
+            Row::Prior { parameter } => parameters[parameter],
+        }
+    }
+}
+
+/// Whether there are readings yet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Readings {
+    Taken,
+    Planned,
+}
+
+/// The predictors of a row are its index, its columns and the inputs, so that the solver gives the
+/// derivatives of the parameters by each of them.
+impl Response for Stack<'_> {
+    fn parameters(&self) -> usize {
+        self.experiment.parameters.len()
+    }
+
+    fn is_linear(&self) -> bool {
+        self.linear
+    }
+
+    fn at(
+        &self,
+        predictors: &[f64],
+        parameters: &[f64],
+        by_parameter: &mut [f64],
+        by_predictor: &mut [f64],
+    ) -> f64 {
+        by_parameter.fill(0.0);
+        by_predictor.fill(0.0);
+        let (columns, count) = (self.experiment.columns.len(), parameters.len());
+        match self.rows.get(predictors[0] as usize) {
+            Some(Row::Prior { parameter }) => {
+                by_parameter[*parameter] = 1.0;
+                parameters[*parameter]
+            }
+            Some(Row::Reading { response, .. }) => {
+                let mut symbols = predictors[1..=columns].to_vec();
+                symbols.extend_from_slice(parameters);
+                symbols.extend_from_slice(&predictors[1 + columns..]);
+                let mut slopes = vec![0.0; symbols.len()];
+                let value = self
+                    .experiment
+                    .equations
+                    .at(*response, &symbols, &mut slopes);
+                by_parameter.copy_from_slice(&slopes[columns..columns + count]);
+                by_predictor[1..=columns].copy_from_slice(&slopes[..columns]);
+                by_predictor[1 + columns..].copy_from_slice(&slopes[columns + count..]);
+                value
+            }
+            None => f64::NAN,
+        }
+    }
+}

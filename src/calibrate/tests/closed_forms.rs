@@ -1,0 +1,349 @@
+//! Coefficients and uncertainties that can be written down.
+
+use super::super::{Origin, calibrate, plan};
+use super::{experiment, near, planned};
+
+/// A line through readings: `U = K*omega*(1 + e_rate) + b`.
+const RATE: &str = r#"
+title = "Rate"
+equations = ["U = K*omega*(1 + e_rate) + b"]
+[parameter]
+K = {}
+b = {}
+[input.e_rate]
+u = 1e-4
+[recording]
+file = "run.csv"
+"#;
+
+const RATES: &str = "omega [deg/s],U [mV]\n-100,-199.2\n-50,-99.3\n0,0.9\n50,100.8\n100,201.1\n";
+
+#[test]
+fn a_line_has_the_closed_form_and_a_common_error_does_not_average() {
+    let experiment = experiment(RATE, RATES);
+    let found = calibrate(&experiment).expect("coefficients");
+    let [k, b] = found.figures.coefficients.as_slice() else {
+        panic!("two coefficients");
+    };
+    let (x, y) = (
+        [-100.0, -50.0, 0.0, 50.0, 100.0_f64],
+        [-199.2, -99.3, 0.9, 100.8, 201.1],
+    );
+    let sxx: f64 = x.iter().map(|x| x * x).sum();
+    let slope: f64 = x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>() / sxx;
+    let mean = y.iter().sum::<f64>() / 5.0;
+    let rest: f64 = x
+        .iter()
+        .zip(y)
+        .map(|(x, y)| (y - mean - slope * x).powi(2))
+        .sum();
+    let s2 = rest / 3.0;
+    near(k.value, slope, 1e-12);
+    near(b.value, mean, 1e-12);
+    assert_eq!(k.unit.symbol, "mV·s/deg");
+    // ∂K/∂e = −K for an error that all points share.
+    let type_a = s2 / sxx;
+    let type_b = (slope * 1e-4).powi(2);
+    near(k.u, (type_a + type_b).sqrt(), 1e-10);
+    near(b.u, (s2 / 5.0).sqrt(), 1e-10);
+    near(
+        k.dof,
+        (type_a + type_b).powi(2) / (type_a.powi(2) / 3.0),
+        1e-10,
+    );
+    near(found.responses[0].s, s2.sqrt(), 1e-10);
+    near(found.identifiability.condition, 1.0, 1e-9);
+}
+
+#[test]
+fn an_error_of_each_point_averages() {
+    let each = RATE.replace("u = 1e-4", "u = 1e-4\nscope = \"each\"") + "\n";
+    let each = format!("scatter = \"stated\"\n{each}");
+    let experiment = experiment(&each, RATES);
+    let found = calibrate(&experiment).expect("coefficients");
+    let k = &found.figures.coefficients[0];
+    // ∂K/∂e_i = −K x_i²/Sxx, up to terms of the size of the residuals.
+    let fourth: f64 = [100.0_f64, 50.0, 0.0, 50.0, 100.0]
+        .iter()
+        .map(|x| x.powi(4))
+        .sum();
+    near(k.u, k.value * 1e-4 * fourth.sqrt() / 25_000.0, 1e-3);
+}
+
+#[test]
+fn an_error_by_level_is_shared_within_the_level() {
+    let csv = "omega [deg/s],day,U [mV]\n-100,1,-200\n100,1,200\n-100,2,-200\n100,2,200\n";
+    let toml = RATE.replace("u = 1e-4", "u = 1e-4\nby = \"day\"");
+    let toml = format!("scatter = \"stated\"\n{toml}");
+    let found = calibrate(&experiment(&toml, csv)).expect("coefficients");
+    near(
+        found.figures.coefficients[0].u,
+        2.0 * 1e-4 / 2.0_f64.sqrt(),
+        1e-10,
+    );
+}
+
+#[test]
+fn four_points_of_two_coefficients() {
+    let toml = r#"
+equations = ["E = R*K1*(K0 + g*sin(theta + theta0))"]
+[parameter.K0]
+unit = "gn"
+[parameter.K1]
+unit = "mA/gn"
+[constant]
+g = "1 gn"
+[omitted.K2]
+term = "R*K1*K2*(g*sin(theta))^2"
+unit = "1/gn"
+[omitted.K3]
+term = "R*K1*K3*(g*sin(theta))^3"
+unit = "1/gn^2"
+[input.R]
+unit = "ohm"
+value = 500
+half_width = 0.06
+[input.theta0]
+unit = "rad"
+half_width = 5e-6
+[recording]
+file = "run.csv"
+[reading.E]
+half_width = 1.1e-5
+unit = "V"
+"#;
+    let csv = "theta [deg],E [mV]\n0,0.0601\n90,99.9047\n180,-0.1018\n270,-99.9304\n";
+    let experiment = experiment(toml, csv);
+    let found = calibrate(&experiment).expect("coefficients");
+    let k1 = &found.figures.coefficients[1];
+    assert_eq!((k1.name.as_str(), k1.unit.symbol.as_str()), ("K1", "mA/gn"));
+    near(k1.value, (99.9047 + 99.9304) / 2.0 / 500.0, 1e-6);
+    // The voltmeter's error of 11 µV, stated in V for a column in mV.
+    let voltmeter = found.figures.causes.iter().find(
+        |cause| matches!(&cause.origin, Origin::Stated { name, .. } if name.starts_with("E")),
+    );
+    let expected = 0.011 / 3.0_f64.sqrt() / 2.0_f64.sqrt() / 500.0;
+    near(
+        voltmeter.expect("a voltmeter").contribution(1),
+        expected,
+        1e-3,
+    );
+    let k0 = &found.figures.coefficients[0];
+    let mean = (0.0601 + 99.9047 - 0.1018 - 99.9304) / 4.0;
+    near(k0.value, mean / 500.0 / k1.value, 1e-6);
+    // The third order hides in the scale factor with the factor 1: sin³ = sin at these angles.
+    let k3 = found
+        .aliases
+        .iter()
+        .find(|alias| alias.name == "K3")
+        .expect("K3");
+    assert_eq!(k3.visible, 0.0);
+    near(k3.shifts[1], k1.value, 1e-6);
+    // The second order shifts the bias by half its size, and the residuals show the other half.
+    let k2 = found
+        .aliases
+        .iter()
+        .find(|alias| alias.name == "K2")
+        .expect("K2");
+    near(k2.shifts[0], 0.5, 1e-3);
+    assert!(k2.visible > 0.5);
+}
+
+#[test]
+fn the_four_point_tumble() {
+    let toml = r#"
+procedure = "accelerometer-tumble-4"
+scatter = "stated"
+[constant]
+g = "1 gn"
+[input.R]
+value = 500
+half_width = 0.06
+[input.theta0]
+half_width = 5e-6
+[recording]
+file = "run.csv"
+[reading.E]
+half_width = 1.1e-5
+unit = "V"
+"#;
+    let csv = "theta [deg],E [mV]\n0,0.0601\n90,99.9047\n180,-0.1018\n270,-99.9304\n";
+    let found = calibrate(&experiment(toml, csv)).expect("coefficients");
+    let value = |name: &str| {
+        let coefficients = &found.figures.coefficients;
+        let found = coefficients.iter().find(|c| c.name == name).expect(name);
+        found.value
+    };
+    // Four readings, four coefficients: E0 = R K1 (K0 − δ), E90 = R K1 (K0 + 1 + K2), …
+    let [e0, e90, e180, e270] = [0.0601, 99.9047, -0.1018, -99.9304];
+    let k1 = (e90 - e270) / 2.0 / 500.0;
+    near(value("K1"), k1, 1e-9);
+    near(value("K0"), (e0 + e180) / 2.0 / 500.0 / k1, 1e-6);
+    near(
+        value("K2"),
+        (e90 + e270 - e0 - e180) / 2.0 / 500.0 / k1,
+        1e-6,
+    );
+    near(value("delta_o"), (e180 - e0) / 2.0 / 500.0 / k1, 1e-6);
+    let shifts = |name: &str| {
+        let alias = found.aliases.iter().find(|alias| alias.name == name);
+        let alias = alias.expect(name);
+        assert_eq!(alias.visible, 0.0, "{name}");
+        alias.shifts.clone()
+    };
+    // The third order hides in the scale factor with the factor 1: sin³ = sin at these angles.
+    near(shifts("K3")[1], k1, 1e-6);
+    // cos² = 1 − sin²: the pendulous axis shifts the bias and the second order against each other.
+    near(shifts("Kpp")[0], 1.0, 1e-9);
+    near(shifts("Kpp")[2], -1.0, 1e-9);
+}
+
+#[test]
+fn a_plan_says_what_hides() {
+    let toml = r#"
+equations = ["E = K0 + K1*a + K2*a^2 + K3*a^3"]
+[parameter]
+K0 = {}
+K1 = {}
+K2 = {}
+K3 = {}
+[schedule]
+a = [0, 1, 0, -1]
+"#;
+    let plan = plan(&planned(toml)).expect("a plan");
+    assert_eq!(plan.identifiability.rank, 3);
+    assert!(plan.figures.is_none());
+    let [only] = plan.identifiability.undetermined.as_slice() else {
+        panic!("one combination: {:?}", plan.identifiability.undetermined);
+    };
+    let names: Vec<(&str, f64)> = only.changes.iter().map(|c| (c.0.as_str(), c.1)).collect();
+    assert_eq!(names[0].0, "K3");
+    assert_eq!(names[1].0, "K1");
+    near(names[1].1, -1.0, 1e-9);
+    assert_eq!(names.len(), 2);
+}
+
+#[test]
+fn a_plan_predicts_the_uncertainty_of_the_calibration() {
+    let toml = RATE
+        .replace("K = {}", "K = { start = 2 }")
+        .replace("b = {}", "b = { start = 1 }")
+        + "[reading.U]\nu = 0.1\n[schedule]\n\"omega [deg/s]\" = [-100, -50, 0, 50, 100]\n";
+    let toml = toml.replace("[parameter]", "[column.U]\nunit = \"mV\"\n[parameter]");
+    let plan = plan(&planned(&toml)).expect("a plan");
+    let figures = plan.figures.expect("figures");
+    let k = &figures.coefficients[0];
+    near(k.u, (0.01 / 25_000.0 + 4e-8_f64).sqrt(), 1e-9);
+    near(figures.coefficients[1].u, 0.1 / 5.0_f64.sqrt(), 1e-9);
+}
+
+#[test]
+fn a_partly_known_parameter_is_between_known_and_unknown() {
+    // b is known to be 1 ± 0.2, the readings scatter by 0.1.
+    let toml = "scatter = \"stated\"\nweights = \"readings\"\n".to_owned()
+        + RATE
+        + "[input.b]\nvalue = 1\nunit = \"mV\"\nu = 0.2\n[reading.U]\nu = 0.1\n";
+    let found = calibrate(&experiment(&toml, RATES)).expect("coefficients");
+    let b = &found.figures.coefficients[1];
+    let (own, prior) = (5.0 / 0.01, 1.0 / 0.04);
+    let mean = (-199.2 - 99.3 + 0.9 + 100.8 + 201.1) / 5.0;
+    near(b.value, (own * mean + prior) / (own + prior), 1e-9);
+    near(b.u, (1.0_f64 / (own + prior)).sqrt(), 1e-9);
+}
+
+#[test]
+fn results_are_functions_of_parameters() {
+    let toml = RATE.to_owned() + "[result.offset]\nmodel = \"b/K\"\nunit = \"deg/s\"\n";
+    let found = calibrate(&experiment(&toml, RATES)).expect("coefficients");
+    let [k, b, offset] = found.figures.coefficients.as_slice() else {
+        panic!("three");
+    };
+    near(offset.value, b.value / k.value, 1e-12);
+    let slopes = [-offset.value / k.value, 1.0 / k.value];
+    let v = &found.figures.covariance;
+    let variance = slopes[0].powi(2) * v[(0, 0)]
+        + slopes[1].powi(2) * v[(1, 1)]
+        + 2.0 * slopes[0] * slopes[1] * v[(0, 1)];
+    near(offset.u, variance.sqrt(), 1e-9);
+}
+
+#[test]
+fn the_norm_of_readings_is_a_known_constant() {
+    // |K (U − b)| = g for readings in all directions.
+    let (k, b) = (0.0025, [12.0, -7.0, 3.0]);
+    let mut csv = String::from("x,y,z\n");
+    for (theta, phi) in [
+        (0.1, 0.2),
+        (0.8, 1.0),
+        (1.5, 2.1),
+        (2.2, 3.0),
+        (2.9, 4.2),
+        (0.5, 5.1),
+        (1.2, 0.4),
+        (1.9, 5.9),
+    ] {
+        let (theta, phi): (f64, f64) = (theta, phi);
+        let n = [
+            theta.sin() * phi.cos(),
+            theta.sin() * phi.sin(),
+            theta.cos(),
+        ];
+        let u: Vec<String> = (0..3)
+            .map(|i| (b[i] + 9.8 * n[i] / k).to_string())
+            .collect();
+        csv += &(u.join(",") + "\n");
+    }
+    let toml = r#"
+equations = ["g = K*sqrt((x - bx)^2 + (y - by)^2 + (z - bz)^2)"]
+[constant]
+g = "9.8 m/s^2"
+[parameter.K]
+unit = "m/s^2"
+start = 0.0024
+[parameter]
+bx = { start = 0 }
+by = { start = 0 }
+bz = { start = 0 }
+[reading]
+x = { u = 0.1 }
+y = { u = 0.1 }
+z = { u = 0.1 }
+[recording]
+file = "run.csv"
+"#;
+    let found = calibrate(&experiment(toml, &csv)).expect("coefficients");
+    let c = &found.figures.coefficients;
+    near(c[0].value, k, 1e-9);
+    near(c[1].value, b[0], 1e-7);
+    near(c[3].value, b[2], 1e-6);
+    assert!(c[1].u > 0.0 && c[1].u < 0.2, "{}", c[1].u);
+}
+
+#[test]
+fn written_budgets_give_the_same_uncertainty_by_both_methods() {
+    use crate::propagate::{Options, evaluate};
+    let toml = RATE.to_owned()
+        + "[reading.U]\nhalf_width = 0.1\n[input.e_scale]\nu = 3e-4\ndof = 7\nscope = \"each\"\n";
+    let toml = toml.replace("(1 + e_rate)", "(1 + e_rate + e_scale)");
+    let experiment = experiment(&toml, RATES);
+    let found = calibrate(&experiment).expect("coefficients");
+    for places in [vec![0], vec![1], vec![0, 1]] {
+        let text = super::super::budget(&experiment, &found, &places);
+        let loaded = crate::budget::read(&text, "budget.toml", "".as_ref())
+            .unwrap_or_else(|rejection| panic!("{}\n{text}", rejection.render(false)));
+        let budget = &loaded.rows[0].budget;
+        let evaluation = evaluate(budget, &Options::default()).expect("a result");
+        for (result, place) in evaluation.results.iter().zip(&places) {
+            let one = &found.figures.coefficients[*place];
+            near(result.gum.estimate, one.value, 1e-12);
+            near(result.gum.u, one.u, 1e-9);
+            let trials = result.monte_carlo.as_ref().expect("trials");
+            near(trials.u.expect("a standard deviation"), one.u, 0.01);
+        }
+        if let (Some(joint), [_, _]) = (&evaluation.joint, places.as_slice()) {
+            let v = &found.figures.covariance;
+            let r = v[(0, 1)] / (v[(0, 0)] * v[(1, 1)]).sqrt();
+            assert!((joint.correlation[(0, 1)] - r).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! What is wrong is said, and where.
+
+use super::super::{Purpose, Trouble, calibrate};
+use super::{experiment, rejected};
+
+const RATE: &str = r#"
+equations = ["U = K*omega + b"]
+[parameter]
+K = {}
+b = {}
+[recording]
+file = "run.csv"
+"#;
+
+fn message(toml: &str, csv: &str) -> String {
+    match rejected(toml, csv, Purpose::Calibrate) {
+        Ok(_) => panic!("accepted"),
+        Err(rejection) => {
+            let mut all = rejection.render(false);
+            for other in &rejection.others {
+                all += &other.render(false);
+            }
+            all
+        }
+    }
+}
+
+#[track_caller]
+fn says(toml: &str, csv: &str, words: &[&str]) {
+    let said = message(toml, csv);
+    for word in words {
+        assert!(said.contains(word), "{word:?} is not in\n{said}");
+    }
+}
+
+#[test]
+fn faults_of_files_are_told_at_their_places() {
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
+    says(
+        &RATE.replace("omega", "omga"),
+        csv,
+        &["omga", "did you mean `omega`?"],
+    );
+    says(
+        &RATE.replace("b = {}", "b = {}\nc = {}"),
+        csv,
+        &["no equation uses the parameter c"],
+    );
+    says("title = \"x\"", csv, &["no equations"]);
+    says("procedure = \"gyro\"", csv, &["no procedure \"gyro\""]);
+    says(
+        "procedure = \"accelerometer-tumble-4\"\n[recording]\nfile = \"run.csv\"",
+        "theta [deg],E [V]\n0,1\n90,2\n180,1\n270,0\n",
+        &["needs R", "[input.R]"],
+    );
+    says(
+        &RATE.replace("K = {}", "K = { unit = \"mV\" }"),
+        csv,
+        &["mV"],
+    );
+    says(
+        &RATE.replace("K = {}", "K = { strat = 3 }"),
+        csv,
+        &["did you mean `start`?"],
+    );
+    says(
+        &(RATE.to_owned() + "[input.e]\nu = 1\n"),
+        csv,
+        &["no equation uses the input e"],
+    );
+    says(&RATE.replace("run.csv", "other.csv"), csv, &["other.csv"]);
+    says(RATE, "omega [deg/s],U [mV]\n0,1\n1,x\n2,3\n", &["x"]);
+}
+
+#[test]
+fn faults_of_procedures_with_this_recording_are_told_at_their_name() {
+    let toml = "procedure = \"accelerometer-tumble-4\"\n[constant]\ng = \"1 gn\"\n[input.R]\nvalue = 500\nu = 1\n[recording]\nfile = \"run.csv\"";
+    says(
+        toml,
+        "theta [s],E [V]\n0,1\n90,2\n180,1\n270,0\n",
+        &["theta"],
+    );
+    let wrong = toml.replace("value = 500", "value = 500\nunit = \"V\"");
+    says(
+        &wrong,
+        "theta [deg],E [V]\n0,1\n90,2\n180,1\n270,0\n",
+        &["in the procedure", "procedure ="],
+    );
+}
+
+const POSITIONS: &str = r#"
+equations = ["U = K*n + b"]
+[parameter]
+K = {}
+b = {}
+[positions]
+column = "position"
+gives = ["n"]
+at = { "up" = [1], "down" = [-1], "level" = [0] }
+[recording]
+file = "run.csv"
+"#;
+
+#[test]
+fn positions_must_be_known_and_complete() {
+    let good = "position,U [mV]\nup,1\ndown,-1\nlevel,0\n";
+    assert!(rejected(POSITIONS, good, Purpose::Calibrate).is_ok());
+    says(
+        POSITIONS,
+        "position,U [mV]\nup,1\ndown,-1\n",
+        &["never is \"level\""],
+    );
+    says(
+        POSITIONS,
+        "position,U [mV]\nup,1\ndwn,-1\nlevel,0\n",
+        &["did you mean \"down\"?"],
+    );
+    says(
+        &POSITIONS.replace("\"up\" = [1]", "\"up\" = [1, 2]"),
+        good,
+        &["2 values"],
+    );
+}
+
+#[test]
+fn times_must_go_forward() {
+    let toml = RATE.to_owned() + "time = \"t\"\n";
+    says(
+        &toml,
+        "t [s],omega [deg/s],U [mV]\n0,0,1\n2,1,2\n1,2,3\n",
+        &["goes back"],
+    );
+}
+
+#[test]
+fn what_cannot_be_found_is_said() {
+    let trouble = |toml: &str, csv: &str| calibrate(&experiment(toml, csv)).expect_err("trouble");
+    let two = "omega [deg/s],U [mV]\n0,1\n";
+    assert_eq!(
+        trouble(RATE, two),
+        Trouble::TooFew {
+            readings: 1,
+            parameters: 2
+        }
+    );
+    let same = "omega [deg/s],U [mV]\n5,1\n5,2\n5,3\n";
+    let Trouble::Undetermined { combinations } = trouble(RATE, same) else {
+        panic!("undetermined");
+    };
+    assert_eq!(combinations.len(), 1);
+    let no_start = RATE
+        .replace("K*omega + b", "K*omega/b")
+        .replace("K = {}", "K = { unit = \"mV·s/deg\" }");
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
+    let found = trouble(&no_start, csv);
+    assert!(matches!(found, Trouble::NoStart { .. }), "{found:?}");
+    let dwells = format!("scatter = \"dwells\"\n{RATE}");
+    assert_eq!(trouble(&dwells, csv), Trouble::NoSamples);
+}
+
+#[test]
+fn missing_readings_are_left_out_and_counted() {
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,\n2,3\n3,4.1\n";
+    let found = calibrate(&experiment(RATE, csv)).expect("coefficients");
+    assert_eq!((found.readings, found.left_out), (3, 1));
+}
+
+#[test]
+fn saturated_samples_are_warned_of() {
+    let mut csv = String::from("position,U [mV]\n");
+    for position in ["up", "down", "level"] {
+        for sample in 0..30 {
+            let value = match position {
+                "up" => 10.0,
+                "down" => -7.0 + 0.01 * f64::from(sample * sample % 7),
+                _ => 0.01 * f64::from(sample * sample % 11),
+            };
+            csv += &format!("{position},{value}\n");
+        }
+    }
+    let toml = POSITIONS.to_owned() + "dwells = [\"position\"]\nranges = { U = [-10, 10] }\n";
+    let experiment = experiment(&toml, &csv);
+    assert!(
+        experiment
+            .points
+            .findings
+            .iter()
+            .any(|f| f.message().contains("saturated")),
+        "{:?}",
+        experiment.points.findings
+    );
+}

@@ -1,0 +1,99 @@
+//! Why an experiment gives no coefficients.
+
+use super::identify::{Combination, combinations};
+use super::stack::Stack;
+use crate::least_squares::Failure;
+
+/// Why an experiment gives no coefficients.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Trouble {
+    /// Fewer readings than parameters.
+    TooFew {
+        /// Readings, and known values of parameters.
+        readings: usize,
+        /// Parameters.
+        parameters: usize,
+    },
+    /// No residuals that could tell the scatter of a response.
+    NoScatter {
+        /// The response.
+        response: String,
+        /// Readings in all.
+        readings: usize,
+        /// Parameters.
+        parameters: usize,
+    },
+    /// The scatter shall be told by samples, but there are none.
+    NoSamples,
+    /// Weights need the standard uncertainty of every reading.
+    NoWeights {
+        /// The response without.
+        response: String,
+    },
+    /// The readings do not tell parameters apart.
+    Undetermined {
+        /// Ways in which parameters may change together without any change of the readings.
+        combinations: Vec<Combination>,
+    },
+    /// The search needs start values.
+    NoStart {
+        /// Of these parameters.
+        parameters: Vec<String>,
+    },
+    /// An equation is not defined where the search begins.
+    Undefined {
+        /// The point.
+        point: String,
+        /// The response.
+        response: String,
+    },
+    /// No minimum was found.
+    NoConvergence {
+        /// Steps made.
+        iterations: usize,
+    },
+    /// Anything else that least squares refuses.
+    Unsolvable,
+    /// The points of a label cannot be evaluated.
+    InPart {
+        /// The label.
+        label: String,
+        /// Why.
+        trouble: Box<Trouble>,
+    },
+}
+
+impl Trouble {
+    pub(super) fn of(failure: Failure, stack: &Stack<'_>) -> Trouble {
+        match failure {
+            Failure::TooFewPoints { points, parameters } => Trouble::TooFew {
+                readings: points,
+                parameters,
+            },
+            Failure::Indistinct { .. } => {
+                let ones = vec![1.0; stack.rows.len()];
+                let at = stack
+                    .start()
+                    .unwrap_or_else(|_| vec![1.0; stack.experiment.parameters.len()]);
+                let jacobian = stack.jacobian(&at, &ones);
+                Trouble::Undetermined {
+                    combinations: combinations(&jacobian, &stack.experiment.parameters),
+                }
+            }
+            Failure::Undefined { point } | Failure::NotFinite { point, .. } => {
+                let (point, response) = match stack.rows.get(point) {
+                    Some(super::stack::Row::Reading { point, response }) => (
+                        stack.experiment.points.names[*point].clone(),
+                        stack.experiment.equations.responses()[*response]
+                            .name
+                            .clone(),
+                    ),
+                    _ => (String::new(), String::new()),
+                };
+                Trouble::Undefined { point, response }
+            }
+            Failure::NoConvergence { iterations, .. } => Trouble::NoConvergence { iterations },
+            _ => Trouble::Unsolvable,
+        }
+    }
+}

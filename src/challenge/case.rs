@@ -1,0 +1,151 @@
+//! Making a sealed case from a seed.
+
+use super::files::{CaseFile, case_file, recordings};
+use super::random::{Random, Stream};
+use super::rig::Rig;
+use super::scenario::{Class, NoiseKnowledge, Scenario, draw};
+use super::truth::{Truth, salt, seal};
+
+/// What is asked for; chance decides the rest.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Request {
+    /// Decides everything that is left open.
+    pub seed: u64,
+    /// Mixed into the salt of the truth, so that the truth cannot be guessed from the seed.
+    pub entropy: u64,
+    /// Only scenarios of this rig.
+    pub rig: Option<Rig>,
+    /// This scenario.
+    pub scenario: Option<Scenario>,
+    /// How the noise is claimed.
+    pub noise: Option<NoiseKnowledge>,
+}
+
+/// A case that is sealed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SealedCase {
+    /// What is handed out; the case file first.
+    pub files: Vec<CaseFile>,
+    /// What is kept.
+    pub truth: Truth,
+    /// Its text, of which the case file has the seal.
+    pub truth_text: String,
+}
+
+/// Makes a sealed case.
+pub fn challenge(request: &Request) -> SealedCase {
+    let mut random = Random::new(request.seed, Stream::Case, 0);
+    let scenario = request
+        .scenario
+        .unwrap_or_else(|| choose(request.rig, &mut random));
+    let by_chance = if random.chance(0.5) {
+        NoiseKnowledge::Stated
+    } else {
+        NoiseKnowledge::AtRest
+    };
+    let drawn = draw(scenario, request.noise.unwrap_or(by_chance), request.seed);
+    let mut truth = Truth::of(&drawn, &salt(request.seed, request.entropy));
+    let mut files = recordings(&drawn);
+    truth.files = files
+        .iter()
+        .map(|file| (file.name.into(), seal(&file.text)))
+        .collect();
+    let truth_text = truth.text();
+    files.insert(0, case_file(&drawn, &seal(&truth_text)));
+    SealedCase {
+        files,
+        truth,
+        truth_text,
+    }
+}
+
+/// How often a class is drawn, in percent.
+const CLASSES: [(Class, f64); 7] = [
+    (Class::Null, 20.0),
+    (Class::Single, 32.0),
+    (Class::Double, 14.0),
+    (Class::Triple, 6.0),
+    (Class::Masked, 6.0),
+    (Class::Outside, 16.0),
+    (Class::Hidden, 6.0),
+];
+
+fn choose(rig: Option<Rig>, random: &mut Random) -> Scenario {
+    let all: Vec<Scenario> = Scenario::all()
+        .into_iter()
+        .filter(|s| rig.is_none_or(|rig| s.rig == rig))
+        .collect();
+    let total: f64 = CLASSES.iter().map(|(_, share)| share).sum();
+    let mut left = random.between(0.0, total);
+    let class = CLASSES.iter().find(|(_, share)| {
+        left -= share;
+        left <= 0.0
+    });
+    let class = class.map_or(Class::Single, |(class, _)| *class);
+    let of_class: Vec<Scenario> = all.iter().copied().filter(|s| s.class == class).collect();
+    let pool = if of_class.is_empty() { all } else { of_class };
+    pool[random.index(pool.len())]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seed_gives_the_same_case_and_a_seal_that_holds() {
+        let request = Request {
+            seed: 42,
+            ..Request::default()
+        };
+        let case = challenge(&request);
+        assert_eq!(case, challenge(&request));
+        assert!(case.files[0].text.contains(&seal(&case.truth_text)));
+        let read: Truth = serde_json::from_str(&case.truth_text).unwrap();
+        assert_eq!(read, case.truth);
+        for file in &case.files[1..] {
+            assert_eq!(read.files[file.name], seal(&file.text));
+        }
+    }
+
+    #[test]
+    fn entropy_changes_the_truth_file_and_not_the_recordings() {
+        let request = Request {
+            seed: 42,
+            ..Request::default()
+        };
+        let (a, b) = (
+            challenge(&request),
+            challenge(&Request {
+                entropy: 9,
+                ..request
+            }),
+        );
+        assert_eq!(a.files[1..], b.files[1..]);
+        assert_ne!(seal(&a.truth_text), seal(&b.truth_text));
+    }
+
+    #[test]
+    fn a_case_file_tells_nothing() {
+        for scenario in Scenario::all() {
+            let of_scenario = |scenario, seed| {
+                let noise = Some(NoiseKnowledge::Stated);
+                let request = Request {
+                    seed,
+                    scenario: Some(scenario),
+                    noise,
+                    ..Request::default()
+                };
+                let drawn = draw(scenario, NoiseKnowledge::Stated, request.seed);
+                case_file(&drawn, "").text
+            };
+            let null = Scenario {
+                class: Class::Null,
+                effects: &[],
+                ..scenario
+            };
+            let hidden = scenario.class == Class::Hidden;
+            let texts = (of_scenario(scenario, 8), of_scenario(null, 8));
+            assert!(hidden || texts.0 == texts.1, "{}", scenario.name());
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! What the grader reads of a diagnosis: a part of what `gumption diagnose --json` prints.
+
+use serde::Deserialize;
+
+/// A diagnosis.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Answer {
+    /// `none`, `identified`, `ambiguous`, `partly`, `contested` or `unexplained`.
+    pub verdict: String,
+    /// Effects that were found.
+    pub effects: Vec<AnsweredEffect>,
+    /// The declared model.
+    pub before: Option<Quality>,
+    /// The model with the effects in it.
+    pub after: Option<Quality>,
+}
+
+/// One effect that was found.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct AnsweredEffect {
+    /// What is said of it.
+    pub state: State,
+    /// Names, most probable first.
+    pub named: Vec<Name>,
+}
+
+/// What is said of an effect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum State {
+    /// It has one name.
+    Identified,
+    /// It has one of several names.
+    Ambiguous,
+    /// It has no name; names in the list are tentative.
+    Unexplained,
+}
+
+/// A name that an effect may have.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Name {
+    /// Stable identifier of the catalogue.
+    pub id: String,
+    /// Next of kin.
+    pub family: String,
+    /// What the effect changes.
+    #[serde(default)]
+    pub node: String,
+    /// What it follows.
+    #[serde(default)]
+    pub along: String,
+    /// Posterior probability.
+    pub probability: f64,
+    /// Variants with their shares, most probable first.
+    #[serde(default)]
+    pub variants: Vec<Variant>,
+    /// Estimates of its coefficients.
+    #[serde(default)]
+    pub size: Vec<Option<f64>>,
+    /// Their standard uncertainties.
+    #[serde(default)]
+    pub u: Vec<Option<f64>>,
+}
+
+/// A variant of a name.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Variant {
+    /// What distinguishes it.
+    pub label: String,
+    /// Share of the probability.
+    pub share: f64,
+}
+
+/// How well a model describes the recording.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Quality {
+    /// χ² with the claimed noise.
+    pub chi_squared: f64,
+    /// Its degrees of freedom.
+    pub dof: f64,
+    /// Root mean square of the claimed noise, for each output.
+    pub expected_noise: Vec<f64>,
+    /// Root mean square of the errors of predictions, for each output.
+    pub held_out_rms: Vec<f64>,
+}
+
+impl Quality {
+    /// χ² per degree of freedom.
+    pub fn reduced(&self) -> f64 {
+        self.chi_squared / self.dof.max(1.0)
+    }
+
+    /// Prediction error over noise, all outputs together.
+    pub fn held_out(&self) -> Option<f64> {
+        if self.held_out_rms.is_empty() || self.held_out_rms.len() != self.expected_noise.len() {
+            return None;
+        }
+        let ratios = self.held_out_rms.iter().zip(&self.expected_noise);
+        let mean = ratios
+            .map(|(rms, noise)| (rms / noise) * (rms / noise))
+            .sum::<f64>()
+            / self.held_out_rms.len() as f64;
+        Some(libm::sqrt(mean))
+    }
+}

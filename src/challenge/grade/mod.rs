@@ -1,0 +1,75 @@
+//! A diagnosis held against the truth.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `answer` | what the grader reads of a diagnosis |
+//! | `vocabulary` | which names of the catalogue are right for which physics |
+//! | `score` | what was found, missed, made up, and the points |
+//! | `text` | the same in words |
+
+mod answer;
+mod score;
+mod text;
+mod vocabulary;
+
+use std::path::{Path, PathBuf};
+
+pub use answer::{Answer, AnsweredEffect, Name, Quality, State};
+pub use score::{Finding, Graded, GradedEffect, grade};
+pub use text::{json, text};
+pub(super) use vocabulary::share_a_name;
+pub use vocabulary::{accepted_ids, accepts};
+
+use super::files::{CASE, CaseFile};
+use super::truth::{Truth, seal};
+
+/// Why a case cannot be graded.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Refused {
+    /// A file that cannot be read, with the reason.
+    Unreadable(PathBuf, String),
+    /// The truth is not the one that the case file was sealed with.
+    BrokenSeal,
+    /// A file of the case was changed after it was sealed.
+    Changed(String),
+    /// The diagnosis is not in a form that is known.
+    NoDiagnosis(String),
+}
+
+/// Reads the truth of a folder that `challenge` wrote, and makes sure that neither it nor the case was
+/// changed since.
+///
+/// # Errors
+/// When a file is missing, or a seal does not hold.
+pub fn sealed_truth(folder: &Path) -> Result<Truth, Refused> {
+    let read = |path: PathBuf| {
+        std::fs::read_to_string(&path).map_err(|error| Refused::Unreadable(path, error.to_string()))
+    };
+    let truth_path = folder.join("truth.json");
+    let truth_text = read(truth_path.clone())?;
+    let handed_out = folder.join("case");
+    if !read(handed_out.join(CASE))?.contains(&seal(&truth_text)) {
+        return Err(Refused::BrokenSeal);
+    }
+    let truth: Truth = serde_json::from_str(&truth_text)
+        .map_err(|error| Refused::Unreadable(truth_path, error.to_string()))?;
+    for (name, hash) in &truth.files {
+        if seal(&read(handed_out.join(name))?) != *hash {
+            return Err(Refused::Changed(name.clone()));
+        }
+    }
+    Ok(truth)
+}
+
+/// Reads a diagnosis as `gumption diagnose --json` prints it.
+///
+/// # Errors
+/// When the text is no diagnosis.
+pub fn read_answer(text: &str) -> Result<Answer, Refused> {
+    serde_json::from_str(text).map_err(|error| Refused::NoDiagnosis(error.to_string()))
+}
+
+/// Whether the seal of the truth stands in the case file.
+pub fn is_sealed(case: &CaseFile, truth_text: &str) -> bool {
+    case.text.contains(&seal(truth_text))
+}

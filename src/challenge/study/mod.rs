@@ -1,0 +1,20 @@
+//! The proof on concealed data: many sealed cases, diagnosed and graded, as tables.
+//!
+//! The diagnosis is handed in as a function, so that nothing here knows how it works.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `trial` | which cases are made, and one of them run |
+//! | `record` | what is kept of a run, as a line of CSV |
+//! | `rate` | how often something happened, with its Clopper–Pearson interval |
+//! | `report` | the tables |
+
+mod rate;
+mod record;
+mod report;
+mod trial;
+
+pub use rate::Rate;
+pub use record::{Outcome, Record, read, write};
+pub use report::report;
+pub use trial::{Ablation, Trial, trials};

@@ -1,0 +1,99 @@
+//! `gumption challenge`: a sealed case to diagnose.
+
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use gumption::challenge::{NoiseKnowledge, Request, Rig, Scenario, challenge, seal};
+
+use super::{Outcome, output};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Seed: decides the case [default: one that nobody can guess]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Folder to create: DIR/case is handed out, DIR/truth.json is kept
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    out: Option<PathBuf>,
+    /// Only this rig: tumble, remount, triad or rate-table
+    #[arg(long, value_name = "RIG")]
+    rig: Option<Rig>,
+    /// This scenario (`--list` prints all)
+    #[arg(long, value_name = "NAME", conflicts_with = "rig", value_parser = scenario)]
+    scenario: Option<Scenario>,
+    /// How the noise is claimed: stated, or by a recording at rest [default: by chance]
+    #[arg(long, value_name = "HOW", value_parser = noise)]
+    noise: Option<NoiseKnowledge>,
+    /// Print the names of all scenarios
+    #[arg(long, conflicts_with_all = ["seed", "out", "rig", "scenario", "noise"])]
+    list: bool,
+}
+
+fn scenario(text: &str) -> Result<Scenario, String> {
+    let found = Scenario::all()
+        .into_iter()
+        .find(|scenario| scenario.name() == text);
+    found.ok_or_else(|| "there is no such scenario; `gumption challenge --list` prints all".into())
+}
+
+fn noise(text: &str) -> Result<NoiseKnowledge, String> {
+    match text {
+        "stated" => Ok(NoiseKnowledge::Stated),
+        "at-rest" => Ok(NoiseKnowledge::AtRest),
+        _ => Err("write `stated` or `at-rest`".into()),
+    }
+}
+
+pub(super) fn run(args: &Args) -> Outcome {
+    let Some(out) = &args.out else {
+        let names: Vec<String> = Scenario::all().iter().map(Scenario::name).collect();
+        return output::print(&(names.join("\n") + "\n"));
+    };
+    let entropy = entropy();
+    let request = Request {
+        seed: args.seed.unwrap_or(entropy),
+        entropy,
+        rig: args.rig,
+        scenario: args.scenario,
+        noise: args.noise,
+    };
+    write(out, &request)
+}
+
+/// Nanoseconds and process number: enough that the truth cannot be found by trying seeds.
+fn entropy() -> u64 {
+    let now = SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .map_or(0, |since| since.as_nanos() as u64);
+    now.rotate_left(20) ^ u64::from(std::process::id())
+}
+
+fn write(out: &Path, request: &Request) -> Outcome {
+    let handed_out = out.join("case");
+    let truth_path = out.join("truth.json");
+    if truth_path.exists() {
+        return output::complain(&format!(
+            "{} exists already; a sealed truth is not overwritten, so give another folder",
+            truth_path.display()
+        ));
+    }
+    if let Err(error) = std::fs::create_dir_all(&handed_out) {
+        return output::complain(&format!(
+            "cannot create the folder {}: {error}",
+            handed_out.display()
+        ));
+    }
+    let case = challenge(request);
+    let mut files: Vec<(PathBuf, String)> = case
+        .files
+        .into_iter()
+        .map(|file| (handed_out.join(file.name), file.text))
+        .collect();
+    files.push((truth_path.clone(), case.truth_text.clone()));
+    output::replace_all(&files).max(output::print(&format!(
+        "To hand out: {}\nTo keep:     {}\nSHA-256 of the truth, which the case file states too:\n{}\n",
+        handed_out.display(),
+        truth_path.display(),
+        seal(&case.truth_text)
+    )))
+}

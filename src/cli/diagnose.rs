@@ -1,0 +1,130 @@
+//! `gumption diagnose`: a declared model confronted with a recording.
+
+use std::io::{IsTerminal, stderr, stdout};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use gumption::diagnose::case::{Case, Purpose};
+use gumption::diagnose::{self, Diagnosis};
+use gumption::report::{self, Language, Page};
+
+use super::{Outcome, output};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// The case file
+    #[arg(value_name = "CASE")]
+    case: PathBuf,
+    /// Print JSON: exact numbers, stable names
+    #[arg(long, conflicts_with = "markdown")]
+    json: bool,
+    /// Print Markdown
+    #[arg(long)]
+    markdown: bool,
+    /// Language of the report: en or zh
+    #[arg(long, value_name = "LANG", default_value = "en")]
+    lang: Language,
+    /// Seed of the random numbers [default: that of the case, else 1]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Write the improved case and its recording into this folder
+    #[arg(long, value_name = "DIR")]
+    improved: Option<PathBuf>,
+    /// Write plots of the residuals (SVG) into this folder
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
+    /// Write the report to this file instead of standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &Args) -> Outcome {
+    let mut case = match Case::load(&args.case, Purpose::Diagnosis) {
+        Ok(case) => case,
+        Err(rejection) => {
+            output::warn(&rejection.render(output::may_style(&stderr())));
+            return Outcome::BadInput;
+        }
+    };
+    if let Some(seed) = args.seed {
+        case.settings.seed = seed;
+    }
+    let progress = stderr().is_terminal();
+    let show = |share: f64| {
+        if progress {
+            output::warn(&format!("\r\x1b[K{:.0} %", 100.0 * share));
+        }
+        ControlFlow::Continue(())
+    };
+    let found = diagnose::diagnose(&case, &show);
+    if progress {
+        output::warn("\r\x1b[K");
+    }
+    match found {
+        Ok(diagnosis) => written(args, &case, &diagnosis).max(beside(args, &case, &diagnosis)),
+        Err(failure) => output::complain(&format!(
+            "{}: {}",
+            args.case.display(),
+            report::diagnosis_failure(&case, &failure, args.lang)
+        )),
+    }
+}
+
+fn written(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
+    let text = if args.json {
+        format!("{:#}\n", report::diagnosis_json(case, diagnosis, args.lang))
+    } else if args.markdown {
+        report::diagnosis_markdown(case, diagnosis, args.lang)
+    } else {
+        let page = Page {
+            width: output::page_width(),
+            styled: output::may_style(&stdout()),
+        };
+        report::diagnosis_text(case, diagnosis, args.lang, page)
+    };
+    match &args.output {
+        Some(path) => output::replace(path, &text),
+        None => output::print(&text),
+    }
+}
+
+/// The improved case and the plots.
+fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
+    let mut outcome = Outcome::Done;
+    if let Some(folder) = &args.improved {
+        outcome = outcome.max(match diagnose::improved(case, diagnosis) {
+            Some((text, recording)) => files(
+                folder,
+                vec![
+                    ("case.toml".to_owned(), text),
+                    (diagnose::IMPROVED_RECORDING.to_owned(), recording),
+                ],
+            ),
+            None => {
+                output::warn("nothing was adopted, and so there is no improved case to write\n");
+                Outcome::Done
+            }
+        });
+    }
+    if let Some(folder) = &args.plots {
+        outcome = outcome.max(files(
+            folder,
+            report::diagnosis_plots(case, diagnosis, args.lang),
+        ));
+    }
+    outcome
+}
+
+fn files(folder: &Path, contents: Vec<(String, String)>) -> Outcome {
+    if let Err(error) = std::fs::create_dir_all(folder) {
+        return output::complain(&format!(
+            "cannot create the folder {}: {error}",
+            folder.display()
+        ));
+    }
+    let contents: Vec<(PathBuf, String)> = contents
+        .into_iter()
+        .map(|(name, text)| (folder.join(name), text))
+        .collect();
+    output::replace_all(&contents)
+}

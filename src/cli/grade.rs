@@ -1,0 +1,54 @@
+//! `gumption grade`: a diagnosis held against the sealed truth.
+
+use std::path::PathBuf;
+
+use gumption::challenge::grade::{self, Refused};
+use gumption::report::Language;
+
+use super::{Outcome, output};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// The folder that `gumption challenge` wrote, with truth.json and case/
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// What `gumption diagnose --json` printed
+    #[arg(long, value_name = "FILE")]
+    diagnosis: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// Language: en or zh
+    #[arg(long, value_name = "LANG", default_value = "en")]
+    lang: Language,
+}
+
+pub(super) fn run(args: &Args) -> Outcome {
+    match graded(args) {
+        Ok(graded) if args.json => output::print(&format!("{:#}\n", grade::json(&graded))),
+        Ok(graded) => output::print(&grade::text(&graded, args.lang)),
+        Err(refused) => output::complain(&words(&refused)),
+    }
+}
+
+fn graded(args: &Args) -> Result<grade::Graded, Refused> {
+    let truth = grade::sealed_truth(&args.folder)?;
+    let text = std::fs::read_to_string(&args.diagnosis)
+        .map_err(|error| Refused::Unreadable(args.diagnosis.clone(), error.to_string()))?;
+    Ok(grade::grade(&truth, &grade::read_answer(&text)?))
+}
+
+fn words(refused: &Refused) -> String {
+    match refused {
+        Refused::Unreadable(path, error) => format!("cannot read {}: {error}", path.display()),
+        Refused::BrokenSeal => {
+            "the seal is broken: truth.json is not the one whose SHA-256 stands in case/CASE.toml, so nothing is graded".into()
+        }
+        Refused::Changed(name) => {
+            format!("the seal is broken: case/{name} was changed after it was handed out, so nothing is graded")
+        }
+        Refused::NoDiagnosis(error) => {
+            format!("the file given with --diagnosis is not what `gumption diagnose --json` prints: {error}")
+        }
+    }
+}

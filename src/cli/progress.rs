@@ -1,0 +1,89 @@
+//! A line on standard error while Monte Carlo takes long.
+
+use std::io::{IsTerminal, Write, stderr};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use gumption::propagate::trials_drawn;
+
+/// Nobody waits for an evaluation that is quicker.
+const PATIENCE: Duration = Duration::from_millis(1500);
+
+const BETWEEN: Duration = Duration::from_millis(500);
+
+/// Shows progress until it is dropped; then the line is gone.
+pub(super) struct Progress {
+    done: Option<Sender<()>>,
+    watcher: Option<JoinHandle<()>>,
+}
+
+impl Progress {
+    /// Begins to watch, if standard error is a terminal.
+    pub(super) fn shown() -> Progress {
+        if !stderr().is_terminal() {
+            return Progress {
+                done: None,
+                watcher: None,
+            };
+        }
+        let (done, finished) = channel();
+        let watcher = std::thread::spawn(move || {
+            let (start, before) = (Instant::now(), trials_drawn());
+            let mut wait = PATIENCE;
+            let mut shown = false;
+            while finished.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
+                wait = BETWEEN;
+                let drawn = trials_drawn() - before;
+                if drawn > 0 {
+                    shown = true;
+                    let line = line(drawn, start.elapsed());
+                    let _ = write!(stderr(), "\r\x1b[K{line}");
+                    let _ = stderr().flush();
+                }
+            }
+            if shown {
+                let _ = write!(stderr(), "\r\x1b[K");
+            }
+        });
+        Progress {
+            done: Some(done),
+            watcher: Some(watcher),
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        // The watcher ends when its channel does.
+        self.done = None;
+        if let Some(watcher) = self.watcher.take() {
+            let _ = watcher.join();
+        }
+    }
+}
+
+fn line(drawn: u64, elapsed: Duration) -> String {
+    let millions = drawn as f64 / 1e6;
+    let rate = millions / elapsed.as_secs_f64();
+    format!(
+        "Monte Carlo: {millions:.0} million trials, {rate:.0} million a second (Ctrl-C ends it; nothing is written then)"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_tells_number_and_rate() {
+        let line = line(300_000_000, Duration::from_secs(2));
+        assert!(line.contains("300 million trials, 150 million a second"));
+    }
+
+    #[test]
+    fn nothing_is_shown_where_nobody_looks() {
+        let progress = Progress::shown();
+        drop(progress);
+    }
+}

@@ -1,0 +1,238 @@
+//! The declared model with an effect in it: further columns for the modifiers, further parameters for the
+//! sizes, and the equations that contain them.
+
+use nalgebra::DVector;
+
+use super::case::{Case, Column, Data, Parameter, Role};
+use super::catalogue::{Ground, Node, Term, Variation};
+use crate::equations::{EquationText, Equations, Quantity};
+use crate::quantity::Unit;
+
+/// A case with effects in its model.
+#[derive(Debug)]
+pub struct Extended {
+    /// The case.
+    pub case: Case,
+    /// What was added, one for each coefficient.
+    pub additions: Vec<Addition>,
+}
+
+/// One coefficient that was added.
+#[derive(Debug, Clone)]
+pub struct Addition {
+    /// Name of the parameter.
+    pub parameter: String,
+    /// Name of the column that holds the modifier.
+    pub column: String,
+    /// The modifier as a formula.
+    pub text: String,
+}
+
+/// Adds variations to the model of a case. Nothing if the equations cannot be written, which only
+/// unusual ones cannot.
+pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extended> {
+    let mut case = ground.case().clone();
+    let mut additions: Vec<Addition> = Vec::new();
+    let mut lines: Vec<Vec<String>> = (0..case.responses.len())
+        .map(|response| {
+            case.equations
+                .text(response)
+                .lines()
+                .map(str::to_owned)
+                .collect()
+        })
+        .collect();
+    let parameters = case.parameters.len();
+    let mut columns = Vec::new();
+    for term in variations.iter().flat_map(|variation| &variation.terms) {
+        let number = additions.len() + 1;
+        let (parameter, column) = (free(&case, "beta", number), free(&case, "effect", number));
+        for (response, lines) in lines.iter_mut().enumerate() {
+            if term.response.is_none_or(|only| only == response) {
+                insert(
+                    ground,
+                    term,
+                    response,
+                    lines,
+                    &format!("{parameter}*{column}"),
+                );
+            }
+        }
+        case.parameters.push(Parameter {
+            name: parameter.clone(),
+            unit: unit_of(ground, term),
+            start: None,
+            prior: None,
+            per: None,
+        });
+        columns.push(Column {
+            name: column.clone(),
+            header: column.clone(),
+            role: Role::Covariate,
+            unit: Unit::one(),
+            data: Data::Numbers(term.modifier.clone()),
+            u: None,
+            u_common: None,
+        });
+        additions.push(Addition {
+            parameter,
+            column,
+            text: term.text.clone(),
+        });
+    }
+    debug_assert_eq!(case.parameters.len(), parameters + additions.len());
+    case.columns.extend(columns);
+    let texts: Vec<String> = lines.iter().map(|lines| lines.join("\n")).collect();
+    case.equations = compiled(&case, &texts)?;
+    case.model = texts;
+    Some(Extended { case, additions })
+}
+
+/// Where the search begins: the declared fit, with the coefficients that the examination found.
+pub fn start(
+    ground: &Ground<'_>,
+    extended: &super::frame::Frame<'_>,
+    coefficients: &DVector<f64>,
+) -> DVector<f64> {
+    use super::frame::UnknownKind;
+    let declared = ground.case().parameters.len();
+    let mut own = ground.fit.unknowns.iter();
+    let of = extended.unknowns.iter().map(|unknown| match unknown.kind {
+        UnknownKind::Parameter { parameter, .. } if parameter >= declared => {
+            let value = coefficients
+                .get(parameter - declared)
+                .copied()
+                .unwrap_or(0.0);
+            if value.is_finite() { value } else { 0.0 }
+        }
+        _ => own.next().copied().unwrap_or(0.0),
+    });
+    DVector::from_vec(of.collect())
+}
+
+fn free(case: &Case, stem: &str, number: usize) -> String {
+    let taken = |name: &str| {
+        case.parameters.iter().any(|p| p.name == name)
+            || case.columns.iter().any(|c| c.name == name)
+    };
+    let mut name = format!("{stem}_{number}");
+    while taken(&name) {
+        name.push('_');
+    }
+    name
+}
+
+/// Unit of the coefficient: modifiers are numbers.
+fn unit_of(ground: &Ground<'_>, term: &Term) -> Unit {
+    let case = ground.case();
+    match term.node {
+        Node::Output => case.responses[term.response.unwrap_or(0)].unit.difference(),
+        Node::Gain => Unit::one(),
+        Node::Parameter(parameter) => case.parameters[parameter].unit.difference(),
+        Node::Column(column) => case.columns[column].unit.difference(),
+    }
+}
+
+fn insert(ground: &Ground<'_>, term: &Term, response: usize, lines: &mut [String], product: &str) {
+    let case = ground.case();
+    let Some(last) = lines.len().checked_sub(1) else {
+        return;
+    };
+    let Some((left, right)) = lines[last]
+        .split_once(" = ")
+        .map(|(l, r)| (l.to_owned(), r.to_owned()))
+    else {
+        return;
+    };
+    match term.node {
+        Node::Output => lines[last] = format!("{left} = {right} + {product}"),
+        Node::Gain => {
+            let constants = ground.constant_terms(response);
+            let minus: String = constants
+                .iter()
+                .map(|p| format!(" - {}", case.parameters[*p].name))
+                .collect();
+            lines[last] = format!("{left} = {right} + {product}*({right}{minus})");
+        }
+        Node::Parameter(_) | Node::Column(_) => {
+            let name = ground.name(term.node);
+            let with = format!("({name} + {product})");
+            for line in lines {
+                *line = match line.split_once(" = ") {
+                    Some((left, right)) => format!("{left} = {}", replaced(right, &name, &with)),
+                    None => replaced(line, &name, &with),
+                };
+            }
+        }
+    }
+}
+
+/// A formula with a name replaced, outside of quoted units.
+fn replaced(text: &str, name: &str, with: &str) -> String {
+    let mut out = String::new();
+    let mut word = String::new();
+    let mut quoted = false;
+    let flush = |word: &mut String, out: &mut String| {
+        out.push_str(if word == name { with } else { word });
+        word.clear();
+    };
+    for c in text.chars() {
+        let part = c.is_alphanumeric() || c == '_';
+        if part && !quoted {
+            word.push(c);
+            continue;
+        }
+        flush(&mut word, &mut out);
+        quoted ^= c == '\'';
+        out.push(c);
+    }
+    flush(&mut word, &mut out);
+    out
+}
+
+fn compiled(case: &Case, texts: &[String]) -> Option<Equations> {
+    let parameters = case
+        .parameters
+        .iter()
+        .map(|p| (p.name.clone(), p.unit.clone()));
+    let columns = case
+        .columns
+        .iter()
+        .map(|c| (c.name.clone(), c.unit.clone()));
+    let symbols: Vec<Quantity> = parameters
+        .chain(columns)
+        .map(|(name, unit)| Quantity { name, unit })
+        .collect();
+    let responses: Vec<Quantity> = case
+        .responses
+        .iter()
+        .map(|r| Quantity {
+            name: r.name.clone(),
+            unit: r.unit.clone(),
+        })
+        .collect();
+    let constants: Vec<_> = case
+        .constants
+        .iter()
+        .filter(|c| !responses.iter().any(|r| r.name == c.name))
+        .cloned()
+        .collect();
+    let texts: Vec<EquationText<'_>> = texts
+        .iter()
+        .map(|text| EquationText { text, at: 0..0 })
+        .collect();
+    Equations::compile(&texts, &symbols, &responses, &constants, &case.units).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::replaced;
+
+    #[test]
+    fn names_are_replaced_as_a_whole() {
+        assert_eq!(
+            replaced("T*T_0 + 3 'T' + sin(T)", "T", "(T + b*m)"),
+            "(T + b*m)*T_0 + 3 'T' + sin((T + b*m))"
+        );
+    }
+}

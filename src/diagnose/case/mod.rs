@@ -1,0 +1,303 @@
+//! The case file: a declared model, a recording, and what is claimed about both.
+
+mod at_rest;
+mod check;
+mod declared;
+mod tables;
+
+use std::path::{Path, PathBuf};
+
+use crate::budget::table::KeyRow;
+use crate::budget::{Files, Rejection};
+use crate::equations::Equations;
+use crate::model::Symbol;
+use crate::quantity::{Unit, UnitTable};
+use crate::recording::Labels;
+
+pub(super) use at_rest::hours;
+pub use tables::RoleWord as Role;
+
+/// A checked case.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// The heading; the name of the file where it has none.
+    pub title: String,
+    /// Where the recording comes from.
+    pub reference: Option<String>,
+    /// Anything the reader should know.
+    pub note: Option<String>,
+    /// The text of the case file.
+    pub text: String,
+    /// The case file's path.
+    pub path: PathBuf,
+    /// Units of the program and of the file.
+    pub units: UnitTable,
+    /// The rows, in the order of the recording.
+    pub rows: usize,
+    /// Rows of the file that were left out because a value is missing.
+    pub left_out: usize,
+    /// The columns that take part, in the order of the case.
+    pub columns: Vec<Column>,
+    /// The parameters of the model.
+    pub parameters: Vec<Parameter>,
+    /// Exactly known quantities.
+    pub constants: Vec<Symbol>,
+    /// Left sides of the model, in its order.
+    pub responses: Vec<Response>,
+    /// The model: symbols are the parameters and then the columns.
+    pub equations: Equations,
+    /// Texts of the model as the file has them.
+    pub model: Vec<String>,
+    /// What is claimed about the noise.
+    pub noise: NoiseClaim,
+    /// The user's own explanations.
+    pub candidates: Vec<UserCandidate>,
+    /// Further measurements that could be made.
+    pub actions: Vec<Action>,
+    /// How rows are averaged.
+    pub averaging: Averaging,
+    /// How the diagnosis is run.
+    pub settings: Settings,
+}
+
+/// A column of the recording.
+#[derive(Debug, Clone)]
+pub struct Column {
+    /// As models call it.
+    pub name: String,
+    /// As the first line of the file calls it.
+    pub header: String,
+    /// What it is.
+    pub role: Role,
+    /// Its unit; the unit one for labels and where none is stated.
+    pub unit: Unit,
+    /// What it holds.
+    pub data: Data,
+    /// Standard uncertainty of each value, independent from row to row.
+    pub u: Option<f64>,
+    /// Standard uncertainty of an error that all rows share.
+    pub u_common: Option<f64>,
+}
+
+/// What a column holds, row by row.
+#[derive(Debug, Clone)]
+pub enum Data {
+    /// Numbers in the unit of the column.
+    Numbers(Vec<f64>),
+    /// Labels.
+    Labels(Labels),
+    /// Nothing yet: an output in a plan.
+    Absent,
+}
+
+/// A parameter of the declared model.
+#[derive(Debug, Clone)]
+pub struct Parameter {
+    /// As the model calls it.
+    pub name: String,
+    /// Its unit.
+    pub unit: Unit,
+    /// Where the search begins.
+    pub start: Option<f64>,
+    /// What is known beforehand: value and standard uncertainty.
+    pub prior: Option<(f64, f64)>,
+    /// The column for each of whose labels it has a value of its own.
+    pub per: Option<usize>,
+}
+
+/// The left side of an equation.
+#[derive(Debug, Clone)]
+pub struct Response {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: Unit,
+    /// What was observed.
+    pub observed: Observed,
+}
+
+/// What the right side of an equation is held against.
+#[derive(Debug, Clone, Copy)]
+pub enum Observed {
+    /// A column.
+    Column(usize),
+    /// A constant: the equation should give it in every row.
+    Constant(f64),
+}
+
+/// What is claimed about the noise of one row of the output.
+#[derive(Debug, Clone)]
+pub enum NoiseClaim {
+    /// Nothing: only that it is alike in all rows.
+    Estimated,
+    /// A standard uncertainty with its degrees of freedom, and what claims it.
+    Stated {
+        /// One for each response.
+        u: Vec<f64>,
+        /// Degrees of freedom.
+        dof: f64,
+        /// Where it comes from.
+        origin: NoiseOrigin,
+    },
+    /// A column holds it.
+    PerRow(usize),
+    /// Rows that agree in these columns are replicates.
+    Replicates(Vec<usize>),
+    /// A recording at rest.
+    AtRest {
+        /// Its file.
+        file: String,
+        /// One for each response.
+        readings: Vec<RestReadings>,
+    },
+}
+
+/// What an output showed at rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RestReadings {
+    /// Times, h; `None` where the file has none.
+    pub times: Option<Vec<f64>>,
+    /// Readings in the unit of the response.
+    pub readings: Vec<f64>,
+}
+
+/// Where a stated noise comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoiseOrigin {
+    /// The case itself.
+    Case,
+    /// A budget.
+    Budget(String),
+}
+
+/// An explanation of the user's own.
+#[derive(Debug, Clone)]
+pub struct UserCandidate {
+    /// Its name.
+    pub name: String,
+    /// Its formula as the file has it.
+    pub formula: String,
+    /// The compiled formula, over the same symbols as the model.
+    pub equations: Equations,
+    /// What it changes; the outputs if nothing is stated.
+    pub node: Option<String>,
+    /// A size that would not surprise.
+    pub typical: Option<f64>,
+    /// A sentence that explains it.
+    pub description: Option<String>,
+}
+
+/// A further measurement that could be made.
+#[derive(Debug, Clone)]
+pub struct Action {
+    /// Its name.
+    pub name: String,
+    /// Effort.
+    pub cost: f64,
+    /// The file with the rows that would be recorded.
+    pub rows: PathBuf,
+}
+
+/// How consecutive rows are averaged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Averaging {
+    /// Blocks of consecutive rows.
+    pub blocks: Blocks,
+    /// Rows left out at the beginning of each dwell.
+    pub settle: usize,
+}
+
+/// Blocks of consecutive rows.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Blocks {
+    /// Chosen by the length of the recording.
+    Auto,
+    /// None: every row for itself.
+    Rows,
+    /// At most so many.
+    AtMost(usize),
+    /// Where these columns have the same labels.
+    Dwells(Vec<usize>),
+}
+
+/// How the diagnosis is run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Probability of a false alarm.
+    pub alpha: f64,
+    /// Families of the catalogue that are considered; `None` = all.
+    pub catalogue: Option<Vec<String>>,
+    /// Effects or families that are not.
+    pub exclude: Vec<String>,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Simulated recordings without any effect.
+    pub draws: usize,
+}
+
+/// What a case is read for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// Outputs were recorded.
+    Diagnosis,
+    /// Outputs may be missing: the experiment is to be judged before it is made.
+    Plan,
+}
+
+impl Case {
+    /// Reads and checks a case file and the recording that it names.
+    ///
+    /// # Errors
+    /// All faults of the case, or all faults of the recording.
+    pub fn load(path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
+        check::load(Files::Disk, path, purpose)
+    }
+
+    /// The column of a name.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|column| column.name == name)
+    }
+
+    /// Columns of a role.
+    pub fn with_role(&self, role: Role) -> impl Iterator<Item = usize> {
+        (0..self.columns.len()).filter(move |i| self.columns[*i].role == role)
+    }
+
+    /// Length of the symbols' vector of the model: parameters and columns.
+    pub fn symbols(&self) -> usize {
+        self.parameters.len() + self.columns.len()
+    }
+}
+
+impl Column {
+    /// The numbers; nothing for labels.
+    pub fn numbers(&self) -> Option<&[f64]> {
+        match &self.data {
+            Data::Numbers(numbers) => Some(numbers),
+            _ => None,
+        }
+    }
+
+    /// The labels; nothing for numbers.
+    pub fn labels(&self) -> Option<&Labels> {
+        match &self.data {
+            Data::Labels(labels) => Some(labels),
+            _ => None,
+        }
+    }
+}
+
+/// Whether a file is a case: it has a `recording` and a `model`.
+pub fn is_case(text: &str) -> bool {
+    let (table, _) = toml::de::DeTable::parse_recoverable(text);
+    let table = table.get_ref();
+    table.contains_key("recording") && table.contains_key("model")
+}
+
+/// The reference of keys, table by table.
+pub fn keys() -> Vec<KeyRow> {
+    use crate::budget::table::Table;
+    let mut rows = Vec::new();
+    tables::CaseTable::rows("", &mut rows);
+    rows
+}

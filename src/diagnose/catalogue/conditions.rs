@@ -1,0 +1,230 @@
+//! What recorded conditions may do that the model leaves out: on the offset, on the scale, with a lag,
+//! squared, as a rate, inversely, and together.
+
+use super::ground::{Ground, Node};
+use super::modifiers::{centred, figure, lag, map, map2, mean, range, rate};
+use super::response::{on_node, on_outputs, time_constants, words};
+use super::{Cell, Words};
+use crate::diagnose::case::Role;
+
+type Variants = Vec<(String, Vec<(Vec<f64>, String)>)>;
+
+/// Cells of the columns that may act although, or besides how, the model uses them.
+pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    let numeric = ground.numeric();
+    let conditions: Vec<usize> = numeric
+        .iter()
+        .copied()
+        .filter(|c| !ground.in_model(*c))
+        .collect();
+    for column in &conditions {
+        cells.extend(of_condition(ground, *column));
+    }
+    for column in numeric.iter().filter(|c| positive(ground.numbers(**c))) {
+        if ground.in_model(*column) {
+            continue;
+        }
+        cells.push(reciprocal(ground, *column));
+    }
+    for (at, x) in conditions.iter().enumerate() {
+        for z in &conditions[at + 1..] {
+            cells.extend(of_pair(ground, *x, *z));
+        }
+    }
+    cells
+}
+
+fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
+    let label = ground.case().columns[column].name.clone();
+    let x = ground.numbers(column);
+    let own = centred(x);
+    let text = format!("({label} - {})", figure(mean(x)));
+    let temperature = ground.is_temperature(column);
+    let stimulus = ground.case().columns[column].role == Role::Stimulus;
+    let mut cells = Vec::new();
+    let bias = match (temperature, stimulus) {
+        (true, _) => "tempco-bias",
+        (_, true) => "cross-sensitivity",
+        _ => "sensitivity",
+    };
+    let delayed = delayed(ground, &own, &text);
+    let words = words(ground, &label);
+    cells.push(on_outputs(
+        ground,
+        bias,
+        words.clone(),
+        &label,
+        delayed.clone(),
+    ));
+    let square: Variants = delayed
+        .iter()
+        .map(|(variant, modifiers)| {
+            let (modifier, text) = &modifiers[0];
+            (
+                variant.clone(),
+                vec![(map(modifier, |x| x * x), format!("{text}^2"))],
+            )
+        })
+        .collect();
+    let second = if temperature {
+        "tempco-quadratic"
+    } else {
+        "sensitivity-quadratic"
+    };
+    cells.push(on_outputs(ground, second, words.clone(), &label, square));
+    for (node, id) in scale_nodes(ground, temperature) {
+        let mut cell = on_node(ground, id, words.clone(), &label, node, delayed.clone());
+        cell.words.p = ground.name(node);
+        cells.push(cell);
+    }
+    if ground.is_timed() {
+        let id = if temperature {
+            "temperature-rate"
+        } else {
+            "sensitivity-rate"
+        };
+        let modifier = rate(&ground.clock.values, x);
+        let variants = vec![(String::new(), vec![(modifier, format!("d{label}/dt"))])];
+        cells.push(on_outputs(ground, id, words, &label, variants));
+    }
+    for cell in &mut cells {
+        shape(ground, cell);
+    }
+    cells
+}
+
+/// The modifier without a lag, and with each of a series of time constants.
+fn delayed(ground: &Ground<'_>, own: &[f64], text: &str) -> Variants {
+    let mut variants = vec![(String::new(), vec![(own.to_vec(), text.to_owned())])];
+    if ground.is_timed() {
+        let unit = ground.time_unit();
+        for tau in time_constants(ground) {
+            let lagged = lag(&ground.clock.values, own, tau);
+            let text = format!("lag{text}[{tau} {unit}]", tau = figure(tau));
+            variants.push((
+                format!("τ = {tau} {unit}", tau = figure(tau)),
+                vec![(lagged, text)],
+            ));
+        }
+    }
+    variants
+}
+
+/// Notes the time constant of delayed variants.
+fn shape(ground: &Ground<'_>, cell: &mut Cell) {
+    let unit = ground.time_unit();
+    for variation in &mut cell.variants {
+        let Some((_, rest)) = variation.label.split_once("τ = ") else {
+            continue;
+        };
+        if let Some(tau) = rest
+            .split(' ')
+            .next()
+            .and_then(|number| number.parse().ok())
+        {
+            *variation = variation.clone().shaped("τ", tau, &unit);
+        }
+    }
+}
+
+/// The nodes that stand for the scale: parameters whose effect varies from row to row, or the whole signal.
+pub(super) fn scale_nodes(ground: &Ground<'_>, temperature: bool) -> Vec<(Node, &'static str)> {
+    let id = if temperature {
+        "tempco-scale"
+    } else {
+        "sensitivity-scale"
+    };
+    if ground.has_signal() {
+        vec![(Node::Gain, id)]
+    } else {
+        Vec::new()
+    }
+}
+
+fn positive(x: &[f64]) -> bool {
+    let (least, most) = range(x);
+    least > 0.0 && most > 1.2 * least
+}
+
+fn reciprocal(ground: &Ground<'_>, column: usize) -> Cell {
+    let label = ground.case().columns[column].name.clone();
+    let modifier = map(ground.numbers(column), |x| 1.0 / x);
+    let variants = vec![(String::new(), vec![(modifier, format!("1/{label}"))])];
+    let node = scale_or_offset(ground);
+    on_node(
+        ground,
+        "reciprocal",
+        words(ground, &label),
+        &label,
+        node,
+        variants,
+    )
+}
+
+fn scale_or_offset(ground: &Ground<'_>) -> Node {
+    if ground.has_signal() {
+        Node::Gain
+    } else {
+        Node::Output
+    }
+}
+
+fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
+    let name = |column: usize| ground.case().columns[column].name.clone();
+    let along = format!("{}, {}", name(x), name(z));
+    let pair = Words {
+        z: name(z),
+        ..words(ground, &name(x))
+    };
+    let product = map2(
+        &centred(ground.numbers(x)),
+        &centred(ground.numbers(z)),
+        |x, z| x * z,
+    );
+    let text = format!("({} - mean)*({} - mean)", name(x), name(z));
+    let mut cells = vec![on_outputs(
+        ground,
+        "interaction",
+        pair.clone(),
+        &along,
+        vec![(String::new(), vec![(product, text)])],
+    )];
+    let (of_x, of_z) = (ground.numbers(x), ground.numbers(z));
+    if range(of_x).0 > 0.0 && range(of_z).0 > 0.0 && (positive(of_x) || positive(of_z)) {
+        let inverse = map2(of_x, of_z, |x, z| 1.0 / (x * z));
+        let text = format!("1/({}*{})", name(x), name(z));
+        let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));
+        let size = [x, z].iter().any(|c| ground.is_like(*c, "m"));
+        let id = if gas && size {
+            "mean-free-path"
+        } else {
+            "reciprocal-product"
+        };
+        let node = scale_or_offset(ground);
+        cells.push(on_node(
+            ground,
+            id,
+            pair,
+            &along,
+            node,
+            // Large corrections are curved.
+            vec![
+                (String::new(), vec![(inverse.clone(), text.clone())]),
+                (
+                    "with its square".to_owned(),
+                    vec![
+                        (inverse.clone(), text.clone()),
+                        (map(&inverse, |x| x * x), format!("({text})^2")),
+                    ],
+                ),
+            ],
+        ));
+    }
+    cells
+}
+
+/// Variants of the same modifiers; for other chapters.
+pub(super) fn single(label: &str, modifier: Vec<f64>, text: String) -> Variants {
+    vec![(label.to_owned(), vec![(modifier, text)])]
+}

@@ -1,0 +1,224 @@
+//! Slopes of the nodes at the fitted model, and which columns can be what.
+
+use nalgebra::DVector;
+
+use super::Term;
+use crate::diagnose::case::{Case, Role};
+use crate::diagnose::fit::Fit;
+use crate::diagnose::frame::{Clock, Frame};
+use crate::quantity::{Unit, UnitTable};
+
+/// A quantity of the model that can be disturbed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// The output itself: an offset.
+    Output,
+    /// Everything that the model gives besides constant terms.
+    Gain,
+    /// A parameter.
+    Parameter(usize),
+    /// A column that the model uses.
+    Column(usize),
+}
+
+/// The fitted model, on which effects act.
+#[derive(Debug)]
+pub struct Ground<'f> {
+    /// The rows.
+    pub frame: &'f Frame<'f>,
+    /// The fitted model.
+    pub fit: &'f Fit,
+    /// When rows were recorded.
+    pub clock: Clock,
+    /// What the model gives besides constant terms, for each response and row.
+    signal: Vec<Vec<f64>>,
+}
+
+impl<'f> Ground<'f> {
+    /// Forms the signal of each response.
+    pub fn new(frame: &'f Frame<'f>, fit: &'f Fit) -> Ground<'f> {
+        let responses = 0..frame.case.responses.len();
+        Ground {
+            frame,
+            fit,
+            clock: frame.time(),
+            signal: responses
+                .map(|response| signal(frame, fit, response))
+                .collect(),
+        }
+    }
+
+    /// The case.
+    pub fn case(&self) -> &'f Case {
+        self.frame.case
+    }
+
+    /// Rows of the recording.
+    pub fn rows(&self) -> usize {
+        self.frame.case.rows
+    }
+
+    /// What the model gives besides constant terms.
+    pub fn signal(&self, response: usize) -> &[f64] {
+        &self.signal[response]
+    }
+
+    /// The slope of a response by a node, row by row.
+    pub fn slope(&self, node: Node, response: usize) -> Vec<f64> {
+        let slopes = &self.fit.linear.slopes[response];
+        match node {
+            Node::Output => vec![1.0; self.rows()],
+            Node::Gain => self.signal[response].clone(),
+            Node::Parameter(parameter) => slopes.column(parameter).iter().copied().collect(),
+            Node::Column(column) => {
+                let place = self.case().parameters.len() + column;
+                slopes.column(place).iter().copied().collect()
+            }
+        }
+    }
+
+    /// The regressor of a term.
+    pub fn column(&self, term: &Term) -> DVector<f64> {
+        self.frame.observed_column(|response| {
+            if term.response.is_some_and(|only| only != response) {
+                return vec![0.0; self.rows()];
+            }
+            let slope = self.slope(term.node, response);
+            slope
+                .iter()
+                .zip(&term.modifier)
+                .map(|(s, m)| s * m)
+                .collect()
+        })
+    }
+
+    /// Its name in reports.
+    pub fn name(&self, node: Node) -> String {
+        match node {
+            Node::Output => "offset".to_owned(),
+            Node::Gain => "scale".to_owned(),
+            Node::Parameter(parameter) => self.case().parameters[parameter].name.clone(),
+            Node::Column(column) => self.case().columns[column].name.clone(),
+        }
+    }
+
+    /// The outputs, as one name.
+    pub fn output(&self) -> String {
+        let names: Vec<&str> = self
+            .case()
+            .responses
+            .iter()
+            .map(|r| r.name.as_str())
+            .collect();
+        names.join(", ")
+    }
+
+    /// Whether an equation uses a column.
+    pub fn in_model(&self, column: usize) -> bool {
+        let place = self.case().parameters.len() + column;
+        let equations = &self.case().equations;
+        (0..self.case().responses.len()).any(|response| equations.uses(response).contains(&place))
+    }
+
+    /// Columns of numbers that a disturbance may follow, in the model or not.
+    pub fn numeric(&self) -> Vec<usize> {
+        let case = self.case();
+        (0..case.columns.len())
+            .filter(|c| matches!(case.columns[*c].role, Role::Stimulus | Role::Covariate))
+            .filter(|c| case.columns[*c].numbers().is_some_and(varies))
+            .collect()
+    }
+
+    /// The numbers of a column.
+    pub fn numbers(&self, column: usize) -> &'f [f64] {
+        self.case().columns[column].numbers().unwrap_or(&[])
+    }
+
+    /// Whether a column is a temperature.
+    pub fn is_temperature(&self, column: usize) -> bool {
+        like(&self.case().columns[column].unit, "K")
+    }
+
+    /// Whether a column has the dimension of a unit.
+    pub fn is_like(&self, column: usize, unit: &str) -> bool {
+        like(&self.case().columns[column].unit, unit)
+    }
+
+    /// The unit of time as text; `row` where no time was recorded.
+    pub fn time_unit(&self) -> String {
+        match self.clock.column {
+            Some(column) => self.case().columns[column].unit.typeset(),
+            None => "row".to_owned(),
+        }
+    }
+
+    /// Seconds in a unit of the clock, where it is a time.
+    pub fn seconds(&self) -> Option<f64> {
+        let column = &self.case().columns[self.clock.column?];
+        let second = UnitTable::default().parse("s").ok()?;
+        let unit = column.unit.difference();
+        Some(unit.conversion_to(&second)?.apply(1.0))
+    }
+
+    /// Whether the order and distance in time of the rows is recorded.
+    pub fn is_timed(&self) -> bool {
+        self.clock.column.is_some()
+    }
+
+    /// Whether what is observed is a constant that the model should give in every row.
+    pub fn is_implicit(&self, response: usize) -> bool {
+        use crate::diagnose::case::Observed;
+        matches!(
+            self.case().responses[response].observed,
+            Observed::Constant(_)
+        )
+    }
+
+    /// Parameters that are added to the model as they stand.
+    pub fn constant_terms(&self, response: usize) -> Vec<usize> {
+        constant_terms(self.frame, self.fit, response)
+    }
+
+    /// Whether the signal of any response varies so much that its scale is something else than an offset.
+    pub fn has_signal(&self) -> bool {
+        const LEAST: f64 = 0.01;
+        self.signal.iter().any(|signal| {
+            let size = signal.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let (least, most) = super::modifiers::range(signal);
+            most - least > LEAST * size
+        })
+    }
+}
+
+fn like(unit: &Unit, text: &str) -> bool {
+    let Ok(other) = UnitTable::default().parse(text) else {
+        return false;
+    };
+    unit.dimension == other.dimension
+}
+
+/// Whether numbers are not all the same.
+pub fn varies(numbers: &[f64]) -> bool {
+    let Some(first) = numbers.first() else {
+        return false;
+    };
+    let size = numbers.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    numbers.iter().any(|x| (x - first).abs() > 1e-9 * size)
+}
+
+/// The model less its constant terms: those in which a parameter alone is added.
+fn signal(frame: &Frame<'_>, fit: &Fit, response: usize) -> Vec<f64> {
+    let mut signal = fit.linear.values[response].clone();
+    for parameter in constant_terms(frame, fit, response) {
+        for (row, value) in signal.iter_mut().enumerate() {
+            *value -= fit.unknowns[frame.unknown_of(parameter, row)];
+        }
+    }
+    signal
+}
+
+fn constant_terms(frame: &Frame<'_>, fit: &Fit, response: usize) -> Vec<usize> {
+    let slopes = &fit.linear.slopes[response];
+    let constant = |parameter: &usize| slopes.column(*parameter).iter().all(|slope| *slope == 1.0);
+    (0..frame.case.parameters.len()).filter(constant).collect()
+}

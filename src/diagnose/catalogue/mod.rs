@@ -1,0 +1,243 @@
+//! The catalogue of omitted physics: names and prose as data, regressors by a grammar.
+//!
+//! An effect is a *node* of the model (the output, its gain, a parameter, a column) times a *modifier*
+//! (a covariate, a power, a lag, a law of time, levels of a factor …). The regressor of an effect is the
+//! slope of the model by the node times the modifier, row by row, averaged over the blocks.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `effects.toml` | names, prose, formulas of all effects |
+//! | `modifiers` | what a disturbance may follow, computed row by row |
+//! | `ground` | slopes of the nodes, and which columns can be what |
+//! | `response`, `conditions`, `time`, `levels`, `angles`, `rows` | the cells of the grammar |
+//! | `generics` | competitors without a name |
+
+mod angles;
+mod conditions;
+mod generics;
+mod ground;
+mod levels;
+pub(super) mod modifiers;
+mod response;
+mod rows;
+mod time;
+mod user;
+
+use std::sync::LazyLock;
+
+use nalgebra::{DMatrix, DVector};
+use serde::Deserialize;
+
+pub use ground::{Ground, Node};
+
+use super::evidence;
+
+/// A text in both languages.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Text {
+    /// English.
+    pub en: String,
+    /// Simplified Chinese.
+    pub zh: String,
+}
+
+/// An entry of the catalogue.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Effect {
+    /// Stable identifier.
+    pub id: String,
+    /// Effects of one family are next of kin.
+    pub family: String,
+    /// Its name; `{x}`, `{y}`, `{z}`, `{p}` stand for columns and quantities.
+    pub name: Text,
+    /// One paragraph.
+    pub prose: Text,
+    /// What it adds to the model.
+    pub formula: String,
+    /// Sizes that are usual.
+    pub typical: String,
+}
+
+/// All effects, in the order of the catalogue.
+pub fn effects() -> &'static [Effect] {
+    #[derive(Deserialize)]
+    struct File {
+        effect: Vec<Effect>,
+    }
+    static EFFECTS: LazyLock<Vec<Effect>> = LazyLock::new(|| {
+        let file: File = toml::from_str(include_str!("effects.toml"))
+            .expect("the catalogue is part of the program");
+        file.effect
+    });
+    &EFFECTS
+}
+
+/// The effect of an identifier.
+fn effect(id: &str) -> &'static Effect {
+    let found = effects().iter().find(|effect| effect.id == id);
+    found.expect("the grammar asks for effects of the catalogue only")
+}
+
+/// What the placeholders of an effect's texts stand for.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Words {
+    /// The column or quantity that the disturbance follows.
+    pub x: String,
+    /// A second one.
+    pub z: String,
+    /// The output.
+    pub y: String,
+    /// The quantity that is disturbed.
+    pub p: String,
+}
+
+impl Words {
+    /// A text with the placeholders replaced.
+    pub fn fill(&self, text: &str) -> String {
+        text.replace("{x}", &self.x)
+            .replace("{z}", &self.z)
+            .replace("{y}", &self.y)
+            .replace("{p}", &self.p)
+    }
+}
+
+/// A candidate: an effect of the catalogue on quantities of this case, in all of its variants.
+#[derive(Debug, Clone)]
+pub struct Cell {
+    /// The effect.
+    pub effect: &'static Effect,
+    /// What its texts speak of.
+    pub words: Words,
+    /// Where it acts: node and what it follows.
+    pub place: evidence::Place,
+    /// Values of its shape parameters, axes, times.
+    pub variants: Vec<Variation>,
+    /// A size that would not surprise, in the units of the columns.
+    pub typical: Option<f64>,
+    /// A sentence of the user's own.
+    pub description: Option<String>,
+}
+
+/// One variant of a candidate.
+#[derive(Debug, Clone)]
+pub struct Variation {
+    /// What distinguishes it: `τ = 0.5 h`, `from run 3 on`.
+    pub label: String,
+    /// Its terms, one for each coefficient.
+    pub terms: Vec<Term>,
+    /// For competitors without a name: variances of the coefficients relative to one another.
+    pub spectrum: Option<Vec<f64>>,
+    /// A continuous parameter that the grid of variants steps through.
+    pub shape: Option<ShapeParameter>,
+}
+
+/// A parameter of a variant that may take any value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeParameter {
+    /// `τ`, `t₀` …
+    pub symbol: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its unit as text.
+    pub unit: String,
+}
+
+/// A disturbance of one node, with one coefficient.
+#[derive(Debug, Clone)]
+pub struct Term {
+    /// The quantity that is disturbed.
+    pub node: Node,
+    /// The only response on which it acts; `None` for all.
+    pub response: Option<usize>,
+    /// The modifier, row by row.
+    pub modifier: Vec<f64>,
+    /// The modifier as a formula.
+    pub text: String,
+}
+
+impl Variation {
+    /// A variant with one coefficient.
+    pub fn one(label: impl Into<String>, term: Term) -> Variation {
+        Variation::of(label, vec![term])
+    }
+
+    /// A variant with several coefficients.
+    pub fn of(label: impl Into<String>, terms: Vec<Term>) -> Variation {
+        Variation {
+            label: label.into(),
+            terms,
+            spectrum: None,
+            shape: None,
+        }
+    }
+
+    /// With the value of a shape parameter.
+    #[must_use]
+    pub fn shaped(mut self, symbol: &'static str, value: f64, unit: &str) -> Variation {
+        self.shape = Some(ShapeParameter {
+            symbol,
+            value,
+            unit: unit.to_owned(),
+        });
+        self
+    }
+
+    /// Observations × coefficients: derivatives of the outputs by the coefficients.
+    pub fn columns(&self, ground: &Ground<'_>) -> DMatrix<f64> {
+        let columns: Vec<DVector<f64>> =
+            self.terms.iter().map(|term| ground.column(term)).collect();
+        if columns.is_empty() {
+            return DMatrix::zeros(ground.frame.observations(), 0);
+        }
+        DMatrix::from_columns(&columns)
+    }
+}
+
+/// All candidates of the catalogue that this case can have, without those that the user excludes.
+pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    let mut cells = response::cells(ground);
+    cells.extend(conditions::cells(ground));
+    cells.extend(time::cells(ground));
+    cells.extend(levels::cells(ground));
+    cells.extend(angles::cells(ground));
+    cells.extend(rows::cells(ground));
+    cells.extend(user::cells(ground));
+    let settings = &ground.frame.case.settings;
+    let wanted = |cell: &Cell| {
+        let named = |word: &String| *word == cell.effect.id || *word == cell.effect.family;
+        let chosen = settings
+            .catalogue
+            .as_ref()
+            .is_none_or(|list| list.iter().any(named));
+        (chosen || cell.effect.family == "user") && !settings.exclude.iter().any(named)
+    };
+    cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
+    cells.extend(generics::cells(ground));
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identifiers_are_unique_and_texts_complete() {
+        let all = effects();
+        for (at, effect) in all.iter().enumerate() {
+            assert!(
+                !all[..at].iter().any(|other| other.id == effect.id),
+                "{}",
+                effect.id
+            );
+            for text in [
+                &effect.name.en,
+                &effect.name.zh,
+                &effect.prose.en,
+                &effect.prose.zh,
+                &effect.formula,
+            ] {
+                assert!(!text.is_empty(), "{}", effect.id);
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! What a disturbance may follow, computed row by row along the recorded order.
+
+/// Less the mean.
+pub fn centred(x: &[f64]) -> Vec<f64> {
+    let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
+    x.iter().map(|x| x - mean).collect()
+}
+
+/// Arithmetic mean.
+pub fn mean(x: &[f64]) -> f64 {
+    x.iter().sum::<f64>() / x.len().max(1) as f64
+}
+
+/// First-order lag of a piecewise linear course: what a body with time constant `tau` has of `x`. It
+/// begins in balance, and anew where the time goes backwards.
+pub fn lag(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
+    let mut out = Vec::with_capacity(x.len());
+    for row in 0..x.len() {
+        let step = if row == 0 { -1.0 } else { t[row] - t[row - 1] };
+        if step < 0.0 {
+            out.push(x[row]);
+            continue;
+        }
+        let a = step / tau;
+        if a < 1e-12 {
+            out.push(out[row - 1]);
+            continue;
+        }
+        // Exact for a straight line between the two rows.
+        let decay = libm::exp(-a);
+        let mean = (1.0 - decay) / a;
+        out.push(decay * out[row - 1] + (mean - decay) * x[row - 1] + (1.0 - mean) * x[row]);
+    }
+    out
+}
+
+/// Rate of change, by differences over the neighbouring rows.
+pub fn rate(t: &[f64], x: &[f64]) -> Vec<f64> {
+    let last = x.len().saturating_sub(1);
+    (0..x.len())
+        .map(|row| {
+            let (from, to) = (row.saturating_sub(1), (row + 1).min(last));
+            let step = t[to] - t[from];
+            if step > 0.0 {
+                (x[to] - x[from]) / step
+            } else {
+                0.0
+            }
+        })
+        .collect()
+}
+
+/// The direction in which `x` moved last: +1 or −1; the first rows take that of the first movement.
+pub fn direction(x: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; x.len()];
+    let mut now = 0.0;
+    for row in 1..x.len() {
+        let step = x[row] - x[row - 1];
+        if step != 0.0 {
+            if now == 0.0 {
+                out[..row].fill(step.signum());
+            }
+            now = step.signum();
+        }
+        out[row] = now;
+    }
+    out
+}
+
+/// Play of width `w`: what follows `x` only when `x` reaches the end of the gap.
+pub fn play(x: &[f64], w: f64) -> Vec<f64> {
+    let mut out = Vec::with_capacity(x.len());
+    let mut now = x.first().copied().unwrap_or(0.0);
+    for value in x {
+        now = now.clamp(value - w / 2.0, value + w / 2.0);
+        out.push(now);
+    }
+    out
+}
+
+/// A geometric series from `low` to `high`, by a factor of at least `ratio`, of at most `most` values.
+pub fn grid(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
+    if !(low > 0.0 && high > low) {
+        return if low > 0.0 && high == low {
+            vec![low]
+        } else {
+            Vec::new()
+        };
+    }
+    let steps = (libm::log(high / low) / libm::log(ratio)).floor() as usize;
+    let steps = steps.clamp(1, most.max(2) - 1);
+    let factor = libm::pow(high / low, 1.0 / steps as f64);
+    (0..=steps)
+        .map(|step| low * libm::pow(factor, step as f64))
+        .collect()
+}
+
+/// A number as formulas and labels show it: five digits.
+pub fn figure(x: f64) -> String {
+    let rounded: f64 = format!("{x:.4e}").parse().unwrap_or(x);
+    format!("{rounded}")
+}
+
+/// The least and the largest number.
+pub fn range(x: &[f64]) -> (f64, f64) {
+    let least = x.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = x.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    (least, most)
+}
+
+/// Element by element.
+pub fn map2(x: &[f64], z: &[f64], f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    x.iter().zip(z).map(|(x, z)| f(*x, *z)).collect()
+}
+
+/// Element by element.
+pub fn map(x: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
+    x.iter().map(|x| f(*x)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ramp_is_late_by_the_time_constant() {
+        let t: Vec<f64> = (0..400).map(|i| 0.1 * f64::from(i)).collect();
+        let lagged = lag(&t, &t, 2.0);
+        assert!((lagged[399] - (t[399] - 2.0)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn play_follows_behind_the_gap() {
+        let x = [0.0, 1.0, 2.0, 1.5, 1.0, 0.0];
+        assert_eq!(play(&x, 1.0), [0.0, 0.5, 1.5, 1.5, 1.5, 0.5]);
+        assert_eq!(direction(&x), [1.0, 1.0, 1.0, -1.0, -1.0, -1.0]);
+    }
+
+    #[test]
+    fn grids_are_geometric() {
+        let grid = grid(1.0, 16.0, 2.0, 12);
+        assert_eq!(grid.len(), 5);
+        assert!((grid[2] - 4.0).abs() < 1e-12);
+        assert!(super::grid(1.0, 0.5, 2.0, 3).is_empty());
+    }
+}

@@ -1,0 +1,179 @@
+//! Laws of time: drift, ageing, warm-up, season, steps.
+
+use super::Cell;
+use super::conditions::single;
+use super::ground::{Ground, Node};
+use super::modifiers::{centred, figure, grid, map, range};
+use super::response::{on_node, words};
+use crate::diagnose::case::Role;
+
+/// More steps than that are not scanned.
+const MOST_STEPS: usize = 80;
+
+type Variants = Vec<(String, Vec<(Vec<f64>, String)>)>;
+
+/// Cells of the time, or of the order of the rows.
+pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    let t = &ground.clock.values;
+    let span = ground.clock.span();
+    if ground.frame.blocks.len() < 6 || span <= 0.0 {
+        return Vec::new();
+    }
+    let along = match ground.clock.column {
+        Some(column) => ground.case().columns[column].name.clone(),
+        None => "row".to_owned(),
+    };
+    let (start, _) = range(t);
+    let since = map(t, |t| t - start);
+    // Rows of factors without a time may stand in any order.
+    let factors = ground
+        .case()
+        .columns
+        .iter()
+        .any(|column| matches!(column.role, Role::Run | Role::Factor));
+    if factors && !ground.is_timed() {
+        return Vec::new();
+    }
+    let nodes = if ground.has_signal() {
+        vec![Node::Output, Node::Gain]
+    } else {
+        vec![Node::Output]
+    };
+    let mut cells = Vec::new();
+    let mut add = |ids: [&str; 2], variants: Variants, symbol: Option<&'static str>| {
+        for (node, id) in nodes.iter().zip(ids) {
+            if id.is_empty() {
+                continue;
+            }
+            let mut cell = on_node(
+                ground,
+                id,
+                words(ground, &along),
+                &along,
+                *node,
+                variants.clone(),
+            );
+            cell.words.p = ground.name(*node);
+            if let Some(symbol) = symbol {
+                shaped(ground, &mut cell, symbol);
+            }
+            cells.push(cell);
+        }
+    };
+    let linear = centred(t);
+    add(
+        ["drift", "drift-scale"],
+        single("", linear.clone(), format!("({along} - mean)")),
+        None,
+    );
+    add(["step", "step-scale"], steps(ground, &along), None);
+    if ground.is_timed() {
+        let both = vec![(
+            String::new(),
+            vec![
+                (linear.clone(), format!("({along} - mean)")),
+                (map(&linear, |t| t * t), format!("({along} - mean)^2")),
+            ],
+        )];
+        add(["curved-drift", ""], both, None);
+        let unit = ground.time_unit();
+        let scales = grid(
+            (span * 3e-3).max(ground.clock.interval()),
+            span / 3.0,
+            2.2,
+            7,
+        );
+        let logarithms = scales.iter().map(|scale| {
+            let modifier = map(&since, |t| libm::log1p(t / scale));
+            (
+                format!("t₀ = {scale} {unit}", scale = figure(*scale)),
+                vec![(
+                    modifier,
+                    format!("ln(1 + t/{scale})", scale = figure(*scale)),
+                )],
+            )
+        });
+        add(["ageing", ""], logarithms.collect(), Some("t₀"));
+        let decays: Variants = scales
+            .iter()
+            .map(|tau| {
+                let modifier = map(&since, |t| libm::exp(-t / tau));
+                (
+                    format!("τ = {tau} {unit}", tau = figure(*tau)),
+                    vec![(modifier, format!("exp(-t/{tau})", tau = figure(*tau)))],
+                )
+            })
+            .collect();
+        add(["warm-up", "warm-up-scale"], decays, Some("τ"));
+        for (id, period, least, most) in [
+            ("season", 365.2422 * 86_400.0, 0.75, 60.0),
+            ("daily", 86_400.0, 1.0, 60.0),
+        ] {
+            let Some(period) = ground.seconds().map(|second| period / second) else {
+                continue;
+            };
+            if span >= least * period && span <= most * period {
+                let name = if id == "season" { "1 year" } else { "24 h" };
+                let wave =
+                    |f: fn(f64) -> f64| map(&since, |t| f(std::f64::consts::TAU * t / period));
+                let pair = vec![
+                    (wave(libm::sin), format!("sin(2*pi*t/{name})")),
+                    (wave(libm::cos), format!("cos(2*pi*t/{name})")),
+                ];
+                add([id, ""], vec![(String::new(), pair)], None);
+            }
+        }
+    }
+    cells
+}
+
+/// Notes the continuous parameter that stands in the labels.
+fn shaped(ground: &Ground<'_>, cell: &mut Cell, symbol: &'static str) {
+    let unit = ground.time_unit();
+    for variation in &mut cell.variants {
+        let number = variation
+            .label
+            .split("= ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next());
+        if let Some(value) = number.and_then(|number| number.parse().ok()) {
+            *variation = variation.clone().shaped(symbol, value, &unit);
+        }
+    }
+}
+
+/// Steps before each block, or before some of them evenly.
+fn steps(ground: &Ground<'_>, along: &str) -> Variants {
+    let blocks = &ground.frame.blocks;
+    let stride = blocks.len().div_ceil(MOST_STEPS);
+    let t = &ground.clock.values;
+    let unit = ground.time_unit();
+    let at = |block: usize| {
+        let first = blocks[block][0];
+        let modifier = (0..ground.rows()).map(|row| if row >= first { 1.0 } else { 0.0 });
+        let label = match ground.clock.column {
+            Some(_) => format!("at {along} = {} {unit}", figure(t[first])),
+            None => format!("at row {}", first + 1),
+        };
+        (
+            label,
+            vec![(modifier.collect(), format!("[row >= {}]", first + 1))],
+        )
+    };
+    // Where a run begins, a shift has the name of the run.
+    let begins = |block: &usize| {
+        let (now, before) = (blocks[*block][0], blocks[*block - 1][0]);
+        ground
+            .case()
+            .columns
+            .iter()
+            .filter_map(|column| column.labels())
+            .any(|labels| {
+                labels.levels.len() * 3 < 2 * blocks.len()
+                    && labels.of_row[now] != labels.of_row[before]
+            })
+    };
+    let first = stride.max(2);
+    let scanned = (first..blocks.len().saturating_sub(1)).step_by(stride);
+    scanned.filter(|block| !begins(block)).map(at).collect()
+}

@@ -1,0 +1,270 @@
+//! How well a model describes the recording: χ², residual scatter, prediction of what was held out,
+//! agreement of the parts.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::evidence::Fitted;
+use super::fit::Fit;
+use super::frame::Frame;
+use super::noise::Claimed;
+use crate::special::chi_squared_sf;
+
+/// How well a model describes the recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quality {
+    /// χ² with the claimed noise.
+    pub chi_squared: f64,
+    /// Observations less parameters.
+    pub dof: f64,
+    /// Root mean square of the residuals, for each response.
+    pub residual: Vec<f64>,
+    /// Root mean square of the claimed noise, for each response.
+    pub expected: Vec<f64>,
+    /// Root mean square of the errors of predictions of held-out observations, for each response.
+    pub held_out: Vec<f64>,
+    /// Factor on the claimed noise that uncertainties of the parameters have: √(χ²/dof) where the noise is
+    /// estimated, else one.
+    pub scale: f64,
+}
+
+/// Checks of an adopted effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Confirmation {
+    /// χ² that the linear prediction promised.
+    pub promised: f64,
+    /// The first coefficient estimated from parts of the recording: name of the part, value, u.
+    pub parts: Vec<(String, f64, f64)>,
+    /// Probability that the parts differ as much by chance (Cochran's Q).
+    pub agreement: Option<f64>,
+}
+
+/// Parts into which observations are divided for the prediction of what was held out.
+const FOLDS: usize = 10;
+
+/// Computes the quality of a fit.
+pub(super) fn quality(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    expected: &Claimed,
+) -> Quality {
+    let whitened = fit.residuals.component_div(&claimed.u);
+    let dof = degrees(frame);
+    let chi_squared = whitened.norm_squared();
+    let blocks = frame.blocks.len();
+    let of_response = |values: &DVector<f64>| -> Vec<f64> {
+        let rms = |response: usize| {
+            (values.rows(response * blocks, blocks).norm_squared() / blocks as f64).sqrt()
+        };
+        (0..frame.case.responses.len()).map(rms).collect()
+    };
+    Quality {
+        chi_squared,
+        dof,
+        residual: of_response(&fit.residuals),
+        expected: of_response(&expected.u),
+        held_out: of_response(&held_out(frame, fit, claimed)),
+        scale: if claimed.is_estimated() {
+            (chi_squared / dof.max(1.0)).sqrt()
+        } else {
+            1.0
+        },
+    }
+}
+
+fn degrees(frame: &Frame<'_>) -> f64 {
+    let priors = frame
+        .unknowns
+        .iter()
+        .filter(|unknown| unknown.prior.is_some())
+        .count();
+    (frame.observations() + priors) as f64 - frame.unknowns.len() as f64
+}
+
+/// Errors of the predictions of observations that the fit had not seen: tenths of the recording, in short
+/// stretches that are spread over it.
+fn held_out(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
+    let blocks = frame.blocks.len();
+    let folds = FOLDS.min(blocks);
+    let stretch = (blocks / (4 * folds)).max(1);
+    let fold = |observation: usize| frame.place(observation).1 / stretch % folds;
+    let mut errors = DVector::zeros(frame.observations());
+    for held in 0..folds {
+        let kept: Vec<usize> = (0..frame.observations())
+            .filter(|o| fold(*o) != held)
+            .collect();
+        let change = solved(frame, fit, claimed, &kept);
+        for observation in (0..frame.observations()).filter(|o| fold(*o) == held) {
+            let predicted = fit.jacobian.row(observation).transpose().dot(&change);
+            errors[observation] = fit.residuals[observation] - predicted;
+        }
+    }
+    errors
+}
+
+/// Change of the unknowns when only some observations count.
+fn solved(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, kept: &[usize]) -> DVector<f64> {
+    let (normal, right) = normal(frame, fit, claimed, kept);
+    let scale = normal
+        .diagonal()
+        .map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
+    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
+        normal[(i, j)] * scale[i] * scale[j]
+    });
+    let target = right.component_mul(&scale);
+    // What these observations do not determine stays as it is.
+    let inverse = scaled
+        .pseudo_inverse(1e-11)
+        .unwrap_or_else(|_| DMatrix::zeros(normal.nrows(), normal.ncols()));
+    (inverse * target).component_mul(&scale)
+}
+
+fn normal(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    kept: &[usize],
+) -> (DMatrix<f64>, DVector<f64>) {
+    let count = frame.unknowns.len();
+    let mut jacobian = DMatrix::zeros(kept.len(), count);
+    let mut residuals = DVector::zeros(kept.len());
+    for (row, observation) in kept.iter().enumerate() {
+        let u = claimed.u[*observation];
+        jacobian.set_row(row, &(fit.jacobian.row(*observation) / u));
+        residuals[row] = fit.residuals[*observation] / u;
+    }
+    let mut normal = jacobian.tr_mul(&jacobian);
+    let mut right = jacobian.tr_mul(&residuals);
+    for (at, unknown) in frame.unknowns.iter().enumerate() {
+        if let Some((value, u)) = unknown.prior {
+            normal[(at, at)] += 1.0 / (u * u);
+            right[at] += (value - fit.unknowns[at]) / (u * u);
+        }
+    }
+    (normal, right)
+}
+
+/// Covariance matrix of the unknowns with the claimed noise.
+pub(super) fn covariance(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
+    let all: Vec<usize> = (0..frame.observations()).collect();
+    inverse(&normal(frame, fit, claimed, &all).0)
+}
+
+fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {
+    let scale = normal
+        .diagonal()
+        .map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
+    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
+        normal[(i, j)] * scale[i] * scale[j]
+    });
+    let inverse = scaled
+        .pseudo_inverse(1e-13)
+        .unwrap_or_else(|_| DMatrix::zeros(normal.nrows(), normal.ncols()));
+    DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
+        inverse[(i, j)] * scale[i] * scale[j]
+    })
+}
+
+/// The first effect, estimated from parts of the recording.
+pub(super) fn confirmation(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    added: usize,
+    fitted: &Fitted,
+) -> Confirmation {
+    let first = frame.case.parameters.len() - added;
+    let at = frame.unknown_of(first, 0);
+    let whitened = fit.residuals.component_div(&claimed.u);
+    let scale = if claimed.is_estimated() {
+        (whitened.norm_squared() / degrees(frame).max(1.0)).sqrt()
+    } else {
+        1.0
+    };
+    let mut parts = Vec::new();
+    for (name, members) in divided(frame) {
+        let covariance = inverse(&normal(frame, fit, claimed, &members).0);
+        let value = fit.unknowns[at] + solved(frame, fit, claimed, &members)[at];
+        let u = scale * covariance[(at, at)].max(0.0).sqrt();
+        let full = inverse(
+            &normal(
+                frame,
+                fit,
+                claimed,
+                &(0..frame.observations()).collect::<Vec<_>>(),
+            )
+            .0,
+        )[(at, at)]
+            .sqrt()
+            * scale;
+        // A part that hardly sees the effect says nothing.
+        if u.is_finite() && u > 0.0 && u < 20.0 * full {
+            parts.push((name, value, u));
+        }
+    }
+    Confirmation {
+        promised: fitted.chi_squared,
+        agreement: cochran(&parts),
+        parts,
+    }
+}
+
+/// Parts of the observations: runs where there are a few, else halves.
+fn divided(frame: &Frame<'_>) -> Vec<(String, Vec<usize>)> {
+    use super::case::Role;
+    let all = 0..frame.observations();
+    let runs = frame.case.with_role(Role::Run).find(|column| {
+        frame.case.columns[*column]
+            .labels()
+            .is_some_and(|labels| (2..=12).contains(&labels.levels.len()))
+    });
+    if let Some(column) = runs
+        && let Some(labels) = frame.case.columns[column].labels()
+    {
+        return (0..labels.levels.len())
+            .map(|level| {
+                let inside =
+                    |o: &usize| labels.of_row[frame.blocks[frame.place(*o).1][0]] as usize == level;
+                (
+                    format!(
+                        "{} {}",
+                        frame.case.columns[column].name, labels.levels[level]
+                    ),
+                    all.clone().filter(inside).collect(),
+                )
+            })
+            .collect();
+    }
+    let half = frame.blocks.len() / 2;
+    vec![
+        (
+            "first half".to_owned(),
+            all.clone().filter(|o| frame.place(*o).1 < half).collect(),
+        ),
+        (
+            "second half".to_owned(),
+            all.filter(|o| frame.place(*o).1 >= half).collect(),
+        ),
+    ]
+}
+
+/// Probability that values scatter as much by chance.
+fn cochran(parts: &[(String, f64, f64)]) -> Option<f64> {
+    if parts.len() < 2 {
+        return None;
+    }
+    let weights: Vec<f64> = parts.iter().map(|(_, _, u)| 1.0 / (u * u)).collect();
+    let total: f64 = weights.iter().sum();
+    let mean = parts
+        .iter()
+        .zip(&weights)
+        .map(|((_, value, _), w)| w * value)
+        .sum::<f64>()
+        / total;
+    let q: f64 = parts
+        .iter()
+        .zip(&weights)
+        .map(|((_, value, _), w)| w * (value - mean) * (value - mean))
+        .sum();
+    Some(chi_squared_sf(q, parts.len() as f64 - 1.0))
+}

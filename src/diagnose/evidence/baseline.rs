@@ -1,0 +1,266 @@
+//! Whitening, projection, and what the data say of the declared parameters.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::noise::{Covariance, Factor, Noise};
+use super::question::Refusal;
+
+/// What is known of the parameters beforehand: rows of unit variance, each saying that a combination
+/// of the parameters has a value. u⁻¹ in the column of a parameter and u⁻¹(x − x₀) as its residual
+/// states x ± u.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prior {
+    /// k × p.
+    pub jacobian: DMatrix<f64>,
+    /// k values, as the differences from those at which the residuals were formed.
+    pub residuals: DVector<f64>,
+}
+
+/// A recording before any effect is added: what its declared parameters explain and what they leave.
+#[derive(Debug, Clone)]
+pub struct Baseline {
+    rows: usize,
+    factor: Factor,
+    /// Factors of the draws of the covariance matrix.
+    draws: Vec<Factor>,
+    scale_dof: f64,
+    /// Q of WJ, (n + k) × p.
+    absorbed: DMatrix<f64>,
+    /// R⁻¹ of WJ, p × p.
+    inverse: DMatrix<f64>,
+    /// QᵀWr.
+    explained: DVector<f64>,
+    /// PWr, n + k.
+    left: DVector<f64>,
+}
+
+/// A column of WJ whose length falls by this factor when the columns before it are projected out says
+/// nothing of its own.
+const DEPENDENT: f64 = 1e-9;
+
+impl Prior {
+    /// Nothing is known beforehand of the p parameters.
+    pub fn none(parameters: usize) -> Prior {
+        Prior {
+            jacobian: DMatrix::zeros(0, parameters),
+            residuals: DVector::zeros(0),
+        }
+    }
+}
+
+impl Baseline {
+    /// Whitens and projects n residuals (observed less modelled, at the values of the p parameters
+    /// where the n × p Jacobian of the modelled output was taken).
+    ///
+    /// # Errors
+    ///
+    /// Sizes that disagree, numbers that are not finite, a covariance matrix that is none, parameters
+    /// that the recording does not determine, and recordings without a degree of freedom.
+    pub fn new(
+        jacobian: &DMatrix<f64>,
+        residuals: &DVector<f64>,
+        noise: &Noise,
+        prior: &Prior,
+    ) -> Result<Baseline, Refusal> {
+        let (rows, parameters) = jacobian.shape();
+        check_sizes(jacobian, residuals, noise, prior)?;
+        check_finite(jacobian, residuals, prior)?;
+        let factor = Factor::of(&noise.covariance)?;
+        let draws = noise
+            .draws
+            .iter()
+            .map(Factor::of)
+            .collect::<Result<Vec<Factor>, Refusal>>()?;
+        let total = rows + prior.residuals.len();
+        if total <= parameters {
+            return Err(Refusal::NoFreedom {
+                rows: total,
+                parameters,
+            });
+        }
+        let whitened = stacked(factor.whiten(jacobian), &prior.jacobian);
+        let response = stacked(
+            factor.whiten(&DMatrix::from_column_slice(rows, 1, residuals.as_slice())),
+            &DMatrix::from_column_slice(prior.residuals.len(), 1, prior.residuals.as_slice()),
+        );
+        let lengths: Vec<f64> = whitened.column_iter().map(|c| c.norm()).collect();
+        let qr = whitened.qr();
+        let (absorbed, triangle) = (qr.q(), qr.r());
+        for (parameter, length) in lengths.iter().enumerate() {
+            if !(triangle[(parameter, parameter)].abs() > DEPENDENT * length) {
+                return Err(Refusal::Dependent { parameter });
+            }
+        }
+        let inverse = triangle
+            .solve_upper_triangular(&DMatrix::identity(parameters, parameters))
+            .ok_or(Refusal::Dependent { parameter: 0 })?;
+        let explained = absorbed.tr_mul(&response);
+        let left = response - &absorbed * &explained;
+        Ok(Baseline {
+            rows,
+            factor,
+            draws,
+            scale_dof: noise.scale_dof,
+            explained: explained.column(0).into_owned(),
+            left: left.column(0).into_owned(),
+            absorbed,
+            inverse,
+        })
+    }
+
+    /// Rows of the recording, n.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Free parameters, p.
+    pub fn parameters(&self) -> usize {
+        self.inverse.nrows()
+    }
+
+    /// Degrees of freedom of the residuals, m.
+    pub fn dof(&self) -> usize {
+        self.left.len() - self.parameters()
+    }
+
+    /// Sum of the squares of the whitened residuals.
+    pub fn chi_squared(&self) -> f64 {
+        self.left.norm_squared()
+    }
+
+    /// Degrees of freedom with which the scale of the noise is known.
+    pub fn scale_dof(&self) -> f64 {
+        self.scale_dof
+    }
+
+    /// Whitened residuals z with the parameters fitted; rows of prior knowledge stand at the end.
+    pub fn residuals(&self) -> &DVector<f64> {
+        &self.left
+    }
+
+    /// What has to be added to the values of the parameters to fit the recording.
+    pub fn correction(&self) -> DVector<f64> {
+        &self.inverse * &self.explained
+    }
+
+    /// Covariance matrix of the fitted parameters.
+    pub fn covariance(&self) -> DMatrix<f64> {
+        &self.inverse * self.inverse.transpose()
+    }
+
+    /// PWH: what columns of output units leave in the space of z.
+    pub fn project(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let whitened = self.whiten(columns);
+        let along = self.absorbed.tr_mul(&whitened);
+        whitened - &self.absorbed * along
+    }
+
+    /// Share of the whitened length of a column that the parameters cannot absorb, ‖PWh‖²/‖Wh‖²; zero
+    /// for a column of zeros.
+    pub fn visibility(&self, column: &DVector<f64>) -> f64 {
+        let column = DMatrix::from_column_slice(column.len(), 1, column.as_slice());
+        let whole = self.whiten(&column).norm_squared();
+        if whole > 0.0 {
+            self.project(&column).norm_squared() / whole
+        } else {
+            0.0
+        }
+    }
+
+    /// Change of the fitted parameters per unit of each column's coefficient when it is adopted, p × d:
+    /// −(JᵀΣ⁻¹J)⁻¹JᵀΣ⁻¹H.
+    pub fn gain(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        -(&self.inverse * self.absorbed.tr_mul(&self.whiten(columns)))
+    }
+
+    /// W H, with zeros in the rows of prior knowledge.
+    pub(super) fn whiten(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let prior_rows = self.left.len() - self.rows;
+        stacked(
+            self.factor.whiten(columns),
+            &DMatrix::zeros(prior_rows, columns.ncols()),
+        )
+    }
+
+    /// Q of WJ.
+    pub(super) fn absorbed(&self) -> &DMatrix<f64> {
+        &self.absorbed
+    }
+
+    /// Number of draws of the covariance matrix.
+    pub(super) fn noise_draws(&self) -> usize {
+        self.draws.len()
+    }
+
+    /// Standard normal columns of n + k rows, given the covariance matrix of draw number `draw` and
+    /// whitened with the best estimate.
+    pub(super) fn recolor(&self, draw: usize, normals: &DMatrix<f64>) -> DMatrix<f64> {
+        let colored = self.draws[draw].color(&normals.rows(0, self.rows).into_owned());
+        let prior_rows = self.left.len() - self.rows;
+        stacked(
+            self.factor.whiten(&colored),
+            &normals.rows(self.rows, prior_rows).into_owned(),
+        )
+    }
+}
+
+fn check_sizes(
+    jacobian: &DMatrix<f64>,
+    residuals: &DVector<f64>,
+    noise: &Noise,
+    prior: &Prior,
+) -> Result<(), Refusal> {
+    let (rows, parameters) = jacobian.shape();
+    let sizes = |what| Err(Refusal::Sizes { what });
+    let fits = |covariance: &Covariance| {
+        covariance.rows() == rows
+            && match covariance {
+                Covariance::Diagonal(_) => true,
+                Covariance::Dense(matrix) => matrix.is_square(),
+            }
+    };
+    if residuals.len() != rows {
+        return sizes("residuals");
+    }
+    if !fits(&noise.covariance) || !noise.draws.iter().all(fits) {
+        return sizes("covariance");
+    }
+    if prior.jacobian.ncols() != parameters || prior.jacobian.nrows() != prior.residuals.len() {
+        return sizes("prior");
+    }
+    Ok(())
+}
+
+fn check_finite(
+    jacobian: &DMatrix<f64>,
+    residuals: &DVector<f64>,
+    prior: &Prior,
+) -> Result<(), Refusal> {
+    let bad = |row: &usize| {
+        !residuals[*row].is_finite() || jacobian.row(*row).iter().any(|x| !x.is_finite())
+    };
+    if let Some(row) = (0..residuals.len()).find(bad) {
+        return Err(Refusal::NotFinite { row });
+    }
+    let bad = |row: &usize| {
+        !prior.residuals[*row].is_finite()
+            || prior.jacobian.row(*row).iter().any(|x| !x.is_finite())
+    };
+    match (0..prior.residuals.len()).find(bad) {
+        Some(row) => Err(Refusal::NotFinite {
+            row: residuals.len() + row,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// One matrix above the other.
+fn stacked(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
+    if below.nrows() == 0 {
+        return above;
+    }
+    let mut out = DMatrix::zeros(above.nrows() + below.nrows(), above.ncols());
+    out.rows_mut(0, above.nrows()).copy_from(&above);
+    out.rows_mut(above.nrows(), below.nrows()).copy_from(below);
+    out
+}

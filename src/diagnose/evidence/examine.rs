@@ -1,0 +1,176 @@
+//! The examination from end to end.
+
+use std::ops::ControlFlow;
+
+use nalgebra::DMatrix;
+
+use super::closed_form::Scale;
+use super::findings::{Examination, Invisible, Slot, State, Verdict};
+use super::fit::fitted;
+use super::guard::{leftover, margin, stands};
+use super::question::{Question, Refusal, Shape};
+use super::search::{Search, frame_of, search};
+use super::slots::{Member, slot};
+use super::space::Space;
+
+/// Up to this probability of generics the named set stands.
+const NAMED_STANDS: f64 = 0.3;
+/// Up to this probability of generics the named set is contested, beyond it is refuted.
+const CONTESTED: f64 = 0.9;
+/// Less than this probability of what is left beside named effects means that something is left.
+const LEFT: f64 = 0.01;
+/// Named effects beside an unexplained one count if they explain this share of the excess χ².
+const MOST: f64 = 0.8;
+
+/// Examines a recording: detection, naming, verdict.
+///
+/// `progress` is told the share of the work that is done and may stop it. The result depends on the
+/// question alone, not on the number of threads.
+///
+/// # Errors
+///
+/// Atoms that do not fit the baseline, and [`Refusal::Cancelled`].
+pub fn examine(
+    question: &Question,
+    progress: &dyn Fn(f64) -> ControlFlow<()>,
+) -> Result<Examination, Refusal> {
+    let space = Space::new(question)?;
+    let search = search(&space, question, progress)?;
+    let generic_probability = search.generic_probability();
+    let explanation = explanation(&search, generic_probability);
+    let (named, generic) = (&explanation.named, explanation.generic);
+    let mut slots = slots(&space, question, named, generic);
+    let margin = margin(&space, named);
+    let leftover = if named.is_empty() || generic.is_some() {
+        1.0
+    } else {
+        leftover(&space, question, named)
+    };
+    if leftover < LEFT {
+        slots.push(nameless());
+    }
+    let set = frame_of(&space, named);
+    let explained = explained(&space, set.fit, set.basis.ncols());
+    let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
+        Verdict::None
+    } else if explanation.contested || (!named.is_empty() && !stands(margin, named.len())) {
+        Verdict::Contested
+    } else {
+        verdict(&slots, explained)
+    };
+    Ok(Examination {
+        verdict,
+        slots,
+        fitted: (!named.is_empty()).then(|| fitted(&space, question, &set)),
+        explained,
+        generic_probability,
+        margin,
+        leftover,
+        chi_squared: question.baseline.chi_squared(),
+        dof: question.baseline.dof(),
+        invisible: invisible(&space, question),
+        levels: search.levels,
+    })
+}
+
+/// The most probable explanation.
+struct Explanation {
+    named: Vec<usize>,
+    generic: Option<usize>,
+    /// A smooth effect without a name competes with the named ones.
+    contested: bool,
+}
+
+fn explanation(search: &Search, generic_probability: f64) -> Explanation {
+    let by_name = |set: &[usize], contested| Explanation {
+        named: set.to_vec(),
+        generic: None,
+        contested,
+    };
+    match &search.complete {
+        Some(set) if set.is_empty() => by_name(set, false),
+        Some(set) if generic_probability < NAMED_STANDS => by_name(set, false),
+        Some(set) if generic_probability < CONTESTED => by_name(set, true),
+        Some(_) | None => match search.best_with_generic().or_else(|| search.best()) {
+            Some(set) => Explanation {
+                named: set.named.clone(),
+                generic: set.generic,
+                contested: false,
+            },
+            None => by_name(&[], false),
+        },
+    }
+}
+
+/// What is left beside named effects, when none of the competitors says where.
+fn nameless() -> Slot {
+    Slot {
+        state: State::Unexplained,
+        named: Vec::new(),
+        generic: Vec::new(),
+        generic_share: 1.0,
+        family: None,
+    }
+}
+
+fn slots(space: &Space, question: &Question, named: &[usize], generic: Option<usize>) -> Vec<Slot> {
+    let members = named
+        .iter()
+        .map(|block| Member::Named(*block))
+        .chain(generic.map(Member::Generic));
+    let mut slots: Vec<Slot> = members
+        .map(|member| slot(space, question, named, generic, member))
+        .collect();
+    // The strongest effect first, what has no name last.
+    let strength = |slot: &Slot| match (slot.state, slot.named.first()) {
+        (State::Unexplained, _) | (_, None) => f64::NEG_INFINITY,
+        (_, Some(first)) => first.lambda,
+    };
+    slots.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
+    slots
+}
+
+/// Share of the excess χ² that named effects with this fit explain; of χ² itself if nothing is known of
+/// the noise beforehand.
+fn explained(space: &Space, fit: f64, d: usize) -> f64 {
+    let chi_squared = space.z.norm_squared();
+    if matches!(space.scale, Scale::Estimated { .. }) && space.offset == 0.0 {
+        return fit / chi_squared;
+    }
+    let before = chi_squared - space.dof as f64;
+    let after = chi_squared - fit - (space.dof - d) as f64;
+    if before > 0.0 {
+        (1.0 - after.max(0.0) / before).clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+fn verdict(slots: &[Slot], explained: f64) -> Verdict {
+    let some = |state| slots.iter().any(|slot| slot.state == state);
+    let named = some(State::Identified) || some(State::Ambiguous);
+    match (named, some(State::Unexplained)) {
+        (true, false) if some(State::Ambiguous) => Verdict::Ambiguous,
+        (true, false) => Verdict::Identified,
+        (true, true) if explained >= MOST => Verdict::Partly,
+        _ => Verdict::Unexplained,
+    }
+}
+
+fn invisible(space: &Space, question: &Question) -> Vec<Invisible> {
+    space
+        .invisible
+        .iter()
+        .filter_map(|atom| {
+            let Shape::Columns(columns) = &question.atoms[*atom].shape else {
+                return None;
+            };
+            let gain: DMatrix<f64> = question.baseline.gain(columns);
+            Some(Invisible {
+                atom: *atom,
+                idle: columns.iter().all(|x| *x == 0.0),
+                gain,
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,182 @@
+//! What is answered: verdict, slots, alternatives.
+
+use nalgebra::{DMatrix, DVector};
+
+/// The answer in one word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    /// Model and recording agree.
+    None,
+    /// Every effect has one name.
+    Identified,
+    /// Every effect has a name or a list of names that the recording cannot tell apart.
+    Ambiguous,
+    /// Some effects are named, and something without a name is left.
+    Partly,
+    /// Named effects, or else an effect without a name or outside the catalogue: both explain the recording.
+    Contested,
+    /// Something is there that no candidate explains; the slots say where.
+    Unexplained,
+}
+
+/// Everything that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Examination {
+    /// The answer in one word.
+    pub verdict: Verdict,
+    /// Tests for a further effect: without any, after the first, …
+    pub levels: Vec<Level>,
+    /// One for each effect found.
+    pub slots: Vec<Slot>,
+    /// The model with the most probable named effects in it; `None` if there are none.
+    pub fitted: Option<Fitted>,
+    /// Share of the excess χ² that the named effects explain, 0 … 1.
+    pub explained: f64,
+    /// Posterior probability that an effect without a name is there.
+    pub generic_probability: f64,
+    /// By how much the named effects are better than an unlisted effect that resembles the catalogue, as
+    /// the logarithm of a Bayes factor; ∞ if nothing is named.
+    pub margin: f64,
+    /// Probability that as much is left beside the named effects as there is, in the directions that the
+    /// catalogue cares for or at all, if they are all there is.
+    pub leftover: f64,
+    /// χ² before any effect is added.
+    pub chi_squared: f64,
+    /// Its degrees of freedom.
+    pub dof: usize,
+    /// Atoms that this recording cannot show, because the parameters absorb them or because the
+    /// conditions do not excite them.
+    pub invisible: Vec<Invisible>,
+}
+
+/// The test whether an effect is left beside some that are adopted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Atoms that are adopted already.
+    pub adopted: Vec<usize>,
+    /// The atom that explains most of what is left.
+    pub strongest: usize,
+    /// Its logarithmic evidence against none, with its prior odds.
+    pub statistic: f64,
+    /// Probability of as much among all atoms if nothing is left.
+    pub p: f64,
+    /// Simulated recordings behind `p`.
+    pub draws: usize,
+}
+
+/// One effect that was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slot {
+    /// What can be said of it.
+    pub state: State,
+    /// Candidates that explain it, most probable first: the shortest list that holds the truth with a
+    /// probability of 95 %, if the truth is among the candidates. Empty if none comes near.
+    pub named: Vec<Alternative>,
+    /// Competitors without a name, most probable first; they say where an unexplained effect lives.
+    pub generic: Vec<Alternative>,
+    /// Probability of the competitors without a name.
+    pub generic_share: f64,
+    /// Family with the greatest probability, and that probability, among the named candidates.
+    pub family: Option<(String, f64)>,
+}
+
+/// What can be said of a slot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum State {
+    /// One name.
+    Identified,
+    /// Several names.
+    Ambiguous,
+    /// No name: names in the list are tentative.
+    Unexplained,
+}
+
+/// A candidate for one slot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternative {
+    /// Index of the candidate.
+    pub candidate: usize,
+    /// Posterior probability: among named candidates for a named one, among all for a generic one.
+    pub probability: f64,
+    /// Its atoms with their shares of the probability, most probable first.
+    pub variants: Vec<Variant>,
+    /// Estimates of the coefficients of the most probable variant, in the units of its columns; NaN for a
+    /// coefficient that the recording does not determine.
+    pub estimate: DVector<f64>,
+    /// Their covariance matrix.
+    pub covariance: DMatrix<f64>,
+    /// Degrees of freedom of the covariance matrix; ∞ if the noise is known.
+    pub dof: f64,
+    /// Visible strength λ of the most probable variant: its size beside the other effects, over the noise.
+    pub lambda: f64,
+    /// What is left of λ after the nearest rival is fitted in its place.
+    pub nearest: Option<Rival>,
+}
+
+/// An atom and its share of the probability of its candidate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Variant {
+    /// Index of the atom.
+    pub atom: usize,
+    /// Share of the probability.
+    pub share: f64,
+}
+
+/// Another candidate that resembles an alternative.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rival {
+    /// Index of the rival's atom that comes nearest.
+    pub atom: usize,
+    /// Its candidate.
+    pub candidate: usize,
+    /// Separability κ: what is left of λ after this rival is fitted instead.
+    pub kappa: f64,
+    /// The two are one in this experiment: no recording of this design tells them apart.
+    pub alias: bool,
+    /// Probability that a recording like this one reaches a posterior of 95 % for the truth of the two.
+    pub resolved: f64,
+}
+
+/// How often simulated recordings with one explanation are given the name of another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Confusion {
+    /// Slot in [`Examination::slots`].
+    pub slot: usize,
+    /// Candidate with which recordings were simulated.
+    pub truth: usize,
+    /// Candidate that was most probable in them, and the share of the recordings.
+    pub named: Vec<(usize, f64)>,
+}
+
+/// The model with named effects in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitted {
+    /// Atoms, one for each slot that has a name.
+    pub atoms: Vec<usize>,
+    /// Coefficients of all atoms one after another; NaN for those that are not determined.
+    pub coefficients: DVector<f64>,
+    /// Their covariance matrix.
+    pub covariance: DMatrix<f64>,
+    /// χ² with the effects.
+    pub chi_squared: f64,
+    /// Its degrees of freedom.
+    pub dof: usize,
+    /// Change of the declared parameters when the effects are adopted, beside
+    /// [`Baseline::correction`](super::Baseline::correction).
+    pub parameters: DVector<f64>,
+    /// Covariance matrix of the declared parameters with the effects adopted.
+    pub parameter_covariance: DMatrix<f64>,
+    /// How often these names are confused with others, by simulation.
+    pub confusions: Vec<Confusion>,
+}
+
+/// An atom that this recording cannot show.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Invisible {
+    /// Index of the atom.
+    pub atom: usize,
+    /// It has no effect on any row, so that it does no harm either.
+    pub idle: bool,
+    /// Change of the parameters per unit of each coefficient when it is adopted, p × d.
+    pub gain: DMatrix<f64>,
+}

@@ -1,0 +1,194 @@
+//! Estimates of adopted effects, their strength and their distance to rivals.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::closed_form::Scale;
+use super::findings::{Fitted, Rival};
+use super::question::{Kind, Question, Shape};
+use super::space::{Frame, Space, without};
+use crate::special::normal_cdf;
+
+/// Two explanations of which less than this share of λ distinguishes them are one.
+const ALIAS: f64 = 0.01;
+/// Logarithm of the odds 0.95 : 0.05.
+const SURE: f64 = 2.94;
+
+/// Coefficients of one effect beside a set.
+pub(super) struct Estimate {
+    pub(super) coefficients: DVector<f64>,
+    pub(super) covariance: DMatrix<f64>,
+    pub(super) dof: f64,
+    pub(super) lambda: f64,
+    /// The effect in z, beside the set.
+    pub(super) visible: DVector<f64>,
+    /// Standard deviation of the noise in whitened units.
+    pub(super) sigma: f64,
+}
+
+/// The coefficients of a named block when it joins a set.
+pub(super) fn estimate(space: &Space, question: &Question, rest: &Frame, block: usize) -> Estimate {
+    let atom = &space.blocks[block];
+    let columns = without(&atom.determined(), &rest.basis);
+    let with = space.extended(rest, block);
+    let (sigma, dof) = with
+        .as_ref()
+        .map_or((1.0, f64::INFINITY), |frame| noise(space, frame));
+    let (found, spread) = least_squares(&columns, &space.z);
+    let visible = &columns * &found;
+    let width = width(question, atom.atom);
+    let mut coefficients = DVector::from_element(width, f64::NAN);
+    let mut covariance = DMatrix::from_element(width, width, f64::NAN);
+    for (i, a) in atom.kept.iter().enumerate() {
+        coefficients[*a] = found[i];
+        for (j, b) in atom.kept.iter().enumerate() {
+            covariance[(*a, *b)] = spread[(i, j)] * sigma * sigma;
+        }
+    }
+    Estimate {
+        coefficients,
+        covariance,
+        dof,
+        lambda: visible.norm() / sigma,
+        visible,
+        sigma,
+    }
+}
+
+/// What is left of an effect after its nearest rival is fitted in its place; rivals are named atoms of
+/// candidates other than its own and those of the set.
+pub(super) fn nearest(
+    space: &Space,
+    question: &Question,
+    rest: &Frame,
+    block: usize,
+    estimate: &Estimate,
+) -> Option<Rival> {
+    let own = space.blocks[block].candidate;
+    let whole = estimate.visible.norm_squared();
+    space
+        .beside(rest, question)
+        .into_iter()
+        .filter(|rival| rival.kind() == Kind::Named && rival.candidate != own)
+        .map(|rival| {
+            let explained = rival.basis.tr_mul(&estimate.visible).norm_squared();
+            let kappa = (whole - explained).max(0.0).sqrt() / estimate.sigma;
+            Rival {
+                atom: rival.atom,
+                candidate: rival.candidate,
+                kappa,
+                alias: kappa < ALIAS * estimate.lambda,
+                resolved: resolved(kappa),
+            }
+        })
+        .min_by(|a, b| a.kappa.total_cmp(&b.kappa))
+}
+
+/// Probability that the truth of two explanations reaches a posterior of 95 % when κ separates them.
+pub(super) fn resolved(kappa: f64) -> f64 {
+    if kappa > 0.0 {
+        normal_cdf((0.5 * kappa * kappa - SURE) / kappa)
+    } else {
+        0.0
+    }
+}
+
+/// All effects of a set together.
+pub(super) fn fitted(space: &Space, question: &Question, set: &Frame) -> Fitted {
+    let atoms: Vec<usize> = set.blocks.iter().map(|b| space.blocks[*b].atom).collect();
+    let columns = side_by_side(set.blocks.iter().map(|b| space.blocks[*b].determined()));
+    let gain = side_by_side(set.blocks.iter().map(|b| {
+        let block = &space.blocks[*b];
+        match &question.atoms[block.atom].shape {
+            Shape::Columns(h) => question.baseline.gain(&h.select_columns(&block.kept)),
+            Shape::Smooth { .. } | Shape::Scatter => {
+                DMatrix::zeros(question.baseline.parameters(), 0)
+            }
+        }
+    }));
+    let (found, spread) = least_squares(&columns, &space.z);
+    let (sigma, _) = noise(space, set);
+    let spread = spread * (sigma * sigma);
+    let total: usize = atoms.iter().map(|atom| width(question, *atom)).sum();
+    let mut coefficients = DVector::from_element(total, f64::NAN);
+    let mut covariance = DMatrix::from_element(total, total, f64::NAN);
+    let mut places = Vec::new();
+    let mut start = 0;
+    for block in &set.blocks {
+        let block = &space.blocks[*block];
+        places.extend(block.kept.iter().map(|k| start + k));
+        start += width(question, block.atom);
+    }
+    for (i, a) in places.iter().enumerate() {
+        coefficients[*a] = found[i];
+        for (j, b) in places.iter().enumerate() {
+            covariance[(*a, *b)] = spread[(i, j)];
+        }
+    }
+    let residual = space.residual(set);
+    Fitted {
+        atoms,
+        coefficients,
+        covariance,
+        chi_squared: residual.chi_squared,
+        dof: residual.dof,
+        parameters: &gain * &found,
+        parameter_covariance: question.baseline.covariance() * (sigma * sigma)
+            + &gain * &spread * gain.transpose(),
+        confusions: Vec::new(),
+    }
+}
+
+/// Standard deviation of the noise in whitened units, with its degrees of freedom.
+fn noise(space: &Space, set: &Frame) -> (f64, f64) {
+    match space.scale.less(set.basis.ncols()) {
+        Scale::Known => (1.0, f64::INFINITY),
+        Scale::Estimated { total } => ((space.residual(set).rss / total).sqrt(), total),
+    }
+}
+
+/// Coefficients of independent columns, and (AᵀA)⁻¹.
+pub(super) fn least_squares(
+    columns: &DMatrix<f64>,
+    z: &DVector<f64>,
+) -> (DVector<f64>, DMatrix<f64>) {
+    // Columns of unit length: their units may be very different.
+    let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
+    let mut unit = columns.clone();
+    for (mut column, length) in unit.column_iter_mut().zip(&lengths) {
+        if *length > 0.0 {
+            column /= *length;
+        }
+    }
+    let svd = unit.svd(true, true);
+    let inverse = svd
+        .pseudo_inverse(1e-10)
+        .unwrap_or_else(|_| DMatrix::zeros(columns.ncols(), columns.nrows()));
+    let mut found = &inverse * z;
+    let mut spread = &inverse * inverse.transpose();
+    for (i, length) in lengths.iter().enumerate().filter(|(_, l)| **l > 0.0) {
+        found[i] /= length;
+        spread.row_mut(i).scale_mut(1.0 / length);
+        spread.column_mut(i).scale_mut(1.0 / length);
+    }
+    (found, spread)
+}
+
+/// Number of coefficients of an atom.
+fn width(question: &Question, atom: usize) -> usize {
+    match &question.atoms[atom].shape {
+        Shape::Columns(columns) => columns.ncols(),
+        Shape::Smooth { .. } | Shape::Scatter => 0,
+    }
+}
+
+fn side_by_side(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
+    let parts: Vec<DMatrix<f64>> = parts.collect();
+    let rows = parts.first().map_or(0, DMatrix::nrows);
+    let mut out = DMatrix::zeros(rows, parts.iter().map(DMatrix::ncols).sum());
+    let mut start = 0;
+    for part in parts {
+        out.columns_mut(start, part.ncols()).copy_from(&part);
+        start += part.ncols();
+    }
+    out
+}

@@ -1,0 +1,214 @@
+//! Where the mismatch sits: a scan of quantities of the model against levels of factors.
+//!
+//! Maps of raw residuals mislead, because the fit of the parameters smears a local disturbance over
+//! all rows. Here each cell, such as "angle, at head angle 210°", is a disturbance with an effect of its
+//! own, projected like any other.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::baseline::Baseline;
+use super::closed_form::Scale;
+use super::null::{Null, side_by_side};
+use super::question::{Refusal, Settings};
+
+/// Stage of the random numbers, apart from those of the gate.
+const STAGE: u64 = 0x1_0000_0001;
+
+/// A disturbance of one quantity of the model at one level of one factor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Quantity of the model: "bias", "scale", "angle" …
+    pub node: String,
+    /// What the level is a level of: "position", "run", "direction", "axis", "time span" …
+    pub factor: String,
+    /// The level: "210°", "2", "CW" …
+    pub level: String,
+    /// n derivatives of the output by the disturbance; zero in the rows of other levels.
+    pub column: DVector<f64>,
+}
+
+/// How a cell stands out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Located {
+    /// Index of the cell.
+    pub cell: usize,
+    /// Estimate of the disturbance.
+    pub size: f64,
+    /// Its standard uncertainty.
+    pub u: f64,
+    /// By how much χ² falls when the disturbance is adopted.
+    pub chi_squared: f64,
+    /// Probability that the strongest of all cells would stand out as much if there were no disturbance.
+    pub p: f64,
+}
+
+/// A cell with less than this share of its whitened length (squared) left by the parameters is
+/// invisible.
+const INVISIBLE: f64 = 1e-6;
+
+/// An effect of less than this share of the greatest of its kind is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The cells that the recording can show, the one that stands out most first.
+///
+/// # Errors
+///
+/// Columns of wrong length.
+pub fn locate(
+    baseline: &Baseline,
+    cells: &[Cell],
+    settings: &Settings,
+) -> Result<Vec<Located>, Refusal> {
+    if cells.iter().any(|c| c.column.len() != baseline.rows()) {
+        return Err(Refusal::Sizes { what: "cell" });
+    }
+    let mut columns = DMatrix::zeros(baseline.rows(), cells.len());
+    for (mut column, cell) in columns.column_iter_mut().zip(cells) {
+        column.copy_from(&cell.column);
+    }
+    let whole: Vec<f64> = squares(&baseline.whiten(&columns));
+    let mut seen = baseline.project(&columns);
+    let lengths: Vec<f64> = squares(&seen);
+    let visible: Vec<usize> = (0..cells.len())
+        .filter(|c| lengths[*c] > INVISIBLE * whole[*c] && excited(cells, *c))
+        .collect();
+    for cell in &visible {
+        seen.column_mut(*cell)
+            .scale_mut(1.0 / lengths[*cell].sqrt());
+    }
+    let seen = seen.select_columns(&visible);
+    let components = seen.tr_mul(baseline.residuals());
+    let scale = scale(baseline, baseline.chi_squared(), nu(baseline));
+    let null = simulated(baseline, &seen, settings);
+    let mut located: Vec<Located> = visible
+        .iter()
+        .enumerate()
+        .map(|(place, &cell)| {
+            let component = components[place];
+            let statistic = component * component / scale;
+            let above = null.iter().filter(|top| **top >= statistic).count();
+            Located {
+                cell,
+                size: component / lengths[cell].sqrt(),
+                u: (scale / lengths[cell]).sqrt(),
+                chi_squared: component * component,
+                p: (1 + above) as f64 / (1 + null.len()) as f64,
+            }
+        })
+        .collect();
+    located.sort_by(|a, b| b.chi_squared.total_cmp(&a.chi_squared));
+    Ok(located)
+}
+
+/// Whether a cell has an effect beside those of the same quantity at other levels: cos 90° is not quite
+/// zero in a computer.
+fn excited(cells: &[Cell], cell: usize) -> bool {
+    let same = cells.iter().filter(|c| c.node == cells[cell].node);
+    let greatest = same.map(|c| c.column.amax()).fold(0.0, f64::max);
+    cells[cell].column.amax() > ROUNDING * greatest
+}
+
+/// The greatest statistic of all cells in simulated recordings without a disturbance.
+fn simulated(baseline: &Baseline, seen: &DMatrix<f64>, settings: &Settings) -> Vec<f64> {
+    let null = Null::new(baseline, settings.seed, STAGE);
+    let chunks = settings.draws.div_ceil(gumption_lanes::LANES).max(1);
+    side_by_side(chunks, |index| {
+        let chunk = null.chunk(index);
+        let components = &chunk.errors * seen;
+        let absorbed = &chunk.errors * baseline.absorbed();
+        (0..chunk.errors.nrows())
+            .map(|lane| {
+                let chi_squared =
+                    chunk.errors.row(lane).norm_squared() - absorbed.row(lane).norm_squared();
+                let top = components.row(lane).amax();
+                top * top / scale(baseline, chi_squared, chunk.offsets[lane])
+            })
+            .collect::<Vec<f64>>()
+    })
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The variance that components are compared with: 1 if the noise is known.
+fn scale(baseline: &Baseline, chi_squared: f64, offset: f64) -> f64 {
+    match Scale::new(baseline.dof(), baseline.scale_dof()) {
+        Scale::Known => 1.0,
+        Scale::Estimated { total } => (chi_squared + offset) / total,
+    }
+}
+
+fn nu(baseline: &Baseline) -> f64 {
+    match Scale::new(baseline.dof(), baseline.scale_dof()) {
+        Scale::Known => 0.0,
+        Scale::Estimated { .. } => baseline.scale_dof(),
+    }
+}
+
+fn squares(columns: &DMatrix<f64>) -> Vec<f64> {
+    columns.column_iter().map(|c| c.norm_squared()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::baseline::Prior;
+    use super::super::noise::{Covariance, Noise};
+    use super::*;
+
+    /// Twelve positions, bias and scale fitted: an angle error at one position is found there, although
+    /// the fit smears it.
+    #[test]
+    fn a_local_disturbance_is_found_in_its_cell() {
+        let rows = 36;
+        let angle = |row: usize| (row % 12) as f64 * std::f64::consts::PI / 6.0;
+        let jacobian = DMatrix::from_fn(rows, 3, |row, j| match j {
+            0 => 1.0,
+            1 => angle(row).sin(),
+            _ => angle(row).cos(),
+        });
+        let node = |name: &str, level: usize, slope: &dyn Fn(f64) -> f64| Cell {
+            node: name.into(),
+            factor: "position".into(),
+            level: (level * 30).to_string(),
+            column: DVector::from_fn(rows, |row, _| {
+                if row % 12 == level {
+                    slope(angle(row))
+                } else {
+                    0.0
+                }
+            }),
+        };
+        let cells: Vec<Cell> = (0..12)
+            .flat_map(|k| [node("bias", k, &|_| 1.0), node("angle", k, &f64::cos)])
+            .collect();
+        let truth = cells
+            .iter()
+            .position(|c| c.node == "bias" && c.level == "210")
+            .expect("a cell");
+        let residuals = DVector::from_fn(rows, |row, _| {
+            if row % 12 == 7 {
+                5.0
+            } else {
+                0.1 * (row as f64 * 1.7).sin()
+            }
+        });
+        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(rows, 1.0)));
+        let baseline = Baseline::new(&jacobian, &residuals, &noise, &Prior::none(3)).unwrap();
+        let settings = Settings {
+            draws: 512,
+            ..Settings::default()
+        };
+        let located = locate(&baseline, &cells, &settings).unwrap();
+        // The angle cell of the same position is the same column but for its unit.
+        let same = |cell: usize| cells[cell].level == "210";
+        assert!(same(located[0].cell) && same(located[1].cell));
+        let found = located.iter().find(|l| l.cell == truth).unwrap();
+        assert!((found.size - 5.0).abs() < 0.1 && (found.u - (1.0_f64 / 3.0).sqrt()).abs() < 0.2);
+        assert!(found.p < 0.003);
+        let idle = cells
+            .iter()
+            .position(|c| c.node == "angle" && c.level == "90")
+            .unwrap();
+        assert!(located.iter().all(|l| l.cell != idle));
+    }
+}

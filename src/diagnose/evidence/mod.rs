@@ -1,0 +1,61 @@
+//! Which effects, left out of a model, does a recording show? The statistics of diagnosis: matrices
+//! in, findings out. Files, names of quantities and prose are other modules' business.
+//!
+//! # The space in which everything is decided
+//!
+//! Residuals r = y − f(θ₀) of n rows, with the Jacobian J of p free parameters and the covariance
+//! matrix Σ = LLᵀ, are whitened, W = L⁻¹, and projected on what no change of the parameters can
+//! produce: z = P W r, P = I − QQᵀ, WJ = QR. An effect of size β that adds hβ to the output adds
+//! Aβ to z, A = P W h. Two numbers decide, before any data are taken: the visible strength
+//! λ = |β|·‖A‖ whether the effect is detected, and the separability κ, what is left of λ after the
+//! best rival is fitted, whether it is named.
+//!
+//! Mathematically z lives in m = n − p dimensions; it is kept as a vector of n whose component
+//! along Q is zero, which gives the same inner products and costs no basis of the complement.
+//!
+//! # Chapters
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `noise` | covariance matrices of the rows and how well they are known |
+//! | `baseline` | whitening, projection, what the data say of the declared parameters |
+//! | `question` | candidates, atoms, settings: what is asked |
+//! | `examine` | detection, naming, verdict |
+//! | `findings` | verdict, slots, alternatives: what is answered |
+//! | `locate` | where the mismatch sits |
+//! | `plan` | without data: what an experiment can see and tell apart |
+//! | `separate` | which extra measurement tells rivals apart |
+//! | `omitted` | what effects that are not adopted do to the uncertainty |
+
+mod baseline;
+mod closed_form;
+mod examine;
+mod findings;
+mod fit;
+mod gate;
+mod generic;
+mod guard;
+mod locate;
+mod noise;
+mod null;
+mod omitted;
+mod pairs;
+mod plan;
+mod question;
+mod search;
+mod separate;
+mod slots;
+mod space;
+
+pub use baseline::{Baseline, Prior};
+pub use examine::examine;
+pub use findings::{
+    Alternative, Confusion, Examination, Fitted, Invisible, Level, Rival, Slot, State, Variant,
+    Verdict,
+};
+pub use locate::{Cell, Located, locate};
+pub use noise::{Covariance, Noise};
+pub use omitted::omitted;
+pub use plan::{Pair, Plan, Seen, visibility};
+pub use question::{Atom, Candidate, Kind, Place, Question, Refusal, Settings, Shape};
+pub use separate::{Action, Worth, separate};

@@ -1,0 +1,148 @@
+//! Recordings that the model alone explains, by simulation.
+//!
+//! Random numbers are addressed by (seed, stage and chunk, row), so that results do not depend on the
+//! number of threads or on what was drawn before.
+
+use gumption_lanes::sampler::{gamma_block, normal_block};
+use gumption_lanes::{Block as Lanes, Generator, LANES, level};
+use nalgebra::DMatrix;
+
+use super::baseline::Baseline;
+use super::space::Residual;
+
+/// Simulated recordings of one null distribution.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Null<'a> {
+    baseline: &'a Baseline,
+    seed: u64,
+    stage: u64,
+}
+
+/// 256 simulated recordings.
+pub(super) struct Chunk {
+    /// Whitened errors, one recording per row: 256 × N. Not projected.
+    pub(super) errors: DMatrix<f64>,
+    /// For each recording what is added to its sum of squares for knowledge of the scale from elsewhere.
+    pub(super) offsets: Vec<f64>,
+}
+
+/// Recordings in succession that share a draw of the covariance matrix.
+const SHARED: usize = 32;
+
+impl<'a> Null<'a> {
+    /// Stages of one seed are independent of each other.
+    pub(super) fn new(baseline: &'a Baseline, seed: u64, stage: u64) -> Null<'a> {
+        Null {
+            baseline,
+            seed,
+            stage,
+        }
+    }
+
+    pub(super) fn chunk(&self, index: usize) -> Chunk {
+        let address = (self.stage << 24) | index as u64;
+        let rows = self.baseline.residuals().len();
+        let mut errors = DMatrix::zeros(LANES, rows);
+        let mut block = Lanes::ZERO;
+        for row in 0..rows {
+            let mut generator = Generator::new(self.seed, address, row as u64);
+            normal_block(level(), &mut generator, &mut block);
+            errors.column_mut(row).copy_from_slice(&block.0);
+        }
+        let draws = self.baseline.noise_draws();
+        let nu = self.baseline.scale_dof();
+        let offsets = if !nu.is_finite() || nu <= 0.0 {
+            vec![0.0; LANES]
+        } else if draws > 0 {
+            // The doubt about the scale is in the draws.
+            vec![nu; LANES]
+        } else {
+            let mut generator = Generator::new(self.seed, address, rows as u64);
+            gamma_block(level(), &mut generator, 0.5 * nu, &mut block);
+            block.0.iter().map(|half| 2.0 * half).collect()
+        };
+        if draws > 0 {
+            for group in 0..LANES / SHARED {
+                let draw = (index * (LANES / SHARED) + group) % draws;
+                let mut part = errors.rows_mut(group * SHARED, SHARED);
+                let colored = self.baseline.recolor(draw, &part.transpose());
+                part.copy_from(&colored.transpose());
+            }
+        }
+        Chunk { errors, offsets }
+    }
+}
+
+impl Chunk {
+    /// What the residuals of each recording are when two orthonormal bases are absorbed; degrees of
+    /// freedom and scale as those of `like`.
+    pub(super) fn residuals(&self, absorbed: &[&DMatrix<f64>; 2], like: Residual) -> Vec<Residual> {
+        let mut chi_squared = squares(&self.errors);
+        for basis in absorbed {
+            let part = squares(&(&self.errors * *basis));
+            for (whole, part) in chi_squared.iter_mut().zip(part) {
+                *whole = (*whole - part).max(0.0);
+            }
+        }
+        chi_squared
+            .into_iter()
+            .zip(&self.offsets)
+            .map(|(chi_squared, offset)| Residual {
+                chi_squared,
+                rss: chi_squared + offset,
+                ..like
+            })
+            .collect()
+    }
+}
+
+/// Sums of the squares of the rows.
+fn squares(matrix: &DMatrix<f64>) -> Vec<f64> {
+    let mut out = vec![0.0; matrix.nrows()];
+    for column in matrix.column_iter() {
+        for (sum, x) in out.iter_mut().zip(column.iter()) {
+            *sum += x * x;
+        }
+    }
+    out
+}
+
+/// f(0) … f(count − 1), computed side by side.
+pub(super) fn side_by_side<T: Send>(count: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let threads = std::thread::available_parallelism()
+        .map_or(1, usize::from)
+        .min(count);
+    if threads < 2 {
+        return (0..count).map(f).collect();
+    }
+    let work = |first: usize| -> Vec<T> { (first..count).step_by(threads).map(&f).collect() };
+    let mut parts: Vec<std::vec::IntoIter<T>> = std::thread::scope(|scope| {
+        let handles: Vec<_> = (1..threads)
+            .map(|first| scope.spawn(move || work(first)))
+            .collect();
+        let own = work(0);
+        std::iter::once(own)
+            .chain(handles.into_iter().map(|handle| match handle.join() {
+                Ok(part) => part,
+                Err(panic) => std::panic::resume_unwind(panic),
+            }))
+            .map(Vec::into_iter)
+            .collect()
+    });
+    (0..count)
+        .filter_map(|index| parts[index % threads].next())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn side_by_side_keeps_the_order() {
+        for count in [0, 1, 2, 7, 100] {
+            let expected: Vec<usize> = (0..count).map(|i| i * i).collect();
+            assert_eq!(side_by_side(count, |i| i * i), expected);
+        }
+    }
+}

@@ -1,0 +1,301 @@
+//! Without data: what an experiment can see and tell apart.
+
+use nalgebra::DMatrix;
+
+use super::baseline::Baseline;
+use super::question::{Atom, Candidate, Kind, Question, Refusal, Settings, Shape};
+use super::space::{Block, INVISIBLE, Space};
+
+/// What an experiment of this design can see and tell apart. Sizes refer to the noise of the baseline.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// One for each named atom, in their order.
+    pub seen: Vec<Seen>,
+    /// Named atoms of different candidates that are one in this experiment, two or more in each class.
+    pub classes: Vec<Vec<usize>>,
+    /// For each named atom of a visible candidate its nearest rival, exact aliases included.
+    pub pairs: Vec<Pair>,
+}
+
+/// How well an experiment sees one atom.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Seen {
+    /// Index of the atom.
+    pub atom: usize,
+    /// Share of its whitened length that the parameters do not absorb, 0 … 1; the smallest of its columns'.
+    pub visibility: f64,
+    /// Coefficient that is detected as good as always, λ = 6: that of the column seen worst. `None` if a
+    /// column is invisible.
+    pub detectable: Option<f64>,
+}
+
+/// How well an experiment tells an atom from its nearest rival.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pair {
+    /// The atom.
+    pub atom: usize,
+    /// The atom of another candidate that resembles it most.
+    pub rival: usize,
+    /// Cosine of the angle between the two.
+    pub cosine: f64,
+    /// Coefficient of `atom` that is told from the rival as good as always, κ = 5; `None` for exact
+    /// aliases.
+    pub separable: Option<f64>,
+}
+
+/// Strength with which effects are detected nearly always.
+const DETECTED: f64 = 6.0;
+/// Separability with which effects are named nearly always.
+const SEPARATED: f64 = 5.0;
+/// Sine of the angle under which two effects are one.
+const ALIAS: f64 = 1e-3;
+
+/// What an experiment can see and tell apart. The residuals of the baseline do not matter.
+///
+/// # Errors
+///
+/// Atoms that do not fit the baseline.
+pub fn visibility(
+    baseline: &Baseline,
+    candidates: &[Candidate],
+    atoms: &[Atom],
+) -> Result<Plan, Refusal> {
+    let question = Question {
+        baseline,
+        candidates,
+        atoms,
+        settings: Settings::default(),
+    };
+    let space = Space::new(&question)?;
+    let named: Vec<&Block> = space
+        .blocks
+        .iter()
+        .filter(|block| block.kind() == Kind::Named)
+        .collect();
+    let seen = atoms
+        .iter()
+        .enumerate()
+        .filter_map(|(index, atom)| match &atom.shape {
+            Shape::Columns(columns) => Some(seen(baseline, index, columns)),
+            Shape::Smooth { .. } | Shape::Scatter => None,
+        })
+        .collect();
+    let pairs: Vec<Pair> = named
+        .iter()
+        .filter_map(|block| {
+            named
+                .iter()
+                .filter(|rival| rival.candidate != block.candidate)
+                .map(|rival| pair(block, rival))
+                .max_by(|a, b| a.cosine.total_cmp(&b.cosine))
+        })
+        .collect();
+    Ok(Plan {
+        seen,
+        classes: classes(&named),
+        pairs,
+    })
+}
+
+fn seen(baseline: &Baseline, atom: usize, columns: &DMatrix<f64>) -> Seen {
+    let each = |j: usize| columns.column(j).into_owned();
+    let visibility = (0..columns.ncols())
+        .map(|j| baseline.visibility(&each(j)))
+        .fold(1.0, f64::min);
+    let shortest = baseline
+        .project(columns)
+        .column_iter()
+        .map(|c| c.norm())
+        .fold(f64::INFINITY, f64::min);
+    Seen {
+        atom,
+        visibility,
+        detectable: (visibility > INVISIBLE).then(|| DETECTED / shortest),
+    }
+}
+
+/// The column of `block` that `rival` comes nearest to.
+fn pair(block: &Block, rival: &Block) -> Pair {
+    let columns = block.determined();
+    let (length, left) = columns
+        .column_iter()
+        .map(|column| {
+            let along = rival.basis.tr_mul(&column);
+            let left = &column - &rival.basis * along;
+            (column.norm(), left.norm())
+        })
+        .min_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)))
+        .unwrap_or((1.0, 1.0));
+    let sine = (left / length).min(1.0);
+    Pair {
+        atom: block.atom,
+        rival: rival.atom,
+        cosine: (1.0 - sine * sine).sqrt(),
+        separable: (sine > ALIAS).then(|| SEPARATED / left),
+    }
+}
+
+/// Groups of atoms of several candidates that span the same directions.
+fn classes(named: &[&Block]) -> Vec<Vec<usize>> {
+    let mut classes: Vec<Vec<&Block>> = Vec::new();
+    for block in named {
+        match classes.iter_mut().find(|class| same(class[0], block)) {
+            Some(class) => class.push(block),
+            None => classes.push(vec![block]),
+        }
+    }
+    classes
+        .into_iter()
+        .filter(|class| class.iter().any(|b| b.candidate != class[0].candidate))
+        .map(|class| class.iter().map(|block| block.atom).collect())
+        .collect()
+}
+
+fn same(a: &Block, b: &Block) -> bool {
+    a.basis.ncols() == b.basis.ncols()
+        && (&a.basis - &b.basis * b.basis.tr_mul(&a.basis)).norm() < ALIAS
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DVector;
+
+    use super::super::baseline::Prior;
+    use super::super::noise::{Covariance, Noise};
+    use super::super::question::Place;
+    use super::*;
+
+    /// Cosines and sines of the sensor angle and of the head angle, degrees.
+    struct Tumble {
+        head: Vec<f64>,
+        mount: Vec<f64>,
+    }
+
+    impl Tumble {
+        fn new(positions: usize, mounts: &[f64]) -> Tumble {
+            let (mut head, mut mount) = (Vec::new(), Vec::new());
+            for m in mounts {
+                for k in 0..positions {
+                    head.push((k as f64 * 360.0 / positions as f64).to_radians());
+                    mount.push(m.to_radians());
+                }
+            }
+            Tumble { head, mount }
+        }
+
+        /// A function of the sensor angle α and the head angle φ. Rounding of cos 90° is removed.
+        fn column(&self, f: impl Fn(f64, f64) -> f64) -> DVector<f64> {
+            DVector::from_fn(self.head.len(), |i, _| {
+                let value = f(self.head[i] + self.mount[i], self.head[i]);
+                if value.abs() < 1e-9 { 0.0 } else { value }
+            })
+        }
+
+        fn baseline(&self) -> Baseline {
+            let columns = [
+                self.column(|_, _| 1.0),
+                self.column(|a, _| a.sin()),
+                self.column(|a, _| a.cos()),
+            ];
+            let n = self.head.len();
+            Baseline::new(
+                &DMatrix::from_columns(&columns),
+                &DVector::zeros(n),
+                &Noise::known(Covariance::Diagonal(DVector::from_element(n, 1.0))),
+                &Prior::none(3),
+            )
+            .unwrap()
+        }
+    }
+
+    type Law = (&'static str, fn(f64, f64) -> f64);
+    const LAWS: [Law; 9] = [
+        ("K2", |a, _| a.sin().powi(2)),
+        ("Kpp", |a, _| a.cos().powi(2)),
+        ("K3", |a, _| a.sin().powi(3)),
+        ("Kip", |a, _| a.sin() * a.cos()),
+        ("ASYM", |a, _| a.sin().abs()),
+        ("ECC1 sin", |a, h| a.cos() * h.sin()),
+        ("ECC1 cos", |a, h| a.cos() * h.cos()),
+        ("ECC2 sin", |a, h| a.cos() * (2.0 * h).sin()),
+        ("ECC2 cos", |a, h| a.cos() * (2.0 * h).cos()),
+    ];
+
+    fn plan(tumble: &Tumble) -> Plan {
+        let candidates: Vec<Candidate> = LAWS
+            .iter()
+            .map(|(name, _)| Candidate {
+                name: (*name).into(),
+                family: String::new(),
+                place: Place::default(),
+                typical: None,
+                repeats: false,
+            })
+            .collect();
+        let atoms: Vec<Atom> = LAWS
+            .iter()
+            .enumerate()
+            .map(|(candidate, (_, law))| Atom {
+                candidate,
+                variant: String::new(),
+                shape: Shape::Columns(DMatrix::from_columns(&[tumble.column(law)])),
+                share: 1.0,
+            })
+            .collect();
+        visibility(&tumble.baseline(), &candidates, &atoms).unwrap()
+    }
+
+    fn index(name: &str) -> usize {
+        LAWS.iter().position(|(other, _)| *other == name).unwrap()
+    }
+
+    fn class_of<'a>(plan: &'a Plan, name: &str) -> Vec<&'a str> {
+        plan.classes
+            .iter()
+            .find(|class| class.contains(&index(name)))
+            .map(|class| class.iter().map(|atom| LAWS[*atom].0).collect())
+            .unwrap_or_default()
+    }
+
+    #[test]
+    fn visibilities_of_twelve_positions_are_the_closed_forms() {
+        let plan = plan(&Tumble::new(12, &[0.0]));
+        for (name, expected) in [("K2", 1.0 / 3.0), ("K3", 0.1), ("Kip", 1.0)] {
+            let seen = &plan.seen[index(name)];
+            assert!((seen.visibility - expected).abs() < 1e-12, "{name}");
+        }
+        // ‖PWh‖² of s² is 12/8: its mean is taken out, cos 2α/2 stays.
+        let detectable = plan.seen[index("K2")].detectable.unwrap();
+        assert!((detectable - 6.0 / 1.5_f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn aliases_of_one_mount_are_one_class() {
+        let plan = plan(&Tumble::new(12, &[0.0]));
+        assert_eq!(class_of(&plan, "K2"), ["K2", "Kpp", "ECC1 cos"]);
+        assert_eq!(class_of(&plan, "Kip"), ["Kip", "ECC1 sin"]);
+        assert_eq!(class_of(&plan, "K3"), ["K3", "ECC2 sin"]);
+        assert_eq!(class_of(&plan, "ASYM"), [""; 0]);
+        let pair = plan.pairs.iter().find(|p| p.atom == index("ASYM")).unwrap();
+        // 24 positions and more: 0.957; twelve leave a little more between them.
+        assert!(pair.cosine > 0.9 && pair.cosine < 0.99);
+    }
+
+    #[test]
+    fn four_positions_leave_one_contrast() {
+        let plan = plan(&Tumble::new(4, &[0.0]));
+        assert_eq!(class_of(&plan, "K2"), ["K2", "Kpp", "ASYM", "ECC1 cos"]);
+        for name in ["K3", "Kip", "ECC1 sin", "ECC2 sin", "ECC2 cos"] {
+            assert!(plan.seen[index(name)].detectable.is_none(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_second_mount_separates_if_it_is_the_right_one() {
+        let quarter = plan(&Tumble::new(12, &[0.0, 90.0]));
+        assert!(!class_of(&quarter, "K3").contains(&"ECC2 sin"));
+        let half = plan(&Tumble::new(12, &[0.0, 180.0]));
+        assert!(class_of(&half, "K3").contains(&"ECC2 sin"));
+        assert!(!class_of(&half, "K2").contains(&"ECC1 cos"));
+    }
+}

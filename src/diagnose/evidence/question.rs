@@ -1,0 +1,189 @@
+//! What is asked: candidates, their atoms, settings, and the reasons to refuse.
+
+use nalgebra::DMatrix;
+
+use super::baseline::Baseline;
+
+/// Where an effect acts: a quantity of the model, and what it varies along.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Hash)]
+pub struct Place {
+    /// Quantity of the model that is disturbed: "bias", "scale", "angle" …
+    pub node: String,
+    /// What the disturbance follows: "head angle", "time", "temperature", "run" …; empty if nothing.
+    pub along: String,
+}
+
+/// A hypothesis: one physical effect, or one kind of unnamed discrepancy.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// Identifier in the catalogue.
+    pub name: String,
+    /// Effects of one family are next of kin: if they cannot be told apart, the family can be named.
+    pub family: String,
+    /// Quantity and covariate.
+    pub place: Place,
+    /// Standard deviation of the size of the effect in instruments of this kind, per column in the units
+    /// of the atom's coefficients. Used for what was not adopted, and for warnings, not for naming.
+    pub typical: Option<f64>,
+    /// Several of its atoms may act at once: bad rows, jumps.
+    pub repeats: bool,
+}
+
+/// What an atom does to the output.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// Named physics: n × d derivatives of the output by the coefficients of the effect. The coefficients
+    /// are free (d = 2 for sine and cosine).
+    Columns(DMatrix<f64>),
+    /// Unnamed discrepancy: n × k features (cosines, levels of a factor) and the k variances that their
+    /// coefficients have relative to each other.
+    Smooth {
+        /// n × k.
+        features: DMatrix<f64>,
+        /// k positive numbers.
+        spectrum: Vec<f64>,
+    },
+    /// Unnamed discrepancy without pattern: the rows scatter more than the noise says.
+    Scatter,
+}
+
+/// Whether an atom explains or only says where.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// Physics with a name.
+    Named,
+    /// Competitor without a name: a smooth curve, levels, excess scatter.
+    Generic,
+}
+
+/// One variant of a candidate: a value of its lag, time constant, axis scope, step time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Atom {
+    /// Index of its candidate in [`Question::candidates`].
+    pub candidate: usize,
+    /// What distinguishes it from the other variants; empty if it is the only one.
+    pub variant: String,
+    /// Its effect on the rows.
+    pub shape: Shape,
+    /// Prior share among the variants of its candidate; shares are normalised to sum to one.
+    pub share: f64,
+}
+
+/// How to examine.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Probability of an alarm on a recording that agrees with the model.
+    pub alpha: f64,
+    /// At most this many effects at once.
+    pub max_effects: usize,
+    /// Sets of effects that are extended at each level of the search.
+    pub beam: usize,
+    /// Seed of the simulated null distributions.
+    pub seed: u64,
+    /// Draws of each simulated null distribution.
+    pub draws: usize,
+}
+
+impl Default for Settings {
+    /// α = 1 %, four effects, beam of 10, 4000 draws.
+    fn default() -> Settings {
+        Settings {
+            alpha: 0.01,
+            max_effects: 4,
+            beam: 10,
+            seed: 1,
+            draws: 4000,
+        }
+    }
+}
+
+/// A recording, reduced to its residuals, and the effects that may be in it.
+#[derive(Debug, Clone)]
+pub struct Question<'a> {
+    /// Residuals, noise, and what the declared parameters absorb.
+    pub baseline: &'a Baseline,
+    /// The hypotheses.
+    pub candidates: &'a [Candidate],
+    /// Their variants, in any order.
+    pub atoms: &'a [Atom],
+    /// How to examine.
+    pub settings: Settings,
+}
+
+/// Why a question has no answer.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Refusal {
+    /// As many parameters as rows: nothing is left to examine.
+    NoFreedom {
+        /// Rows, with those of prior knowledge.
+        rows: usize,
+        /// Free parameters.
+        parameters: usize,
+    },
+    /// The recording cannot determine this parameter beside the ones before it.
+    Dependent {
+        /// Index of the parameter (column of the Jacobian).
+        parameter: usize,
+    },
+    /// The variance of a row is not a positive number.
+    Variance {
+        /// The row.
+        row: usize,
+    },
+    /// The covariance matrix is not positive definite.
+    NotPositive,
+    /// A residual or derivative is not a finite number.
+    NotFinite {
+        /// The row.
+        row: usize,
+    },
+    /// An effect on a row is not a finite number.
+    AtomNotFinite {
+        /// Index of the atom.
+        atom: usize,
+        /// The row.
+        row: usize,
+    },
+    /// Sizes of matrices contradict each other.
+    Sizes {
+        /// Which matrix, for the programmer.
+        what: &'static str,
+    },
+    /// The caller asked to stop.
+    Cancelled,
+}
+
+impl Shape {
+    /// Named or generic.
+    pub fn kind(&self) -> Kind {
+        match self {
+            Shape::Columns(_) => Kind::Named,
+            Shape::Smooth { .. } | Shape::Scatter => Kind::Generic,
+        }
+    }
+}
+
+impl std::fmt::Display for Refusal {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Refusal::NoFreedom { rows, parameters } => write!(
+                f,
+                "{rows} rows leave no degree of freedom beside {parameters} parameters"
+            ),
+            Refusal::Dependent { parameter } => write!(
+                f,
+                "the recording does not determine parameter {parameter} beside those before it"
+            ),
+            Refusal::Variance { row } => write!(f, "the variance of row {row} is not positive"),
+            Refusal::NotPositive => write!(f, "the covariance matrix is not positive definite"),
+            Refusal::NotFinite { row } => write!(f, "row {row} has a value that is not finite"),
+            Refusal::AtomNotFinite { atom, row } => {
+                write!(f, "effect {atom} is not finite in row {row}")
+            }
+            Refusal::Sizes { what } => write!(f, "sizes of matrices disagree: {what}"),
+            Refusal::Cancelled => write!(f, "stopped"),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}

@@ -1,0 +1,194 @@
+//! Search for the set of effects that explains a recording.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+
+use super::closed_form::log_sum;
+use super::findings::Level;
+use super::gate;
+use super::pairs::Pairs;
+use super::question::{Kind, Question, Refusal};
+use super::space::{Frame, Space};
+
+/// Logarithm of the odds by which a pair has to beat the best single effect for the search to go on
+/// although nothing stands out beside the single effect.
+const DECISIVE: f64 = 5.0;
+
+/// A set that was looked at.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Visited {
+    /// Named blocks, ascending.
+    pub(super) named: Vec<usize>,
+    pub(super) generic: Option<usize>,
+    /// Logarithm of its posterior odds.
+    pub(super) score: f64,
+}
+
+/// Where the search ended.
+#[derive(Debug)]
+pub(super) struct Search {
+    pub(super) levels: Vec<Level>,
+    /// The set beside which nothing stands out.
+    pub(super) complete: Option<Vec<usize>>,
+    pub(super) visited: Vec<Visited>,
+}
+
+/// Adds effects until nothing is left that stands out.
+pub(super) fn search(
+    space: &Space,
+    question: &Question,
+    progress: &dyn Fn(f64) -> ControlFlow<()>,
+) -> Result<Search, Refusal> {
+    let pairs = Pairs::new(space, question);
+    let mut search = Search {
+        levels: Vec::new(),
+        complete: None,
+        visited: vec![Visited {
+            named: Vec::new(),
+            generic: None,
+            score: 0.0,
+        }],
+    };
+    let mut seeds: Vec<Vec<usize>> = Vec::new();
+    let mut beam = vec![(0.0, Vec::new())];
+    for level in 0..=question.settings.max_effects {
+        let Some(best) = beam.first().and_then(|(_, set)| space.frame(set)) else {
+            break;
+        };
+        let outcome = gate::test(space, question, &best, (level == 0).then_some(&pairs));
+        let Some(strongest) = outcome.strongest else {
+            search.complete = Some(best.blocks);
+            break;
+        };
+        search.levels.push(Level {
+            adopted: best.blocks.iter().map(|b| space.blocks[*b].atom).collect(),
+            strongest: space.blocks[strongest].atom,
+            statistic: outcome.statistic,
+            p: outcome.p,
+            draws: outcome.draws,
+        });
+        let masked = seeds
+            .iter()
+            .filter_map(|seed| space.frame(seed))
+            .any(|pair| level == 1 && space.score(&pair) > beam[0].0 + DECISIVE);
+        if outcome.p > question.settings.alpha && !masked {
+            search.complete = Some(best.blocks);
+            break;
+        }
+        if level == question.settings.max_effects {
+            break;
+        }
+        if level == 0 {
+            seeds = pairs.seeds(space).into_iter().map(Vec::from).collect();
+        }
+        beam = extend(space, question, &beam, &mut search.visited);
+        if level == 1 {
+            add_seeds(space, &seeds, &mut beam, &mut search.visited);
+        }
+        let share = (level + 1) as f64 / (question.settings.max_effects + 2) as f64;
+        if progress(share).is_break() {
+            return Err(Refusal::Cancelled);
+        }
+    }
+    Ok(search)
+}
+
+/// All sets with one block more than those of the beam, the best first.
+fn extend(
+    space: &Space,
+    question: &Question,
+    beam: &[(f64, Vec<usize>)],
+    visited: &mut Vec<Visited>,
+) -> Vec<(f64, Vec<usize>)> {
+    let mut seen = BTreeSet::new();
+    let mut next = Vec::new();
+    let frames = beam
+        .iter()
+        .take(question.settings.beam)
+        .filter_map(|(_, set)| space.frame(set));
+    for frame in frames {
+        for (index, block) in space.blocks.iter().enumerate() {
+            if !space.may_join(&frame, block, question) {
+                continue;
+            }
+            if block.kind() == Kind::Generic {
+                if let Some(score) = space.score_with_generic(&frame, index) {
+                    visited.push(Visited {
+                        named: frame.blocks.clone(),
+                        generic: Some(index),
+                        score,
+                    });
+                }
+            } else if let Some(set) = space.extended(&frame, index)
+                && seen.insert(set.blocks.clone())
+            {
+                next.push((space.score(&set), set.blocks));
+            }
+        }
+    }
+    visited.extend(next.iter().map(|(score, named)| Visited {
+        named: named.clone(),
+        generic: None,
+        score: *score,
+    }));
+    next.sort_by(|a, b| b.0.total_cmp(&a.0));
+    next
+}
+
+fn add_seeds(
+    space: &Space,
+    seeds: &[Vec<usize>],
+    beam: &mut Vec<(f64, Vec<usize>)>,
+    visited: &mut Vec<Visited>,
+) {
+    for seed in seeds {
+        let Some(frame) = space.frame(seed) else {
+            continue;
+        };
+        if beam.iter().any(|(_, set)| *set == frame.blocks) {
+            continue;
+        }
+        let score = space.score(&frame);
+        visited.push(Visited {
+            named: frame.blocks.clone(),
+            generic: None,
+            score,
+        });
+        beam.push((score, frame.blocks));
+    }
+    beam.sort_by(|a, b| b.0.total_cmp(&a.0));
+}
+
+impl Search {
+    /// Posterior probability that an effect without a name is there.
+    pub(super) fn generic_probability(&self) -> f64 {
+        let with = log_sum(
+            self.visited
+                .iter()
+                .filter(|set| set.generic.is_some())
+                .map(|set| set.score),
+        );
+        let all = log_sum(self.visited.iter().map(|set| set.score));
+        libm::exp(with - all)
+    }
+
+    /// The most probable set that holds a generic.
+    pub(super) fn best_with_generic(&self) -> Option<&Visited> {
+        self.visited
+            .iter()
+            .filter(|set| set.generic.is_some())
+            .max_by(|a, b| a.score.total_cmp(&b.score))
+    }
+
+    /// The most probable set of all.
+    pub(super) fn best(&self) -> Option<&Visited> {
+        self.visited
+            .iter()
+            .max_by(|a, b| a.score.total_cmp(&b.score))
+    }
+}
+
+/// The frame of a set of blocks that were independent when they were visited.
+pub(super) fn frame_of(space: &Space, set: &[usize]) -> Frame {
+    space.frame(set).unwrap_or_else(|| space.empty())
+}

@@ -1,0 +1,210 @@
+//! One slot for each effect found: which candidates could stand in it, and how probable they are.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::closed_form::log_sum;
+use super::findings::{Alternative, Slot, State, Variant};
+use super::fit::{estimate, nearest};
+use super::question::{Kind, Question};
+use super::search::frame_of;
+use super::space::{Frame, Space};
+
+/// Probability of a credible list.
+const CREDIBLE: f64 = 0.95;
+/// A slot in which generics have this probability has no name.
+const NAMELESS: f64 = 0.3;
+/// Generics that are listed at most.
+const LISTED: usize = 3;
+
+/// One member of the set that explains the recording.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Member {
+    Named(usize),
+    Generic(usize),
+}
+
+/// The slot of one member of a set (`named` blocks and perhaps a generic beside them).
+pub(super) fn slot(
+    space: &Space,
+    question: &Question,
+    named: &[usize],
+    generic: Option<usize>,
+    member: Member,
+) -> Slot {
+    let (rest, fixed) = match member {
+        Member::Named(block) => {
+            let others: Vec<usize> = named.iter().copied().filter(|b| *b != block).collect();
+            (frame_of(space, &others), generic)
+        }
+        Member::Generic(_) => (frame_of(space, named), None),
+    };
+    let scores = replacements(space, question, &rest, fixed);
+    let kind = |block: usize| space.blocks[block].kind();
+    let total = |wanted: Kind| {
+        log_sum(
+            scores
+                .iter()
+                .filter(|(block, _)| kind(*block) == wanted)
+                .map(|(_, score)| *score),
+        )
+    };
+    let (by_name, by_generic) = (total(Kind::Named), total(Kind::Generic));
+    let all = log_sum([by_name, by_generic].into_iter());
+    let generic_share = libm::exp(by_generic - all);
+    let ranked = ranking(space, &scores, Kind::Named, by_name);
+    let family = family(question, &ranked);
+    let list = credible(ranked);
+    let state = match member {
+        Member::Generic(_) => State::Unexplained,
+        Member::Named(_) if generic_share >= NAMELESS => State::Unexplained,
+        Member::Named(_) if list.len() == 1 => State::Identified,
+        Member::Named(_) => State::Ambiguous,
+    };
+    Slot {
+        state,
+        named: list
+            .into_iter()
+            .map(|ranked| alternative(space, question, &rest, ranked))
+            .collect(),
+        generic: ranking(space, &scores, Kind::Generic, all)
+            .into_iter()
+            .take(LISTED)
+            .map(unnamed)
+            .collect(),
+        generic_share,
+        family,
+    }
+}
+
+/// Logarithmic odds of every block in place of the member, the rest fixed.
+pub(super) fn replacements(
+    space: &Space,
+    question: &Question,
+    rest: &Frame,
+    generic: Option<usize>,
+) -> Vec<(usize, f64)> {
+    let mut scores = Vec::new();
+    for (index, block) in space.blocks.iter().enumerate() {
+        if !space.may_join(rest, block, question) {
+            continue;
+        }
+        let score = match (block.kind(), generic) {
+            (Kind::Named, None) => space.extended(rest, index).map(|set| space.score(&set)),
+            (Kind::Named, Some(generic)) => space
+                .extended(rest, index)
+                .and_then(|set| space.score_with_generic(&set, generic)),
+            (Kind::Generic, None) => space.score_with_generic(rest, index),
+            (Kind::Generic, Some(_)) => None,
+        };
+        if let Some(score) = score {
+            scores.push((index, score));
+        }
+    }
+    scores
+}
+
+/// A candidate with its probability and its blocks.
+struct Ranked {
+    candidate: usize,
+    probability: f64,
+    /// Blocks with their atoms and shares, most probable first.
+    blocks: Vec<(usize, Variant)>,
+}
+
+/// Candidates of a kind, most probable first; `whole` is the logarithm that probabilities refer to.
+fn ranking(space: &Space, scores: &[(usize, f64)], kind: Kind, whole: f64) -> Vec<Ranked> {
+    let mut groups: BTreeMap<usize, Vec<(usize, f64)>> = BTreeMap::new();
+    for (block, score) in scores {
+        if space.blocks[*block].kind() == kind {
+            let candidate = space.blocks[*block].candidate;
+            groups.entry(candidate).or_default().push((*block, *score));
+        }
+    }
+    let mut ranked: Vec<Ranked> = groups
+        .into_iter()
+        .map(|(candidate, mut scores)| {
+            let sum = log_sum(scores.iter().map(|(_, score)| *score));
+            scores.sort_by(|a, b| b.1.total_cmp(&a.1));
+            Ranked {
+                candidate,
+                probability: libm::exp(sum - whole),
+                blocks: scores
+                    .into_iter()
+                    .map(|(block, score)| {
+                        let variant = Variant {
+                            atom: space.blocks[block].atom,
+                            share: libm::exp(score - sum),
+                        };
+                        (block, variant)
+                    })
+                    .collect(),
+            }
+        })
+        .collect();
+    ranked.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    ranked
+}
+
+/// The shortest list that holds the truth with the credible probability.
+fn credible(ranked: Vec<Ranked>) -> Vec<Ranked> {
+    let mut sum = 0.0;
+    ranked
+        .into_iter()
+        .take_while(|candidate| {
+            let wanted = sum < CREDIBLE;
+            sum += candidate.probability;
+            wanted
+        })
+        .collect()
+}
+
+fn family(question: &Question, ranked: &[Ranked]) -> Option<(String, f64)> {
+    let mut sums: BTreeMap<&str, f64> = BTreeMap::new();
+    for one in ranked {
+        *sums
+            .entry(&question.candidates[one.candidate].family)
+            .or_default() += one.probability;
+    }
+    sums.into_iter()
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(family, probability)| (family.to_string(), probability))
+}
+
+fn alternative(space: &Space, question: &Question, rest: &Frame, ranked: Ranked) -> Alternative {
+    let block = ranked.blocks[0].0;
+    let estimate = estimate(space, question, rest, block);
+    let nearest = nearest(space, question, rest, block, &estimate);
+    Alternative {
+        candidate: ranked.candidate,
+        probability: ranked.probability,
+        variants: ranked
+            .blocks
+            .into_iter()
+            .map(|(_, variant)| variant)
+            .collect(),
+        estimate: estimate.coefficients,
+        covariance: estimate.covariance,
+        dof: estimate.dof,
+        lambda: estimate.lambda,
+        nearest,
+    }
+}
+
+fn unnamed(ranked: Ranked) -> Alternative {
+    Alternative {
+        candidate: ranked.candidate,
+        probability: ranked.probability,
+        variants: ranked
+            .blocks
+            .into_iter()
+            .map(|(_, variant)| variant)
+            .collect(),
+        estimate: DVector::zeros(0),
+        covariance: DMatrix::zeros(0, 0),
+        dof: f64::INFINITY,
+        lambda: f64::NAN,
+        nearest: None,
+    }
+}

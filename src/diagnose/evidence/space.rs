@@ -1,0 +1,475 @@
+//! Atoms as directions in the space of z, and sets of them.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+use super::baseline::Baseline;
+use super::closed_form::{Ladder, Scale, named, scatter};
+use super::question::{Atom, Kind, Question, Refusal, Shape};
+
+/// Prior odds of all generics together, over those of all named candidates.
+const GENERIC_ODDS: f64 = 0.15;
+/// A column with less than this share of its whitened length (squared) left, by the parameters or by
+/// other columns of its atom, is invisible.
+pub(super) const INVISIBLE: f64 = 1e-6;
+/// An atom that lies this near (sine squared) to a set adds nothing that data can support.
+const NEAR: f64 = 0.01;
+
+/// What a block of directions means.
+#[derive(Debug, Clone)]
+pub(super) enum Form {
+    /// Named physics with free coefficients.
+    Named,
+    /// Smooth discrepancy with the eigenvalues of its covariance matrix.
+    Smooth(Ladder),
+    /// Excess scatter: all directions.
+    Scatter,
+}
+
+/// An atom in the space of z, possibly beside a set of others.
+#[derive(Debug, Clone)]
+pub(super) struct Block {
+    pub(super) atom: usize,
+    pub(super) candidate: usize,
+    /// Logarithm of the prior odds, share among variants included.
+    pub(super) log_odds: f64,
+    pub(super) form: Form,
+    /// N × d orthonormal directions; none for scatter.
+    pub(super) basis: DMatrix<f64>,
+    /// PWH, N × all columns of a named atom; features times the roots of their variances for a smooth
+    /// one.
+    pub(super) columns: DMatrix<f64>,
+    /// Columns of a named atom that are determined.
+    pub(super) kept: Vec<usize>,
+}
+
+/// All visible atoms, and the residuals that they are to explain.
+#[derive(Debug, Clone)]
+pub(super) struct Space {
+    pub(super) z: DVector<f64>,
+    pub(super) blocks: Vec<Block>,
+    pub(super) invisible: Vec<usize>,
+    pub(super) scale: Scale,
+    /// Dimension of the space, m.
+    pub(super) dof: usize,
+    /// What is added to a sum of squares of residuals for knowledge of the scale from elsewhere: ν₀.
+    pub(super) offset: f64,
+}
+
+/// A set of named blocks that are adopted together.
+#[derive(Debug, Clone)]
+pub(super) struct Frame {
+    /// Indices of blocks.
+    pub(super) blocks: Vec<usize>,
+    /// Orthonormal basis of what they span.
+    pub(super) basis: DMatrix<f64>,
+    /// By how much they reduce χ².
+    pub(super) fit: f64,
+}
+
+impl Space {
+    pub(super) fn new(question: &Question) -> Result<Space, Refusal> {
+        let baseline = question.baseline;
+        let odds = Odds::new(question)?;
+        let mut space = Space {
+            z: baseline.residuals().clone(),
+            blocks: Vec::new(),
+            invisible: Vec::new(),
+            scale: Scale::new(baseline.dof(), baseline.scale_dof()),
+            dof: baseline.dof(),
+            offset: if baseline.scale_dof().is_finite() {
+                baseline.scale_dof()
+            } else {
+                0.0
+            },
+        };
+        for (index, atom) in question.atoms.iter().enumerate() {
+            check(baseline, index, atom)?;
+            match block(baseline, index, atom, odds.of(atom)) {
+                Some(block) => space.blocks.push(block),
+                None => space.invisible.push(index),
+            }
+        }
+        Ok(space)
+    }
+
+    /// No effect.
+    pub(super) fn empty(&self) -> Frame {
+        Frame {
+            blocks: Vec::new(),
+            basis: DMatrix::zeros(self.z.len(), 0),
+            fit: 0.0,
+        }
+    }
+
+    /// The blocks together; `None` if they are not independent.
+    pub(super) fn frame(&self, blocks: &[usize]) -> Option<Frame> {
+        blocks
+            .iter()
+            .try_fold(self.empty(), |frame, &block| self.extended(&frame, block))
+    }
+
+    /// A set with one block more; `None` if it adds no direction.
+    pub(super) fn extended(&self, frame: &Frame, block: usize) -> Option<Frame> {
+        let beside = self.blocks[block].directions_beside(&frame.basis);
+        if beside.ncols() == 0 || frame.basis.ncols() + beside.ncols() > self.room() {
+            return None;
+        }
+        let fit = frame.fit + beside.tr_mul(&self.z).norm_squared();
+        let mut blocks = frame.blocks.clone();
+        blocks.push(block);
+        blocks.sort_unstable();
+        Some(Frame {
+            blocks,
+            basis: joined(&frame.basis, &beside),
+            fit,
+        })
+    }
+
+    /// Directions that a set may span at most: where the scale is estimated, one has to be left.
+    fn room(&self) -> usize {
+        match self.scale {
+            Scale::Known => self.dof,
+            Scale::Estimated { total } => self.dof.min((total - 1.0).max(0.0) as usize),
+        }
+    }
+
+    /// Sum of squares of the residuals and of what is known of their scale.
+    pub(super) fn rss(&self) -> f64 {
+        self.z.norm_squared() + self.offset
+    }
+
+    /// Logarithm of the posterior odds of a set against none.
+    pub(super) fn score(&self, frame: &Frame) -> f64 {
+        if frame.blocks.is_empty() {
+            return 0.0;
+        }
+        let prior: f64 = frame.blocks.iter().map(|b| self.blocks[*b].log_odds).sum();
+        named(frame.basis.ncols(), frame.fit, self.rss(), self.scale) + prior
+    }
+
+    /// As [`Space::score`] for a set with a generic competitor beside it; `None` if the set spans all
+    /// that the competitor can say.
+    pub(super) fn score_with_generic(&self, frame: &Frame, generic: usize) -> Option<f64> {
+        let block = self.blocks[generic].beside(&frame.basis)?;
+        let scale = self.scale.less(frame.basis.ncols());
+        let chi_squared = (self.z.norm_squared() - frame.fit).max(0.0);
+        let components = block.basis.tr_mul(&self.z);
+        let evidence = block.evidence(
+            components.iter().copied(),
+            &Residual {
+                chi_squared,
+                rss: chi_squared + self.offset,
+                dof: self.dof - frame.basis.ncols(),
+                scale,
+            },
+        );
+        Some(self.score(frame) + evidence + block.log_odds)
+    }
+
+    /// Every block that may join a set, beside it.
+    pub(super) fn beside(&self, frame: &Frame, question: &Question) -> Vec<Block> {
+        self.blocks
+            .iter()
+            .filter(|block| self.may_join(frame, block, question))
+            .filter_map(|block| block.beside(&frame.basis))
+            .collect()
+    }
+
+    /// A candidate is in a set once, unless it is of a kind that repeats.
+    pub(super) fn may_join(&self, frame: &Frame, block: &Block, question: &Question) -> bool {
+        frame.blocks.iter().all(|other| {
+            let other = &self.blocks[*other];
+            other.atom != block.atom
+                && (other.candidate != block.candidate
+                    || question.candidates[block.candidate].repeats)
+        })
+    }
+
+    /// What is left when a set is adopted.
+    pub(super) fn residual(&self, frame: &Frame) -> Residual {
+        let chi_squared = (self.z.norm_squared() - frame.fit).max(0.0);
+        Residual {
+            chi_squared,
+            rss: chi_squared + self.offset,
+            dof: self.dof - frame.basis.ncols(),
+            scale: self.scale.less(frame.basis.ncols()),
+        }
+    }
+}
+
+/// Residuals that evidence is computed against.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Residual {
+    pub(super) chi_squared: f64,
+    /// χ² and what is known of the scale from elsewhere.
+    pub(super) rss: f64,
+    pub(super) dof: usize,
+    pub(super) scale: Scale,
+}
+
+impl Block {
+    pub(super) fn kind(&self) -> Kind {
+        match self.form {
+            Form::Named => Kind::Named,
+            Form::Smooth(_) | Form::Scatter => Kind::Generic,
+        }
+    }
+
+    /// Logarithm of the Bayes factor against none, from the components of the residuals along the
+    /// directions of the block.
+    pub(super) fn evidence(
+        &self,
+        components: impl Iterator<Item = f64> + Clone,
+        residual: &Residual,
+    ) -> f64 {
+        let squares = components.map(|c| c * c);
+        match &self.form {
+            Form::Named => named(
+                self.basis.ncols(),
+                squares.sum(),
+                residual.rss,
+                residual.scale,
+            ),
+            Form::Smooth(ladder) => ladder.log_bayes_factor(squares, residual.rss, residual.scale),
+            Form::Scatter => scatter(
+                residual.dof,
+                residual.chi_squared,
+                residual.rss,
+                residual.scale,
+            ),
+        }
+    }
+
+    /// The block with everything along a basis taken out; `None` if nothing is left.
+    pub(super) fn beside(&self, basis: &DMatrix<f64>) -> Option<Block> {
+        if basis.ncols() == 0 {
+            return Some(self.clone());
+        }
+        let (form, directions) = match &self.form {
+            Form::Scatter => (Form::Scatter, self.basis.clone()),
+            Form::Named => (Form::Named, self.directions_beside(basis)),
+            Form::Smooth(_) => {
+                let (ladder, directions) = smooth(without(&self.columns, basis))?;
+                (Form::Smooth(ladder), directions)
+            }
+        };
+        if directions.ncols() == 0 && !matches!(form, Form::Scatter) {
+            return None;
+        }
+        Some(Block {
+            atom: self.atom,
+            candidate: self.candidate,
+            log_odds: self.log_odds,
+            form,
+            basis: directions,
+            columns: DMatrix::zeros(basis.nrows(), 0),
+            kept: self.kept.clone(),
+        })
+    }
+
+    fn directions_beside(&self, basis: &DMatrix<f64>) -> DMatrix<f64> {
+        if basis.ncols() == 0 {
+            return self.basis.clone();
+        }
+        orthonormal(
+            without(&self.basis, basis),
+            &vec![1.0; self.basis.ncols()],
+            NEAR,
+        )
+        .0
+    }
+
+    /// The determined columns, as they are.
+    pub(super) fn determined(&self) -> DMatrix<f64> {
+        self.columns.select_columns(&self.kept)
+    }
+}
+
+fn check(baseline: &Baseline, index: usize, atom: &Atom) -> Result<(), Refusal> {
+    let columns = match &atom.shape {
+        Shape::Columns(columns) => columns,
+        Shape::Smooth { features, spectrum } => {
+            if spectrum.len() != features.ncols() || spectrum.iter().any(|e| !(*e > 0.0)) {
+                return Err(Refusal::Sizes { what: "spectrum" });
+            }
+            features
+        }
+        Shape::Scatter => return Ok(()),
+    };
+    if columns.nrows() != baseline.rows() {
+        return Err(Refusal::Sizes { what: "atom" });
+    }
+    match (0..columns.nrows()).find(|row| columns.row(*row).iter().any(|x| !x.is_finite())) {
+        Some(row) => Err(Refusal::AtomNotFinite { atom: index, row }),
+        None => Ok(()),
+    }
+}
+
+fn block(baseline: &Baseline, index: usize, atom: &Atom, log_odds: f64) -> Option<Block> {
+    let rows = baseline.residuals().len();
+    let (form, basis, columns, kept) = match &atom.shape {
+        Shape::Scatter => (
+            Form::Scatter,
+            DMatrix::zeros(rows, 0),
+            DMatrix::zeros(rows, 0),
+            Vec::new(),
+        ),
+        Shape::Columns(h) => {
+            let (columns, lengths) = visible(baseline, h);
+            let (basis, kept) = orthonormal(columns.clone(), &lengths, INVISIBLE);
+            if kept.is_empty() {
+                return None;
+            }
+            (Form::Named, basis, columns, kept)
+        }
+        Shape::Smooth { features, spectrum } => {
+            let (mut columns, lengths) = visible(baseline, features);
+            let whole: f64 = lengths.iter().zip(spectrum).map(|(l, e)| l * l * e).sum();
+            for (mut column, e) in columns.column_iter_mut().zip(spectrum) {
+                column *= e.sqrt();
+            }
+            if !(columns.norm_squared() > INVISIBLE * whole) {
+                return None;
+            }
+            // In units in which the whole discrepancy has the size s.
+            columns /= columns.norm();
+            let (ladder, basis) = smooth(columns.clone())?;
+            (Form::Smooth(ladder), basis, columns, Vec::new())
+        }
+    };
+    Some(Block {
+        atom: index,
+        candidate: atom.candidate,
+        log_odds,
+        form,
+        basis,
+        columns,
+        kept,
+    })
+}
+
+/// PWH, and the lengths of the columns of WH.
+fn visible(baseline: &Baseline, columns: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
+    let whitened = baseline.whiten(columns);
+    let lengths = whitened.column_iter().map(|c| c.norm()).collect();
+    let along = baseline.absorbed().tr_mul(&whitened);
+    (whitened - baseline.absorbed() * along, lengths)
+}
+
+/// Principal directions and eigenvalues of MMᵀ.
+pub(super) fn smooth(columns: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
+    let eigen = SymmetricEigen::new(columns.tr_mul(&columns));
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len())
+        .filter(|k| eigen.eigenvalues[*k] > 1e-6)
+        .collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+    if order.is_empty() {
+        return None;
+    }
+    let eigenvalues: Vec<f64> = order.iter().map(|k| eigen.eigenvalues[*k]).collect();
+    let mut basis = columns * eigen.eigenvectors.select_columns(&order);
+    for (mut column, e) in basis.column_iter_mut().zip(&eigenvalues) {
+        column /= e.sqrt();
+    }
+    Some((Ladder::new(&eigenvalues), basis))
+}
+
+/// Orthonormal directions of the columns, the column with the greatest remainder first; columns whose
+/// remainder is less than `tolerance` (squared) of `lengths` are left out. Also says which were kept,
+/// in that order.
+fn orthonormal(
+    mut columns: DMatrix<f64>,
+    lengths: &[f64],
+    tolerance: f64,
+) -> (DMatrix<f64>, Vec<usize>) {
+    let mut kept: Vec<usize> = Vec::new();
+    let mut left: Vec<usize> = (0..columns.ncols()).filter(|j| lengths[*j] > 0.0).collect();
+    while !left.is_empty() {
+        let share = |j: usize| columns.column(j).norm_squared() / (lengths[j] * lengths[j]);
+        let (place, &best) = left
+            .iter()
+            .enumerate()
+            .max_by(|a, b| share(*a.1).total_cmp(&share(*b.1)))
+            .expect("some are left");
+        if !(share(best) > tolerance) {
+            break;
+        }
+        left.remove(place);
+        // Once more against those that were kept: cancellation leaves little of a nearly dependent one.
+        let mut direction = columns.column(best).into_owned();
+        for other in &kept {
+            let along = columns.column(*other).dot(&direction);
+            direction.axpy(-along, &columns.column(*other).into_owned(), 1.0);
+        }
+        direction /= direction.norm();
+        for other in &left {
+            let along = direction.dot(&columns.column(*other));
+            columns.column_mut(*other).axpy(-along, &direction, 1.0);
+        }
+        columns.set_column(best, &direction);
+        kept.push(best);
+    }
+    (columns.select_columns(&kept), kept)
+}
+
+/// Columns with what lies along an orthonormal basis taken out.
+pub(super) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
+    if basis.ncols() == 0 {
+        return columns.clone();
+    }
+    columns - basis * basis.tr_mul(columns)
+}
+
+fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut out = DMatrix::zeros(right.nrows(), left.ncols() + right.ncols());
+    out.columns_mut(0, left.ncols()).copy_from(left);
+    out.columns_mut(left.ncols(), right.ncols())
+        .copy_from(right);
+    out
+}
+
+/// Prior odds: as likely as not nothing was left out, all named candidates alike, a share for those
+/// without a name.
+struct Odds {
+    named: f64,
+    generic: f64,
+    shares: Vec<f64>,
+}
+
+impl Odds {
+    fn new(question: &Question) -> Result<Odds, Refusal> {
+        let count = question.candidates.len();
+        let mut shares = vec![0.0; count];
+        let mut kinds: Vec<Option<Kind>> = vec![None; count];
+        for atom in question.atoms {
+            let kind = atom.shape.kind();
+            match kinds.get_mut(atom.candidate) {
+                Some(place @ None) => *place = Some(kind),
+                Some(Some(other)) if *other == kind => {}
+                Some(Some(_)) => return Err(Refusal::Sizes { what: "kinds" }),
+                None => return Err(Refusal::Sizes { what: "candidate" }),
+            }
+            if !(atom.share > 0.0) {
+                return Err(Refusal::Sizes { what: "share" });
+            }
+            shares[atom.candidate] += atom.share;
+        }
+        let of = |kind| kinds.iter().filter(|k| **k == Some(kind)).count().max(1) as f64;
+        let (named, generic) = (of(Kind::Named), of(Kind::Generic));
+        let none = libm::exp2(-1.0 / named);
+        let odds = (1.0 - none) / none;
+        Ok(Odds {
+            named: libm::log(odds),
+            generic: libm::log(odds * GENERIC_ODDS * named / generic),
+            shares,
+        })
+    }
+
+    fn of(&self, atom: &Atom) -> f64 {
+        let odds = match atom.shape.kind() {
+            Kind::Named => self.named,
+            Kind::Generic => self.generic,
+        };
+        odds + libm::log(atom.share / self.shares[atom.candidate])
+    }
+}

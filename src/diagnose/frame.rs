@@ -1,0 +1,326 @@
+//! The rows of a case as numbers: which parameters act in which row, blocks of rows, the model at any
+//! values of the parameters.
+//!
+//! An observation is a response in a block of rows; observations are ordered by response, then block.
+//! Everything is computed row by row and then averaged over blocks, so that histories and lags are
+//! those of the full recording.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::case::{Blocks, Case, Data, Observed, Role};
+
+/// Longer recordings in time are averaged in blocks, unless the case says otherwise.
+const MOST_BLOCKS: usize = 400;
+
+/// The numbers of a case.
+#[derive(Debug)]
+pub struct Frame<'c> {
+    /// The case.
+    pub case: &'c Case,
+    /// Rows of each block.
+    pub blocks: Vec<Vec<usize>>,
+    /// All unknowns: parameters, one for each label where they have several, and common errors.
+    pub unknowns: Vec<Unknown>,
+    /// Place of the first unknown of each parameter.
+    first: Vec<usize>,
+}
+
+/// Something that is fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unknown {
+    /// Its name, with the label where its parameter has several values.
+    pub name: String,
+    /// What it is.
+    pub kind: UnknownKind,
+    /// Where the search begins.
+    pub start: Option<f64>,
+    /// What is known beforehand: value and standard uncertainty.
+    pub prior: Option<(f64, f64)>,
+}
+
+/// What an unknown is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnknownKind {
+    /// A parameter of the model, and the label for which it holds.
+    Parameter {
+        /// Index of the parameter.
+        parameter: usize,
+        /// Index of the label; 0 for a parameter with one value.
+        level: usize,
+    },
+    /// The error of a column that all rows share.
+    CommonError {
+        /// Index of the column.
+        column: usize,
+    },
+}
+
+/// The model at some values of the unknowns, row by row.
+#[derive(Debug, Clone)]
+pub struct Linear {
+    /// f for each response and row.
+    pub values: Vec<Vec<f64>>,
+    /// ∂f/∂symbol for each response: rows × symbols.
+    pub slopes: Vec<DMatrix<f64>>,
+}
+
+impl<'c> Frame<'c> {
+    /// Numbers the unknowns and forms the blocks.
+    pub fn new(case: &'c Case) -> Frame<'c> {
+        let mut unknowns = Vec::new();
+        let mut first = Vec::new();
+        for (index, parameter) in case.parameters.iter().enumerate() {
+            first.push(unknowns.len());
+            let labels = parameter
+                .per
+                .and_then(|column| case.columns[column].labels());
+            let levels = labels.map_or(1, |labels| labels.levels.len());
+            for level in 0..levels {
+                let name = match labels {
+                    Some(labels) => format!("{}[{}]", parameter.name, labels.levels[level]),
+                    None => parameter.name.clone(),
+                };
+                unknowns.push(Unknown {
+                    name,
+                    kind: UnknownKind::Parameter {
+                        parameter: index,
+                        level,
+                    },
+                    start: parameter.start,
+                    prior: parameter.prior,
+                });
+            }
+        }
+        for (index, column) in case.columns.iter().enumerate() {
+            if let Some(u) = column.u_common {
+                unknowns.push(Unknown {
+                    name: format!("common error of {}", column.name),
+                    kind: UnknownKind::CommonError { column: index },
+                    start: Some(0.0),
+                    prior: Some((0.0, u)),
+                });
+            }
+        }
+        Frame {
+            case,
+            blocks: blocks(case),
+            unknowns,
+            first,
+        }
+    }
+
+    /// Number of observations.
+    pub fn observations(&self) -> usize {
+        self.case.responses.len() * self.blocks.len()
+    }
+
+    /// The unknown that stands for a parameter in a row.
+    pub fn unknown_of(&self, parameter: usize, row: usize) -> usize {
+        let first = self.first[parameter];
+        let column = self.case.parameters[parameter].per;
+        let labels = column.and_then(|column| self.case.columns[column].labels());
+        first + labels.map_or(0, |labels| labels.of_row[row] as usize)
+    }
+
+    /// The unit of an unknown as text.
+    pub fn unit(&self, unknown: usize) -> String {
+        let unit = match self.unknowns[unknown].kind {
+            UnknownKind::Parameter { parameter, .. } => &self.case.parameters[parameter].unit,
+            UnknownKind::CommonError { column } => &self.case.columns[column].unit,
+        };
+        if unit.is_one() {
+            String::new()
+        } else {
+            unit.typeset()
+        }
+    }
+
+    /// The value of every symbol in a row: parameters, then columns.
+    pub fn symbols(&self, row: usize, unknowns: &DVector<f64>) -> Vec<f64> {
+        let parameters = (0..self.case.parameters.len()).map(|p| unknowns[self.unknown_of(p, row)]);
+        let columns = self
+            .case
+            .columns
+            .iter()
+            .map(|column| column.numbers().map_or(f64::NAN, |numbers| numbers[row]));
+        let mut values: Vec<f64> = parameters.chain(columns).collect();
+        let parameters = self.case.parameters.len();
+        for (unknown, value) in self.unknowns.iter().zip(unknowns.iter()) {
+            if let UnknownKind::CommonError { column } = unknown.kind {
+                values[parameters + column] += value;
+            }
+        }
+        values
+    }
+
+    /// The model and its slopes in every row.
+    pub fn linear(&self, unknowns: &DVector<f64>) -> Linear {
+        let (rows, symbols) = (self.case.rows, self.case.symbols());
+        let responses = self.case.responses.len();
+        let mut linear = Linear {
+            values: vec![vec![0.0; rows]; responses],
+            slopes: vec![DMatrix::zeros(rows, symbols); responses],
+        };
+        let mut slopes = vec![0.0; symbols];
+        for row in 0..rows {
+            let values = self.symbols(row, unknowns);
+            for response in 0..responses {
+                linear.values[response][row] =
+                    self.case.equations.at(response, &values, &mut slopes);
+                for used in self.case.equations.uses(response) {
+                    linear.slopes[response][(row, *used)] = slopes[*used];
+                }
+            }
+        }
+        linear
+    }
+
+    /// ∂f/∂unknown of every observation.
+    pub fn jacobian(&self, linear: &Linear) -> DMatrix<f64> {
+        let mut jacobian = DMatrix::zeros(self.observations(), self.unknowns.len());
+        let parameters = self.case.parameters.len();
+        for (response, slopes) in linear.slopes.iter().enumerate() {
+            for (block, rows) in self.blocks.iter().enumerate() {
+                let at = response * self.blocks.len() + block;
+                let weight = 1.0 / rows.len() as f64;
+                for row in rows {
+                    for parameter in 0..parameters {
+                        jacobian[(at, self.unknown_of(parameter, *row))] +=
+                            weight * slopes[(*row, parameter)];
+                    }
+                    for (index, unknown) in self.unknowns.iter().enumerate() {
+                        if let UnknownKind::CommonError { column } = unknown.kind {
+                            jacobian[(at, index)] += weight * slopes[(*row, parameters + column)];
+                        }
+                    }
+                }
+            }
+        }
+        jacobian
+    }
+
+    /// Averages a column of rows over the blocks.
+    pub fn reduced(&self, rows: &[f64]) -> Vec<f64> {
+        let mean = |block: &Vec<usize>| {
+            block.iter().map(|row| rows[*row]).sum::<f64>() / block.len() as f64
+        };
+        self.blocks.iter().map(mean).collect()
+    }
+
+    /// A column of observations from one column of rows for each response.
+    pub fn observed_column(&self, of_response: impl Fn(usize) -> Vec<f64>) -> DVector<f64> {
+        let parts = (0..self.case.responses.len())
+            .flat_map(|response| self.reduced(&of_response(response)));
+        DVector::from_vec(parts.collect())
+    }
+
+    /// What was observed, row by row; NaN for an output that was not recorded yet.
+    pub fn observed(&self, response: usize) -> Vec<f64> {
+        match self.case.responses[response].observed {
+            Observed::Constant(value) => vec![value; self.case.rows],
+            Observed::Column(column) => match &self.case.columns[column].data {
+                Data::Numbers(numbers) => numbers.clone(),
+                _ => vec![f64::NAN; self.case.rows],
+            },
+        }
+    }
+
+    /// Response and block of an observation.
+    pub fn place(&self, observation: usize) -> (usize, usize) {
+        (
+            observation / self.blocks.len(),
+            observation % self.blocks.len(),
+        )
+    }
+
+    /// The time of each row, or its number where no time was recorded; whether it is a time.
+    pub fn time(&self) -> Clock {
+        let of = |role: Role| {
+            let column = self.case.with_role(role).next()?;
+            let numbers = self.case.columns[column].numbers()?;
+            Some(Clock {
+                values: numbers.to_vec(),
+                column: Some(column),
+            })
+        };
+        of(Role::Time)
+            .or_else(|| of(Role::Order))
+            .unwrap_or_else(|| Clock {
+                values: (0..self.case.rows).map(|row| row as f64).collect(),
+                column: None,
+            })
+    }
+}
+
+/// When rows were recorded.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clock {
+    /// One value for each row.
+    pub values: Vec<f64>,
+    /// The column that it comes from; `None` for the number of the row.
+    pub column: Option<usize>,
+}
+
+impl Clock {
+    /// From the first to the last.
+    pub fn span(&self) -> f64 {
+        let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = self
+            .values
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
+        (most - least).max(0.0)
+    }
+
+    /// Median of the positive differences of successive rows.
+    pub fn interval(&self) -> f64 {
+        let pairs = self.values.windows(2).map(|pair| pair[1] - pair[0]);
+        let mut steps: Vec<f64> = pairs.filter(|step| *step > 0.0).collect();
+        steps.sort_by(f64::total_cmp);
+        steps.get(steps.len() / 2).copied().unwrap_or(1.0)
+    }
+}
+
+fn blocks(case: &Case) -> Vec<Vec<usize>> {
+    let labels: Vec<usize> = match &case.averaging.blocks {
+        Blocks::Dwells(columns) => columns.clone(),
+        _ => (0..case.columns.len())
+            .filter(|c| case.columns[*c].labels().is_some())
+            .collect(),
+    };
+    let same = |a: usize, b: usize| {
+        labels
+            .iter()
+            .all(|column| match case.columns[*column].labels() {
+                Some(labels) => labels.of_row[a] == labels.of_row[b],
+                None => true,
+            })
+    };
+    let size = match &case.averaging.blocks {
+        Blocks::Rows => 1,
+        Blocks::Dwells(_) => usize::MAX,
+        Blocks::AtMost(most) => case.rows.div_ceil((*most).max(1)),
+        Blocks::Auto => {
+            let timed = case.with_role(Role::Time).next().is_some();
+            if timed {
+                case.rows.div_ceil(MOST_BLOCKS)
+            } else {
+                1
+            }
+        }
+    };
+    let mut blocks: Vec<Vec<usize>> = Vec::new();
+    for row in 0..case.rows {
+        match blocks.last_mut() {
+            Some(block) if block.len() < size && same(block[0], row) => block.push(row),
+            _ => blocks.push(vec![row]),
+        }
+    }
+    if case.averaging.settle > 0 {
+        for block in &mut blocks {
+            block.drain(..case.averaging.settle.min(block.len() - 1));
+        }
+    }
+    blocks
+}

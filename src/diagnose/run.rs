@@ -1,0 +1,407 @@
+//! A diagnosis from end to end: fit, candidates, examination, location, adoption, confirmation.
+
+use std::ops::ControlFlow;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::adopt;
+use super::case::Case;
+use super::catalogue::{self, Cell, Ground, Variation};
+use super::confirm::{self, Confirmation, Quality};
+use super::evidence::{
+    self, Atom, Baseline, Candidate, Examination, Located, Prior, Question, Refusal, Shape, Verdict,
+};
+use super::fit::{Fit, NoFit};
+use super::frame::Frame;
+use super::noise::{self, Claimed};
+use super::place;
+
+/// Why a case could not be diagnosed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Failure {
+    /// The declared model could not be fitted.
+    Fit(NoFit),
+    /// The statistics refused.
+    Refused(Refusal),
+}
+
+impl From<NoFit> for Failure {
+    fn from(why: NoFit) -> Failure {
+        Failure::Fit(why)
+    }
+}
+
+impl From<Refusal> for Failure {
+    fn from(why: Refusal) -> Failure {
+        Failure::Refused(why)
+    }
+}
+
+/// Everything that a diagnosis found.
+#[derive(Debug)]
+pub struct Diagnosis {
+    /// All candidates, in the order of the catalogue.
+    pub cells: Vec<Cell>,
+    /// Cell and variation of each atom.
+    pub atoms: Vec<(usize, usize)>,
+    /// What the statistics found.
+    pub examination: Examination,
+    /// Where the mismatch sits, the most conspicuous first.
+    pub located: Vec<(evidence::Cell, Located)>,
+    /// The noise that was used.
+    pub noise: Claimed,
+    /// Names and values of the unknowns of the declared model, with their standard uncertainties.
+    pub unknowns: Vec<Estimated>,
+    /// The declared model.
+    pub before: Quality,
+    /// What the declared model leaves, observation by observation.
+    pub residuals: DVector<f64>,
+    /// The model with the effects in it.
+    pub adopted: Option<Adopted>,
+    /// Number of means (blocks) and of rows in the recording.
+    pub blocks: Vec<Vec<usize>>,
+    /// What would be seen of effects that were not adopted.
+    pub omitted: Vec<Omitted>,
+}
+
+/// A fitted quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimated {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Its value.
+    pub value: f64,
+    /// Its standard uncertainty.
+    pub u: f64,
+}
+
+/// The model with the effects in it.
+#[derive(Debug)]
+pub struct Adopted {
+    /// Atoms that were adopted.
+    pub atoms: Vec<usize>,
+    /// Coefficients, in the order of the atoms and their terms.
+    pub coefficients: Vec<Estimated>,
+    /// The unknowns of the declared model, now.
+    pub unknowns: Vec<Estimated>,
+    /// The improved case.
+    pub extended: adopt::Extended,
+    /// How well it describes the recording.
+    pub quality: Quality,
+    /// What it leaves.
+    pub residuals: DVector<f64>,
+    /// Further checks.
+    pub confirmation: Confirmation,
+}
+
+/// What an effect that was not adopted may do to a parameter all the same.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Omitted {
+    /// The atom.
+    pub atom: usize,
+    /// Change of each unknown per unit of the first coefficient.
+    pub gain: Vec<f64>,
+}
+
+/// Confronts the declared model of a case with its recording.
+///
+/// `progress` is told the share of the work that is done, and may stop it.
+///
+/// # Errors
+/// When the model cannot be fitted, or the work was stopped.
+pub fn diagnose(
+    case: &Case,
+    progress: &dyn Fn(f64) -> ControlFlow<()>,
+) -> Result<Diagnosis, Failure> {
+    let frame = Frame::new(case);
+    let (fit, mut claimed) = noise::settle(&frame)?;
+    let ground = Ground::new(&frame, &fit);
+    let cells = catalogue::cells(&ground);
+    let white = baseline(&frame, &fit, &claimed)?;
+    let (candidates, atoms, places) = question(&ground, &cells, &claimed, &white);
+    let settings = settings(case);
+    let ask = |claimed: &Claimed, from: f64, to: f64| -> Result<(Baseline, Examination), Failure> {
+        let baseline = baseline(&frame, &fit, claimed)?;
+        let question = Question {
+            baseline: &baseline,
+            candidates: &candidates,
+            atoms: &atoms,
+            settings: settings.clone(),
+        };
+        let examination =
+            evidence::examine(&question, &|share| progress(from + (to - from) * share))?;
+        Ok((baseline, examination))
+    };
+    let (mut baseline, mut examination) = ask(
+        &claimed,
+        0.0,
+        if claimed.is_estimated() { 0.4 } else { 0.9 },
+    )?;
+    if claimed.is_estimated() && examination.verdict != Verdict::None {
+        // Noise and effects are estimated in turn: what an effect explains is no noise.
+        for round in 0..ROUNDS {
+            let adopted = examination
+                .fitted
+                .as_ref()
+                .map(|fitted| fitted.atoms.clone());
+            claimed = match adopted_fit(&ground, &cells, &places, &examination, &claimed) {
+                Some((frame, fit)) => noise::refined(&Frame::new(&frame.case), &fit),
+                None => noise::refined(&frame, &fit),
+            };
+            let from = 0.4 + 0.25 * f64::from(round);
+            (baseline, examination) = ask(&claimed, from, from + 0.25)?;
+            if examination
+                .fitted
+                .as_ref()
+                .map(|fitted| fitted.atoms.clone())
+                == adopted
+            {
+                break;
+            }
+        }
+    }
+    let located = if examination.verdict == Verdict::None {
+        Vec::new()
+    } else {
+        let levels = place::cells(&ground);
+        let found = evidence::locate(&baseline, &levels, &settings)?;
+        found
+            .into_iter()
+            .map(|located| (levels[located.cell].clone(), located))
+            .collect()
+    };
+    let before = confirm::quality(&frame, &fit, &claimed, &claimed);
+    let adopted = adopt_named(&ground, &cells, &places, &examination, &claimed);
+    let omitted = omitted(&ground, &baseline, &cells, &places, &examination);
+    let unknowns = estimates(&frame, &fit, &claimed, before.scale);
+    Ok(Diagnosis {
+        examination,
+        located,
+        unknowns,
+        before,
+        residuals: fit.residuals.clone(),
+        adopted,
+        blocks: frame.blocks.clone(),
+        omitted,
+        cells,
+        atoms: places,
+        noise: claimed,
+    })
+}
+
+/// So often noise and effects are estimated in turn.
+const ROUNDS: u8 = 2;
+
+pub(super) fn settings(case: &Case) -> evidence::Settings {
+    evidence::Settings {
+        alpha: case.settings.alpha,
+        seed: case.settings.seed,
+        draws: case.settings.draws,
+        ..evidence::Settings::default()
+    }
+}
+
+/// The recording reduced to its residuals.
+pub(super) fn baseline(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+) -> Result<Baseline, Refusal> {
+    let known: Vec<(usize, (f64, f64))> = frame
+        .unknowns
+        .iter()
+        .enumerate()
+        .filter_map(|(at, unknown)| Some((at, unknown.prior?)))
+        .collect();
+    let mut prior = Prior {
+        jacobian: DMatrix::zeros(known.len(), frame.unknowns.len()),
+        residuals: DVector::zeros(known.len()),
+    };
+    for (row, (at, (value, u))) in known.iter().enumerate() {
+        prior.jacobian[(row, *at)] = 1.0 / u;
+        prior.residuals[row] = (value - fit.unknowns[*at]) / u;
+    }
+    Baseline::new(&fit.jacobian, &fit.residuals, &claimed.noise(), &prior)
+}
+
+/// Candidates and atoms, and the cell and variation of each atom.
+pub(super) fn question(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    claimed: &Claimed,
+    baseline: &Baseline,
+) -> (Vec<Candidate>, Vec<Atom>, Vec<(usize, usize)>) {
+    let mut candidates = Vec::new();
+    let (mut atoms, mut places) = (Vec::new(), Vec::new());
+    for (index, cell) in cells.iter().enumerate() {
+        candidates.push(Candidate {
+            name: format!("{} {}", cell.effect.id, cell.words.x),
+            family: cell.effect.family.clone(),
+            place: cell.place.clone(),
+            typical: cell.typical,
+            repeats: matches!(cell.effect.id.as_str(), "outlier" | "step" | "odd-level"),
+        });
+        let before = atoms.len();
+        for (number, variation) in cell.variants.iter().enumerate() {
+            let columns = variation.columns(ground);
+            if let Some(shape) =
+                shape(columns, variation, claimed).filter(|shape| shows(baseline, shape))
+            {
+                atoms.push(Atom {
+                    candidate: index,
+                    variant: variation.label.clone(),
+                    shape,
+                    share: 1.0,
+                });
+                places.push((index, number));
+            }
+        }
+        let share = 1.0 / (atoms.len() - before).max(1) as f64;
+        for atom in &mut atoms[before..] {
+            atom.share = share;
+        }
+    }
+    (candidates, atoms, places)
+}
+
+/// Whether more than a trace of an effect is left beside the parameters. Less is what the curvature of
+/// the model makes of an exact alias; it would take sizes that are out of the question. What has no
+/// visible part at all is kept: it is listed as invisible.
+fn shows(baseline: &Baseline, shape: &Shape) -> bool {
+    const TRACE: f64 = 1e-4;
+    const NOTHING: f64 = 1e-6;
+    let Shape::Columns(columns) = shape else {
+        return true;
+    };
+    let share = |column: usize| baseline.visibility(&columns.column(column).into_owned());
+    let most = (0..columns.ncols()).map(share).fold(0.0, f64::max);
+    !(NOTHING..TRACE).contains(&most)
+}
+
+/// Nothing for a variation that is not finite or does nothing.
+fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Option<Shape> {
+    if columns.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    match &variation.spectrum {
+        Some(spectrum) if spectrum.is_empty() => {
+            (!claimed.is_estimated()).then_some(Shape::Scatter)
+        }
+        Some(spectrum) => Some(Shape::Smooth {
+            features: columns,
+            spectrum: spectrum.clone(),
+        }),
+        None => columns
+            .iter()
+            .any(|x| *x != 0.0)
+            .then_some(Shape::Columns(columns)),
+    }
+}
+
+/// The refit with the named effects in the model.
+fn adopted_fit(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    examination: &Examination,
+    claimed: &Claimed,
+) -> Option<(adopt::Extended, Fit)> {
+    let fitted = examination.fitted.as_ref()?;
+    let variations: Vec<&Variation> = fitted
+        .atoms
+        .iter()
+        .map(|atom| &cells[places[*atom].0].variants[places[*atom].1])
+        .collect();
+    if variations.is_empty() {
+        return None;
+    }
+    let extended = adopt::extended(ground, &variations)?;
+    let frame = Frame::new(&extended.case);
+    let start = adopt::start(ground, &frame, &fitted.coefficients);
+    let fit = super::fit::from(&frame, &claimed.u, start)
+        .or_else(|_| super::fit::fit(&frame, &claimed.u))
+        .ok()?;
+    Some((extended, fit))
+}
+
+/// The model with the named effects, and how well it does.
+fn adopt_named(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    examination: &Examination,
+    claimed: &Claimed,
+) -> Option<Adopted> {
+    let fitted = examination.fitted.as_ref()?;
+    let (extended, fit) = adopted_fit(ground, cells, places, examination, claimed)?;
+    let frame = Frame::new(&extended.case);
+    let quality = confirm::quality(&frame, &fit, claimed, claimed);
+    let all = estimates(&frame, &fit, claimed, quality.scale);
+    let added = extended.additions.len();
+    let confirmation = confirm::confirmation(&frame, &fit, claimed, added, fitted);
+    let is_added = |estimated: &Estimated| {
+        extended
+            .additions
+            .iter()
+            .any(|addition| addition.parameter == estimated.name)
+    };
+    let (coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
+        all.into_iter().partition(is_added);
+    let residuals = fit.residuals.clone();
+    drop(frame);
+    Some(Adopted {
+        atoms: fitted.atoms.clone(),
+        coefficients,
+        unknowns,
+        quality,
+        residuals,
+        confirmation,
+        extended,
+    })
+}
+
+/// Unknowns with their standard uncertainties; `scale` is the factor on the claimed noise.
+pub(super) fn estimates(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    scale: f64,
+) -> Vec<Estimated> {
+    let covariance = confirm::covariance(frame, fit, claimed);
+    frame
+        .unknowns
+        .iter()
+        .enumerate()
+        .map(|(at, unknown)| Estimated {
+            name: unknown.name.clone(),
+            unit: frame.unit(at),
+            value: fit.unknowns[at],
+            u: scale * covariance[(at, at)].max(0.0).sqrt(),
+        })
+        .collect()
+}
+
+fn omitted(
+    ground: &Ground<'_>,
+    baseline: &Baseline,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    examination: &Examination,
+) -> Vec<Omitted> {
+    let of = examination
+        .invisible
+        .iter()
+        .filter(|invisible| !invisible.idle)
+        .map(|invisible| {
+            let (cell, variation) = places[invisible.atom];
+            let columns = cells[cell].variants[variation].columns(ground);
+            let gain = baseline.gain(&columns);
+            Omitted {
+                atom: invisible.atom,
+                gain: gain.column(0).iter().copied().collect(),
+            }
+        });
+    of.collect()
+}

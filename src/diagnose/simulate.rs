@@ -1,0 +1,180 @@
+//! The recording that a declared model and its claimed noise predict, with the band that covers it.
+
+use gumption_lanes::sampler::normal_block;
+use gumption_lanes::{Block as Lanes, Generator, LANES, level};
+use nalgebra::DVector;
+
+use super::case::{Blocks, Case, Column, Data, Observed};
+use super::confirm;
+use super::fit::{self, Fit, NoFit};
+use super::frame::Frame;
+use super::noise::{self, Claimed};
+use crate::special::normal_two_sided_quantile;
+
+/// Coverage probability of the band.
+const COVERAGE: f64 = 0.95;
+
+/// A table of texts: the first line and the rows of a CSV file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sheet {
+    /// Texts of the first line.
+    pub header: Vec<String>,
+    /// Fields of the rows.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Sheet {
+    /// As CSV text.
+    pub fn csv(&self) -> String {
+        let quoted = |field: &String| {
+            if field.contains([',', '"', '\n']) {
+                format!("\"{}\"", field.replace('"', "\"\""))
+            } else {
+                field.clone()
+            }
+        };
+        let line = |fields: &Vec<String>| fields.iter().map(quoted).collect::<Vec<_>>().join(",");
+        let mut text = line(&self.header);
+        text.push('\n');
+        for row in &self.rows {
+            text += &line(row);
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// The columns of a case, as they are.
+pub fn recorded(case: &Case) -> Sheet {
+    let columns: Vec<&Column> = case
+        .columns
+        .iter()
+        .filter(|c| !matches!(c.data, Data::Absent))
+        .collect();
+    let field = |column: &Column, row: usize| match &column.data {
+        Data::Numbers(numbers) => numbers[row].to_string(),
+        Data::Labels(labels) => labels.text(row).to_owned(),
+        Data::Absent => String::new(),
+    };
+    Sheet {
+        header: columns.iter().map(|column| heading(column)).collect(),
+        rows: (0..case.rows)
+            .map(|row| columns.iter().map(|column| field(column, row)).collect())
+            .collect(),
+    }
+}
+
+/// Name and unit of a column.
+fn heading(column: &Column) -> String {
+    if column.labels().is_some() || column.unit.is_one() {
+        return column.name.clone();
+    }
+    format!("{} [{}]", column.name, column.unit.symbol)
+}
+
+/// Simulates the outputs of a case: the model at its parameters (fitted to the recording, or where the
+/// outputs were not recorded as the case states them) with the claimed noise. Each output is followed by
+/// the model and the ends of the band that covers it with 95 %.
+///
+/// # Errors
+/// When the model cannot be fitted.
+pub fn simulate(case: &Case, seed: u64) -> Result<Sheet, NoFit> {
+    let mut by_row = case.clone();
+    by_row.averaging.blocks = Blocks::Rows;
+    by_row.averaging.settle = 0;
+    let frame = Frame::new(&by_row);
+    let (fit, claimed) = settled(&frame)?;
+    let band = half_widths(&frame, &fit, &claimed);
+    let mut sheet = recorded(case);
+    for (response, declared) in case.responses.iter().enumerate() {
+        let noise = normals(seed, response as u64, case.rows);
+        let at = |row: usize| response * case.rows + row;
+        let modelled = &fit.linear.values[response];
+        let simulated: Vec<String> = (0..case.rows)
+            .map(|row| (modelled[row] + claimed.u[at(row)] * noise[row]).to_string())
+            .collect();
+        let replaced = match declared.observed {
+            Observed::Column(column) => {
+                let heading = heading(&case.columns[column]);
+                sheet.header.iter().position(|text| *text == heading)
+            }
+            Observed::Constant(_) => None,
+        };
+        let place = replaced.unwrap_or_else(|| {
+            sheet.header.push(declared.name.clone());
+            for row in &mut sheet.rows {
+                row.push(String::new());
+            }
+            sheet.header.len() - 1
+        });
+        for (row, value) in sheet.rows.iter_mut().zip(simulated) {
+            row[place] = value;
+        }
+        for (suffix, side) in [("model", 0.0), ("low", -1.0), ("high", 1.0)] {
+            sheet.header.push(format!("{}_{suffix}", declared.name));
+            for (row, fields) in sheet.rows.iter_mut().enumerate() {
+                fields.push((modelled[row] + side * band[at(row)]).to_string());
+            }
+        }
+    }
+    Ok(sheet)
+}
+
+/// The model at its parameters, with the noise that is claimed.
+pub(super) fn settled<'c>(frame: &Frame<'c>) -> Result<(Fit, Claimed), NoFit> {
+    let recorded = frame
+        .case
+        .responses
+        .iter()
+        .all(|response| match response.observed {
+            Observed::Column(column) => frame.case.columns[column].numbers().is_some(),
+            Observed::Constant(_) => true,
+        });
+    if recorded {
+        return noise::settle(frame);
+    }
+    let values = frame.unknowns.iter().map(|unknown| {
+        unknown
+            .start
+            .or(unknown.prior.map(|(value, _)| value))
+            .unwrap_or(1.0)
+    });
+    let fit = fit::at(frame, DVector::from_iterator(frame.unknowns.len(), values));
+    if fit
+        .linear
+        .values
+        .iter()
+        .flatten()
+        .any(|value| !value.is_finite())
+    {
+        return Err(NoFit::NoStart);
+    }
+    let claimed = noise::planned(frame, &fit);
+    Ok((fit, claimed))
+}
+
+/// Half-widths of the band: noise and parameters together.
+fn half_widths(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> Vec<f64> {
+    let covariance = confirm::covariance(frame, fit, claimed);
+    let factor = normal_two_sided_quantile(COVERAGE);
+    (0..frame.observations())
+        .map(|observation| {
+            let slopes = fit.jacobian.row(observation).transpose();
+            let of_model = slopes.dot(&(&covariance * &slopes));
+            factor * (claimed.u[observation] * claimed.u[observation] + of_model.max(0.0)).sqrt()
+        })
+        .collect()
+}
+
+/// Standard normal numbers.
+fn normals(seed: u64, stream: u64, count: usize) -> Vec<f64> {
+    let mut numbers = Vec::with_capacity(count + LANES);
+    let mut block = Lanes::ZERO;
+    for chunk in 0..count.div_ceil(LANES) {
+        let mut generator = Generator::new(seed, chunk as u64, stream);
+        normal_block(level(), &mut generator, &mut block);
+        numbers.extend_from_slice(&block.0);
+    }
+    numbers.truncate(count);
+    numbers
+}

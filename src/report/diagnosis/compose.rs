@@ -1,0 +1,531 @@
+//! A diagnosis as blocks: verdict, where, what, the improvement, what remains open.
+
+use crate::diagnose::case::Case;
+use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
+use crate::diagnose::{Adopted, Diagnosis, Estimated, Quality};
+
+use crate::report::document::Block;
+use crate::report::language::Language;
+use crate::report::number::{NONE, aligned, freedom, percent, significant};
+use crate::report::table::{ColumnKind, Table};
+
+use super::words::{name, name_of_atom, noise, probability, verdict};
+
+/// Cells of the scan that are shown.
+const PLACES: usize = 5;
+
+/// The whole report.
+pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+    let mut blocks = vec![
+        Block::Title(case.title.clone()),
+        Block::Statement(vec![verdict(diagnosis, language)]),
+        Block::Fields(fields(case, diagnosis, language)),
+    ];
+    blocks.extend(located(diagnosis, language));
+    blocks.extend(slots(diagnosis, language));
+    blocks.extend(improvement(case, diagnosis, language));
+    blocks.extend(parameters(diagnosis, language));
+    blocks.extend(rivals(diagnosis, language));
+    blocks.extend(invisible(case, diagnosis, language));
+    blocks.push(Block::Footer(vec![footer(case, diagnosis, language)]));
+    blocks
+}
+
+fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String, String)> {
+    let rows = diagnosis.blocks.iter().map(Vec::len).sum::<usize>();
+    let recorded = if rows == diagnosis.blocks.len() {
+        language.pick(format!("{rows} rows"), format!("{rows} 行"))
+    } else {
+        let means = diagnosis.blocks.len();
+        language.pick(
+            format!("{rows} rows, in {means} means"),
+            format!("{rows} 行，取 {means} 个平均值"),
+        )
+    };
+    let left_out = match case.left_out {
+        0 => String::new(),
+        n => language.pick(
+            format!("; {n} rows without a value are left out"),
+            format!("；略去 {n} 行缺值"),
+        ),
+    };
+    let alarm = diagnosis.examination.levels.first();
+    let p = alarm.map_or(NONE.to_owned(), |level| probability(level.p));
+    vec![
+        (
+            language.pick("Declared model", "声明的模型").into(),
+            case.model.join("; "),
+        ),
+        (
+            language.pick("Recording", "记录").into(),
+            recorded + &left_out,
+        ),
+        (
+            language.pick("Noise", "噪声").into(),
+            noise(&diagnosis.noise, language),
+        ),
+        (
+            language.pick("Test for a mismatch", "不一致检验").into(),
+            language.pick(
+                format!(
+                    "p = {p} over all {} explanations together (alarm below {})",
+                    diagnosis.cells.len(),
+                    significant(case.settings.alpha, 2)
+                ),
+                format!(
+                    "p = {p}（同时考虑全部 {} 种解释；低于 {} 报警）",
+                    diagnosis.cells.len(),
+                    significant(case.settings.alpha, 2)
+                ),
+            ),
+        ),
+    ]
+}
+
+fn located(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+    let shown: Vec<_> = diagnosis
+        .located
+        .iter()
+        .filter(|(_, located)| located.p < 0.05)
+        .take(PLACES)
+        .collect();
+    if shown.is_empty() {
+        return Vec::new();
+    }
+    let mut table = Table::new([
+        (language.pick("quantity", "量"), ColumnKind::Names),
+        (language.pick("where", "位置"), ColumnKind::Names),
+        (language.pick("disturbance", "扰动"), ColumnKind::Numbers),
+        ("u", ColumnKind::Numbers),
+        ("Δχ²", ColumnKind::Numbers),
+        ("p", ColumnKind::Numbers),
+    ]);
+    for (cell, located) in shown {
+        table.push(vec![
+            cell.node.as_str().into(),
+            format!("{} {}", cell.factor, cell.level).into(),
+            aligned(located.size, located.u, 2).into(),
+            significant(located.u, 2).into(),
+            significant(located.chi_squared, 3).into(),
+            probability(located.p).into(),
+        ]);
+    }
+    vec![
+        Block::Section(
+            language
+                .pick("Where the mismatch sits", "不一致所在")
+                .into(),
+        ),
+        Block::Table(table),
+    ]
+}
+
+fn slots(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    for slot in &diagnosis.examination.slots {
+        if blocks.is_empty() {
+            blocks.push(Block::Section(
+                language.pick("What was left out", "遗漏的物理").into(),
+            ));
+        }
+        blocks.extend(slot_blocks(diagnosis, slot, language));
+    }
+    blocks
+}
+
+fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    if slot.state == State::Unexplained {
+        let places = slot.generic.iter().map(|a| {
+            format!(
+                "{} ({} %)",
+                name(&diagnosis.cells[a.candidate], language),
+                percent(a.probability)
+            )
+        });
+        blocks.push(Block::Paragraph(language.pick(
+            format!("Unexplained: {}.", places.collect::<Vec<_>>().join("; ")),
+            format!(
+                    "未能解释：{}。",
+                    slot.generic
+                        .iter()
+                        .map(|a| name(&diagnosis.cells[a.candidate], language))
+                        .collect::<Vec<_>>()
+                        .join("；")
+                ),
+        )));
+        if !slot.named.is_empty() {
+            blocks.push(Block::Paragraph(
+                language.pick("Tentative names:", "仅供参考的名称：").into(),
+            ));
+        }
+    }
+    for alternative in &slot.named {
+        blocks.push(Block::Paragraph(headline(
+            diagnosis,
+            alternative,
+            slot,
+            language,
+        )));
+        let cell = &diagnosis.cells[alternative.candidate];
+        if slot.state != State::Unexplained {
+            let prose = match &cell.description {
+                Some(own) => own.clone(),
+                None => cell.words.fill(language.of(&cell.effect.prose)),
+            };
+            blocks.push(Block::Paragraph(prose));
+            blocks.push(Block::Formula(vec![cell.words.fill(&cell.effect.formula)]));
+        }
+    }
+    blocks
+}
+
+/// Name, probability, size, strength of one alternative.
+fn headline(
+    diagnosis: &Diagnosis,
+    alternative: &Alternative,
+    slot: &Slot,
+    language: Language,
+) -> String {
+    let title = match alternative.variants.first() {
+        Some(variant) => name_of_atom(diagnosis, variant.atom, language),
+        None => name(&diagnosis.cells[alternative.candidate], language),
+    };
+    let posterior = percent(alternative.probability);
+    let separate = match &alternative.nearest {
+        Some(rival) => {
+            let other = name(&diagnosis.cells[rival.candidate], language);
+            let kappa = significant(rival.kappa, 2);
+            language.pick(
+                format!("; nearest rival {other}, κ = {kappa}"),
+                format!("；最接近的竞争解释为{other}，κ = {kappa}"),
+            )
+        }
+        None => String::new(),
+    };
+    let lambda = significant(alternative.lambda, 2);
+    let only = slot.named.len() == 1;
+    let probability = if only && alternative.probability > 0.999 {
+        String::new()
+    } else {
+        format!("{posterior} %, ")
+    };
+    language.pick(
+        format!("▸ {title}: {probability}strength λ = {lambda}{separate}"),
+        format!("▸ {title}：{probability}强度 λ = {lambda}{separate}"),
+    )
+}
+
+fn improvement(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+    let before = &diagnosis.before;
+    let after = diagnosis.adopted.as_ref().map(|adopted| &adopted.quality);
+    let mut blocks = vec![Block::Section(
+        match after {
+            Some(_) => language.pick("Before and after", "改进前后"),
+            None => language.pick("Agreement of the model", "模型的符合程度"),
+        }
+        .into(),
+    )];
+    if let Some(adopted) = &diagnosis.adopted {
+        blocks.push(Block::Formula(improved_model(adopted)));
+        blocks.push(Block::Table(coefficients(adopted, language)));
+    }
+    blocks.push(Block::Table(qualities(
+        case, diagnosis, before, after, language,
+    )));
+    if let Some(adopted) = &diagnosis.adopted {
+        blocks.extend(confirmation(adopted, language));
+    }
+    blocks
+}
+
+fn improved_model(adopted: &Adopted) -> Vec<String> {
+    let mut lines: Vec<String> = adopted
+        .extended
+        .case
+        .model
+        .iter()
+        .flat_map(|model| model.lines().map(str::to_owned).collect::<Vec<_>>())
+        .collect();
+    for addition in &adopted.extended.additions {
+        lines.push(format!("{} = {}", addition.column, addition.text));
+    }
+    lines
+}
+
+fn coefficients(adopted: &Adopted, language: Language) -> Table {
+    let mut table = Table::new([
+        (language.pick("size", "大小"), ColumnKind::Names),
+        (language.pick("multiplies", "乘以"), ColumnKind::Wrapped),
+        (language.pick("estimate", "估计值"), ColumnKind::Numbers),
+        ("u", ColumnKind::Numbers),
+        (language.pick("unit", "单位"), ColumnKind::Names),
+    ]);
+    for (estimated, addition) in adopted.coefficients.iter().zip(&adopted.extended.additions) {
+        table.push(vec![
+            estimated.name.as_str().into(),
+            addition.text.as_str().into(),
+            aligned(estimated.value, estimated.u, 2).into(),
+            significant(estimated.u, 2).into(),
+            estimated.unit.as_str().into(),
+        ]);
+    }
+    table
+}
+
+fn qualities(
+    case: &Case,
+    diagnosis: &Diagnosis,
+    before: &Quality,
+    after: Option<&Quality>,
+    language: Language,
+) -> Table {
+    let mut table = Table::new([
+        ("", ColumnKind::Names),
+        (
+            language.pick("declared model", "声明的模型"),
+            ColumnKind::Numbers,
+        ),
+        (
+            if after.is_some() {
+                language.pick("with the physics", "加入遗漏的物理")
+            } else {
+                ""
+            },
+            ColumnKind::Numbers,
+        ),
+    ]);
+    let cell = |value: Option<f64>| value.map_or(String::new(), |value| significant(value, 3));
+    for (index, response) in case.responses.iter().enumerate() {
+        let unit = if response.unit.is_one() {
+            String::new()
+        } else {
+            format!(" / {}", response.unit.typeset())
+        };
+        let label = |what: &str| format!("{what}, {}{unit}", response.name);
+        table.push(vec![
+            label(language.pick("residual RMS", "残差均方根")).into(),
+            cell(before.residual.get(index).copied()).into(),
+            cell(after.and_then(|after| after.residual.get(index).copied())).into(),
+        ]);
+        if !diagnosis.noise.is_estimated() {
+            table.push(vec![
+                label(language.pick("expected noise", "预期噪声")).into(),
+                cell(before.expected.get(index).copied()).into(),
+                cell(after.and_then(|after| after.expected.get(index).copied())).into(),
+            ]);
+        }
+        table.push(vec![
+            label(language.pick("error predicting held-out rows", "留出行的预测误差")).into(),
+            cell(before.held_out.get(index).copied()).into(),
+            cell(after.and_then(|after| after.held_out.get(index).copied())).into(),
+        ]);
+    }
+    if !diagnosis.noise.is_estimated() {
+        table.push(vec![
+            "χ²/ν".into(),
+            significant(before.chi_squared / before.dof, 3).into(),
+            cell(after.map(|after| after.chi_squared / after.dof)).into(),
+        ]);
+    }
+    table.push(vec![
+        language.pick("degrees of freedom", "自由度").into(),
+        freedom(before.dof).into(),
+        after
+            .map_or(String::new(), |after| freedom(after.dof))
+            .into(),
+    ]);
+    table.without_empty_columns()
+}
+
+fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
+    let parts: Vec<String> = adopted
+        .confirmation
+        .parts
+        .iter()
+        .map(|(part, value, u)| {
+            format!(
+                "{part}: {} ± {}",
+                aligned(*value, *u, 2),
+                significant(*u, 2)
+            )
+        })
+        .collect();
+    let (Some(first), false) = (adopted.coefficients.first(), parts.is_empty()) else {
+        return Vec::new();
+    };
+    let agreement = adopted.confirmation.agreement.map_or(String::new(), |p| {
+        language.pick(
+            format!("; they agree with p = {}", probability(p)),
+            format!("；一致性 p = {}", probability(p)),
+        )
+    });
+    vec![Block::Paragraph(language.pick(
+        format!(
+            "{} from parts of the recording: {}{agreement}.",
+            first.name,
+            parts.join(", ")
+        ),
+        format!(
+            "由记录各部分得到的 {}：{}{agreement}。",
+            first.name,
+            parts.join("，")
+        ),
+    ))]
+}
+
+fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+    /// Longer lists, one for each label, are in the JSON.
+    const MOST: usize = 30;
+    let mut table = Table::new([
+        (language.pick("parameter", "参数"), ColumnKind::Names),
+        (
+            language.pick("declared model", "声明的模型"),
+            ColumnKind::Numbers,
+        ),
+        ("u", ColumnKind::Numbers),
+        (
+            if diagnosis.adopted.is_some() {
+                language.pick("with the physics", "加入遗漏的物理")
+            } else {
+                ""
+            },
+            ColumnKind::Numbers,
+        ),
+        (
+            if diagnosis.adopted.is_some() { "u" } else { "" },
+            ColumnKind::Numbers,
+        ),
+        (language.pick("unit", "单位"), ColumnKind::Names),
+    ]);
+    for (index, unknown) in diagnosis.unknowns.iter().take(MOST).enumerate() {
+        let after: Option<&Estimated> = diagnosis
+            .adopted
+            .as_ref()
+            .and_then(|adopted| adopted.unknowns.get(index));
+        table.push(vec![
+            unknown.name.as_str().into(),
+            aligned(unknown.value, unknown.u, 2).into(),
+            significant(unknown.u, 2).into(),
+            after
+                .map_or(String::new(), |after| aligned(after.value, after.u, 2))
+                .into(),
+            after
+                .map_or(String::new(), |after| significant(after.u, 2))
+                .into(),
+            unknown.unit.as_str().into(),
+        ]);
+    }
+    vec![
+        Block::Section(
+            language
+                .pick("What it changes in the result", "对结果的影响")
+                .into(),
+        ),
+        Block::Table(table.without_empty_columns()),
+    ]
+}
+
+/// What cannot be told apart, and what would help.
+fn rivals(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+    let mut sentences = Vec::new();
+    for slot in &diagnosis.examination.slots {
+        for alternative in &slot.named {
+            let Some(rival) = alternative
+                .nearest
+                .as_ref()
+                .filter(|rival| rival.alias || rival.kappa < 4.0)
+            else {
+                continue;
+            };
+            let own = name(&diagnosis.cells[alternative.candidate], language);
+            let other = name(&diagnosis.cells[rival.candidate], language);
+            sentences.push(if rival.alias {
+                language.pick(
+                    format!("{own} and {other} are one in this experiment: no recording of this design tells them apart."),
+                    format!("在此试验中{own}与{other}完全等效：按此设计的任何记录都不能区分。"),
+                )
+            } else {
+                language.pick(
+                    format!("{own} and {other} are hard to tell apart here (κ = {}); about {} times as many rows of the same kind would.", significant(rival.kappa, 2), significant((5.0 / rival.kappa.max(0.1)).powi(2), 2)),
+                    format!("此处{own}与{other}难以区分（κ = {}）；约需 {} 倍的同类数据。", significant(rival.kappa, 2), significant((5.0 / rival.kappa.max(0.1)).powi(2), 2)),
+                )
+            });
+        }
+    }
+    if sentences.is_empty() {
+        return Vec::new();
+    }
+    vec![
+        Block::Section(
+            language
+                .pick(
+                    "What this recording cannot tell apart",
+                    "此记录不能区分的解释",
+                )
+                .into(),
+        ),
+        Block::List(sentences),
+    ]
+}
+
+fn invisible(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+    /// More are in the JSON.
+    const MOST: usize = 8;
+    let mut names: Vec<String> = Vec::new();
+    for omitted in &diagnosis.omitted {
+        let name = name(&diagnosis.cells[diagnosis.atoms[omitted.atom].0], language);
+        let worst = omitted
+            .gain
+            .iter()
+            .enumerate()
+            .filter(|(_, gain)| gain.is_finite())
+            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let parameter = worst
+            .and_then(|(at, _)| diagnosis.unknowns.get(at))
+            .map_or("", |unknown| unknown.name.as_str());
+        let sentence = language.pick(
+            format!("{name}: hides in {parameter}"),
+            format!("{name}：隐藏在 {parameter} 中"),
+        );
+        if !names.contains(&sentence) {
+            names.push(sentence);
+        }
+    }
+    let _ = case;
+    if names.is_empty() || diagnosis.examination.verdict == Verdict::None && names.is_empty() {
+        return Vec::new();
+    }
+    names.truncate(MOST);
+    vec![
+        Block::Section(
+            language
+                .pick(
+                    "What this recording cannot show, and what would be absorbed",
+                    "此记录无法显示、会被参数吸收的影响",
+                )
+                .into(),
+        ),
+        Block::List(names),
+    ]
+}
+
+fn footer(case: &Case, diagnosis: &Diagnosis, language: Language) -> String {
+    let draws = diagnosis
+        .examination
+        .levels
+        .first()
+        .map_or(0, |level| level.draws);
+    language.pick(
+        format!(
+            "gumption {}, seed {}, {draws} simulated recordings.",
+            env!("CARGO_PKG_VERSION"),
+            case.settings.seed
+        ),
+        format!(
+            "gumption {}，随机种子 {}，模拟记录 {draws} 次。",
+            env!("CARGO_PKG_VERSION"),
+            case.settings.seed
+        ),
+    )
+}

@@ -1,0 +1,136 @@
+//! A diagnosis for machines.
+
+use serde_json::{Value, json};
+
+use crate::diagnose::case::Case;
+use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
+use crate::diagnose::{Diagnosis, Estimated, Quality};
+
+use super::words::{name, name_of_atom, noise, verdict};
+use crate::report::language::Language;
+
+/// Name and version of the format.
+pub const FORMAT: &str = "gumption-diagnosis-1";
+
+/// Everything that was found.
+pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
+    let examination = &diagnosis.examination;
+    json!({
+        "format": FORMAT,
+        "title": case.title,
+        "verdict": verdict_word(examination.verdict),
+        "statement": verdict(diagnosis, language),
+        "model": case.model,
+        "noise": { "origin": noise(&diagnosis.noise, language), "dof": finite(diagnosis.noise.dof) },
+        "rows": case.rows,
+        "observations": diagnosis.residuals.len(),
+        "alpha": case.settings.alpha,
+        "seed": case.settings.seed,
+        "levels": examination.levels.iter().map(|level| json!({
+            "adopted": level.adopted.iter().map(|atom| name_of_atom(diagnosis, *atom, language)).collect::<Vec<_>>(),
+            "strongest": name_of_atom(diagnosis, level.strongest, language),
+            "p": level.p,
+            "draws": level.draws,
+        })).collect::<Vec<_>>(),
+        "located": diagnosis.located.iter().take(20).map(|(cell, located)| json!({
+            "node": cell.node, "factor": cell.factor, "level": cell.level,
+            "size": located.size, "u": located.u, "delta_chi_squared": located.chi_squared, "p": located.p,
+        })).collect::<Vec<_>>(),
+        "effects": examination.slots.iter().map(|slot| effect(diagnosis, slot, language)).collect::<Vec<_>>(),
+        "explained": finite(examination.explained),
+        "generic_probability": finite(examination.generic_probability),
+        "before": quality(&diagnosis.before),
+        "after": diagnosis.adopted.as_ref().map(|adopted| quality(&adopted.quality)),
+        "parameters": estimates(&diagnosis.unknowns),
+        "improved": diagnosis.adopted.as_ref().map(|adopted| json!({
+            "model": adopted.extended.case.model,
+            "effects": adopted.atoms.iter().map(|atom| name_of_atom(diagnosis, *atom, language)).collect::<Vec<_>>(),
+            "additions": adopted.extended.additions.iter().map(|addition| json!({
+                "parameter": addition.parameter, "column": addition.column, "modifier": addition.text,
+            })).collect::<Vec<_>>(),
+            "coefficients": estimates(&adopted.coefficients),
+            "parameters": estimates(&adopted.unknowns),
+            "promised_chi_squared": finite(adopted.confirmation.promised),
+            "parts": adopted.confirmation.parts.iter().map(|(part, value, u)| json!({ "part": part, "value": value, "u": u })).collect::<Vec<_>>(),
+            "agreement": adopted.confirmation.agreement,
+        })),
+        "invisible": diagnosis.omitted.iter().map(|omitted| json!({
+            "effect": name_of_atom(diagnosis, omitted.atom, language),
+            "id": diagnosis.cells[diagnosis.atoms[omitted.atom].0].effect.id,
+            "gain": diagnosis.unknowns.iter().zip(&omitted.gain).map(|(unknown, gain)| (unknown.name.clone(), finite(*gain))).collect::<serde_json::Map<_, _>>(),
+        })).collect::<Vec<_>>(),
+    })
+}
+
+fn verdict_word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::None => "none",
+        Verdict::Identified => "identified",
+        Verdict::Ambiguous => "ambiguous",
+        Verdict::Partly => "partly",
+        Verdict::Contested => "contested",
+        Verdict::Unexplained => "unexplained",
+    }
+}
+
+fn effect(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Value {
+    json!({
+        "state": match slot.state {
+            State::Identified => "identified",
+            State::Ambiguous => "ambiguous",
+            State::Unexplained => "unexplained",
+        },
+        "named": slot.named.iter().map(|a| alternative(diagnosis, a, language)).collect::<Vec<_>>(),
+        "unnamed": slot.generic.iter().map(|a| alternative(diagnosis, a, language)).collect::<Vec<_>>(),
+        "unnamed_share": finite(slot.generic_share),
+        "family": slot.family.as_ref().map(|(family, p)| json!({ "name": family, "probability": p })),
+    })
+}
+
+fn alternative(diagnosis: &Diagnosis, alternative: &Alternative, language: Language) -> Value {
+    let cell = &diagnosis.cells[alternative.candidate];
+    json!({
+        "id": cell.effect.id,
+        "name": name(cell, language),
+        "family": cell.effect.family,
+        "prose": cell.description.clone().unwrap_or_else(|| cell.words.fill(language.of(&cell.effect.prose))),
+        "formula": cell.words.fill(&cell.effect.formula),
+        "node": cell.place.node,
+        "along": cell.place.along,
+        "probability": alternative.probability,
+        "variants": alternative.variants.iter().take(5).map(|variant| {
+            let (_, variation) = diagnosis.atoms[variant.atom];
+            json!({ "label": cell.variants[variation].label, "share": variant.share })
+        }).collect::<Vec<_>>(),
+        "size": alternative.estimate.iter().map(|x| finite(*x)).collect::<Vec<_>>(),
+        "u": alternative.covariance.diagonal().iter().map(|x| finite(x.sqrt())).collect::<Vec<_>>(),
+        "lambda": finite(alternative.lambda),
+        "nearest": alternative.nearest.as_ref().map(|rival| json!({
+            "name": name(&diagnosis.cells[rival.candidate], language),
+            "kappa": finite(rival.kappa),
+            "alias": rival.alias,
+            "resolved": finite(rival.resolved),
+        })),
+    })
+}
+
+fn quality(quality: &Quality) -> Value {
+    json!({
+        "chi_squared": quality.chi_squared,
+        "dof": quality.dof,
+        "residual_rms": quality.residual,
+        "expected_noise": quality.expected,
+        "held_out_rms": quality.held_out,
+    })
+}
+
+fn estimates(list: &[Estimated]) -> Vec<Value> {
+    list.iter()
+        .map(|e| json!({ "name": e.name, "unit": e.unit, "value": e.value, "u": e.u }))
+        .collect()
+}
+
+/// A number that JSON can hold.
+fn finite(x: f64) -> Value {
+    if x.is_finite() { json!(x) } else { Value::Null }
+}

@@ -1,0 +1,161 @@
+//! Sentences and names of a diagnosis.
+
+use crate::diagnose::case::Case;
+use crate::diagnose::catalogue::{Cell, Text};
+use crate::diagnose::evidence::{Refusal, Slot, State, Verdict};
+use crate::diagnose::{Claimed, Diagnosis, Failure, NoFit, Origin};
+
+use crate::report::language::Language;
+use crate::report::number::{freedom, significant};
+
+impl Language {
+    /// The text of this language.
+    pub(super) fn of(self, text: &Text) -> &str {
+        self.pick(&text.en, &text.zh)
+    }
+}
+
+/// The name of a candidate with its columns in it.
+pub(super) fn name(cell: &Cell, language: Language) -> String {
+    cell.words.fill(language.of(&cell.effect.name))
+}
+
+/// The name, and what distinguishes the variant.
+pub(super) fn name_of_atom(diagnosis: &Diagnosis, atom: usize, language: Language) -> String {
+    let (cell, variation) = diagnosis.atoms[atom];
+    let cell = &diagnosis.cells[cell];
+    let name = name(cell, language);
+    match cell.variants[variation].label.as_str() {
+        "" => name,
+        label => format!("{name} ({label})"),
+    }
+}
+
+/// The verdict in one sentence.
+pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
+    let names: Vec<String> = diagnosis
+        .examination
+        .slots
+        .iter()
+        .filter(|slot| slot.state != State::Unexplained)
+        .map(|slot| slot_name(diagnosis, slot, language))
+        .collect();
+    let list = names.join(language.pick("; ", "；"));
+    match diagnosis.examination.verdict {
+        Verdict::None => language
+            .pick(
+                "Model and recording agree within what is claimed: nothing is left out that this recording can show.",
+                "模型与记录在所声明的范围内一致：记录未显示模型有遗漏。",
+            )
+            .to_owned(),
+        Verdict::Identified => language.pick(format!("The model leaves out: {list}."), format!("模型遗漏了：{list}。")),
+        Verdict::Ambiguous => language.pick(
+            format!("The model leaves out something that this recording cannot tell apart: {list}."),
+            format!("模型有遗漏，但此记录不能区分：{list}。"),
+        ),
+        Verdict::Partly => language.pick(
+            format!("The model leaves out: {list}. Something without a name remains."),
+            format!("模型遗漏了：{list}。此外还有无法命名的部分。"),
+        ),
+        Verdict::Contested => language.pick(
+            format!("The model leaves out: {list}; or else something unknown that varies smoothly, which explains the recording as well."),
+            format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释此记录。"),
+        ),
+        Verdict::Unexplained => {
+            let places: Vec<String> = diagnosis
+                .examination
+                .slots
+                .iter()
+                .filter(|slot| slot.state == State::Unexplained)
+                .filter_map(|slot| slot.generic.first())
+                .map(|alternative| name(&diagnosis.cells[alternative.candidate], language))
+                .collect();
+            let places = places.join(language.pick("; ", "；"));
+            language.pick(
+                format!("Model and recording disagree, and nothing in the catalogue explains it: {places}."),
+                format!("模型与记录不一致，且目录中没有可解释的原因：{places}。"),
+            )
+        }
+    }
+}
+
+/// The names of a slot, joined by "or".
+pub(super) fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> String {
+    let names: Vec<String> = slot
+        .named
+        .iter()
+        .map(|a| name(&diagnosis.cells[a.candidate], language))
+        .collect();
+    names.join(language.pick(" or ", " 或 "))
+}
+
+/// Where the noise comes from.
+pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
+    let dof = if claimed.dof.is_finite() && claimed.dof > 0.0 {
+        format!(", ν = {}", freedom(claimed.dof))
+    } else {
+        String::new()
+    };
+    let text = match &claimed.origin {
+        Origin::Estimated => language.pick(
+            "estimated from the residuals".to_owned(),
+            "由残差估计".to_owned(),
+        ),
+        Origin::Case => language.pick(
+            "as stated in the case".to_owned(),
+            "由案例文件给出".to_owned(),
+        ),
+        Origin::Column(name) => {
+            language.pick(format!("from the column {name}"), format!("取自 {name} 列"))
+        }
+        Origin::Replicates => {
+            language.pick("from replicates".to_owned(), "由重复测量得到".to_owned())
+        }
+        Origin::AtRest(file) => language.pick(
+            format!("from the recording at rest {file}"),
+            format!("取自静态记录 {file}"),
+        ),
+        Origin::Budget(file) => language.pick(
+            format!("from the budget {file}"),
+            format!("取自不确定度评定文件 {file}"),
+        ),
+    };
+    text + &dof
+}
+
+/// Probability of a false alarm in words.
+pub(super) fn probability(p: f64) -> String {
+    if p < 0.001 {
+        "<0.001".to_owned()
+    } else {
+        significant(p, 2)
+    }
+}
+
+/// Why a case could not be diagnosed.
+pub fn failure(case: &Case, failure: &Failure, language: Language) -> String {
+    match failure {
+        Failure::Fit(NoFit::NoStart) => language.pick(
+            "the model has no finite value where the search for its parameters begins; state starts: [parameter] NAME = { start = … }".to_owned(),
+            "模型在搜索起点处没有有限值；请给出起始值：[parameter] 名称 = { start = … }".to_owned(),
+        ),
+        Failure::Fit(NoFit::NoMinimum) => language.pick(
+            "the search for the parameters found no minimum; state starts nearer to the truth: [parameter] NAME = { start = … }".to_owned(),
+            "未找到参数的极小值；请给出更接近的起始值：[parameter] 名称 = { start = … }".to_owned(),
+        ),
+        Failure::Fit(NoFit::Undetermined(name)) => language.pick(
+            format!("the recording does not determine the parameter {name}: other parameters do the same to every row. Remove it, make it a [constant], or state what is known of it: value and u"),
+            format!("记录不能确定参数 {name}：其他参数对每一行的作用与之相同。请删除它、改为 [constant]，或给出先验 value 和 u"),
+        ),
+        Failure::Fit(NoFit::TooFew { observations, unknowns }) => language.pick(
+            format!("{observations} observations leave nothing to examine beside {unknowns} unknown parameters"),
+            format!("{observations} 个观测值减去 {unknowns} 个未知参数后没有剩余可供检验"),
+        ),
+        Failure::Refused(Refusal::Dependent { parameter }) => {
+            let name = case.parameters.get(*parameter).map_or("", |p| p.name.as_str());
+            language.pick(format!("the recording does not determine the parameter {name}"), format!("记录不能确定参数 {name}"))
+        }
+        Failure::Refused(Refusal::Cancelled) => language.pick("stopped".to_owned(), "已中断".to_owned()),
+        Failure::Refused(other) => other.to_string(),
+    }
+}

@@ -1,0 +1,36 @@
+//! An evaluation that is interrupted leaves nothing behind.
+#![cfg(unix)]
+
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+#[test]
+fn an_interrupted_run_writes_no_file() {
+    let folder = std::env::temp_dir().join(format!("gumption-interruption-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let budget = folder.join("budget.toml");
+    let text = "title = \"Long\"\n[measurand.Y]\nmodel = \"a * b\"\n[input]\na = { value = 1, u = 0.1 }\nb = { value = 2, u = 0.1 }\n";
+    std::fs::write(&budget, text).expect("a file");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_gumption"))
+        .arg("eval")
+        .arg(&budget)
+        .args(["--trials", "1e12", "--threads", "1", "--output"])
+        .arg(folder.join("report.txt"))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("the program starts");
+    std::thread::sleep(Duration::from_millis(400));
+    let interrupt = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(interrupt.expect("kill is at hand").success());
+    let status = child.wait().expect("the program ends");
+    assert!(!status.success());
+    let left: Vec<_> = std::fs::read_dir(&folder)
+        .expect("the folder")
+        .map(|entry| entry.expect("an entry").file_name())
+        .collect();
+    assert_eq!(left, ["budget.toml"]);
+    std::fs::remove_dir_all(&folder).expect("it can be removed again");
+}

@@ -14,7 +14,7 @@
 //! | `stack` | its readings as a problem of least squares |
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `causes` | what makes the coefficients uncertain |
-//! | `identify` | rank, condition, aliases |
+//! | `identify`, `swaps` | rank, condition, aliases; readings that look exchanged |
 //! | `calibration`, `plan` | the results, after and before measuring |
 //! | `budget` | coefficients as measurands of a budget file |
 //!
@@ -43,6 +43,7 @@ pub mod procedure;
 mod scatter;
 mod source;
 mod stack;
+mod swaps;
 pub(crate) mod tables;
 #[cfg(test)]
 mod tests;

@@ -26,6 +26,7 @@ pub fn calibration_json(experiment: &Experiment, found: &Calibration, l: Languag
     value["kind"] = json!("calibration");
     value["readings"] = json!(found.readings);
     value["left_out"] = json!(found.left_out);
+    value["swapped"] = json!(found.swapped);
     value["iterations"] = json!(found.iterations);
     value["scatter"] = json!(match found.scatter {
         Scatter::Residuals => "residuals",

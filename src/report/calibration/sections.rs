@@ -11,7 +11,7 @@ use super::super::table::{Cell, Column, ColumnKind, Row, Table};
 use super::trouble::in_words;
 use crate::calibrate::{
     Alias, Calibration, Cause, Coefficient, Combination, Experiment, Figures, Identifiability,
-    Origin, Plan, Scatter, Scope, Words,
+    Origin, Plan, ResponseScatter, Scatter, Scope, Words,
 };
 
 /// Digits of standard uncertainties.
@@ -732,6 +732,36 @@ fn is_felt(alias: &Alias, index: usize) -> bool {
     alias.shifts[index].abs() > 1e-9 * largest
 }
 
+/// Residuals that are larger or smaller than the known errors of the readings let expect. Where the
+/// residuals tell the scatter themselves, they may be larger.
+fn misfit(one: &ResponseScatter, way: Scatter, sampled: bool, l: Language) -> Option<String> {
+    /// Probability of a χ² as far out.
+    const RARE: f64 = 0.005;
+    let test = one.test?;
+    let ratio = significant(test.chi_squared / test.dof, 3);
+    let response = &one.response;
+    if test.p_value < RARE && way == Scatter::Residuals && sampled {
+        let times = significant((test.chi_squared / test.dof).sqrt(), 2);
+        Some(l.pick(
+            format!("The residuals of {response} are {times} times as large as the samples of the dwells let expect: something changes from dwell to dwell that is still within each, labels or reference values are wrong, or the equations leave something out."),
+            format!("{response} 的残差为驻留段采样预期的 {times} 倍：可能有在驻留段内稳定、段间变化的因素，标签或参考值有误，或方程有遗漏。"),
+        ))
+    } else if test.p_value < RARE && way != Scatter::Residuals {
+        let p = significant(test.p_value, 2);
+        Some(l.pick(
+            format!("The residuals of {response} are larger than the errors of its readings let expect (χ²/ν = {ratio}, p = {p}): the equations leave something out, or the errors are larger than stated. The uncertainties above do not contain this."),
+            format!("{response} 的残差大于其读数误差的预期（χ²/ν = {ratio}，p = {p}）：方程有遗漏，或误差大于所给出的值。上列不确定度未包含这一差异。"),
+        ))
+    } else if test.p_value > 1.0 - RARE {
+        Some(l.pick(
+            format!("The residuals of {response} are smaller than the errors of its readings let expect (χ²/ν = {ratio}): these errors may be stated too large, or be common to the readings."),
+            format!("{response} 的残差小于其读数误差的预期（χ²/ν = {ratio}）：误差可能给得过大，或为各读数共有。"),
+        ))
+    } else {
+        None
+    }
+}
+
 /// What a reader must know.
 pub(super) fn remarks(
     experiment: &Experiment,
@@ -753,16 +783,16 @@ pub(super) fn remarks(
                 format!("有 {} 个读数因缺值而未使用。", found.left_out),
             ));
         }
-        for one in &found.responses {
-            if let Some(test) = one.test
-                && !(0.01..=0.99).contains(&test.p_value)
-            {
-                items.push(l.pick(
-                    format!("The residuals of {} are not as large as the errors of its readings let expect: χ²/ν = {}, p = {}.", one.response, significant(test.chi_squared / test.dof, 3), significant(test.p_value, 2)),
-                    format!("{} 的残差与其读数误差的预期不符：χ²/ν = {}，p = {}。", one.response, significant(test.chi_squared / test.dof, 3), significant(test.p_value, 2)),
-                ));
-            }
+        if let Some([first, second]) = &found.swapped {
+            items.push(l.pick(
+                format!("The readings of {first} and {second} look exchanged: with each in the other's place the residuals would be less than a tenth of what they are. Check their labels before using these figures."),
+                format!("{first} 与 {second} 的读数疑似互换：交换后残差不到现在的十分之一。使用结果前请核对其标签。"),
+            ));
         }
+        let columns = &experiment.points.columns;
+        let sampled = columns.iter().any(|column| !column.averages.is_empty());
+        let misfit = |one: &ResponseScatter| misfit(one, found.scatter, sampled, l);
+        items.extend(found.responses.iter().filter_map(misfit));
     }
     if !assumed.is_empty() {
         let names = assumed.join(", ");

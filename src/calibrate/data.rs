@@ -270,13 +270,16 @@ fn averaged(
         let dwelling = dwelling(definer, recording, table)?;
         let (points, lost) = Points::of_dwells(recording, &dwelling);
         for dwell in &lost {
-            let name = dwell.label.clone().unwrap_or_default();
+            let name = match &dwell.label {
+                Some(label) => format!("{label} "),
+                None => String::new(),
+            };
             let line = recording.line(dwell.rows.start);
             let rows = dwell.rows.len();
             let place = stated.key.clone();
             definer.faults.push(
                 Fault::new(RECORDING, place, format!(
-                    "{}: the dwell {name} from line {line} on has too few samples: {rows} before settling is left out", recording.name))
+                    "{}: the dwell {name}from line {line} on has too few samples: {rows} before settling is left out", recording.name))
                     .label("too few samples are left")
                     .help("record longer, shorten `settle`, or lower `fewest`"),
             );

@@ -4,7 +4,8 @@ use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 use super::super::language::Language;
-use super::sections::{cause_words, correlation, said};
+use super::causes::cause_words;
+use super::sections::{correlation, said};
 use super::trouble::in_words;
 use crate::calibrate::{
     Alias, Calibration, Cause, Experiment, Figures, Identifiability, Origin, Plan, Scatter, Scope,

@@ -184,7 +184,7 @@ fn examples(folder: &Path) {
     let mut oven = "time [h],oven [°C],resistance [ohm],room [°C]\n".to_owned();
     for row in 0..120 {
         let time = f64::from(row) * 0.05;
-        let temperature = 30.0 + 5.0 * (time * 1.3).sin();
+        let temperature = 30.0 + 5.0 * libm::sin(time * 1.3);
         let resistance = 1000.0 * (1.0 + 2e-6 * (temperature - 30.0)) + 2e-4 * noise.normal();
         let _ = writeln!(
             oven,
@@ -196,7 +196,7 @@ fn examples(folder: &Path) {
     for pose in 0..30 {
         let (height, turn) = (f64::from(pose) / 15.0 - 0.966, f64::from(pose) * 2.4);
         let radius = (1.0 - height * height).max(0.0).sqrt();
-        let of = [radius * turn.cos(), radius * turn.sin(), height];
+        let of = [radius * libm::cos(turn), radius * libm::sin(turn), height];
         let read: Vec<String> = of
             .iter()
             .map(|a| format!("{:.5}", 9.81 * a * 1.01 + 0.1 + 1e-3 * noise.normal()))

@@ -1,4 +1,8 @@
-"""Times gumption and puts the figures of compare.sh into a table (Markdown on standard output)."""
+"""Times gumption, and puts the figures of compare.sh into a table.
+
+    compare.py measure GUMPTION    one JSON line per model, number of trials and threads
+    compare.py report FOLDER       Markdown from all JSON lines in the folder
+"""
 
 import json
 import os
@@ -17,11 +21,23 @@ MODELS = {
     "twenty": "sum of 20 squares, normal, all r = 0.5",
     "thousand": "sum of 1000 squares, normal",
 }
+GAUGE = "budgets/length/gauge-block-gum-s1-9-5.toml"
 TRIALS = [10**6, 10**7, 10**8]
-RUNS = 5
+#: Least runs of one measurement; the shortest counts.
+RUNS = {10**6: 7, 10**7: 5, 10**8: 1}
+#: Most trials of the long models.
+MOST = {"gauge": 10**8, "twenty": 10**7, "thousand": 10**6}
+PEERS = {
+    "numpy-best": "NumPy, best practice",
+    "numba": "numba",
+    "suncal": "suncal",
+}
 
 
 def budget(model):
+    """The text of a budget file."""
+    if model == "gauge":
+        return pathlib.Path(GAUGE).read_text()
     lines = ['title = "Benchmark"', "[measurand.Y]"]
     if model == "add":
         lines += ['model = "x1 + x2 + x3 + x4"']
@@ -42,73 +58,92 @@ def budget(model):
 
 
 def run(program, file, trials, threads):
-    """Best of several runs: CPU seconds, wall seconds, peak memory in MB."""
-    best = [float("inf")] * 3
-    runs = RUNS if trials <= 10**7 else 2
-    for _ in range(runs):
-        start = time.perf_counter()
-        process = subprocess.Popen(
-            [program, "eval", file, "--json", "--trials", str(trials), "--threads", str(threads)],
-            stdout=subprocess.DEVNULL,
-        )
-        _, status, usage = os.wait4(process.pid, 0)
-        wall = time.perf_counter() - start
-        if status:
-            sys.exit(f"gumption failed on {file}")
-        cpu = usage.ru_utime + usage.ru_stime
-        best = [min(a, b) for a, b in zip(best, (cpu, wall, usage.ru_maxrss / 1024))]
-    return best
+    """CPU seconds, wall seconds and peak memory in MB of one run."""
+    start = time.perf_counter()
+    process = subprocess.Popen(
+        [program, "eval", file, "--json", "--trials", str(trials), "--threads", str(threads)],
+        stdout=subprocess.DEVNULL,
+    )
+    _, status, usage = os.wait4(process.pid, 0)
+    wall = time.perf_counter() - start
+    if status:
+        sys.exit(f"gumption failed on {file}")
+    return usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024
 
 
-def records(folder):
-    for file in sorted(pathlib.Path(folder).glob("*.jsonl")):
-        for line in file.read_text().splitlines():
-            yield json.loads(line)
-
-
-def main():
-    program, folder = sys.argv[1:]
-    others, limits = {}, {}
-    for record in records(folder):
-        if "limit" in record:
-            limits[record["limit"]] = record["per_second"]
-        elif record.get("task") == "throughput":
-            others[record["peer"], record["model"], record["n"]] = record["cpu_median_s"]
-    peers = ["numpy-best", "numba", "suncal"]
-    print("# Performance of the Monte Carlo method\n")
-    print("Written by `benches/compare.sh`; all figures are from one session on one machine")
-    print(f"({platform.machine()}, {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f} at the end).")
-    print("CPU seconds of the whole program, from the file to both coverage intervals, on one thread;")
-    print("a ratio is CPU seconds of the other over those of gumption.\n")
-    absent = [peer for peer in peers if not any(key[0] == peer for key in others)]
-    if absent:
-        print(f"Not installed, hence not compared: {', '.join(absent)}.\n")
-    print("| model | trials | CPU s | wall s | peak MB | 2 threads: wall s | " + " | ".join(peers) + " | of the kernel |")
-    print("|---|--:|--:|--:|--:|--:|" + "--:|" * (len(peers) + 1))
+def measure(program):
     with tempfile.TemporaryDirectory() as work:
         for model in MODELS:
-            file = pathlib.Path("budgets/length/gauge-block-gum-s1-9-5.toml")
-            if model != "gauge":
-                file = pathlib.Path(work) / f"{model}.toml"
-                file.write_text(budget(model))
-            for trials in TRIALS[: 1 if model == "thousand" else 2 if model == "twenty" else 3]:
-                cpu, wall, memory = run(program, file, trials, 1)
-                two = run(program, file, trials, 2)[1]
-                ratios = []
-                for peer in peers:
-                    other = others.get((peer, model, trials))
-                    ratios.append(f"{other / cpu:.1f} ×" if other else "–")
-                kernel = limits.get(model)
-                share = f"{100 * trials / cpu / kernel:.0f} %" if kernel else "–"
-                cells = [model, f"10^{len(str(trials)) - 1}", f"{cpu:.3f}", f"{wall:.3f}", f"{memory:.0f}", f"{two:.3f}"]
-                print("| " + " | ".join(cells + ratios + [share]) + " |")
+            file = pathlib.Path(work) / f"{model}.toml"
+            file.write_text(budget(model))
+            for trials in TRIALS:
+                if trials > MOST.get(model, trials):
+                    continue
+                for threads in (1, 2):
+                    runs = [run(program, file, trials, threads) for _ in range(RUNS[trials])]
+                    cpu, wall, memory = (min(column) for column in zip(*runs))
+                    record = {"gumption": model, "n": trials, "threads": threads}
+                    print(json.dumps(record | {"cpu": cpu, "wall": wall, "memory": memory}), flush=True)
+
+
+def read(folder):
+    """The best of all sessions: gumption's runs, those of the others, rates of the limits."""
+    own, others, limits = {}, {}, {}
+    for file in sorted(pathlib.Path(folder).glob("*.jsonl")):
+        for line in file.read_text().splitlines():
+            record = json.loads(line)
+            if "limit" in record:
+                name = record["limit"]
+                limits[name] = max(limits.get(name, 0), record["per_second"])
+            elif "gumption" in record:
+                key = record["gumption"], record["n"], record["threads"]
+                new = [record[column] for column in ("cpu", "wall", "memory")]
+                own[key] = [min(pair) for pair in zip(own.get(key, new), new)]
+            elif record.get("task") == "throughput":
+                key = record["peer"], record["model"], record["n"]
+                others[key] = min(others.get(key, float("inf")), record["cpu_median_s"])
+    return own, others, limits
+
+
+def row(model, trials, own, others, limits):
+    cpu, wall, memory = own[model, trials, 1]
+    two = own[model, trials, 2][1]
+    cells = [model, f"10^{len(str(trials)) - 1}", f"{cpu:.3f}", f"{wall:.3f}", f"{two:.3f}", f"{memory:.0f}"]
+    for peer in PEERS:
+        other = others.get((peer, model, trials))
+        cells.append(f"{other / cpu:.1f} ×" if other else "–")
+    kernel = limits.get(model)
+    cells.append(f"{100 * trials / cpu / kernel:.0f} %" if kernel else "–")
+    return "| " + " | ".join(cells) + " |"
+
+
+def report(folder):
+    own, others, limits = read(folder)
+    print("# Performance of the Monte Carlo method\n")
+    print("Written by `benches/compare.sh`. All figures are from one session on one machine")
+    print(f"({platform.machine()}, {os.cpu_count()} processors; load average {os.getloadavg()[0]:.1f} at the end), the")
+    print("programs in turns, the shortest of several runs. CPU seconds are of the whole program on one")
+    print("thread, from the start to both coverage intervals; a ratio is CPU seconds of the other over those of")
+    print("gumption. The last column is the rate over that of the same model written by hand on the same")
+    print("kernels, with draws, model and moments but without files, statements and intervals.\n")
+    absent = [text for peer, text in PEERS.items() if not any(key[0] == peer for key in others)]
+    if absent:
+        print(f"Not installed, hence not compared: {', '.join(absent)}.\n")
+    heads = ["model", "trials", "CPU s", "wall s", "wall s, 2 threads", "peak MB", *PEERS.values(), "of the kernel"]
+    print("| " + " | ".join(heads) + " |")
+    print("|---|" + "--:|" * (len(heads) - 1))
+    for model in MODELS:
+        for trials in TRIALS:
+            if (model, trials, 1) in own:
+                print(row(model, trials, own, others, limits))
     print("\n## Models\n")
     for model, text in MODELS.items():
         print(f"- `{model}`: {text}")
     print("\n## Limits of this machine\n")
-    print("Measured in the same session, one thread; kernels draw, evaluate and sum moments, nothing else.\n")
+    print("Million lanes a second, one thread, from the same session.\n")
+    print("| kernel | rate |\n|---|--:|")
     for name, rate in limits.items():
-        print(f"- {name}: {rate / 1e6:.0f} million a second")
+        print(f"| {name} | {rate / 1e6:.1f} |")
 
 
-main()
+{"measure": measure, "report": report}[sys.argv[1]](sys.argv[2])

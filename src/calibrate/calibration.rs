@@ -8,6 +8,7 @@ use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
 use super::scatter::{ResponseScatter, Scatters, weights};
 use super::stack::{Readings, Row, Stack};
+use super::swaps::swapped;
 use super::trouble::Trouble;
 use crate::least_squares::Solution;
 use crate::quantity::Unit;
@@ -32,6 +33,9 @@ pub struct Calibration {
     pub identifiability: Identifiability,
     /// What each omitted effect would shift.
     pub aliases: Vec<Alias>,
+    /// Two points whose readings look exchanged: with them in each other's place the residuals would be a
+    /// tenth or less.
+    pub swapped: Option<[String; 2]>,
     /// Steps of the search; 0 for linear equations.
     pub iterations: usize,
     /// The calibrations of the parts, where the file wants them one by one.
@@ -145,7 +149,10 @@ fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
     let gain = Gain::of_solution(&stack, &solution);
     let causes = causes(&stack, &gain, &scatters, &u);
     let jacobian = stack.jacobian(&solution.parameters, &u);
+    let swapped = swapped(&stack, &solution, &gain, &scatters);
+    let name = |point: usize| experiment.points.names[point].clone();
     Ok(Calibration {
+        swapped: swapped.map(|pair| pair.map(name)),
         figures: figures(experiment, &solution.parameters, causes),
         readings: stack.readings(),
         left_out: stack.left_out,

@@ -5,18 +5,19 @@ use std::path::Path;
 
 use super::define::{Definer, Purpose, entries};
 use super::dwells::Dwelling;
-use super::faults::{KEY, NO_DATA, POSITION, RECORDING, SCHEDULE, UNKNOWN_SYMBOL};
+use super::faults::{KEY, NO_DATA, RECORDING, UNKNOWN_SYMBOL};
 use super::names::Names;
-use super::points::{PointColumn, Points};
-use super::tables::{HoldsWord, PositionsTable, RecordingTable};
+use super::points::Points;
+use super::positions::{expected, optional};
+use super::schedule::scheduled;
+use super::tables::{HoldsWord, RecordingTable};
 use crate::budget::doubts::text_of;
 use crate::budget::table::Stated;
-use crate::budget::values::Cell;
 use crate::budget::{Files, Rejection};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 use crate::recording::{
-    Checks, Finding, Heading, Labels, Recording, Request, Settling, Severity, check, headings,
+    Checks, Finding, Heading, Recording, Request, Settling, Severity, check, headings,
 };
 
 /// The points; `None` after faults of the calibration file.
@@ -51,7 +52,7 @@ fn no_data(purpose: Purpose) -> Fault {
 }
 
 /// Columns of labels that the file refers to.
-fn label_columns(definer: &Definer<'_>) -> Vec<String> {
+pub(super) fn label_columns(definer: &Definer<'_>) -> Vec<String> {
     let table = &definer.source.table;
     let mut labels: Vec<String> = Vec::new();
     let mut add = |name: &str| {
@@ -269,13 +270,16 @@ fn averaged(
         let dwelling = dwelling(definer, recording, table)?;
         let (points, lost) = Points::of_dwells(recording, &dwelling);
         for dwell in &lost {
-            let name = dwell.label.clone().unwrap_or_default();
+            let name = match &dwell.label {
+                Some(label) => format!("{label} "),
+                None => String::new(),
+            };
             let line = recording.line(dwell.rows.start);
             let rows = dwell.rows.len();
             let place = stated.key.clone();
             definer.faults.push(
                 Fault::new(RECORDING, place, format!(
-                    "{}: the dwell {name} from line {line} on has too few samples: {rows} before settling is left out", recording.name))
+                    "{}: the dwell {name}from line {line} on has too few samples: {rows} before settling is left out", recording.name))
                     .label("too few samples are left")
                     .help("record longer, shorten `settle`, or lower `fewest`"),
             );
@@ -367,231 +371,4 @@ fn findings(
         });
     }
     findings
-}
-
-/// Labels that must occur.
-fn expected(table: &PositionsTable) -> Vec<&str> {
-    let optional = optional(table);
-    let at = table.at.iter().flat_map(|named| &named.value.entries);
-    at.map(|(label, _)| label.as_str())
-        .filter(|label| !optional.contains(label))
-        .collect()
-}
-
-/// Labels that may be missing.
-fn optional(table: &PositionsTable) -> HashSet<&str> {
-    let listed = table.optional.iter().flat_map(|list| &list.value);
-    listed.map(|stated| stated.value.as_str()).collect()
-}
-
-/// Adds the quantities that positions give; whether that was possible.
-pub(super) fn positions(definer: &mut Definer<'_>, points: &mut Points) -> bool {
-    let Some(stated) = definer.source.table.positions.as_ref() else {
-        return true;
-    };
-    let table = &stated.value;
-    let before = definer.faults.len();
-    let (Some(column), Some(gives), Some(at)) = (&table.column, &table.gives, &table.at) else {
-        if !table.refused {
-            definer.faults.push(
-                Fault::new(POSITION, stated.key.clone(), "[positions] is not complete")
-                    .label("expected `column`, `gives` and `at`")
-                    .help("write column = \"position\", gives = [\"nx\", \"ny\", \"nz\"], at = { \"x up\" = [1, 0, 0] }"),
-            );
-        }
-        return false;
-    };
-    let count = gives.value.len();
-    for (label, values) in &at.value.entries {
-        if values.value.len() != count {
-            definer.faults.push(
-                Fault::new(
-                    POSITION,
-                    values.span.clone(),
-                    format!(
-                        "\"{label}\" has {} values, `gives` {count} names",
-                        values.value.len()
-                    ),
-                )
-                .label(format!("expected {count} values"))
-                .related(gives.span.clone(), "the names"),
-            );
-        }
-    }
-    let units = given_units(definer, table, count);
-    let Some(labels) = points.labels(&column.value).cloned() else {
-        definer.faults.push(
-            Fault::new(
-                POSITION,
-                column.span.clone(),
-                format!("there is no column {}", column.value),
-            )
-            .label("expected a column of labels"),
-        );
-        return false;
-    };
-    let rows: Option<Vec<&Vec<Stated<f64>>>> = (0..points.len())
-        .map(|row| {
-            let label = labels.text(row);
-            let found = at.value.entries.iter().find(|(name, _)| name == label);
-            if found.is_none() {
-                definer
-                    .faults
-                    .push(unknown_position(label, &points.names[row], table, stated));
-            }
-            found.map(|(_, values)| &values.value)
-        })
-        .collect();
-    let (Some(rows), Some(units)) = (rows, units) else {
-        return false;
-    };
-    if definer.faults.len() > before {
-        return false;
-    }
-    for (place, (name, unit)) in gives.value.iter().zip(units).enumerate() {
-        points.columns.push(PointColumn {
-            name: name.value.clone(),
-            unit,
-            values: rows.iter().map(|values| values[place].value).collect(),
-            averages: Vec::new(),
-        });
-    }
-    true
-}
-
-fn given_units(
-    definer: &mut Definer<'_>,
-    table: &PositionsTable,
-    count: usize,
-) -> Option<Vec<Unit>> {
-    let Some(units) = &table.units else {
-        return Some(vec![Unit::one(); count]);
-    };
-    if units.value.len() != count {
-        definer.faults.push(
-            Fault::new(
-                POSITION,
-                units.span.clone(),
-                format!("`units` has {} entries, `gives` {count}", units.value.len()),
-            )
-            .label(format!("expected {count} units")),
-        );
-        return None;
-    }
-    units.value.iter().map(|unit| definer.unit(unit)).collect()
-}
-
-fn unknown_position(
-    label: &str,
-    point: &str,
-    table: &PositionsTable,
-    stated: &Stated<PositionsTable>,
-) -> Fault {
-    let known: Vec<&str> = table
-        .at
-        .iter()
-        .flat_map(|named| &named.value.entries)
-        .map(|(name, _)| name.as_str())
-        .collect();
-    let fault = Fault::new(
-        POSITION,
-        stated.key.clone(),
-        format!("the position \"{label}\" of {point} is not known"),
-    )
-    .label("the known positions");
-    match nearest(label, known.iter().copied()) {
-        Some(near) => fault.help(format!("did you mean \"{near}\"?")),
-        None => fault.help(format!("the positions are {}", known.join(", "))),
-    }
-}
-
-/// The points of a schedule in the file.
-fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Points> {
-    let table = &definer.source.table;
-    let stated = table.schedule.as_ref()?;
-    let before = definer.faults.len();
-    let mut points = Points::default();
-    let mut length: Option<(usize, std::ops::Range<usize>)> = None;
-    for (key, list) in entries(&table.schedule) {
-        let (first, place) = length.get_or_insert((list.value.len(), list.span.clone()));
-        if list.value.len() != *first {
-            definer.faults.push(
-                Fault::new(
-                    SCHEDULE,
-                    list.span.clone(),
-                    format!(
-                        "{key} has {} points, the first column {first}",
-                        list.value.len()
-                    ),
-                )
-                .label(format!("expected {first}"))
-                .related(place.clone(), "the first column"),
-            );
-            continue;
-        }
-        let heading = Heading::read(key, &definer.units);
-        let unit = match heading.unit {
-            Ok(unit) => unit.unwrap_or_else(Unit::one),
-            Err(error) => {
-                definer
-                    .faults
-                    .push(Fault::from(error).moved(|_| list.key.clone()));
-                continue;
-            }
-        };
-        let numbers: Option<Vec<f64>> = list
-            .value
-            .iter()
-            .map(|cell| match cell.value {
-                Cell::Number(number) => Some(number),
-                Cell::Text(_) => None,
-            })
-            .collect();
-        let is_label = label_columns(definer).contains(&heading.name);
-        match numbers {
-            Some(values) if !is_label => points.columns.push(PointColumn {
-                name: heading.name,
-                unit,
-                values,
-                averages: Vec::new(),
-            }),
-            _ => points.labels.push((heading.name, labels(&list.value))),
-        }
-    }
-    let count = length.map_or(0, |(count, _)| count);
-    points.names = (1..=count).map(|point| format!("point {point}")).collect();
-    for (role, place) in &names.columns {
-        if points.column(role).is_none() {
-            definer.faults.push(
-                Fault::new(
-                    SCHEDULE,
-                    stated.key.clone(),
-                    format!("the schedule has no column {role}"),
-                )
-                .label("the schedule")
-                .related(place.clone(), "needed here")
-                .help(format!(
-                    "add \"{role} [unit]\" = […] with one value for each point"
-                )),
-            );
-        }
-    }
-    (definer.faults.len() == before).then_some(points)
-}
-
-fn labels(cells: &[Stated<Cell>]) -> Labels {
-    let mut labels = Labels::default();
-    for cell in cells {
-        let text = match &cell.value {
-            Cell::Text(text) => text.clone(),
-            Cell::Number(number) => number.to_string(),
-        };
-        let level = labels.levels.iter().position(|other| *other == text);
-        let level = level.unwrap_or_else(|| {
-            labels.levels.push(text);
-            labels.levels.len() - 1
-        });
-        labels.of_row.push(u32::try_from(level).unwrap_or(u32::MAX));
-    }
-    labels
 }

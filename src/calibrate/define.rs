@@ -7,13 +7,11 @@ use std::path::Path;
 
 use super::data;
 use super::doubts;
-use super::experiment::{
-    Experiment, FunctionResult, Heading, Input, Observed, Omitted, Parameter, Scatter, Weights,
-    Words,
-};
-use super::faults::{NO_EQUATIONS, NO_PARAMETERS, RESULT, TERM, UNIT};
+use super::experiment::{Experiment, Heading, Input, Observed, Parameter, Scatter, Weights, Words};
+use super::faults::{NO_EQUATIONS, NO_PARAMETERS, UNIT};
 use super::names::{Kind, Names};
 use super::points::Points;
+use super::positions;
 use super::source::{self, Source};
 use super::tables::{CalibrationTable, ScatterWord, WeightsWord};
 use crate::budget::Rejection;
@@ -162,7 +160,7 @@ impl Definer<'_> {
         let Some(mut points) = data::points(self, &names, folder, purpose)? else {
             return Ok(None);
         };
-        if !data::positions(self, &mut points) {
+        if !positions::add(self, &mut points) {
             return Ok(None);
         }
         Ok(self.compiled(&names, points, folder))
@@ -311,133 +309,6 @@ impl Definer<'_> {
         )
     }
 
-    fn parameters(
-        &mut self,
-        columns: &[Quantity],
-        doubts: &doubts::Doubts,
-        constants: &[Symbol],
-        responses: &[Quantity],
-    ) -> Option<Vec<Parameter>> {
-        let stated = entries(&self.source.table.parameter);
-        let mut known: Vec<Symbol> = constants.to_vec();
-        let others = columns.iter().cloned().chain(
-            doubts
-                .inputs
-                .iter()
-                .map(|input| quantity(&input.name, &input.unit)),
-        );
-        known.extend(others.map(symbol));
-        let mut units: Vec<Option<Unit>> = Vec::new();
-        for (name, entry) in stated {
-            let unit = match (&entry.value.unit, &entry.value.like) {
-                (Some(text), _) => Some(self.unit(text)?),
-                (None, Some(like)) => Some(self.unit_like(like, &known, responses)?),
-                (None, None) => doubts
-                    .priors
-                    .iter()
-                    .find(|p| p.0 == *name)
-                    .map(|p| p.1.clone()),
-            };
-            if let Some(unit) = &unit {
-                known.push(symbol(quantity(name, unit)));
-            }
-            units.push(unit);
-        }
-        let open: Vec<String> = stated
-            .iter()
-            .zip(&units)
-            .filter(|(_, unit)| unit.is_none())
-            .map(|((name, _), _)| name.clone())
-            .collect();
-        let found = self.inferred(&open, &known, responses);
-        let mut parameters = Vec::new();
-        for ((name, entry), unit) in stated.iter().zip(units) {
-            let inferred = || {
-                let place = open.iter().position(|other| other == name)?;
-                found[place].clone()
-            };
-            // Where nothing tells the unit, it is one; the equation then says what does not fit.
-            let unit = unit.or_else(inferred).unwrap_or_else(Unit::one);
-            let start = match &entry.value.start {
-                Some(start) => Some(self.amount(start, &unit)?),
-                None => None,
-            };
-            let known = doubts.priors.iter().find(|p| p.0 == *name).map(|p| p.2);
-            parameters.push(Parameter {
-                name: name.clone(),
-                description: words(&entry.value.description, &entry.value.description_zh),
-                start: start.or(known.map(|prior| prior.value)),
-                unit,
-                known,
-            });
-        }
-        Some(parameters)
-    }
-
-    /// Units that parameters have because they are factors of a term of an equation.
-    fn inferred(
-        &self,
-        open: &[String],
-        known: &[Symbol],
-        responses: &[Quantity],
-    ) -> Vec<Option<Unit>> {
-        let mut found = vec![None; open.len()];
-        let table = &self.source.table;
-        let shared = table
-            .model
-            .as_ref()
-            .map_or("", |model| model.value.as_str());
-        for text in table.equations.iter().flat_map(|list| &list.value) {
-            let Ok(outline) = outline(&format!("{shared}\n{}", text.value), &self.units) else {
-                continue;
-            };
-            let gives = outline.gives.as_ref().map(|(name, _)| name.as_str());
-            let Some(response) = responses.iter().find(|r| Some(r.name.as_str()) == gives) else {
-                continue;
-            };
-            let units = outline.parameter_units(open, known, &response.unit, &self.units);
-            for (own, unit) in found.iter_mut().zip(units) {
-                if own.is_none() {
-                    *own = unit;
-                }
-            }
-        }
-        found
-    }
-
-    /// A unit as a formula of quantities: that of `U/omega`.
-    pub(super) fn unit_like(
-        &mut self,
-        like: &Stated<String>,
-        known: &[Symbol],
-        responses: &[Quantity],
-    ) -> Option<Unit> {
-        let mut symbols: Vec<Symbol> = known.to_vec();
-        for response in responses {
-            if !symbols.iter().any(|symbol| symbol.name == response.name) {
-                symbols.push(symbol(response.clone()));
-            }
-        }
-        let text = format!("unit_sought = unit_sought_factor * (1 / ({}))", like.value);
-        let unknown = ["unit_sought_factor".to_owned()];
-        let found = outline(&text, &self.units).ok().and_then(|outline| {
-            let units = outline.parameter_units(&unknown, &symbols, &Unit::one(), &self.units);
-            units.into_iter().next().flatten()
-        });
-        if found.is_none() {
-            self.faults.push(
-                Fault::new(
-                    UNIT,
-                    like.span.clone(),
-                    format!("the unit of `{}` cannot be found", like.value),
-                )
-                .label("expected a product or quotient of columns and inputs")
-                .help("state the unit itself: unit = \"mV/(deg/s)\""),
-            );
-        }
-        found
-    }
-
     /// A stated unit.
     pub(super) fn unit(&mut self, stated: &Stated<String>) -> Option<Unit> {
         match self.units.parse(&stated.value) {
@@ -521,210 +392,6 @@ impl Definer<'_> {
         self.faults.extend(faults);
     }
 
-    fn omitted(
-        &mut self,
-        equations: &Equations,
-        symbols: &[Quantity],
-        constants: &[Symbol],
-    ) -> Vec<Omitted> {
-        let table = &self.source.table;
-        let shared = table.model.as_ref().map(equation_text);
-        let mut all = Vec::new();
-        for (name, entry) in entries(&table.omitted) {
-            // What is estimated, or known with an uncertainty, is no longer left out.
-            if symbols.iter().any(|symbol| symbol.name == *name)
-                || !self.has_columns(entry, symbols)
-            {
-                continue;
-            }
-            let found = self.omitted_one(name, entry, equations, symbols, constants, &shared);
-            all.extend(found);
-        }
-        all
-    }
-
-    /// Whether the recording has what a procedure's omitted term needs; a term of the file itself must
-    /// say what it needs.
-    fn has_columns(
-        &self,
-        entry: &Stated<super::tables::OmittedTable>,
-        symbols: &[Quantity],
-    ) -> bool {
-        let term = entry.value.term.as_ref();
-        if !self.source.is_base(&entry.key) {
-            return true;
-        }
-        let missing = |name: &String| {
-            !symbols.iter().any(|symbol| symbol.name == *name)
-                && entries(&self.source.table.column)
-                    .iter()
-                    .any(|(other, _)| other == name)
-        };
-        let needs = term.and_then(|term| outline(&term.value, &self.units).ok());
-        needs.is_none_or(|outline| !outline.needs.iter().any(|(name, _)| missing(name)))
-    }
-
-    fn omitted_one(
-        &mut self,
-        name: &str,
-        entry: &Stated<super::tables::OmittedTable>,
-        equations: &Equations,
-        symbols: &[Quantity],
-        constants: &[Symbol],
-        shared: &Option<EquationText<'_>>,
-    ) -> Option<Omitted> {
-        let fault =
-            |message: String, help: &str| Fault::new(TERM, entry.key.clone(), message).help(help);
-        let Some(term) = &entry.value.term else {
-            if !entry.value.refused {
-                self.faults.push(fault(
-                    format!("the omitted effect {name} has no `term`"),
-                    "write what it adds to the equation: term = \"k2*omega^2\"",
-                ));
-            }
-            return None;
-        };
-        let responses = equations.responses();
-        let response = match &entry.value.response {
-            Some(stated) => responses.iter().position(|r| r.name == stated.value),
-            None if responses.len() == 1 => Some(0),
-            None => None,
-        };
-        let Some(response) = response else {
-            let known: Vec<&str> = responses.iter().map(|r| r.name.as_str()).collect();
-            self.faults.push(fault(
-                format!("to which equation does the omitted effect {name} belong?"),
-                &format!("write response = \"…\" with one of {}", known.join(", ")),
-            ));
-            return None;
-        };
-        let result = &responses[response];
-        let line = format!("{} = {}", result.name, term.value);
-        let known: Vec<Symbol> = constants
-            .iter()
-            .cloned()
-            .chain(
-                symbols
-                    .iter()
-                    .filter(|s| s.name != result.name)
-                    .cloned()
-                    .map(symbol),
-            )
-            .collect();
-        let unit = match (&entry.value.unit, &entry.value.like) {
-            (Some(text), _) => self.unit(text)?,
-            (None, Some(like)) => self.unit_like(like, &known, responses)?,
-            (None, None) => {
-                let before = shared.as_ref().map_or("", |shared| shared.text);
-                let outline = outline(&format!("{before}\n{line}"), &self.units).ok();
-                let open = [name.to_owned()];
-                outline
-                    .and_then(|o| {
-                        let units = o.parameter_units(&open, &known, &result.unit, &self.units);
-                        units.into_iter().next().flatten()
-                    })
-                    .unwrap_or_else(Unit::one)
-            }
-        };
-        let typical = match &entry.value.typical {
-            Some(typical) => Some(self.amount(typical, &unit)?.abs()),
-            None => None,
-        };
-        let mut all = symbols.to_vec();
-        all.push(quantity(name, &unit));
-        let text = EquationText {
-            text: &line,
-            at: term.span.clone(),
-        };
-        let compiled = Equations::compile_after(
-            shared.as_ref(),
-            &[text],
-            &all,
-            responses,
-            constants,
-            &self.units,
-        );
-        match compiled {
-            Ok(equation) => Some(Omitted {
-                name: name.to_owned(),
-                description: words(&entry.value.description, &entry.value.description_zh),
-                term: term.value.clone(),
-                unit,
-                typical,
-                response,
-                equation,
-            }),
-            Err(faults) => {
-                let placed = faults
-                    .into_iter()
-                    .map(|fault| fault.moved(|_| term.span.clone()));
-                self.faults.extend(placed);
-                None
-            }
-        }
-    }
-
-    fn results(
-        &mut self,
-        parameters: &[Parameter],
-        inputs: &[Input],
-        constants: &[Symbol],
-    ) -> Vec<FunctionResult> {
-        let symbols: Vec<Quantity> = parameters
-            .iter()
-            .map(|p| quantity(&p.name, &p.unit))
-            .chain(inputs.iter().map(|i| quantity(&i.name, &i.unit)))
-            .collect();
-        let known: Vec<Symbol> = constants
-            .iter()
-            .cloned()
-            .chain(symbols.iter().cloned().map(symbol))
-            .collect();
-        let mut results = Vec::new();
-        for (name, entry) in entries(&self.source.table.result) {
-            let Some(model) = &entry.value.model else {
-                if !entry.value.refused {
-                    self.faults.push(
-                        Fault::new(
-                            RESULT,
-                            entry.key.clone(),
-                            format!("the result {name} has no `model`"),
-                        )
-                        .help("write its formula: model = \"sqrt(K1^2 + K2^2)\""),
-                    );
-                }
-                continue;
-            };
-            let unit = match (&entry.value.unit, &entry.value.like) {
-                (Some(text), _) => self.unit(text),
-                (None, Some(like)) => self.unit_like(like, &known, &[]),
-                (None, None) => Some(Unit::one()),
-            };
-            let Some(unit) = unit else { continue };
-            let line = format!("{name} = {}", model.value);
-            let text = EquationText {
-                text: &line,
-                at: model.span.clone(),
-            };
-            let response = [quantity(name, &unit)];
-            match Equations::compile(&[text], &symbols, &response, constants, &self.units) {
-                Ok(equation) => results.push(FunctionResult {
-                    name: name.clone(),
-                    description: words(&entry.value.description, &entry.value.description_zh),
-                    unit,
-                    equation,
-                }),
-                Err(faults) => {
-                    let placed = faults
-                        .into_iter()
-                        .map(|fault| fault.moved(|_| model.span.clone()));
-                    self.faults.extend(placed);
-                }
-            }
-        }
-        results
-    }
-
     fn heading(&self) -> Heading {
         let table = &self.source.table;
         let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|s| s.value.clone());
@@ -798,7 +465,7 @@ pub(super) fn quantity(name: &str, unit: &Unit) -> Quantity {
 }
 
 /// A symbol for the inference of units, where its place does not matter.
-fn symbol(quantity: Quantity) -> Symbol {
+pub(super) fn symbol(quantity: Quantity) -> Symbol {
     Symbol {
         name: quantity.name,
         unit: quantity.unit,

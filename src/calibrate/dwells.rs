@@ -21,6 +21,28 @@ pub struct Dwelling {
     pub settling: Settling,
 }
 
+impl Dwelling {
+    /// Rows of the shortest dwell of which enough are left after settling; shorter rests of a stimulus are on
+    /// the way to the next one.
+    fn shortest(&self, recording: &Recording) -> usize {
+        let Settling { settle, fewest, .. } = self.settling;
+        let time = self.time.as_ref().and_then(|role| recording.numbers(role));
+        let interval = match time {
+            None => 1.0,
+            Some(times) => {
+                let mut intervals: Vec<f64> = times.windows(2).map(|t| t[1] - t[0]).collect();
+                intervals.sort_by(f64::total_cmp);
+                intervals.get(intervals.len() / 2).copied().unwrap_or(1.0)
+            }
+        };
+        let settling = (settle / interval).ceil();
+        match settling.is_finite() && settling < recording.rows() as f64 {
+            true => fewest + settling.max(0.0) as usize,
+            false => fewest,
+        }
+    }
+}
+
 impl Points {
     /// The averages of the dwells of a recording, and the dwells of which too few samples are left.
     pub fn of_dwells(recording: &Recording, dwelling: &Dwelling) -> (Points, Vec<Dwell>) {
@@ -37,7 +59,7 @@ impl Points {
             Some(stimulus) if labels.is_empty() => by_steps(
                 stimulus,
                 &Steps {
-                    fewest: dwelling.settling.fewest,
+                    fewest: dwelling.shortest(recording),
                     tolerance: dwelling.tolerance,
                 },
             ),

@@ -8,13 +8,15 @@
 //! | `tables` | every table of a calibration file |
 //! | [`procedure`] | the procedures of the library: calibration files themselves |
 //! | `source` | the tables of a file over those of its procedure |
-//! | `names`, `data`, `doubts`, `define` | from tables to a checked experiment, or all faults |
+//! | `define` | from tables to a checked experiment, or all faults |
+//! | `names`, `parameters`, `doubts`, `extras` | what names are; units; inputs; omitted effects and results |
+//! | `data`, `positions`, `schedule` | where the points come from |
 //! | `points`, `dwells` | the points of an experiment: rows, or averages of dwells |
 //! | `experiment` | the checked experiment |
 //! | `stack` | its readings as a problem of least squares |
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `causes` | what makes the coefficients uncertain |
-//! | `identify` | rank, condition, aliases |
+//! | `identify`, `swaps` | rank, condition, aliases; readings that look exchanged |
 //! | `calibration`, `plan` | the results, after and before measuring |
 //! | `budget` | coefficients as measurands of a budget file |
 //!
@@ -33,16 +35,21 @@ mod define;
 mod doubts;
 mod dwells;
 mod experiment;
+mod extras;
 pub mod faults;
 mod gain;
 mod identify;
 mod names;
+mod parameters;
 mod plan;
 mod points;
+mod positions;
 pub mod procedure;
 mod scatter;
+mod schedule;
 mod source;
 mod stack;
+mod swaps;
 pub(crate) mod tables;
 #[cfg(test)]
 mod tests;

@@ -5,7 +5,7 @@ mod pages;
 
 use gumption::budget::KeyRow;
 use gumption::fault::{Code, nearest};
-use gumption::{budget, distribution, model, quantity};
+use gumption::{budget, calibrate, distribution, equations, model, quantity, recording};
 
 use super::concepts::CONCEPTS;
 use super::{Outcome, output};
@@ -335,6 +335,9 @@ fn codes() -> impl Iterator<Item = &'static Code> {
         .iter()
         .chain(model::faults::CODES)
         .chain(quantity::faults::CODES)
+        .chain(recording::faults::CODES)
+        .chain(equations::faults::CODES)
+        .chain(calibrate::faults::CODES)
 }
 
 #[cfg(test)]

@@ -21,9 +21,10 @@ pub struct Dwell {
 pub struct Steps {
     /// The fewest rows of a dwell.
     pub fewest: usize,
-    /// How far apart the values of the stimulus in one dwell may be, in its unit. `None`: four times
-    /// the median range of `fewest` successive values, which supposes that it is at rest most of the
-    /// time; 0 for a stimulus that was commanded.
+    /// How far apart the values of the stimulus in one dwell may be, in its unit. `None`: twelve standard
+    /// deviations, as the median difference of successive values tells them, or four times the median
+    /// range of `fewest` (at most ten) successive values, if that is more. This supposes that it is at
+    /// rest most of the time; 0 for a stimulus that was commanded.
     pub tolerance: Option<f64>,
 }
 
@@ -126,12 +127,17 @@ pub fn by_steps(stimulus: &[f64], steps: &Steps) -> Vec<Dwell> {
     dwells
 }
 
-fn usual(stimulus: &[f64], window: usize) -> f64 {
-    let ranges = stimulus.windows(window.max(2)).map(|values| {
-        let present = || values.iter().copied().filter(|x| !x.is_nan());
-        present().fold(f64::NEG_INFINITY, f64::max) - present().fold(f64::INFINITY, f64::min)
-    });
-    4.0 * quantile(ranges.filter(|range| range.is_finite()).collect(), 0.5)
+fn usual(stimulus: &[f64], fewest: usize) -> f64 {
+    /// Twelve standard deviations over the median absolute difference of two normal values.
+    const OF_DIFFERENCE: f64 = 12.0 / 0.954;
+    let median_range = |window: usize| {
+        let ranges = stimulus.windows(window).map(|values| {
+            let present = || values.iter().copied().filter(|x| !x.is_nan());
+            present().fold(f64::NEG_INFINITY, f64::max) - present().fold(f64::INFINITY, f64::min)
+        });
+        quantile(ranges.filter(|range| range.is_finite()).collect(), 0.5)
+    };
+    (OF_DIFFERENCE * median_range(2)).max(4.0 * median_range(fewest.clamp(2, 10)))
 }
 
 /// From every row on, the longest stretch whose values are no farther apart than the tolerance.

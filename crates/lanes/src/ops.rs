@@ -222,6 +222,22 @@ pub fn axpy(level: Level, s: f64, a: &Block, out: &mut Block) {
     })
 }
 
+/// `out` ← Σ wₖ·aₖ over as many as there are of both, summed in their order, each step with one rounding.
+pub fn combine(level: Level, weights: &[f64], a: &[Block], out: &mut Block) {
+    /// Sums that are held at a time.
+    const HELD: usize = 64;
+    dispatch!(level, _ => for (row, out) in out.0.as_chunks_mut::<HELD>().0.iter_mut().enumerate() {
+        let mut sums = [0.0; HELD];
+        for (weight, a) in weights.iter().zip(a) {
+            let a = &a.0.as_chunks::<HELD>().0[row];
+            for lane in 0..HELD {
+                sums[lane] = f64::mul_add(a[lane], *weight, sums[lane]);
+            }
+        }
+        *out = sums;
+    })
+}
+
 /// `a` where the condition is true (not 0), `b` where it is 0, NaN where it is NaN.
 pub fn select(level: Level, condition: &Block, a: &Block, b: &Block, out: &mut Block) {
     #[inline(always)]

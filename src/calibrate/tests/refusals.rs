@@ -166,6 +166,26 @@ fn missing_readings_are_left_out_and_counted() {
 }
 
 #[test]
+fn exchanged_labels_are_found() {
+    let good = "position,U [mV]\nup,1.001\ndown,-0.999\nlevel,0.002\nup,1.000\ndown,-1.001\nlevel,-0.001\nup,0.999\ndown,-1.002\n";
+    assert_eq!(
+        calibrate(&experiment(POSITIONS, good))
+            .expect("figures")
+            .swapped,
+        None
+    );
+    let bad = good
+        .replacen("up,", "x,", 1)
+        .replacen("down,", "up,", 1)
+        .replacen("x,", "down,", 1);
+    let found = calibrate(&experiment(POSITIONS, &bad)).expect("figures");
+    assert_eq!(
+        found.swapped,
+        Some(["line 2".to_owned(), "line 3".to_owned()])
+    );
+}
+
+#[test]
 fn saturated_samples_are_warned_of() {
     let mut csv = String::from("position,U [mV]\n");
     for position in ["up", "down", "level"] {

@@ -264,3 +264,62 @@ fn stacked(above: DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
     out.rows_mut(above.nrows(), below.nrows()).copy_from(below);
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(prior: &Prior, residuals: &[f64]) -> Result<Baseline, Refusal> {
+        let n = residuals.len();
+        let jacobian = DMatrix::from_fn(n, 2, |i, j| if j == 0 { 1.0 } else { i as f64 });
+        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(n, 4.0)));
+        let residuals = DVector::from_row_slice(residuals);
+        Baseline::new(&jacobian, &residuals, &noise, prior)
+    }
+
+    #[test]
+    fn a_line_is_absorbed_and_a_bend_is_left() {
+        let baseline = line(&Prior::none(2), &[1.0, 3.0, 5.0, 7.0]).unwrap();
+        assert!((baseline.correction() - DVector::from_row_slice(&[1.0, 2.0])).norm() < 1e-12);
+        assert!(baseline.chi_squared() < 1e-20);
+        assert_eq!(baseline.dof(), 2);
+        let bend = DVector::from_row_slice(&[1.0, -1.0, -1.0, 1.0]);
+        assert!((baseline.visibility(&bend) - 1.0).abs() < 1e-12);
+        // An effect that is a slope: adopting it takes all of it from the parameter.
+        let slope = DMatrix::from_column_slice(4, 1, &[0.0, 1.0, 2.0, 3.0]);
+        assert!(baseline.project(&slope).norm() < 1e-12);
+        let gain = baseline.gain(&slope);
+        assert!((gain[(1, 0)] + 1.0).abs() < 1e-12 && gain[(0, 0)].abs() < 1e-12);
+    }
+
+    #[test]
+    fn knowledge_beforehand_counts_as_rows() {
+        let prior = Prior {
+            jacobian: DMatrix::from_row_slice(1, 2, &[0.0, 1e6]),
+            residuals: DVector::zeros(1),
+        };
+        let baseline = line(&prior, &[0.0, 2.0, 4.0]).unwrap();
+        // The slope is held at zero, and the recording disagrees.
+        assert!(baseline.correction()[1].abs() < 1e-9);
+        assert!((baseline.chi_squared() - 2.0).abs() < 1e-6);
+        assert_eq!(baseline.dof(), 2);
+    }
+
+    #[test]
+    fn what_cannot_be_answered_is_refused() {
+        let short = line(&Prior::none(2), &[1.0, 2.0]);
+        assert_eq!(
+            short.err(),
+            Some(Refusal::NoFreedom {
+                rows: 2,
+                parameters: 2
+            })
+        );
+        let bad = line(&Prior::none(2), &[1.0, f64::NAN, 2.0]);
+        assert_eq!(bad.err(), Some(Refusal::NotFinite { row: 1 }));
+        let jacobian = DMatrix::from_element(4, 2, 1.0);
+        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(4, 1.0)));
+        let twice = Baseline::new(&jacobian, &DVector::zeros(4), &noise, &Prior::none(2));
+        assert_eq!(twice.err(), Some(Refusal::Dependent { parameter: 1 }));
+    }
+}

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use nalgebra::DMatrix;
 
 use super::closed_form::Scale;
-use super::findings::{Examination, Invisible, Slot, State, Verdict};
+use super::confusion::confusions;
+use super::findings::{Examination, Fitted, Invisible, Slot, State, Verdict};
 use super::fit::fitted;
 use super::guard::{leftover, margin, stands};
 use super::question::{Question, Refusal, Shape};
@@ -60,8 +61,11 @@ pub fn examine(
     };
     Ok(Examination {
         verdict,
+        fitted: (!named.is_empty()).then(|| Fitted {
+            confusions: confusions(&space, question, named, &slots),
+            ..fitted(&space, question, &set)
+        }),
         slots,
-        fitted: (!named.is_empty()).then(|| fitted(&space, question, &set)),
         explained,
         generic_probability,
         margin,

@@ -20,15 +20,32 @@
 //! | `noise` | covariance matrices of the rows and how well they are known |
 //! | `baseline` | whitening, projection, what the data say of the declared parameters |
 //! | `question` | candidates, atoms, settings: what is asked |
-//! | `examine` | detection, naming, verdict |
+//! | `generic` | competitors without a name |
 //! | `findings` | verdict, slots, alternatives: what is answered |
+//! | `examine` | the examination from end to end |
+//! | `closed_form` | Bayes factors |
+//! | `space` | atoms as directions in the space of z, and sets of them |
+//! | `null` | simulated recordings that the model alone explains |
+//! | `gate` | the test whether an effect is left |
+//! | `pairs` | two effects that mask each other |
+//! | `search` | the set of effects that explains a recording |
+//! | `slots` | which candidates could stand for each effect |
+//! | `fit` | estimates, strength, distance to rivals |
+//! | `guard` | effects outside the catalogue that look like what is in it |
+//! | `confusion` | how often names are confused, by simulation |
 //! | `locate` | where the mismatch sits |
 //! | `plan` | without data: what an experiment can see and tell apart |
 //! | `separate` | which extra measurement tells rivals apart |
 //! | `omitted` | what effects that are not adopted do to the uncertainty |
 
+#![allow(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "negated comparisons turn NaN away"
+)]
+
 mod baseline;
 mod closed_form;
+mod confusion;
 mod examine;
 mod findings;
 mod fit;

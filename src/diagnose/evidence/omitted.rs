@@ -26,3 +26,38 @@ pub fn omitted(baseline: &Baseline, columns: &DMatrix<f64>, typical: f64) -> DVe
         (0..baseline.parameters()).map(|j| gain.row(j).transpose().dot(&spread.column(j)).sqrt()),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::baseline::Prior;
+    use super::super::noise::{Covariance, Noise};
+    use super::*;
+
+    /// Four positions, bias and scale and level fitted: half of a quadratic error sits in the bias.
+    fn four_points(sigma: f64) -> Baseline {
+        let design = [
+            [1.0, 0.0, 1.0],
+            [1.0, 1.0, 0.0],
+            [1.0, 0.0, -1.0],
+            [1.0, -1.0, 0.0],
+        ];
+        let jacobian = DMatrix::from_fn(4, 3, |i, j| design[i][j]);
+        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(
+            4,
+            sigma * sigma,
+        )));
+        Baseline::new(&jacobian, &DVector::zeros(4), &noise, &Prior::none(3)).unwrap()
+    }
+
+    #[test]
+    fn what_the_recording_does_not_see_costs_its_full_size() {
+        let squared = DMatrix::from_column_slice(4, 1, &[0.0, 1.0, 0.0, 1.0]);
+        // Noise that hides everything: u(K0) is half of ±20.
+        let u = omitted(&four_points(1e6), &squared, 20.0);
+        assert!((u[0] - 10.0).abs() < 1e-6 && u[1].abs() < 1e-9);
+        // σ = 3: ‖A‖² = 1/9, from the contrast (−½, ½, −½, ½).
+        let u = omitted(&four_points(3.0), &squared, 20.0);
+        let expected = 0.5 * 20.0 / (1.0 + 400.0 / 9.0_f64).sqrt();
+        assert!((u[0] - expected).abs() < 1e-9);
+    }
+}

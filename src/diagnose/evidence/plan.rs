@@ -121,7 +121,7 @@ fn pair(block: &Block, rival: &Block) -> Pair {
         .column_iter()
         .map(|column| {
             let along = rival.basis.tr_mul(&column);
-            let left = &column - &rival.basis * along;
+            let left = column - &rival.basis * along;
             (column.norm(), left.norm())
         })
         .min_by(|a, b| (a.1 / a.0).total_cmp(&(b.1 / b.0)))

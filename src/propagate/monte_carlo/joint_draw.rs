@@ -174,7 +174,8 @@ pub(super) struct Scratch {
 /// How the members of a group are drawn.
 struct JointSampler {
     members: Vec<usize>,
-    factor: DMatrix<f64>,
+    /// The rows of the triangular factor, up to the diagonal.
+    rows: Vec<Vec<f64>>,
     law: JointLaw,
 }
 
@@ -213,7 +214,7 @@ impl JointSampler {
         };
         JointSampler {
             members: group.members.clone(),
-            factor: lower_factor(correlation),
+            rows: rows(&lower_factor(correlation)),
             law,
         }
     }
@@ -234,10 +235,7 @@ impl JointSampler {
         }
         for (i, &member) in self.members.iter().enumerate() {
             let error = &mut errors[member];
-            ops::fill(level, 0.0, error);
-            for (k, normal) in normals.iter().enumerate().take(i + 1) {
-                ops::axpy(level, self.factor[(i, k)], normal, error);
-            }
+            ops::combine(level, &self.rows[i], normals, error);
             match &self.law {
                 JointLaw::Normal(u) => error.0.iter_mut().for_each(|z| *z *= u[i]),
                 JointLaw::StudentT { scale, .. } => {
@@ -256,6 +254,11 @@ impl JointSampler {
             }
         }
     }
+}
+
+fn rows(factor: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    let row = |i: usize| (0..=i).map(|k| factor[(i, k)]).collect();
+    (0..factor.nrows()).map(row).collect()
 }
 
 /// √(ν/χ²) with χ² = 2 G(ν/2, 1); 1 for infinitely many degrees of freedom.

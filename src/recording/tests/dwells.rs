@@ -316,3 +316,34 @@ fn drifts_scatter_as_they_say() {
         assert!((below / runs - 0.3).abs() < 0.1, "{}", below / runs);
     }
 }
+
+#[test]
+fn dwells_of_any_length_by_a_measured_stimulus() {
+    // Steps of 60 rows with few rows between them, and noise that a short window does not show in full.
+    let noise = normals(17, 420);
+    let stimulus: Vec<f64> = noise
+        .iter()
+        .enumerate()
+        .map(|(row, e)| {
+            let (level, place) = (row / 60, row % 60);
+            let ramp = if place < 6 {
+                5.0 * (place as f64 - 6.0)
+            } else {
+                0.0
+            };
+            100.0 * level as f64 + ramp + 0.002 * e
+        })
+        .collect();
+    for fewest in [2, 12, 40] {
+        let steps = Steps {
+            fewest,
+            tolerance: None,
+        };
+        let dwells = by_steps(&stimulus, &steps);
+        assert_eq!(dwells.len(), 7, "{fewest}: {dwells:?}");
+        assert!(
+            dwells.iter().all(|dwell| dwell.rows.len() == 54),
+            "{dwells:?}"
+        );
+    }
+}

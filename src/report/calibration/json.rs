@@ -4,7 +4,8 @@ use nalgebra::DMatrix;
 use serde_json::{Value, json};
 
 use super::super::language::Language;
-use super::sections::{cause_words, correlation, said};
+use super::causes::cause_words;
+use super::sections::{correlation, said};
 use super::trouble::in_words;
 use crate::calibrate::{
     Alias, Calibration, Cause, Experiment, Figures, Identifiability, Origin, Plan, Scatter, Scope,
@@ -26,6 +27,7 @@ pub fn calibration_json(experiment: &Experiment, found: &Calibration, l: Languag
     value["kind"] = json!("calibration");
     value["readings"] = json!(found.readings);
     value["left_out"] = json!(found.left_out);
+    value["swapped"] = json!(found.swapped);
     value["iterations"] = json!(found.iterations);
     value["scatter"] = json!(match found.scatter {
         Scatter::Residuals => "residuals",

@@ -1,6 +1,9 @@
 //! A calibration, and the plan of one, for the terminal, as Markdown and for machines.
 
+mod causes;
+mod hidden;
 mod json;
+mod misfit;
 mod sections;
 mod trouble;
 
@@ -52,35 +55,35 @@ fn calibration(experiment: &Experiment, found: &Calibration, l: Language) -> Vec
     blocks.extend(sections::coefficients(experiment, &found.figures, l));
     blocks.extend(sections::parts(found, l));
     blocks.extend(sections::correlations(&found.figures, l));
-    blocks.extend(sections::budgets(&found.figures, l));
-    blocks.extend(sections::residuals(experiment, found, l));
-    blocks.extend(sections::identifiability(&found.identifiability, l));
-    blocks.extend(sections::aliases(
+    blocks.extend(causes::budgets(&found.figures, l));
+    blocks.extend(misfit::residuals(experiment, found, l));
+    blocks.extend(hidden::identifiability(&found.identifiability, l));
+    blocks.extend(hidden::aliases(
         experiment,
         &found.aliases,
         Some(&found.figures),
         l,
     ));
-    blocks.extend(sections::remarks(experiment, Some(found), &[], l));
+    blocks.extend(misfit::remarks(experiment, Some(found), &[], l));
     blocks
 }
 
 fn planned(experiment: &Experiment, plan: &Plan, l: Language) -> Vec<Block> {
     let mut blocks = sections::heading(experiment, l);
     blocks.extend(sections::equations(experiment, l));
-    blocks.extend(sections::schedule(plan, l));
-    blocks.extend(sections::identifiability(&plan.identifiability, l));
+    blocks.extend(hidden::schedule(plan, l));
+    blocks.extend(hidden::identifiability(&plan.identifiability, l));
     if let Some(figures) = &plan.figures {
         blocks.extend(sections::predictions(figures, l));
         blocks.extend(sections::correlations(figures, l));
-        blocks.extend(sections::budgets(figures, l));
+        blocks.extend(causes::budgets(figures, l));
     }
-    blocks.extend(sections::aliases(
+    blocks.extend(hidden::aliases(
         experiment,
         &plan.aliases,
         plan.figures.as_ref(),
         l,
     ));
-    blocks.extend(sections::remarks(experiment, None, &plan.assumed, l));
+    blocks.extend(misfit::remarks(experiment, None, &plan.assumed, l));
     blocks
 }

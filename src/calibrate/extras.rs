@@ -1,0 +1,218 @@
+//! Omitted effects and results: what a file says besides its equations.
+
+use super::define::{Definer, entries, equation_text, quantity, symbol, words};
+use super::experiment::{FunctionResult, Input, Omitted, Parameter};
+use super::faults::{RESULT, TERM};
+use crate::budget::table::Stated;
+use crate::equations::{EquationText, Equations, Quantity};
+use crate::fault::Fault;
+use crate::model::{Symbol, outline};
+use crate::quantity::Unit;
+
+impl Definer<'_> {
+    /// Effects that the equations leave out.
+    pub(super) fn omitted(
+        &mut self,
+        equations: &Equations,
+        symbols: &[Quantity],
+        constants: &[Symbol],
+    ) -> Vec<Omitted> {
+        let table = &self.source.table;
+        let shared = table.model.as_ref().map(equation_text);
+        let mut all = Vec::new();
+        for (name, entry) in entries(&table.omitted) {
+            // What is estimated, or known with an uncertainty, is no longer left out.
+            if symbols.iter().any(|symbol| symbol.name == *name)
+                || !self.has_columns(entry, symbols)
+            {
+                continue;
+            }
+            let found = self.omitted_one(name, entry, equations, symbols, constants, &shared);
+            all.extend(found);
+        }
+        all
+    }
+
+    /// Whether the recording has what a procedure's omitted term needs; a term of the file itself must
+    /// say what it needs.
+    fn has_columns(
+        &self,
+        entry: &Stated<super::tables::OmittedTable>,
+        symbols: &[Quantity],
+    ) -> bool {
+        let term = entry.value.term.as_ref();
+        if !self.source.is_base(&entry.key) {
+            return true;
+        }
+        let missing = |name: &String| {
+            !symbols.iter().any(|symbol| symbol.name == *name)
+                && entries(&self.source.table.column)
+                    .iter()
+                    .any(|(other, _)| other == name)
+        };
+        let needs = term.and_then(|term| outline(&term.value, &self.units).ok());
+        needs.is_none_or(|outline| !outline.needs.iter().any(|(name, _)| missing(name)))
+    }
+
+    fn omitted_one(
+        &mut self,
+        name: &str,
+        entry: &Stated<super::tables::OmittedTable>,
+        equations: &Equations,
+        symbols: &[Quantity],
+        constants: &[Symbol],
+        shared: &Option<EquationText<'_>>,
+    ) -> Option<Omitted> {
+        let fault =
+            |message: String, help: &str| Fault::new(TERM, entry.key.clone(), message).help(help);
+        let Some(term) = &entry.value.term else {
+            if !entry.value.refused {
+                self.faults.push(fault(
+                    format!("the omitted effect {name} has no `term`"),
+                    "write what it adds to the equation: term = \"k2*omega^2\"",
+                ));
+            }
+            return None;
+        };
+        let responses = equations.responses();
+        let response = match &entry.value.response {
+            Some(stated) => responses.iter().position(|r| r.name == stated.value),
+            None if responses.len() == 1 => Some(0),
+            None => None,
+        };
+        let Some(response) = response else {
+            let known: Vec<&str> = responses.iter().map(|r| r.name.as_str()).collect();
+            self.faults.push(fault(
+                format!("to which equation does the omitted effect {name} belong?"),
+                &format!("write response = \"…\" with one of {}", known.join(", ")),
+            ));
+            return None;
+        };
+        let result = &responses[response];
+        let line = format!("{} = {}", result.name, term.value);
+        let known: Vec<Symbol> = constants
+            .iter()
+            .cloned()
+            .chain(
+                symbols
+                    .iter()
+                    .filter(|s| s.name != result.name)
+                    .cloned()
+                    .map(symbol),
+            )
+            .collect();
+        let unit = match (&entry.value.unit, &entry.value.like) {
+            (Some(text), _) => self.unit(text)?,
+            (None, Some(like)) => self.unit_like(like, &known, responses)?,
+            (None, None) => {
+                let before = shared.as_ref().map_or("", |shared| shared.text);
+                let outline = outline(&format!("{before}\n{line}"), &self.units).ok();
+                let open = [name.to_owned()];
+                outline
+                    .and_then(|o| {
+                        let units = o.parameter_units(&open, &known, &result.unit, &self.units);
+                        units.into_iter().next().flatten()
+                    })
+                    .unwrap_or_else(Unit::one)
+            }
+        };
+        let typical = match &entry.value.typical {
+            Some(typical) => Some(self.amount(typical, &unit)?.abs()),
+            None => None,
+        };
+        let mut all = symbols.to_vec();
+        all.push(quantity(name, &unit));
+        let text = EquationText {
+            text: &line,
+            at: term.span.clone(),
+        };
+        let compiled = Equations::compile_after(
+            shared.as_ref(),
+            &[text],
+            &all,
+            responses,
+            constants,
+            &self.units,
+        );
+        match compiled {
+            Ok(equation) => Some(Omitted {
+                name: name.to_owned(),
+                description: words(&entry.value.description, &entry.value.description_zh),
+                term: term.value.clone(),
+                unit,
+                typical,
+                response,
+                equation,
+            }),
+            Err(faults) => {
+                let placed = faults
+                    .into_iter()
+                    .map(|fault| fault.moved(|_| term.span.clone()));
+                self.faults.extend(placed);
+                None
+            }
+        }
+    }
+
+    /// Functions of the parameters.
+    pub(super) fn results(
+        &mut self,
+        parameters: &[Parameter],
+        inputs: &[Input],
+        constants: &[Symbol],
+    ) -> Vec<FunctionResult> {
+        let symbols: Vec<Quantity> = parameters
+            .iter()
+            .map(|p| quantity(&p.name, &p.unit))
+            .chain(inputs.iter().map(|i| quantity(&i.name, &i.unit)))
+            .collect();
+        let known: Vec<Symbol> = constants
+            .iter()
+            .cloned()
+            .chain(symbols.iter().cloned().map(symbol))
+            .collect();
+        let mut results = Vec::new();
+        for (name, entry) in entries(&self.source.table.result) {
+            let Some(model) = &entry.value.model else {
+                if !entry.value.refused {
+                    self.faults.push(
+                        Fault::new(
+                            RESULT,
+                            entry.key.clone(),
+                            format!("the result {name} has no `model`"),
+                        )
+                        .help("write its formula: model = \"sqrt(K1^2 + K2^2)\""),
+                    );
+                }
+                continue;
+            };
+            let unit = match (&entry.value.unit, &entry.value.like) {
+                (Some(text), _) => self.unit(text),
+                (None, Some(like)) => self.unit_like(like, &known, &[]),
+                (None, None) => Some(Unit::one()),
+            };
+            let Some(unit) = unit else { continue };
+            let line = format!("{name} = {}", model.value);
+            let text = EquationText {
+                text: &line,
+                at: model.span.clone(),
+            };
+            let response = [quantity(name, &unit)];
+            match Equations::compile(&[text], &symbols, &response, constants, &self.units) {
+                Ok(equation) => results.push(FunctionResult {
+                    name: name.clone(),
+                    description: words(&entry.value.description, &entry.value.description_zh),
+                    unit,
+                    equation,
+                }),
+                Err(faults) => {
+                    let placed = faults
+                        .into_iter()
+                        .map(|fault| fault.moved(|_| model.span.clone()));
+                    self.faults.extend(placed);
+                }
+            }
+        }
+        results
+    }
+}

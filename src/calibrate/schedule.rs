@@ -1,0 +1,103 @@
+//! The points of an experiment that is planned.
+
+use super::data::label_columns;
+use super::define::{Definer, entries};
+use super::faults::SCHEDULE;
+use super::names::Names;
+use super::points::{PointColumn, Points};
+use crate::budget::table::Stated;
+use crate::budget::values::Cell;
+use crate::fault::Fault;
+use crate::quantity::Unit;
+use crate::recording::{Heading, Labels};
+
+/// The points of a schedule in the file.
+pub(super) fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Points> {
+    let table = &definer.source.table;
+    let stated = table.schedule.as_ref()?;
+    let before = definer.faults.len();
+    let mut points = Points::default();
+    let mut length: Option<(usize, std::ops::Range<usize>)> = None;
+    for (key, list) in entries(&table.schedule) {
+        let (first, place) = length.get_or_insert((list.value.len(), list.span.clone()));
+        if list.value.len() != *first {
+            definer.faults.push(
+                Fault::new(
+                    SCHEDULE,
+                    list.span.clone(),
+                    format!(
+                        "{key} has {} points, the first column {first}",
+                        list.value.len()
+                    ),
+                )
+                .label(format!("expected {first}"))
+                .related(place.clone(), "the first column"),
+            );
+            continue;
+        }
+        let heading = Heading::read(key, &definer.units);
+        let unit = match heading.unit {
+            Ok(unit) => unit.unwrap_or_else(Unit::one),
+            Err(error) => {
+                definer
+                    .faults
+                    .push(Fault::from(error).moved(|_| list.key.clone()));
+                continue;
+            }
+        };
+        let numbers: Option<Vec<f64>> = list
+            .value
+            .iter()
+            .map(|cell| match cell.value {
+                Cell::Number(number) => Some(number),
+                Cell::Text(_) => None,
+            })
+            .collect();
+        let is_label = label_columns(definer).contains(&heading.name);
+        match numbers {
+            Some(values) if !is_label => points.columns.push(PointColumn {
+                name: heading.name,
+                unit,
+                values,
+                averages: Vec::new(),
+            }),
+            _ => points.labels.push((heading.name, labels(&list.value))),
+        }
+    }
+    let count = length.map_or(0, |(count, _)| count);
+    points.names = (1..=count).map(|point| format!("point {point}")).collect();
+    for (role, place) in &names.columns {
+        if points.column(role).is_none() {
+            definer.faults.push(
+                Fault::new(
+                    SCHEDULE,
+                    stated.key.clone(),
+                    format!("the schedule has no column {role}"),
+                )
+                .label("the schedule")
+                .related(place.clone(), "needed here")
+                .help(format!(
+                    "add \"{role} [unit]\" = […] with one value for each point"
+                )),
+            );
+        }
+    }
+    (definer.faults.len() == before).then_some(points)
+}
+
+fn labels(cells: &[Stated<Cell>]) -> Labels {
+    let mut labels = Labels::default();
+    for cell in cells {
+        let text = match &cell.value {
+            Cell::Text(text) => text.clone(),
+            Cell::Number(number) => number.to_string(),
+        };
+        let level = labels.levels.iter().position(|other| *other == text);
+        let level = level.unwrap_or_else(|| {
+            labels.levels.push(text);
+            labels.levels.len() - 1
+        });
+        labels.of_row.push(u32::try_from(level).unwrap_or(u32::MAX));
+    }
+    labels
+}

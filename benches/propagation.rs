@@ -45,7 +45,7 @@ fn cases() -> Vec<Case> {
             (
                 "neighbours",
                 inputs,
-                joined(&|i| format!("x{i} * exp(x{} / 7)", (i + 1) % inputs), " + "),
+                joined(&|i| format!("x{i}*exp(x{}/7)", (i + 1) % inputs), "+"),
             ),
         ]);
         for (name, model) in [

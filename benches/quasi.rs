@@ -10,8 +10,6 @@ use common::budget;
 use gumption::budget::{Adaptive, MonteCarloSettings, Points, Trials};
 use gumption::propagate::{MonteCarloChoice, Options, Quasi, Run, evaluate};
 
-const RUNS: usize = 7;
-
 fn main() {
     println!("Milliseconds of Monte Carlo to two stable digits, one thread\n");
     println!(
@@ -80,13 +78,13 @@ fn line(name: &str, text: &str) {
             indices: false,
         }))
     };
-    let gum = best_of(RUNS, || evaluate(&budget, &options(MonteCarloChoice::Off)));
+    let gum = mean_of(|| evaluate(&budget, &options(MonteCarloChoice::Off)));
     let timed = |points| {
         let options = with(points);
         let run = evaluate(&budget, &options).ok().and_then(|e| e.run);
         (
             run,
-            best_of(RUNS, || evaluate(&budget, &options))
+            mean_of(|| evaluate(&budget, &options))
                 .saturating_sub(gum)
                 .as_secs_f64()
                 * 1e3,
@@ -108,17 +106,20 @@ fn line(name: &str, text: &str) {
     );
 }
 
-/// The least time of several runs.
-fn best_of<T>(runs: usize, mut run: impl FnMut() -> T) -> Duration {
-    let time = |_| {
-        let (start, before) = (Instant::now(), processor_time());
-        std::hint::black_box(run());
-        match (before, processor_time()) {
-            (Some(before), Some(after)) => after.saturating_sub(before),
-            _ => start.elapsed(),
-        }
+/// The mean time of as many runs as take half a second: the processor's time is counted in coarse steps.
+fn mean_of<T>(mut run: impl FnMut() -> T) -> Duration {
+    const ENOUGH: Duration = Duration::from_millis(500);
+    let (start, before) = (Instant::now(), processor_time());
+    let spent = || match (before, processor_time()) {
+        (Some(before), Some(now)) => now.saturating_sub(before),
+        _ => start.elapsed(),
     };
-    (0..runs).map(time).min().unwrap_or_default()
+    let mut runs = 0;
+    while runs == 0 || spent() < ENOUGH {
+        std::hint::black_box(run());
+        runs += 1;
+    }
+    spent() / runs
 }
 
 /// Of this thread, as Linux counts it.

@@ -6,8 +6,10 @@
 //! ```
 //!
 //! `--each N` cases of every scenario and `--nulls N` cases without any effect; `--threads N`;
-//! `--only TEXT` keeps scenarios whose name contains the text; `--tables` only draws the tables anew.
+//! `--only TEXT` keeps scenarios whose name contains the text; `--resume` keeps what the file holds
+//! already; `--tables` only draws the tables anew.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -15,10 +17,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use gumption::challenge::SealedCase;
-use gumption::challenge::grade::{self, Answer};
+use gumption::challenge::grade::{self, Answer, Name};
 use gumption::challenge::study::{Record, Trial, read, report, trials, write};
 use gumption::diagnose::case::{Case, Purpose};
-use gumption::diagnose::diagnose;
+use gumption::diagnose::{Opinion, diagnose, opinions};
 use gumption::report::{Language, diagnosis_failure, diagnosis_json};
 
 struct Options {
@@ -27,6 +29,7 @@ struct Options {
     threads: usize,
     only: String,
     out: PathBuf,
+    resume: bool,
     tables: bool,
 }
 
@@ -37,6 +40,7 @@ fn options() -> Result<Options, String> {
         threads: std::thread::available_parallelism().map_or(1, usize::from),
         only: String::new(),
         out: PathBuf::from("reports"),
+        resume: false,
         tables: false,
     };
     let mut arguments = std::env::args().skip(1);
@@ -52,6 +56,7 @@ fn options() -> Result<Options, String> {
             "--threads" => options.threads = number(value()?)?.max(1),
             "--only" => options.only = value()?,
             "--out" => options.out = value()?.into(),
+            "--resume" => options.resume = true,
             "--tables" => options.tables = true,
             other => return Err(format!("`{other}` is not known")),
         }
@@ -61,88 +66,184 @@ fn options() -> Result<Options, String> {
 
 fn main() -> Result<(), String> {
     let options = options()?;
-    let lines = options.out.join("diagnosis.csv");
     if !options.tables {
-        let records = run(&options);
-        std::fs::write(&lines, write(&records)).map_err(|error| error.to_string())?;
+        Study::new(&options).run()?;
     }
+    save_tables(&options.out)
+}
+
+fn save_tables(out: &Path) -> Result<(), String> {
     // From the file, so that the tables hold what anyone can read there.
-    let records = read(&std::fs::read_to_string(&lines).map_err(|error| error.to_string())?);
+    let lines = std::fs::read_to_string(out.join("diagnosis.csv")).map_err(|e| e.to_string())?;
     let made = "Made by `cargo run --release --example diagnosis -- --out reports` from sealed cases of \
         `gumption challenge` (docs/challenge.md). λ is the visible strength of an effect in standard \
         deviations, κ what its nearest rival leaves of it; both come from twin runs of the simulator. \
         Every case is a line of diagnosis.csv.";
-    std::fs::write(options.out.join("diagnosis.md"), report(&records, made))
-        .map_err(|error| error.to_string())
+    std::fs::write(out.join("diagnosis.md"), report(&read(&lines), made)).map_err(|e| e.to_string())
 }
 
-/// Runs all trials on several threads; the records come in the order of the trials.
-fn run(options: &Options) -> Vec<Record> {
-    let trials: Vec<Trial> = trials(options.each, options.nulls)
-        .into_iter()
-        .filter(|trial| trial.scenario.name().contains(&options.only))
-        .collect();
-    let (next, begun) = (AtomicUsize::new(0), Instant::now());
-    let done = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for worker in 0..options.threads {
-            let (trials, next, done) = (&trials, &next, &done);
-            scope.spawn(move || {
-                let folder = std::env::temp_dir().join(format!(
-                    "gumption-diagnosis-{}-{worker}",
-                    std::process::id()
-                ));
-                loop {
-                    let at = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(trial) = trials.get(at) else { break };
-                    let record = one(trial, &folder);
-                    if let Ok(mut done) = done.lock() {
-                        done.push((at, record));
-                        let count = done.len();
-                        if count.is_multiple_of(20) {
-                            eprintln!(
-                                "{count}/{} after {:.0} s",
-                                trials.len(),
-                                begun.elapsed().as_secs_f64()
-                            );
-                        }
-                    }
-                }
-                let _ = std::fs::remove_dir_all(folder);
-            });
+/// Trials with the records that exist already.
+struct Study<'a> {
+    options: &'a Options,
+    trials: Vec<Trial>,
+    done: Mutex<BTreeMap<usize, Record>>,
+    next: AtomicUsize,
+    begun: Instant,
+}
+
+/// Records after which the file is written.
+const OFTEN: usize = 50;
+
+impl<'a> Study<'a> {
+    fn new(options: &'a Options) -> Study<'a> {
+        let trials: Vec<Trial> = trials(options.each, options.nulls)
+            .into_iter()
+            .filter(|trial| trial.scenario.name().contains(&options.only))
+            .collect();
+        let kept = match std::fs::read_to_string(options.out.join("diagnosis.csv")) {
+            Ok(text) if options.resume => read(&text),
+            _ => Vec::new(),
+        };
+        let is_of = |record: &Record, trial: &Trial| {
+            record.seed == trial.seed
+                && record.ablation == trial.ablation
+                && record.scenario == trial.scenario.name()
+        };
+        let done = trials
+            .iter()
+            .enumerate()
+            .filter_map(|(at, trial)| Some((at, kept.iter().find(|r| is_of(r, trial))?.clone())))
+            .collect();
+        Study {
+            options,
+            trials,
+            done: Mutex::new(done),
+            next: AtomicUsize::new(0),
+            begun: Instant::now(),
         }
-    });
-    let mut done = done.into_inner().unwrap_or_default();
-    done.sort_by_key(|(at, _)| *at);
-    done.into_iter().map(|(_, record)| record).collect()
+    }
+
+    /// Runs what is left, on several threads; the file is in the order of the trials.
+    fn run(&self) -> Result<(), String> {
+        std::thread::scope(|scope| {
+            for worker in 0..self.options.threads {
+                scope.spawn(move || self.work(worker));
+            }
+        });
+        self.save()
+    }
+
+    fn work(&self, worker: usize) {
+        let folder = std::env::temp_dir().join(format!(
+            "gumption-diagnosis-{}-{worker}",
+            std::process::id()
+        ));
+        loop {
+            let at = self.next.fetch_add(1, Ordering::Relaxed);
+            let Some(trial) = self.trials.get(self.scattered(at)) else {
+                break;
+            };
+            let at = self.scattered(at);
+            if self.done.lock().is_ok_and(|done| done.contains_key(&at)) {
+                continue;
+            }
+            let record = one(trial, &folder);
+            let count = self.done.lock().map_or(0, |mut done| {
+                done.insert(at, record);
+                done.len()
+            });
+            if count.is_multiple_of(OFTEN) {
+                let seconds = self.begun.elapsed().as_secs_f64();
+                eprintln!("{count}/{} after {seconds:.0} s", self.trials.len());
+                if let Err(why) = self.save() {
+                    eprintln!("{why}");
+                }
+            }
+        }
+        let _ = std::fs::remove_dir_all(folder);
+    }
+
+    /// The order of work: spread over all trials, so that an interrupted study is a sample of the whole.
+    fn scattered(&self, at: usize) -> usize {
+        const STRIDE: usize = 7919;
+        let count = self.trials.len();
+        if at >= count || count.is_multiple_of(STRIDE) {
+            at
+        } else {
+            at * STRIDE % count
+        }
+    }
+
+    fn save(&self) -> Result<(), String> {
+        let records: Vec<Record> = match self.done.lock() {
+            Ok(done) => done.values().cloned().collect(),
+            Err(_) => return Err("a worker stopped".into()),
+        };
+        std::fs::write(self.options.out.join("diagnosis.csv"), write(&records))
+            .map_err(|error| error.to_string())
+    }
 }
 
 fn one(trial: &Trial, folder: &Path) -> Record {
-    let case = trial.case();
-    let answer = match answer(trial, &case, folder) {
-        Ok(answer) => answer,
+    let sealed = trial.case();
+    match answer(trial, &sealed, folder) {
+        Ok((answer, opinions)) => {
+            let mut record = Record::of(trial, &grade::grade(&sealed.truth, &answer), &answer);
+            record.rivals = opinions
+                .iter()
+                .map(|opinion| judged(&sealed, opinion))
+                .collect();
+            record
+        }
         Err(why) => {
             eprintln!("{} {}: {why}", trial.scenario.name(), trial.seed);
-            Answer {
+            let answer = Answer {
                 verdict: "refused".into(),
                 effects: Vec::new(),
                 before: None,
                 after: None,
-            }
+            };
+            Record::of(trial, &grade::grade(&sealed.truth, &answer), &answer)
         }
-    };
-    Record::of(trial, &grade::grade(&case.truth, &answer), &answer)
+    }
 }
 
-fn answer(trial: &Trial, sealed: &SealedCase, folder: &Path) -> Result<Answer, String> {
+fn answer(
+    trial: &Trial,
+    sealed: &SealedCase,
+    folder: &Path,
+) -> Result<(Answer, Vec<Opinion>), String> {
     trial
         .write(sealed, folder)
         .map_err(|error| error.to_string())?;
     let mut case = Case::load(&folder.join("CASE.toml"), Purpose::Diagnosis)
         .map_err(|rejection| rejection.render(false))?;
     case.settings.seed = trial.seed;
-    let diagnosis = diagnose(&case, &|_| ControlFlow::Continue(()))
-        .map_err(|failure| diagnosis_failure(&case, &failure, Language::English))?;
-    serde_json::from_value(diagnosis_json(&case, &diagnosis, Language::English))
-        .map_err(|error| error.to_string())
+    let failed = |failure| diagnosis_failure(&case, &failure, Language::English);
+    let diagnosis = diagnose(&case, &|_| ControlFlow::Continue(())).map_err(failed)?;
+    let answer = serde_json::from_value(diagnosis_json(&case, &diagnosis, Language::English))
+        .map_err(|error| error.to_string())?;
+    Ok((answer, opinions(&case).map_err(failed)?))
+}
+
+/// A rival's names against the truth.
+fn judged(sealed: &SealedCase, opinion: &Opinion) -> (String, String) {
+    let names: Vec<Name> = opinion
+        .picks
+        .iter()
+        .map(|pick| Name {
+            id: pick.id.clone(),
+            family: String::new(),
+            node: String::new(),
+            along: pick.along.clone(),
+            probability: f64::NAN,
+            variants: Vec::new(),
+            size: Vec::new(),
+            u: Vec::new(),
+        })
+        .collect();
+    (
+        opinion.method.into(),
+        grade::grade_names(&sealed.truth, &names).into(),
+    )
 }

@@ -47,6 +47,8 @@ pub struct TrueEffect {
     pub physics: Physics,
     /// Its size: a fraction of full scale per unit of what it follows, or radians.
     pub size: f64,
+    /// Its coefficient in units of the recording, where that is one number and not a matter of form.
+    pub coefficient: Option<f64>,
     /// How it looks.
     pub shape: Shape,
     /// Whether a diagnosis can be expected to name it.
@@ -131,6 +133,7 @@ fn true_effect(
     TrueEffect {
         physics: effect.physics,
         size: effect.size,
+        coefficient: coefficient(drawn.setup.rig, effect),
         shape: effect.shape,
         nameable: effect.physics.nameable() && drawn.scenario.class != Class::Hidden,
         lambda: strength,
@@ -148,6 +151,13 @@ fn true_effect(
         },
         happened_h,
     }
+}
+
+/// Output per volt, or the height of a step, of a single sensor.
+fn coefficient(rig: Rig, effect: &Concealed) -> Option<f64> {
+    let plain = matches!(effect.physics, Physics::Supply | Physics::Knock | Physics::RunShift);
+    (plain && rig.axes() == 1)
+        .then(|| effect.size * effect.shape.gains[0] * rig.full_scale() * rig.sensitivity())
 }
 
 /// Salt from a seed and from the moment, so that the same seed gives the same case but not a truth

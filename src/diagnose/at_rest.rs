@@ -182,12 +182,12 @@ fn filter(rest: &AtRest<'_>, ratios: Ratios) -> (f64, f64) {
     // After a diffuse start and one reading: level = reading − rungs − white, so that the level is
     // correlated with the rungs.
     let mut covariance = [[0.0; STATES]; STATES];
-    covariance[0][0] = 1.0 + LADDER.len() as f64 * ratios.flicker;
-    for k in 1..STATES {
-        covariance[k][k] = ratios.flicker;
-        covariance[0][k] = -ratios.flicker;
-        covariance[k][0] = -ratios.flicker;
+    for (k, row) in covariance.iter_mut().enumerate().skip(1) {
+        row[k] = ratios.flicker;
+        row[0] = -ratios.flicker;
     }
+    covariance[0] = [-ratios.flicker; STATES];
+    covariance[0][0] = 1.0 + LADDER.len() as f64 * ratios.flicker;
     let (mut squares, mut logs) = (0.0, 0.0);
     let mut last = first;
     for (time, reading) in rest.times.iter().zip(rest.readings).skip(1) {
@@ -230,8 +230,8 @@ fn predict(
         }
     }
     covariance[0][0] += ratios.walk * elapsed;
-    for k in 1..STATES {
-        covariance[k][k] += ratios.flicker * (1.0 - kept[k] * kept[k]);
+    for (k, row) in covariance.iter_mut().enumerate().skip(1) {
+        row[k] += ratios.flicker * (1.0 - kept[k] * kept[k]);
     }
 }
 

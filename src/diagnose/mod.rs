@@ -14,6 +14,7 @@ mod adopt;
 pub mod at_rest;
 pub mod case;
 pub mod catalogue;
+mod compare;
 mod confirm;
 mod correlation;
 pub mod evidence;
@@ -28,6 +29,7 @@ mod run;
 mod simulate;
 
 pub use adopt::{Addition, Extended};
+pub use compare::{Opinion, Pick, opinions};
 pub use confirm::{Confirmation, Quality};
 pub use fit::NoFit;
 pub use improved::{RECORDING as IMPROVED_RECORDING, improved};

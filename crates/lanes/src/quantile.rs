@@ -228,12 +228,7 @@ fn map(level: Level, block: &mut Block, f: impl Fn(f64) -> f64) {
 
 /// Replaces uniform numbers by normal scores.
 pub fn scores(level: Level, block: &mut Block) {
-    map(
-        level,
-        block,
-        #[inline(always)]
-        |u| score(u),
-    );
+    map(level, block, score);
 }
 
 /// Φ⁻¹(u), Wichura's algorithm AS 241, Applied Statistics 37 (1988), with the middle and the tail computed

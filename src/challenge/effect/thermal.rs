@@ -58,7 +58,7 @@ impl Process for Core {
     fn advance(&mut self, world: &World, dt: f64) {
         let fixture = world.around.fixture;
         // The device lay in the room before it was switched on.
-        let core = self.core.get_or_insert_with(|| Node {
+        let core = self.core.get_or_insert(Node {
             value: fixture,
             lag: self.lag,
         });

@@ -15,7 +15,7 @@ mod vocabulary;
 use std::path::{Path, PathBuf};
 
 pub use answer::{Answer, AnsweredEffect, Name, Quality, State};
-pub use score::{Finding, Graded, GradedEffect, grade};
+pub use score::{Finding, Graded, GradedEffect, grade, grade_names};
 pub use text::{json, text};
 pub(super) use vocabulary::share_a_name;
 pub use vocabulary::{accepted_ids, accepts};

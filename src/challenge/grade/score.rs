@@ -32,6 +32,9 @@ pub struct GradedEffect {
     pub overclaimed: bool,
     /// Posterior probability of the right name, where it was named.
     pub probability: Option<f64>,
+    /// Estimate of the size less its true value, over the standard uncertainty: where the effect has its
+    /// own name and the size is the same quantity in the simulator and in the catalogue.
+    pub deviation: Option<f64>,
     /// Points.
     pub points: f64,
 }
@@ -180,10 +183,20 @@ fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool)
     GradedEffect {
         points: points(truth, finding, overclaimed),
         probability: slot.and_then(right),
+        deviation: slot
+            .filter(|effect| effect.state == State::Identified)
+            .and_then(|effect| deviation(truth, effect.named.first()?)),
         truth: truth.clone(),
         finding,
         overclaimed,
     }
+}
+
+fn deviation(truth: &TrueEffect, name: &Name) -> Option<f64> {
+    let (Some(size), Some(u), [_]) = ((*name.size.first()?), (*name.u.first()?), &name.size[..]) else {
+        return None;
+    };
+    Some((size - truth.coefficient?) / u)
 }
 
 /// Whether a name is right for an effect, or for another that gives the same recording: which of the
@@ -222,6 +235,20 @@ fn gained(answer: &Answer) -> bool {
         (Some(before), Some(after)) if before > 1.1 => before - after >= 0.5 * (before - 1.0),
         _ => false,
     }
+}
+
+/// What names without lists, probabilities or remainder are worth: `none`, `right` if every effect has its
+/// name and there is no other, `wrong` if a name is there for nothing, else `part`.
+pub fn grade_names(truth: &Truth, given: &[Name]) -> &'static str {
+    if given.is_empty() {
+        return "none";
+    }
+    let right = |name: &Name| truth.effects.iter().any(|t| t.nameable && names(t, name));
+    if !given.iter().all(right) {
+        return "wrong";
+    }
+    let found = |t: &TrueEffect| given.iter().any(|name| names(t, name));
+    if truth.effects.iter().all(found) { "right" } else { "part" }
 }
 
 #[cfg(test)]

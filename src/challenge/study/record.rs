@@ -22,6 +22,8 @@ pub struct Outcome {
     pub overclaimed: bool,
     /// Posterior of the right name.
     pub probability: f64,
+    /// Deviation of the size from the truth, in standard uncertainties.
+    pub deviation: f64,
 }
 
 /// One run of the study.
@@ -66,6 +68,7 @@ impl Record {
             finding: word(effect.finding),
             overclaimed: effect.overclaimed,
             probability: effect.probability.unwrap_or(f64::NAN),
+            deviation: effect.deviation.unwrap_or(f64::NAN),
         });
         let quality = |of: fn(&crate::challenge::grade::Quality) -> Option<f64>| {
             [&answer.before, &answer.after]
@@ -142,14 +145,15 @@ pub fn write(records: &[Record]) -> String {
 
 fn outcome(outcome: &Outcome) -> String {
     format!(
-        "{}:{}:{:.2}:{:.2}:{}:{}:{:.4}",
+        "{}:{}:{:.2}:{:.2}:{}:{}:{:.4}:{:.3}",
         outcome.physics,
         u8::from(outcome.nameable),
         outcome.lambda,
         outcome.kappa,
         outcome.finding,
         u8::from(outcome.overclaimed),
-        outcome.probability
+        outcome.probability,
+        outcome.deviation
     )
 }
 
@@ -221,6 +225,7 @@ fn read_outcome(item: &str) -> Option<Outcome> {
         finding,
         overclaimed,
         probability,
+        deviation,
     ] = parts[..]
     else {
         return None;
@@ -233,6 +238,7 @@ fn read_outcome(item: &str) -> Option<Outcome> {
         finding: finding.into(),
         overclaimed: overclaimed == "1",
         probability: probability.parse().ok()?,
+        deviation: deviation.parse().ok()?,
     })
 }
 
@@ -258,6 +264,7 @@ mod tests {
                 finding: "list-2".into(),
                 overclaimed: false,
                 probability: 0.625,
+                deviation: -0.5,
             }],
             wrong_names: vec![("drift".into(), 0.99)],
             wrong_lists: 1,

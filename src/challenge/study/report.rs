@@ -139,6 +139,11 @@ impl<'a> Study<'a> {
             .filter(|(_, o)| o.finding == "unique")
             .map(|(r, _)| r)
             .collect();
+        let sizes = self
+            .whole()
+            .flat_map(|r| &r.outcomes)
+            .map(|o| o.deviation)
+            .filter(|z| z.is_finite());
         let row = |what: &str, bar: &str, got: Rate, holds: fn(f64, f64) -> bool, limit: f64| {
             let verdict = if got.of == 0 {
                 "–"
@@ -261,6 +266,13 @@ impl<'a> Study<'a> {
                 Rate::count(&fixed, |r| r.held_out[1] <= 1.2),
                 least,
                 0.9,
+            ),
+            row(
+                "true size inside the stated 95 % interval",
+                "93–97 %",
+                Rate::count(sizes, |z| z.abs() <= 1.96),
+                |x, limit| (limit..=0.97).contains(&x),
+                0.93,
             ),
         ];
         table(

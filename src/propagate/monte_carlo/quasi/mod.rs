@@ -381,7 +381,7 @@ impl Goal {
 /// The power of two by which to multiply the points where errors are so many times too large: they fall
 /// about with the power ¾ of their number, or faster.
 fn factor(missing: f64, most: u64) -> u64 {
-    let wanted = libm::pow(missing.max(1.0), 4.0 / 3.0).min(16.0) as u64 + 1;
+    let wanted = libm::pow(missing.max(1.0), 4.0 / 3.0).min(16.0).ceil() as u64;
     let allowed = 1 << most.max(2).ilog2();
     wanted.next_power_of_two().clamp(2, allowed)
 }

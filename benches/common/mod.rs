@@ -1,5 +1,8 @@
 //! Timing and budgets that the benchmarks share.
 
+// Each benchmark is a program of its own and uses what it needs.
+#![allow(dead_code)]
+
 use std::path::Path;
 use std::time::{Duration, Instant};
 

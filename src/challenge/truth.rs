@@ -155,7 +155,10 @@ fn true_effect(
 
 /// Output per volt, or the height of a step, of a single sensor.
 fn coefficient(rig: Rig, effect: &Concealed) -> Option<f64> {
-    let plain = matches!(effect.physics, Physics::Supply | Physics::Knock | Physics::RunShift);
+    let plain = matches!(
+        effect.physics,
+        Physics::Supply | Physics::Knock | Physics::RunShift
+    );
     (plain && rig.axes() == 1)
         .then(|| effect.size * effect.shape.gains[0] * rig.full_scale() * rig.sensitivity())
 }

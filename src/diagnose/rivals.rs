@@ -181,7 +181,8 @@ mod tests {
     /// A constant is fitted; a slope, a step and a wave are on offer.
     fn ask(residuals: &DVector<f64>, method: impl Fn(&Question) -> Vec<usize>) -> Vec<String> {
         let rows = residuals.len();
-        let columns: [(&str, fn(f64) -> f64); 3] = [
+        type Course = fn(f64) -> f64;
+        let columns: [(&str, Course); 3] = [
             ("slope", |t| t),
             ("step", |t| f64::from(t > 0.3)),
             ("wave", |t| (12.0 * t).sin()),

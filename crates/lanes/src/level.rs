@@ -7,15 +7,24 @@ use std::sync::OnceLock;
 
 pub use fearless_simd::Level;
 
-/// The best instruction set of this processor, detected on the first call.
+/// Names an instruction set that is to be used instead of the best one, as [`name`] does: `AVX2`, say. Results
+/// are the same with each; a name that this processor does not know is passed over.
+pub const CHOICE: &str = "GUMPTION_INSTRUCTION_SET";
+
+/// The best instruction set of this processor, or the one that [`CHOICE`] asks for; found on the first
+/// call.
 pub fn level() -> Level {
-    static DETECTED: OnceLock<Level> = OnceLock::new();
-    *DETECTED.get_or_init(Level::new)
+    static FOUND: OnceLock<Level> = OnceLock::new();
+    *FOUND.get_or_init(|| {
+        let wanted = std::env::var(CHOICE).unwrap_or_default();
+        let chosen = levels().into_iter().find(|level| name(*level) == wanted);
+        chosen.unwrap_or_else(Level::new)
+    })
 }
 
 /// Every instruction set that this processor has, from the plainest to the best.
 pub fn levels() -> Vec<Level> {
-    let best = level();
+    let best = Level::new();
     // The list is empty on processors with a single level, hence the push of `best` at the end.
     #[allow(unused_mut)]
     let mut plainer: Vec<Level> = Vec::new();
@@ -67,7 +76,7 @@ mod tests {
     #[test]
     fn the_last_level_is_the_best_one_and_none_occurs_twice() {
         let names: Vec<String> = levels().iter().map(|l| format!("{l:?}")).collect();
-        assert_eq!(names.last(), Some(&format!("{:?}", level())));
+        assert_eq!(names.last(), Some(&format!("{:?}", Level::new())));
         let mut unique = names.clone();
         unique.dedup();
         assert_eq!(names, unique);

@@ -193,7 +193,8 @@ fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool)
 }
 
 fn deviation(truth: &TrueEffect, name: &Name) -> Option<f64> {
-    let (Some(size), Some(u), [_]) = ((*name.size.first()?), (*name.u.first()?), &name.size[..]) else {
+    let (Some(size), Some(u), [_]) = ((*name.size.first()?), (*name.u.first()?), &name.size[..])
+    else {
         return None;
     };
     Some((size - truth.coefficient?) / u)
@@ -248,7 +249,11 @@ pub fn grade_names(truth: &Truth, given: &[Name]) -> &'static str {
         return "wrong";
     }
     let found = |t: &TrueEffect| given.iter().any(|name| names(t, name));
-    if truth.effects.iter().all(found) { "right" } else { "part" }
+    if truth.effects.iter().all(found) {
+        "right"
+    } else {
+        "part"
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 //! with nothing but draws, model and moments. One JSON line each, for `compare.sh`.
 
 // Of what benchmarks share, this one needs the clock only.
-#[allow(dead_code)]
 mod common;
 
 use common::best_of;

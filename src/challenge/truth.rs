@@ -153,13 +153,9 @@ fn true_effect(
     }
 }
 
-/// Output per volt, or the height of a step, of a single sensor.
+/// Output per volt of a single sensor.
 fn coefficient(rig: Rig, effect: &Concealed) -> Option<f64> {
-    let plain = matches!(
-        effect.physics,
-        Physics::Supply | Physics::Knock | Physics::RunShift
-    );
-    (plain && rig.axes() == 1)
+    (effect.physics == Physics::Supply && rig.axes() == 1)
         .then(|| effect.size * effect.shape.gains[0] * rig.full_scale() * rig.sensitivity())
 }
 

@@ -1,7 +1,5 @@
 //! Recordings with one known fault each: what a diagnosis has to name, and what it must not name.
 
-mod common;
-
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
@@ -74,4 +72,58 @@ fn two_harmonics_of_one_angle_are_two_effects() {
         let variant = &found["effects"][effect]["named"][0]["variants"][0];
         assert_eq!(variant["label"], label);
     }
+}
+
+#[test]
+fn a_scale_of_its_own_is_no_reversed_polarity() {
+    let mut noise = Noise(5);
+    let mut rows = "operator,nominal [mm],reading [mm]\n".to_owned();
+    for row in 0..60 {
+        let (operator, nominal) = (["A", "B", "C"][row % 3], 10.0 * (1 + row / 3 % 5) as f64);
+        let gain = if operator == "B" { 1.004 } else { 1.0 };
+        let reading = gain * nominal + 0.01 * noise.normal();
+        let _ = writeln!(rows, "{operator},{nominal},{reading:.5}");
+    }
+    let case = "model = \"reading = a + b*nominal\"\n[columns]\nreading = \"output\"\nnominal = \"stimulus\"\noperator = \"operator\"\n";
+    let names = named(&diagnosed("operators", &rows, case)).concat();
+    assert!(names.contains(&"odd-level-scale".to_owned()), "{names:?}");
+    assert!(!names.contains(&"polarity".to_owned()), "{names:?}");
+}
+
+#[test]
+fn a_pendulum_swings_slower_with_the_square_of_its_amplitude() {
+    let mut noise = Noise(7);
+    let mut rows = "L [m],amplitude [rad],period [s]\n".to_owned();
+    for row in 0..30 {
+        let length = 0.5 + 0.3 * f64::from(row % 6);
+        let amplitude = 0.05 + 0.1 * f64::from(row / 6);
+        let small = std::f64::consts::TAU * (length / 9.81).sqrt();
+        let period = small * (1.0 + amplitude * amplitude / 16.0) + 2e-4 * noise.normal();
+        let _ = writeln!(rows, "{length},{amplitude},{period:.7}");
+    }
+    let case = "model = \"period = 2*pi*sqrt(L/g)\"\n[columns]\nperiod = \"output\"\nL = \"stimulus\"\namplitude = \"covariate\"\n[parameter.g]\nunit = \"m/s^2\"\nstart = 9.8\n";
+    let found = diagnosed("pendulum", &rows, case);
+    assert_eq!(named(&found)[0], ["sensitivity-scale-quadratic"], "{found}");
+}
+
+#[test]
+fn a_loop_on_the_way_down_is_hysteresis() {
+    let mut noise = Noise(9);
+    let mut rows = "pressure [bar],signal [mV]\n".to_owned();
+    for _ in 0..3 {
+        for step in 0..21 {
+            let (pressure, down) = if step <= 10 {
+                (step, 0.0)
+            } else {
+                (20 - step, 1.0)
+            };
+            let part = f64::from(pressure) / 10.0;
+            let bow = 0.004 * down * libm::sin(std::f64::consts::PI * part);
+            let signal = 0.02 + 2.0 * f64::from(pressure) + bow + 4e-4 * noise.normal();
+            let _ = writeln!(rows, "{pressure},{signal:.6}");
+        }
+    }
+    let case = "model = \"signal = a + b*pressure\"\n[columns]\nsignal = \"output\"\npressure = \"stimulus\"\n";
+    let found = diagnosed("hysteresis", &rows, case);
+    assert_eq!(named(&found)[0], ["hysteresis"], "{found}");
 }

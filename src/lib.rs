@@ -22,6 +22,7 @@
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
 //! | [`calibrate`] | recordings and measurement equations → coefficients |
 //! | [`diagnose`] | which physics a measurement model left out of a recording |
+//! | [`challenge`] | sealed cases with something concealed, and the grading of a diagnosis |
 //! | [`verify`] | published examples held against their published figures |
 //! | [`report`] | text, Markdown, JSON, the certificate's sentence, saved results, the dossier |
 //!

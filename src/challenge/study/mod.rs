@@ -8,7 +8,9 @@
 //! | `record` | what is kept of a run, as a line of CSV |
 //! | `rate` | how often something happened, with its Clopper–Pearson interval |
 //! | `report` | the tables |
+//! | `bars` | the first of them: what has to hold, and whether it does |
 
+mod bars;
 mod rate;
 mod record;
 mod report;

@@ -1,0 +1,187 @@
+//! The bars that a diagnosis has to clear, with what was obtained.
+
+use super::rate::Rate;
+use super::record::{Outcome, Record};
+use super::report::{Study, detected, is_listed, table};
+use super::trial::Ablation;
+use crate::challenge::scenario::{Class, NoiseKnowledge};
+
+impl Study<'_> {
+    /// Every bar with what was obtained.
+    pub(super) fn bars(&self) -> String {
+        let single = |least: f64| self.singles().filter(move |(_, o)| o.lambda >= least);
+        let alarms = |noise| Rate::count(self.nulls(noise), |r| detected(r));
+        let named_on_null = Rate::count(self.of_class(Class::Null), |r: &&Record| {
+            !r.wrong_names.is_empty()
+        });
+        let detection = |least| Rate::count(single(least), |(r, _)| detected(r));
+        let separable = single(8.0).filter(|(_, o)| o.kappa >= 6.0);
+        let listed = |(_, o): &(&Record, &Outcome)| o.finding == "unique" || is_listed(o);
+        let wrong = |r: &&Record| !r.wrong_names.is_empty();
+        let aliased = self
+            .whole()
+            .flat_map(|r| &r.outcomes)
+            .filter(|o| o.finding == "unique");
+        let open = self
+            .records
+            .iter()
+            .filter(|r| r.ablation == Ablation::WithoutTruth)
+            .filter(|r| {
+                r.outcomes
+                    .iter()
+                    .all(|o| o.lambda >= 10.0 && o.kappa >= 5.0)
+            });
+        let sure: Vec<bool> = self
+            .claims()
+            .filter(|(p, _)| *p >= 0.99)
+            .map(|(_, ok)| ok)
+            .collect();
+        let fixed: Vec<&Record> = self
+            .singles()
+            .filter(|(_, o)| o.finding == "unique")
+            .map(|(r, _)| r)
+            .collect();
+        let sizes = self
+            .whole()
+            .flat_map(|r| &r.outcomes)
+            .map(|o| o.deviation)
+            .filter(|z| z.is_finite());
+        let row = |what: &str, bar: &str, got: Rate, holds: fn(f64, f64) -> bool, limit: f64| {
+            let verdict = if got.of == 0 {
+                "–"
+            } else if holds(got.share(), limit) {
+                "yes"
+            } else {
+                "**no**"
+            };
+            vec![
+                what.to_string(),
+                bar.to_string(),
+                got.to_string(),
+                verdict.to_string(),
+            ]
+        };
+        let most: fn(f64, f64) -> bool = |x, limit| x <= limit;
+        let least: fn(f64, f64) -> bool = |x, limit| x >= limit;
+        let rows = vec![
+            row(
+                "alarms on nothing, noise stated, α = 1 %",
+                "≤ 1.5 %",
+                alarms(NoiseKnowledge::Stated),
+                most,
+                0.015,
+            ),
+            row(
+                "alarms on nothing, noise from a recording at rest",
+                "≤ 2.5 %",
+                alarms(NoiseKnowledge::AtRest),
+                most,
+                0.025,
+            ),
+            row(
+                "unique wrong name on nothing",
+                "≤ 0.2 %",
+                named_on_null,
+                most,
+                0.002,
+            ),
+            row(
+                "detected, one effect, λ ≥ 6",
+                "≥ 95 %",
+                detection(6.0),
+                least,
+                0.95,
+            ),
+            row(
+                "detected, one effect, λ ≥ 8",
+                "≥ 99.5 %",
+                detection(8.0),
+                least,
+                0.995,
+            ),
+            row(
+                "named uniquely and rightly, λ ≥ 8 and κ ≥ 6",
+                "≥ 97 %",
+                Rate::count(separable, |(_, o)| o.finding == "unique"),
+                least,
+                0.97,
+            ),
+            row(
+                "named or listed, one effect, λ ≥ 8",
+                "≥ 95 %",
+                Rate::count(single(8.0), listed),
+                least,
+                0.95,
+            ),
+            row(
+                "unique wrong name, one effect",
+                "≤ 1 %",
+                Rate::count(self.of_class(Class::Single), wrong),
+                most,
+                0.01,
+            ),
+            row(
+                "unique wrong name, two or three effects",
+                "≤ 2 %",
+                Rate::count(self.several(), wrong),
+                most,
+                0.02,
+            ),
+            row(
+                "unique name where another gives the same recording",
+                "0",
+                Rate::count(aliased, |o| o.overclaimed),
+                most,
+                0.0,
+            ),
+            row(
+                "claims at posterior ≥ 0.99 right",
+                "≥ 98 %",
+                Rate::count(sure, |ok| *ok),
+                least,
+                0.98,
+            ),
+            row(
+                "true name taken out, λ ≥ 10, κ ≥ 5: unique wrong name",
+                "≤ 8 %",
+                Rate::count(open, wrong),
+                most,
+                0.08,
+            ),
+            row(
+                "no catalogue names it: unique wrong name",
+                "≤ 8 %",
+                Rate::count(self.of_class(Class::Outside), wrong),
+                most,
+                0.08,
+            ),
+            row(
+                "χ²/dof between 0.8 and 1.3 after the fix (one effect, named)",
+                "–",
+                Rate::count(&fixed, |r| (0.8..=1.3).contains(&r.chi[1])),
+                least,
+                0.9,
+            ),
+            row(
+                "error of prediction ≤ 1.2 × noise after the fix (one effect, named)",
+                "–",
+                Rate::count(&fixed, |r| r.held_out[1] <= 1.2),
+                least,
+                0.9,
+            ),
+            row(
+                "true size inside the stated 95 % interval",
+                "93–97 %",
+                Rate::count(sizes, |z| z.abs() <= 1.96),
+                |x, limit| (limit..=0.97).contains(&x),
+                0.93,
+            ),
+        ];
+        table(
+            "Bars",
+            "Shares with the exact 95 % interval of Clopper and Pearson.",
+            &["figure", "bar", "obtained", "holds"],
+            &rows,
+        )
+    }
+}

@@ -120,22 +120,33 @@ pub fn diagnose(
     let ground = Ground::new(&frame, &fit);
     let cells = catalogue::cells(&ground);
     let white = baseline(&frame, &fit, &claimed)?;
-    let (candidates, atoms, places) = question(&ground, &cells, &claimed, &white);
+    let (candidates, mut atoms, mut places) = question(&ground, &cells, &claimed, &white);
     let settings = settings(case);
-    let ask = |claimed: &Claimed, from: f64, to: f64| -> Result<(Baseline, Examination), Failure> {
+    let examined = |claimed: &Claimed, atoms: &[Atom], from: f64, to: f64| {
         let baseline = baseline(&frame, &fit, claimed)?;
         let question = Question {
             baseline: &baseline,
             candidates: &candidates,
-            atoms: &atoms,
+            atoms,
             settings: settings.clone(),
         };
         let examination =
             evidence::examine(&question, &|share| progress(from + (to - from) * share))?;
-        Ok((baseline, examination))
+        Ok::<_, Failure>((baseline, examination))
+    };
+    // Effects of a known size that are seen with another one are something else: without them, again.
+    let mut ask = |claimed: &Claimed, places: &mut Vec<(usize, usize)>, from: f64, to: f64| loop {
+        let (baseline, examination) = examined(claimed, &atoms, from, to)?;
+        let missized = missized(&cells, &examination);
+        if missized.is_empty() {
+            return Ok::<_, Failure>((baseline, examination));
+        }
+        atoms.retain(|atom| !missized.contains(&atom.candidate));
+        places.retain(|(cell, _)| !missized.contains(cell));
     };
     let (mut baseline, mut examination) = ask(
         &claimed,
+        &mut places,
         0.0,
         if claimed.is_estimated() { 0.4 } else { 0.9 },
     )?;
@@ -151,7 +162,7 @@ pub fn diagnose(
                 None => noise::refined(&frame, &fit),
             };
             let from = 0.4 + 0.25 * f64::from(round);
-            (baseline, examination) = ask(&claimed, from, from + 0.25)?;
+            (baseline, examination) = ask(&claimed, &mut places, from, from + 0.25)?;
             if examination
                 .fitted
                 .as_ref()
@@ -190,6 +201,19 @@ pub fn diagnose(
         atoms: places,
         noise: claimed,
     })
+}
+
+/// Candidates of a known size (a reversal, an exchange) that would have to have another size here.
+fn missized(cells: &[Cell], examination: &Examination) -> Vec<usize> {
+    let named = examination.slots.iter().flat_map(|slot| &slot.named);
+    let wrong = named.filter(|named| {
+        let effect = cells[named.candidate].effect;
+        let sizes = named.estimate.iter().enumerate();
+        sizes
+            .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
+            .any(|(size, u)| !effect.admits(size, u))
+    });
+    wrong.map(|named| named.candidate).collect()
 }
 
 /// Visible share of an effect below which it is the curvature of the model that shows.

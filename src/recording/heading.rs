@@ -125,7 +125,7 @@ impl Heading {
         let Some(((name, unit), certain)) = place else {
             return by_ending(text, units);
         };
-        match (units.parse(&text[unit.clone()]), certain) {
+        match (as_written(&text[unit.clone()], units), certain) {
             (Err(error), Certain::Yes) => {
                 let moved = error.span.start + unit.start..error.span.end + unit.start;
                 Heading::new(
@@ -149,6 +149,33 @@ impl Heading {
             unit,
         }
     }
+}
+
+/// A unit as instruments write it: `m/s2`, `m/s**2`, `rad/s2`, `deg/s`, `dps`, `degC`.
+///
+/// The spelling of the unit table goes first; the error, if nothing helps, is that of the text itself.
+fn as_written(text: &str, units: &UnitTable) -> Result<Unit, UnitError> {
+    units.parse(text).or_else(|error| {
+        let text = text.trim();
+        let known = ENDINGS.iter().find(|(ending, _)| *ending == text);
+        let spelt = known.map_or_else(|| with_powers(text), |(_, unit)| (*unit).to_owned());
+        units.parse(&spelt).map_err(|_| error)
+    })
+}
+
+/// `**` as `^`, a digit behind a letter as its power, and `deg` as `°`.
+fn with_powers(text: &str) -> String {
+    let text = text.replace("**", "^").replace("deg", "°");
+    let mut out = String::with_capacity(text.len() + 2);
+    let mut before = ' ';
+    for c in text.chars() {
+        if c.is_ascii_digit() && before.is_alphabetic() {
+            out.push('^');
+        }
+        out.push(c);
+        before = c;
+    }
+    out
 }
 
 /// Whether the place can hold a unit only.
@@ -233,6 +260,32 @@ mod tests {
         assert_eq!(parts("resistivity_ohm_cm"), pair("resistivity", "Ω·cm"));
         assert_eq!(parts("rate_deg_per_s"), pair("rate", "°/s"));
         assert_eq!(parts("gyro_z_radps"), pair("gyro_z", "rad/s"));
+    }
+
+    #[test]
+    fn units_as_instruments_write_them() {
+        let same = |written: &str, unit: &str| {
+            let heading = heading(&format!("x [{written}]"));
+            let expected = UnitTable::default().parse(unit).expect(unit);
+            let unit = heading.unit.expect(written).expect(written);
+            assert_eq!(
+                unit.conversion_to(&expected),
+                expected.conversion_to(&expected),
+                "{written}"
+            );
+            assert_eq!(heading.name, "x");
+        };
+        for (written, unit) in [
+            ("m/s2", "m/s^2"),
+            ("m/s**2", "m/s^2"),
+            ("rad/s2", "rad/s^2"),
+            ("deg/s", "°/s"),
+            ("dps", "°/s"),
+            ("degC", "°C"),
+            ("mdps", "m°/s"),
+        ] {
+            same(written, unit);
+        }
     }
 
     #[test]

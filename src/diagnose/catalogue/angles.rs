@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{map, map2, range};
 use super::response::{on_node, words};
-use super::{Cell, Term, Variants, Variation, effect};
+use super::{Cell, Modifier, Term, Variants, Variation, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 use crate::quantity::UnitTable;
@@ -50,25 +50,19 @@ fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             (format!("{k} per turn"), pair)
         })
         .collect();
-    let mut cells = vec![on_node(
-        ground,
-        "periodic",
-        words(ground, name),
-        name,
-        Node::Output,
-        variants.clone(),
-    )];
+    // Harmonics are independent of one another: each is a candidate of its own.
+    let each = |id: &str, node: Node| -> Vec<Cell> {
+        let one = |variant: &(String, Vec<Modifier>)| {
+            let words = words(ground, name);
+            on_node(ground, id, words, name, node, vec![variant.clone()])
+        };
+        variants.iter().map(one).collect()
+    };
+    let mut cells = each("periodic", Node::Output);
     if !ground.in_model(column) {
         return cells;
     }
-    cells.push(on_node(
-        ground,
-        "eccentricity",
-        words(ground, name),
-        name,
-        Node::Column(column),
-        variants,
-    ));
+    cells.extend(each("eccentricity", Node::Column(column)));
     cells.extend(second_order(ground, column));
     cells
 }

@@ -1,7 +1,7 @@
 //! What recorded conditions may do that the model leaves out: on the offset, on the scale, with a lag,
 //! squared, as a rate, inversely, and together.
 
-use super::ground::{Ground, Node};
+use super::ground::{Ground, Node, varies};
 use super::modifiers::{centred, figure, lag, map, map2, mean, range, rate};
 use super::response::{on_node, on_outputs, time_constants, words};
 use super::{Cell, Variants, Words};
@@ -65,6 +65,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             )
         })
         .collect();
+    let square = square.into_iter().chain(squares(x, &label)).collect();
     let second = if temperature {
         "tempco-quadratic"
     } else {
@@ -75,6 +76,16 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let mut cell = on_node(ground, id, words.clone(), &label, node, delayed.clone());
         cell.words.p = ground.name(node);
         cells.push(cell);
+        let squares = squares(x, &label);
+        let words = cells[cells.len() - 1].words.clone();
+        cells.push(on_node(
+            ground,
+            "sensitivity-scale-quadratic",
+            words,
+            &label,
+            node,
+            squares,
+        ));
     }
     if ground.is_timed() {
         let id = if temperature {
@@ -90,6 +101,26 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         shape(ground, cell);
     }
     cells
+}
+
+/// The square alone, and with a linear part; nothing where the numbers are the same up to their sign.
+fn squares(x: &[f64], label: &str) -> Variants {
+    let square = map(x, |x| x * x);
+    if !varies(&square) {
+        return Vec::new();
+    }
+    let text = format!("{label}^2");
+    let linear = (x.to_vec(), label.to_owned());
+    vec![
+        (
+            "square alone".to_owned(),
+            vec![(square.clone(), text.clone())],
+        ),
+        (
+            "with a linear part".to_owned(),
+            vec![(square, text), linear],
+        ),
+    ]
 }
 
 /// The modifier without a lag, and with each of a series of time constants.

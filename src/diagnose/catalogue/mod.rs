@@ -56,6 +56,22 @@ pub struct Effect {
     pub formula: String,
     /// Sizes that are usual.
     pub typical: String,
+    /// The size that it must have if it is there at all.
+    pub exact: Option<f64>,
+}
+
+impl Effect {
+    /// Whether a fitted size may belong to this effect: any, unless its size is known.
+    pub fn admits(&self, size: f64, u: f64) -> bool {
+        /// Standard uncertainties that a fitted size may differ by.
+        const FAR: f64 = 4.0;
+        /// Part of the size that it may differ by: a slip is hardly ever alone.
+        const PART: f64 = 0.2;
+        self.exact.is_none_or(|exact| {
+            let differs = (size - exact).abs();
+            differs.is_nan() || differs <= (FAR * u).max(PART * exact.abs())
+        })
+    }
 }
 
 /// All effects, in the order of the catalogue.
@@ -225,6 +241,14 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_reversal_is_complete() {
+        let reversed = effect("polarity");
+        assert!(reversed.admits(0.99, 1e-4) && reversed.admits(0.5, 0.2));
+        assert!(!reversed.admits(0.002, 1e-4));
+        assert!(effect("cubic").admits(0.002, 1e-4));
+    }
 
     #[test]
     fn identifiers_are_unique_and_texts_complete() {

@@ -304,15 +304,7 @@ fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     if !both || !repeats(x) {
         return Vec::new();
     }
-    let mut cells = vec![plain(
-        ground,
-        "hysteresis",
-        label,
-        vec![Variation::one(
-            "",
-            on_output(way, format!("direction({label})")),
-        )],
-    )];
+    let mut cells = vec![plain(ground, "hysteresis", label, loops(x, &way, label))];
     let (least, most) = range(x);
     let unit = ground.case().columns[column].unit.typeset();
     let step = typical_step(x);
@@ -342,6 +334,43 @@ fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         cells.push(plain(ground, "play", label, wide));
     }
     cells
+}
+
+/// Shapes of a loop: a constant offset between both ways, a loop that is closed at both ends of the range
+/// and widest between them, and the same on one of the ways only.
+fn loops(x: &[f64], way: &[f64], label: &str) -> Vec<Variation> {
+    let (least, most) = range(x);
+    let half = (most - least) / 2.0;
+    let wide = map(x, |x| (x - least) * (most - x) / (half * half));
+    let shape = format!(
+        "({label} - {least})*({most} - {label})/{square}",
+        least = figure(least),
+        most = figure(most),
+        square = figure(half * half)
+    );
+    let direction = format!("direction({label})");
+    let on_one = |sign: f64| map2(&wide, way, |wide, way| wide * (1.0 + sign * way) / 2.0);
+    [
+        ("", way.to_vec(), direction.clone()),
+        (
+            "widest in the middle",
+            map2(&wide, way, |wide, way| wide * way),
+            format!("{direction}*{shape}"),
+        ),
+        (
+            "on rising values only, widest in the middle",
+            on_one(1.0),
+            format!("[rising]*{shape}"),
+        ),
+        (
+            "on falling values only, widest in the middle",
+            on_one(-1.0),
+            format!("[falling]*{shape}"),
+        ),
+    ]
+    .into_iter()
+    .map(|(variant, modifier, text)| Variation::one(variant, on_output(modifier, text)))
+    .collect()
 }
 
 /// Whether values come again on the way back, roughly.

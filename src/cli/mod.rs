@@ -55,7 +55,7 @@ struct Cli {
 enum Command {
     /// Evaluate budget files: budget table, GUM and Monte Carlo, statement for the certificate
     Eval(eval::Args),
-    /// Confront a declared model with a recording: does it agree, and which physics was left out
+    /// Confront a model with a recording: do they agree, and what was left out
     Diagnose(diagnose::Args),
     /// Write the recording that a declared model and its claimed noise predict
     Simulate(simulate::Args),
@@ -69,7 +69,7 @@ enum Command {
     Plan(calibrate::PlanArgs),
     /// Write a commented budget file to start from
     New(new::Args),
-    /// Make a sealed case: recordings of a simulated calibration in which something is concealed
+    /// Make a sealed case: simulated recordings in which something is concealed
     Challenge(challenge::Args),
     /// Hold a diagnosis against the truth of a sealed case
     Grade(grade::Args),

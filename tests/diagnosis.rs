@@ -256,6 +256,7 @@ const RECORDINGS: [(&str, &[&str]); 10] = [
 ];
 
 #[test]
+#[ignore = "takes minutes; renews reports/recordings.md"]
 fn real_recordings() {
     let root = common::root();
     if !root.join("../shared/recordings").is_dir() {
@@ -282,7 +283,7 @@ fn real_recordings() {
 
 /// `reports/recordings.md`: all recordings, each with its plot.
 fn report(root: &Path) {
-    let mut page = "# Real recordings\n\nWritten by `GUMPTION_UPDATE=1 cargo test --test diagnosis`; each section is what `gumption diagnose` says of a case in [cases](../cases).\n".to_owned();
+    let mut page = "# Real recordings\n\nWritten by `GUMPTION_UPDATE=1 cargo test --test diagnosis -- --ignored`; each section is what `gumption diagnose` says of a case in [cases](../cases).\n".to_owned();
     for (name, _) in RECORDINGS {
         let case = format!("cases/{name}.toml");
         let plots = folder(name);

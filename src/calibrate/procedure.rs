@@ -1,6 +1,6 @@
 //! The procedures of the library.
 //!
-//! A procedure is data: a calibration file (see [`super::tables::CalibrationTable`]) that states the
+//! A procedure is data: a calibration file (see `tables.rs`) that states the
 //! equations, the roles of columns, parameters, inputs and omitted terms, but no recording. A user's file
 //! names it, `procedure = "accelerometer-tumble-4"`, and says the rest. Both have the same format; what
 //! the user's file states of an entry stands over what the procedure states, key by key.

@@ -18,7 +18,7 @@ use std::time::Instant;
 
 use gumption::challenge::SealedCase;
 use gumption::challenge::grade::{self, Answer, Name};
-use gumption::challenge::study::{Record, Trial, read, report, trials, write};
+use gumption::challenge::study::{EACH, NULLS, Record, Trial, read, report, trials, write};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Opinion, diagnose, opinions};
 use gumption::report::{Language, diagnosis_failure, diagnosis_json};
@@ -35,8 +35,8 @@ struct Options {
 
 fn options() -> Result<Options, String> {
     let mut options = Options {
-        each: 8,
-        nulls: 1000,
+        each: EACH,
+        nulls: NULLS,
         threads: std::thread::available_parallelism().map_or(1, usize::from),
         only: String::new(),
         out: PathBuf::from("reports"),

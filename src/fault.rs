@@ -13,13 +13,29 @@ use std::ops::Range;
 /// `model::faults::CODES`, …).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Code {
-    /// `B…` for the budget file, `M…` for the model language, `U…` for units, `E…` for evaluation.
+    /// `B…` for the budget file, `C…` for calibration files, `D…` for case files, `E…` for evaluation, `M…` for the
+    /// model language, `Q…` for measurement equations, `R…` for recordings, `U…` for units.
     pub id: &'static str,
     /// One line: what is wrong.
     pub title: &'static str,
     /// A paragraph: why it is refused and what to do, with a small example.
     pub explanation: &'static str,
 }
+
+/// Defines the codes of a module, `NAME = "id", "title", "explanation";`, and the list of them.
+macro_rules! codes {
+    ($($name:ident = $id:literal, $title:literal, $explanation:literal;)*) => {
+        $(
+            #[doc = $title]
+            pub const $name: $crate::fault::Code =
+                $crate::fault::Code { id: $id, title: $title, explanation: $explanation };
+        )*
+
+        /// Every code of this module, for `gumption explain`.
+        pub const CODES: &[$crate::fault::Code] = &[$($name),*];
+    };
+}
+pub(crate) use codes;
 
 /// One fault in one text.
 #[derive(Debug, Clone, PartialEq)]

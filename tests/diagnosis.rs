@@ -9,22 +9,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// Numbers that look random and are the same everywhere: sums of twelve uniform ones, less six.
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
-    }
-}
+use common::Noise;
 
 fn folder(name: &str) -> PathBuf {
     let folder =
@@ -256,7 +241,6 @@ const RECORDINGS: [(&str, &[&str]); 10] = [
 ];
 
 #[test]
-#[ignore = "takes minutes; renews reports/recordings.md"]
 fn real_recordings() {
     let root = common::root();
     if !root.join("../shared/recordings").is_dir() {
@@ -283,7 +267,7 @@ fn real_recordings() {
 
 /// `reports/recordings.md`: all recordings, each with its plot.
 fn report(root: &Path) {
-    let mut page = "# Real recordings\n\nWritten by `GUMPTION_UPDATE=1 cargo test --test diagnosis -- --ignored`; each section is what `gumption diagnose` says of a case in [cases](../cases).\n".to_owned();
+    let mut page = "# Real recordings\n\nWritten by `GUMPTION_UPDATE=1 cargo test --test diagnosis`; each section is what `gumption diagnose` says of a case in [cases](../cases).\n".to_owned();
     for (name, _) in RECORDINGS {
         let case = format!("cases/{name}.toml");
         let plots = folder(name);

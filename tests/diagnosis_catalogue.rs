@@ -1,27 +1,14 @@
 //! Recordings with one known fault each: what a diagnosis has to name, and what it must not name.
 
+mod common;
+
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
 
 use serde_json::Value;
 
-/// Numbers that look random and are the same everywhere: sums of twelve uniform ones, less six.
-struct Noise(u64);
-
-impl Noise {
-    fn uniform(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.uniform()).sum::<f64>() - 6.0
-    }
-}
+use common::Noise;
 
 fn diagnosed(name: &str, recording: &str, case: &str) -> Value {
     let folder: PathBuf =

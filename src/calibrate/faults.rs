@@ -1,18 +1,6 @@
 //! Codes of the faults in calibration files.
 
-use crate::fault::Code;
-
-macro_rules! codes {
-    ($($name:ident = $id:literal, $title:literal, $explanation:literal;)*) => {
-        $(
-            #[doc = $title]
-            pub const $name: Code = Code { id: $id, title: $title, explanation: $explanation };
-        )*
-
-        /// All codes of this module.
-        pub const CODES: &[Code] = &[$($name),*];
-    };
-}
+use crate::fault::codes;
 
 codes! {
     NO_PROCEDURE = "C0101", "a procedure is not in the library",

@@ -1,13 +1,14 @@
 //! `gumption allan`: a recording at rest in, its noises out.
 
-use std::io::{stderr, stdout};
+use std::io::stderr;
 use std::path::PathBuf;
 
 use gumption::budget::Files;
 use gumption::quantity::{Unit, UnitTable};
 use gumption::recording::{Allan, Recording, Request, regular_interval};
-use gumption::report::{self, AllanReport, Language, Page};
+use gumption::report::{self, AllanReport};
 
+use super::form::Form;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -27,15 +28,8 @@ pub(super) struct Args {
     /// Coverage probability of the confidence intervals
     #[arg(long, value_name = "P", default_value_t = 0.95)]
     probability: f64,
-    /// Print JSON
-    #[arg(long, conflicts_with = "markdown")]
-    json: bool,
-    /// Print Markdown
-    #[arg(long)]
-    markdown: bool,
-    /// Language of the report: en or zh
-    #[arg(long, value_name = "LANG", default_value = "en")]
-    lang: Language,
+    #[command(flatten)]
+    form: Form,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
@@ -49,13 +43,11 @@ pub(super) fn run(args: &Args) -> Outcome {
             return Outcome::BadInput;
         }
     };
-    match analysed(args, &recording) {
-        Ok(text) => output::print(&text),
-        Err(why) => output::complain(&format!("{}: {why}", args.file.display())),
-    }
+    analysed(args, &recording)
+        .unwrap_or_else(|why| output::complain(&format!("{}: {why}", args.file.display())))
 }
 
-fn analysed(args: &Args, recording: &Recording) -> Result<String, String> {
+fn analysed(args: &Args, recording: &Recording) -> Result<Outcome, String> {
     let readings = recording.numbers("readings").unwrap_or_default();
     let (interval, time) = spacing(args, recording)?;
     let allan = Allan::of(readings, interval, args.probability).map_err(|why| why.to_string())?;
@@ -69,19 +61,13 @@ fn analysed(args: &Args, recording: &Recording) -> Result<String, String> {
         time: &time,
         allan: &allan,
         noises: noises.as_ref(),
-        language: args.lang,
+        language: args.form.lang,
     };
-    Ok(match () {
-        () if args.json => format!("{:#}\n", report::allan_json(&shown)),
-        () if args.markdown => report::allan_markdown(&shown),
-        () => report::allan_text(
-            &shown,
-            Page {
-                width: output::page_width(),
-                styled: output::may_style(&stdout()),
-            },
-        ),
-    })
+    Ok(args.form.write(
+        || report::allan_json(&shown),
+        || report::allan_markdown(&shown),
+        |page| report::allan_text(&shown, page),
+    ))
 }
 
 /// Time between readings, and its unit.

@@ -1,11 +1,12 @@
 //! `gumption calibrate` and `gumption plan`: calibration files in, coefficients or predictions out.
 
-use std::io::{stderr, stdout};
+use std::io::stderr;
 use std::path::PathBuf;
 
 use gumption::calibrate::{self, Calibration, Experiment, Purpose, Trouble};
-use gumption::report::{self, Language, Page};
+use gumption::report::{self, Language};
 
+use super::form::Form;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -30,48 +31,6 @@ pub(super) struct PlanArgs {
     form: Form,
 }
 
-/// The form of the report.
-#[derive(Debug, clap::Args)]
-struct Form {
-    /// Print JSON: exact numbers, stable names
-    #[arg(long, conflicts_with = "markdown")]
-    json: bool,
-    /// Print Markdown
-    #[arg(long)]
-    markdown: bool,
-    /// Language of the report: en or zh
-    #[arg(long, value_name = "LANG", default_value = "en")]
-    lang: Language,
-    /// Write to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
-}
-
-impl Form {
-    fn page(&self) -> Page {
-        Page {
-            width: match &self.output {
-                Some(_) => output::USUAL_WIDTH,
-                None => output::page_width(),
-            },
-            styled: self.output.is_none() && output::may_style(&stdout()),
-        }
-    }
-
-    fn write(&self, text: &str) -> Outcome {
-        match &self.output {
-            Some(path) => output::replace(path, text),
-            None => output::print(text),
-        }
-    }
-
-    fn fail(&self, file: &std::path::Path, trouble: &Trouble) -> Outcome {
-        let why = report::calibration_trouble(trouble, self.lang);
-        output::warn(&format!("error: {}: {why}\n", file.display()));
-        Outcome::Negative
-    }
-}
-
 pub(super) fn run(args: &Args) -> Outcome {
     let experiment = match read(&args.file, Purpose::Calibrate) {
         Ok(experiment) => experiment,
@@ -79,21 +38,16 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let found = match calibrate::calibrate(&experiment) {
         Ok(found) => found,
-        Err(trouble) => return args.form.fail(&args.file, &trouble),
+        Err(trouble) => return failed(&args.file, &trouble, args.form.lang),
     };
     let lang = args.form.lang;
-    let text = if args.form.json {
-        format!(
-            "{:#}\n",
-            report::calibration_json(&experiment, &found, lang)
-        )
-    } else if args.form.markdown {
-        report::calibration_markdown(&experiment, &found, lang)
-    } else {
-        report::calibration_text(&experiment, &found, lang, args.form.page())
-    };
     let written = budgets(args, &experiment, &found);
-    args.form.write(&text).max(written)
+    let shown = args.form.write(
+        || report::calibration_json(&experiment, &found, lang),
+        || report::calibration_markdown(&experiment, &found, lang),
+        |page| report::calibration_text(&experiment, &found, lang, page),
+    );
+    shown.max(written)
 }
 
 pub(super) fn run_plan(args: &PlanArgs) -> Outcome {
@@ -103,17 +57,20 @@ pub(super) fn run_plan(args: &PlanArgs) -> Outcome {
     };
     let plan = match calibrate::plan(&experiment) {
         Ok(plan) => plan,
-        Err(trouble) => return args.form.fail(&args.file, &trouble),
+        Err(trouble) => return failed(&args.file, &trouble, args.form.lang),
     };
     let lang = args.form.lang;
-    let text = if args.form.json {
-        format!("{:#}\n", report::plan_json(&experiment, &plan, lang))
-    } else if args.form.markdown {
-        report::plan_markdown(&experiment, &plan, lang)
-    } else {
-        report::plan_text(&experiment, &plan, lang, args.form.page())
-    };
-    args.form.write(&text)
+    args.form.write(
+        || report::plan_json(&experiment, &plan, lang),
+        || report::plan_markdown(&experiment, &plan, lang),
+        |page| report::plan_text(&experiment, &plan, lang, page),
+    )
+}
+
+fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome {
+    let why = report::calibration_trouble(trouble, lang);
+    output::warn(&format!("error: {}: {why}\n", file.display()));
+    Outcome::Negative
 }
 
 fn read(file: &std::path::Path, purpose: Purpose) -> Result<Experiment, Outcome> {

@@ -1,13 +1,14 @@
 //! `gumption diagnose`: a declared model confronted with a recording.
 
-use std::io::{IsTerminal, stderr, stdout};
+use std::io::{IsTerminal, stderr};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{self, Diagnosis};
-use gumption::report::{self, Language, Page};
+use gumption::report;
 
+use super::form::Form;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -15,15 +16,8 @@ pub(super) struct Args {
     /// The case file
     #[arg(value_name = "CASE")]
     case: PathBuf,
-    /// Print JSON: exact numbers, stable names
-    #[arg(long, conflicts_with = "markdown")]
-    json: bool,
-    /// Print Markdown
-    #[arg(long)]
-    markdown: bool,
-    /// Language of the report: en or zh
-    #[arg(long, value_name = "LANG", default_value = "en")]
-    lang: Language,
+    #[command(flatten)]
+    form: Form,
     /// Seed of the random numbers [default: that of the case, else 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
@@ -33,9 +27,6 @@ pub(super) struct Args {
     /// Write plots of the residuals (SVG) into this folder
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
-    /// Write the report to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
@@ -65,27 +56,18 @@ pub(super) fn run(args: &Args) -> Outcome {
         Err(failure) => output::complain(&format!(
             "{}: {}",
             args.case.display(),
-            report::diagnosis_failure(&case, &failure, args.lang)
+            report::diagnosis_failure(&case, &failure, args.form.lang)
         )),
     }
 }
 
 fn written(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
-    let text = if args.json {
-        format!("{:#}\n", report::diagnosis_json(case, diagnosis, args.lang))
-    } else if args.markdown {
-        report::diagnosis_markdown(case, diagnosis, args.lang)
-    } else {
-        let page = Page {
-            width: output::page_width(),
-            styled: output::may_style(&stdout()),
-        };
-        report::diagnosis_text(case, diagnosis, args.lang, page)
-    };
-    match &args.output {
-        Some(path) => output::replace(path, &text),
-        None => output::print(&text),
-    }
+    let lang = args.form.lang;
+    args.form.write(
+        || report::diagnosis_json(case, diagnosis, lang),
+        || report::diagnosis_markdown(case, diagnosis, lang),
+        |page| report::diagnosis_text(case, diagnosis, lang, page),
+    )
 }
 
 /// The improved case and the plots.
@@ -109,7 +91,7 @@ fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
     if let Some(folder) = &args.plots {
         outcome = outcome.max(files(
             folder,
-            report::diagnosis_plots(case, diagnosis, args.lang),
+            report::diagnosis_plots(case, diagnosis, args.form.lang),
         ));
     }
     outcome

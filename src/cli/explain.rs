@@ -5,7 +5,7 @@ mod pages;
 
 use gumption::budget::KeyRow;
 use gumption::fault::{Code, nearest};
-use gumption::{budget, calibrate, distribution, equations, model, quantity, recording};
+use gumption::{budget, calibrate, diagnose, distribution, equations, model, quantity, recording};
 
 use super::concepts::CONCEPTS;
 use super::{Outcome, output};
@@ -338,6 +338,7 @@ fn codes() -> impl Iterator<Item = &'static Code> {
         .chain(recording::faults::CODES)
         .chain(equations::faults::CODES)
         .chain(calibrate::faults::CODES)
+        .chain(diagnose::faults::CODES)
 }
 
 #[cfg(test)]

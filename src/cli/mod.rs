@@ -8,6 +8,7 @@ mod date;
 mod diagnose;
 mod eval;
 mod explain;
+mod form;
 mod grade;
 mod new;
 mod output;

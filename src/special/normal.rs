@@ -1,5 +1,9 @@
 //! The standard normal distribution.
 
+use gumption_lanes::as241::{
+    MIDDLE_DENOMINATOR, MIDDLE_NUMERATOR, TAIL_DENOMINATOR, TAIL_NUMERATOR,
+};
+
 use super::error_function::{erf, erfc};
 
 /// φ(x), the density.
@@ -68,55 +72,15 @@ pub fn normal_two_sided_quantile(p: f64) -> f64 {
 
 /// Quantile at p = ½ + q for |q| ≤ 0.425; Wichura (1988), algorithm AS 241.
 fn middle(q: f64) -> f64 {
-    const NUMERATOR: [f64; 8] = [
-        3.387_132_872_796_366_5,
-        133.141_667_891_784_38,
-        1_971.590_950_306_551_3,
-        13_731.693_765_509_46,
-        45_921.953_931_549_87,
-        67_265.770_927_008_7,
-        33_430.575_583_588_13,
-        2_509.080_928_730_122_7,
-    ];
-    const DENOMINATOR: [f64; 8] = [
-        1.0,
-        42.313_330_701_600_91,
-        687.187_007_492_057_9,
-        5_394.196_021_424_751,
-        21_213.794_301_586_597,
-        39_307.895_800_092_71,
-        28_729.085_735_721_943,
-        5_226.495_278_852_854,
-    ];
     if q.is_nan() {
         return f64::NAN;
     }
     let r = 0.180_625 - q * q;
-    q * polynomial(&NUMERATOR, r) / polynomial(&DENOMINATOR, r)
+    q * polynomial(&MIDDLE_NUMERATOR, r) / polynomial(&MIDDLE_DENOMINATOR, r)
 }
 
 /// Upper quantile for a small tail p; AS 241.
 fn tail(p: f64) -> f64 {
-    const NEAR_NUMERATOR: [f64; 8] = [
-        1.423_437_110_749_683_5,
-        4.630_337_846_156_546,
-        5.769_497_221_460_691,
-        3.647_848_324_763_204_5,
-        1.270_458_252_452_368_4,
-        0.241_780_725_177_450_6,
-        0.022_723_844_989_269_184,
-        7.745_450_142_783_414e-4,
-    ];
-    const NEAR_DENOMINATOR: [f64; 8] = [
-        1.0,
-        2.053_191_626_637_759,
-        1.676_384_830_183_803_8,
-        0.689_767_334_985_1,
-        0.148_103_976_427_480_08,
-        0.015_198_666_563_616_457,
-        5.475_938_084_995_345e-4,
-        1.050_750_071_644_416_9e-9,
-    ];
     const FAR_NUMERATOR: [f64; 8] = [
         6.657_904_643_501_103,
         5.463_784_911_164_114,
@@ -146,7 +110,7 @@ fn tail(p: f64) -> f64 {
     let r = (-libm::log(p)).sqrt();
     if r <= 5.0 {
         let r = r - 1.6;
-        polynomial(&NEAR_NUMERATOR, r) / polynomial(&NEAR_DENOMINATOR, r)
+        polynomial(&TAIL_NUMERATOR, r) / polynomial(&TAIL_DENOMINATOR, r)
     } else {
         let r = r - 5.0;
         polynomial(&FAR_NUMERATOR, r) / polynomial(&FAR_DENOMINATOR, r)

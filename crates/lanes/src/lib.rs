@@ -13,6 +13,7 @@
 //! | [`ops`] | arithmetic and functions on whole blocks |
 //! | [`sampler`] | blocks of draws from the distributions of JCGM 101, 6.4, and others |
 //! | [`sobol`] | scrambled Sobol' points |
+//! | [`as241`] | coefficients of the normal quantile |
 //! | [`quantile`] | from uniform numbers to values of a distribution, by its quantile function |
 //! | [`kernel`] | averages of distribution functions over points |
 //! | [`bins`] | counts in equal bins, and the values of chosen ones |
@@ -41,6 +42,7 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod as241;
 pub mod bins;
 pub mod elementary;
 pub mod generator;

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use fearless_simd::{Level, dispatch};
 
+use crate::as241::{MIDDLE_DENOMINATOR, MIDDLE_NUMERATOR, TAIL_DENOMINATOR, TAIL_NUMERATOR};
 use crate::elementary::{exp, horner, ln_normal};
 use crate::sampler::sin_pi;
 use crate::{Block, LANES};
@@ -235,46 +236,6 @@ pub fn scores(level: Level, block: &mut Block) {
 /// side by side. Its third part, for u below 1.4·10⁻¹¹, is left out: the second is within 10⁻⁷ there.
 #[inline(always)]
 fn score(u: f64) -> f64 {
-    const MIDDLE_NUMERATOR: [f64; 8] = [
-        3.387_132_872_796_366_5,
-        133.141_667_891_784_38,
-        1_971.590_950_306_551_3,
-        13_731.693_765_509_46,
-        45_921.953_931_549_87,
-        67_265.770_927_008_7,
-        33_430.575_583_588_13,
-        2_509.080_928_730_122_7,
-    ];
-    const MIDDLE_DENOMINATOR: [f64; 8] = [
-        1.0,
-        42.313_330_701_600_91,
-        687.187_007_492_057_9,
-        5_394.196_021_424_751,
-        21_213.794_301_586_597,
-        39_307.895_800_092_71,
-        28_729.085_735_721_943,
-        5_226.495_278_852_854,
-    ];
-    const TAIL_NUMERATOR: [f64; 8] = [
-        1.423_437_110_749_683_5,
-        4.630_337_846_156_546,
-        5.769_497_221_460_691,
-        3.647_848_324_763_204_5,
-        1.270_458_252_452_368_4,
-        0.241_780_725_177_450_6,
-        0.022_723_844_989_269_184,
-        7.745_450_142_783_414e-4,
-    ];
-    const TAIL_DENOMINATOR: [f64; 8] = [
-        1.0,
-        2.053_191_626_637_759,
-        1.676_384_830_183_803_8,
-        0.689_767_334_985_1,
-        0.148_103_976_427_480_08,
-        0.015_198_666_563_616_457,
-        5.475_938_084_995_345e-4,
-        1.050_750_071_644_416_9e-9,
-    ];
     let q = u - 0.5;
     let near = q.mul_add(-q, 0.180_625);
     let far = if u < 0.5 { u } else { 1.0 - u };

@@ -150,7 +150,7 @@ fn panel(title: &str, label: &str, x: &[f64], y: &[f64], colour: &str) -> String
         WIDTH - LEFT - RIGHT,
         HEIGHT - TOP - BOTTOM
     );
-    for tick in ticks(x_low, x_high) {
+    for (tick, written) in ticks(x_low, x_high) {
         let at = place_x(tick);
         let _ = writeln!(
             out,
@@ -158,10 +158,10 @@ fn panel(title: &str, label: &str, x: &[f64], y: &[f64], colour: &str) -> String
             HEIGHT - BOTTOM,
             HEIGHT - BOTTOM + 4.0,
             HEIGHT - BOTTOM + 17.0,
-            number(tick)
+            written
         );
     }
-    for tick in ticks(y_low, y_high) {
+    for (tick, written) in ticks(y_low, y_high) {
         let at = place_y(tick);
         let _ = writeln!(
             out,
@@ -169,7 +169,7 @@ fn panel(title: &str, label: &str, x: &[f64], y: &[f64], colour: &str) -> String
             WIDTH - RIGHT,
             LEFT - 6.0,
             at + 4.0,
-            number(tick)
+            written
         );
     }
     let zero = place_y(0.0);
@@ -208,8 +208,8 @@ fn limits(values: &[f64]) -> (f64, f64) {
     (low - margin, high + margin)
 }
 
-/// Round numbers inside the limits, four to eight of them.
-fn ticks(low: f64, high: f64) -> Vec<f64> {
+/// Round numbers inside the limits, four to eight of them, with their labels.
+fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     let rough = (high - low) / 5.0;
     let decade = libm::pow(10.0, libm::log10(rough).floor());
     let step = [1.0, 2.0, 5.0, 10.0]
@@ -219,14 +219,24 @@ fn ticks(low: f64, high: f64) -> Vec<f64> {
         .unwrap_or(rough);
     let first = (low / step).ceil() as i64;
     let last = (high / step).floor() as i64;
-    (first..=last).map(|k| k as f64 * step).collect()
+    (first..=last)
+        .map(|k| k as f64 * step)
+        .map(|tick| (tick, tick_label(tick, step)))
+        .collect()
 }
 
-fn number(x: f64) -> String {
-    if x == 0.0 {
+/// A multiple of the step with no more digits than the step needs.
+fn tick_label(tick: f64, step: f64) -> String {
+    let exponent = |x: f64| libm::log10(x.abs()).floor() as i32;
+    let last_place = exponent(step * (1.0 + 1e-9));
+    if tick == 0.0 {
         "0".to_owned()
+    } else if tick.abs() < 1e5 && last_place >= -5 {
+        let decimals = usize::try_from(-last_place).unwrap_or(0);
+        format!("{tick:.decimals$}")
     } else {
-        significant(x, 4).trim_end_matches(".0").to_owned()
+        let digits = exponent(tick * (1.0 + 1e-9)) - last_place + 1;
+        significant(tick, u8::try_from(digits).unwrap_or(1).max(1))
     }
 }
 

@@ -49,7 +49,9 @@ fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str
         P::Eccentricity | P::Ellipticity | P::Ripple => &[("eccentricity", &["head", "azimuth"])],
         P::ElevationEccentricity => &[("eccentricity", &["elevation"])],
         P::Flexure => &[("eccentricity", &["head"]), ("cross-product", &[])],
-        P::Wobble | P::RateRipple | P::Magnetic | P::EarthRate => &[("periodic", &["table"])],
+        P::Wobble => &[("periodic", &["table"]), ("axis-wobble", &["table"])],
+        P::RateRipple => &[("periodic", &["table"]), ("periodic-scale", &["table"])],
+        P::Magnetic | P::EarthRate => &[("periodic", &["table"]), ("laboratory-field", &["table"])],
         P::Supply => &[("sensitivity", &["supply"])],
         P::Vibration => &[
             ("sensitivity", &["vibration"]),

@@ -4,7 +4,7 @@
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{centred, figure, lag, map, map2, mean, range, rate};
 use super::response::{on_node, on_outputs, time_constants, words};
-use super::{Cell, Variants, Words};
+use super::{Cell, Modifier, Variants, Words};
 use crate::diagnose::case::Role;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
@@ -47,13 +47,18 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         _ => "sensitivity",
     };
     let delayed = delayed(ground, &own, &text);
+    let linear: Variants = delayed
+        .iter()
+        .cloned()
+        .chain(leading(ground, &own, &text))
+        .collect();
     let words = words(ground, &label);
     cells.push(on_outputs(
         ground,
         bias,
         words.clone(),
         &label,
-        delayed.clone(),
+        linear.clone(),
     ));
     let square: Variants = delayed
         .iter()
@@ -73,7 +78,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     cells.push(on_outputs(ground, second, words.clone(), &label, square));
     for (node, id) in scale_nodes(ground, temperature) {
-        let mut cell = on_node(ground, id, words.clone(), &label, node, delayed.clone());
+        let mut cell = on_node(ground, id, words.clone(), &label, node, linear.clone());
         cell.words.p = ground.name(node);
         cells.push(cell);
         let squares = squares(x, &label);
@@ -138,6 +143,18 @@ fn delayed(ground: &Ground<'_>, own: &[f64], text: &str) -> Variants {
         }
     }
     variants
+}
+
+/// The modifier and its rate of change, each with a size of its own: the sensor follows before or behind
+/// the instrument that shows the condition, by less than a lag can be told.
+fn leading(ground: &Ground<'_>, own: &[f64], text: &str) -> Option<(String, Vec<Modifier>)> {
+    ground.is_timed().then(|| {
+        let rate = (rate(&ground.clock.values, own), format!("d{text}/dt"));
+        (
+            "with its rate of change".to_owned(),
+            vec![(own.to_vec(), text.to_owned()), rate],
+        )
+    })
 }
 
 /// Notes the time constant of delayed variants.

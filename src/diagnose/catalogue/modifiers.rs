@@ -108,6 +108,19 @@ pub fn range(x: &[f64]) -> (f64, f64) {
     (least, most)
 }
 
+/// Coefficient of correlation; 0 where one of both does not vary.
+pub fn correlation(x: &[f64], z: &[f64]) -> f64 {
+    let (x, z) = (centred(x), centred(z));
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let size = libm::sqrt(dot(&x, &x) * dot(&z, &z));
+    if size > 0.0 { dot(&x, &z) / size } else { 0.0 }
+}
+
+/// The largest modulus.
+pub fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
+}
+
 /// Element by element.
 pub fn map2(x: &[f64], z: &[f64], f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     x.iter().zip(z).map(|(x, z)| f(*x, *z)).collect()

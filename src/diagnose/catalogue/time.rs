@@ -91,17 +91,27 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
                 )],
             )
         });
-        add(["ageing", ""], logarithms.collect(), Some("t₀"));
-        let decays: Variants = scales
-            .iter()
-            .map(|tau| {
-                let modifier = map(&since, |t| libm::exp(-t / tau));
-                (
-                    format!("τ = {tau} {unit}", tau = figure(*tau)),
-                    vec![(modifier, format!("exp(-t/{tau})", tau = figure(*tau)))],
-                )
-            })
-            .collect();
+        // Diffusion and creep go with the root of time.
+        let root = (
+            "root of time".to_owned(),
+            vec![(map(&since, libm::sqrt), "sqrt(t)".to_owned())],
+        );
+        let ageing = logarithms.chain([root]).collect();
+        add(["ageing", "ageing-scale"], ageing, Some("t₀"));
+        let decay = |tau: f64| {
+            let modifier = map(&since, |t| libm::exp(-t / tau));
+            (modifier, format!("exp(-t/{})", figure(tau)))
+        };
+        let single = scales.iter().map(|tau| {
+            let label = format!("τ = {} {unit}", figure(*tau));
+            (label, vec![decay(*tau)])
+        });
+        // A small body warms in a large one.
+        let double = scales.iter().step_by(2).map(|tau| {
+            let label = format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau));
+            (label, vec![decay(*tau), decay(4.0 * tau)])
+        });
+        let decays = single.chain(double).collect();
         add(["warm-up", "warm-up-scale"], decays, Some("τ"));
         for (id, period, least, most) in [
             ("season", 365.2422 * 86_400.0, 0.75, 60.0),
@@ -129,12 +139,12 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 fn shaped(ground: &Ground<'_>, cell: &mut Cell, symbol: &'static str) {
     let unit = ground.time_unit();
     for variation in &mut cell.variants {
-        let number = variation
-            .label
-            .split("= ")
-            .nth(1)
-            .and_then(|rest| rest.split(' ').next());
-        if let Some(value) = number.and_then(|number| number.parse().ok()) {
+        // Two time constants are not one.
+        let single = !variation.label.contains(" and ");
+        let number = variation.label.split("= ").nth(1);
+        let number = number.and_then(|rest| rest.split(' ').next());
+        let value = number.and_then(|number| number.parse().ok());
+        if let Some(value) = value.filter(|_| single) {
             *variation = variation.clone().shaped(symbol, value, &unit);
         }
     }

@@ -198,7 +198,7 @@ fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
 /// The end of the range on both sides, and on one.
 fn limits(ground: &Ground<'_>, inputs: &[Input]) -> Option<Cell> {
     /// Sizes of the input below which its end cannot be seen to bend.
-    const LEVELS: usize = 4;
+    const LEVELS: usize = 6;
     let sizes = inputs.iter().map(|input| levels(&input.own)).max()?;
     if sizes < LEVELS {
         return None;

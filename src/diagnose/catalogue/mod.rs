@@ -13,6 +13,7 @@
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `implicit` | the same where the model holds a constant against several columns |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
+//! | `heating`, `waves`, `readout` | power of the signal, what repeats along a stimulus, rounding and slips |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
 //! | `generics` | competitors without a name |
 
@@ -21,15 +22,18 @@ mod conditions;
 mod fields;
 mod generics;
 mod ground;
+mod heating;
 mod implicit;
 mod inputs;
 mod levels;
 mod limits;
 pub(super) mod modifiers;
+mod readout;
 mod response;
 mod rows;
 mod time;
 mod user;
+mod waves;
 
 use std::sync::LazyLock;
 
@@ -270,6 +274,9 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells.extend(levels::cells(ground));
     cells.extend(angles::cells(ground));
     cells.extend(rows::cells(ground));
+    cells.extend(readout::cells(ground));
+    cells.extend(waves::cells(ground));
+    cells.extend(heating::cells(ground));
     cells.extend(user::cells(ground));
     let settings = &ground.frame.case.settings;
     let wanted = |cell: &Cell| {

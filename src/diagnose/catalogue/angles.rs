@@ -41,7 +41,11 @@ fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         };
         variants.iter().map(one).collect()
     };
-    let mut cells = each("periodic", Node::Output);
+    let mut cells = Vec::new();
+    // Several outputs that an angle turns into one another have powers of their inputs for harmonics.
+    if !ground.in_model(column) || ground.case().responses.len() == 1 {
+        cells.extend(each("periodic", Node::Output));
+    }
     if !ground.in_model(column) {
         if ground.has_signal() {
             cells.extend(each("periodic-scale", Node::Gain));
@@ -59,8 +63,11 @@ fn harmonics(ground: &Ground<'_>, column: usize) -> Variants {
     let phi = radians(ground, column);
     let (least, most) = range(&phi);
     let positions = positions(&phi);
+    // A wave shows by half of it, and by two positions.
+    let shows =
+        |k: &u32| f64::from(*k) * (most - least) > 0.9 * PI && 2 * (*k as usize) <= positions;
     (1..=HIGHEST)
-        .filter(|k| f64::from(*k) * (most - least) > PI && 2 * (*k as usize) <= positions)
+        .filter(shows)
         .map(|k| {
             let times = f64::from(k);
             let pair = vec![

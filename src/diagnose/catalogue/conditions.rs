@@ -3,7 +3,7 @@
 
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{centred, figure, lag, map, map2, mean, range, rate};
-use super::response::{on_node, on_outputs, time_constants, words};
+use super::response::{levels_of, on_node, on_outputs, time_constants, words};
 use super::{Cell, Modifier, Variants, Words};
 use crate::diagnose::case::Role;
 
@@ -110,22 +110,25 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
 
 /// The square alone, and with a linear part; nothing where the numbers are the same up to their sign.
 fn squares(x: &[f64], label: &str) -> Variants {
+    /// Through so many values a square with a line goes anyhow.
+    const FEW: usize = 3;
     let square = map(x, |x| x * x);
     if !varies(&square) {
         return Vec::new();
     }
     let text = format!("{label}^2");
     let linear = (x.to_vec(), label.to_owned());
-    vec![
-        (
-            "square alone".to_owned(),
-            vec![(square.clone(), text.clone())],
-        ),
-        (
+    let mut variants = vec![(
+        "square alone".to_owned(),
+        vec![(square.clone(), text.clone())],
+    )];
+    if levels_of(x).len() > FEW {
+        variants.push((
             "with a linear part".to_owned(),
             vec![(square, text), linear],
-        ),
-    ]
+        ));
+    }
+    variants
 }
 
 /// The modifier without a lag, and with each of a series of time constants.

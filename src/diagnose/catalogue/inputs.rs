@@ -5,7 +5,7 @@
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{correlation, figure, lag, largest, map, map2, play, range, rate};
+use super::modifiers::{correlation, creeps, figure, lag, largest, map, map2, play, range, rate};
 use super::response::time_constants;
 use super::{Cell, Modifier, Term, Variation, Words, effect};
 use crate::diagnose::case::Role;
@@ -227,31 +227,47 @@ fn levels(x: &[f64]) -> usize {
 fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     /// A product that is never larger than this is a leak of one axis into the other.
     const LEAK: f64 = 0.05;
-    let product = |input: &Input| {
-        let products = input.others.iter().map(|(other, text)| {
-            let product = map2(&input.own, other, |s, q| s * q);
-            (product, format!("signal*{text}"))
-        });
-        products.filter(|(p, _)| largest(p) > LEAK).collect()
+    let product = |input: &Input, (other, text): &Modifier| {
+        let product = map2(&input.own, other, |s, q| s * q);
+        let large = largest(&product) > LEAK;
+        large.then(|| (product, format!("signal*{text}")))
     };
-    let square = |input: &Input| {
-        let squares = input.others.iter();
-        let squares = squares.map(|(other, text)| (map(other, |q| q * q), format!("{text}^2")));
-        squares.collect()
+    let square = |(other, text): &Modifier| (map(other, |q| q * q), format!("{text}^2"));
+    let most = inputs.iter().map(|input| input.others.len()).max();
+    let each = 0..most.unwrap_or(0);
+    let name = |other: usize| match each.len() {
+        1 => String::new(),
+        _ => format!("other axis {}", other + 1),
     };
+    let mut crossed: Vec<Shaped<'_>> = each
+        .clone()
+        .map(|at| {
+            let law = move |input: &Input| {
+                let other = input.others.get(at);
+                other
+                    .and_then(|other| product(input, other))
+                    .into_iter()
+                    .collect()
+            };
+            Shaped::plain(&name(at), law)
+        })
+        .collect();
+    if each.len() > 1 {
+        let all = |input: &Input| {
+            let others = input.others.iter();
+            others.filter_map(|other| product(input, other)).collect()
+        };
+        crossed.push(Shaped::plain("", all));
+    }
+    // All squares together are the square of the own input: the field has a length.
+    let squared = each.clone().map(|at| {
+        let law = move |input: &Input| input.others.get(at).map(square).into_iter().collect();
+        Shaped::plain(&name(at), law)
+    });
+    let squared = squared.collect();
     vec![
-        cell(
-            ground,
-            inputs,
-            "cross-product",
-            vec![Shaped::plain("", product)],
-        ),
-        cell(
-            ground,
-            inputs,
-            "cross-square",
-            vec![Shaped::plain("", square)],
-        ),
+        cell(ground, inputs, "cross-product", crossed),
+        cell(ground, inputs, "cross-square", squared),
     ]
 }
 
@@ -284,13 +300,16 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
         law: Box::new(move |input: &Input| vec![lacks(input, *tau), lacks(input, 4.0 * tau)]),
     });
     cells.push(cell(ground, inputs, "lag", single.chain(double).collect()));
-    let skew = |input: &Input| vec![(rate(&t, &input.own), "dsignal/dt".to_owned())];
-    cells.push(cell(
-        ground,
-        inputs,
-        "timing-skew",
-        vec![Shaped::plain("", skew)],
-    ));
+    let skew = |input: &Input| {
+        let modifier = rate(&t, &input.own);
+        let moving = creeps(&input.own);
+        moving
+            .then(|| (modifier, "dsignal/dt".to_owned()))
+            .into_iter()
+            .collect()
+    };
+    let skew = vec![Shaped::plain("", skew)];
+    cells.push(cell(ground, inputs, "timing-skew", skew));
     cells
 }
 

@@ -108,6 +108,21 @@ pub fn range(x: &[f64]) -> (f64, f64) {
     (least, most)
 }
 
+/// The usual difference of successive values; 0 where nothing moves.
+pub fn typical_step(x: &[f64]) -> f64 {
+    let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
+    steps.sort_by(f64::total_cmp);
+    steps.get(steps.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Whether a course moves by small steps, so that it has a rate of change; from dwell to dwell it has none.
+pub fn creeps(x: &[f64]) -> bool {
+    const SMALL: f64 = 0.15;
+    let (least, most) = range(x);
+    typical_step(x) < SMALL * (most - least)
+}
+
 /// Coefficient of correlation; 0 where one of both does not vary.
 pub fn correlation(x: &[f64], z: &[f64]) -> f64 {
     let (x, z) = (centred(x), centred(z));

@@ -2,7 +2,9 @@
 //! lag, history.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{centred, direction, figure, grid, lag, map, map2, mean, play, range, rate};
+use super::modifiers::{
+    centred, creeps, direction, figure, grid, lag, map, map2, mean, play, range, rate, typical_step,
+};
 use super::{Cell, Term, Variants, Variation, Words, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -114,7 +116,8 @@ pub(super) fn words(ground: &Ground<'_>, x: &str) -> Words {
 fn aside(ground: &Ground<'_>, factors: &[usize]) -> Vec<Cell> {
     let mut vectors: Vec<Vec<usize>> = Vec::new();
     let unit = |column: usize| &ground.case().columns[column].unit;
-    for column in factors {
+    // The angle of a mount turns other things; by itself it does nothing.
+    for column in factors.iter().filter(|c| !ground.is_angle(**c)) {
         match vectors.iter_mut().find(|v| unit(v[0]) == unit(*column)) {
             Some(vector) => vector.push(*column),
             None => vectors.push(vec![*column]),
@@ -269,7 +272,11 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         )],
         ..lagged.clone()
     };
-    vec![lagged, skew]
+    if creeps(x) {
+        vec![lagged, skew]
+    } else {
+        vec![lagged]
+    }
 }
 
 fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
@@ -355,16 +362,6 @@ fn repeats(x: &[f64]) -> bool {
         .filter(|pair| pair[0] != pair[1])
         .count()
         > 0
-}
-
-fn typical_step(x: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = x
-        .windows(2)
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .filter(|step| *step > 0.0)
-        .collect();
-    steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied().unwrap_or(0.0)
 }
 
 fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {

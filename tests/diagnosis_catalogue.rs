@@ -278,3 +278,68 @@ fn a_gyroscope_feels_gravity() {
     assert_eq!(named(&found), [["cross-sensitivity"]], "{found}");
     assert_eq!(found["effects"][0]["named"][0]["along"], "cx, cy, cz");
 }
+
+/// A triad of accelerometers in eighteen orientations, twice: what the axes show for a force in the sensor,
+/// with an error of the elevation that the stand really has.
+fn stand(error: impl Fn(f64) -> f64, shown: impl Fn([f64; 3]) -> [f64; 3], seed: u64) -> String {
+    let mut poses: Vec<(f64, f64)> = (0..8).map(|k| (45.0 * f64::from(k), 0.0)).collect();
+    for k in 0..4 {
+        poses.extend([(90.0 * f64::from(k), 45.0), (90.0 * f64::from(k), -45.0)]);
+    }
+    poses.extend([(0.0, 90.0), (0.0, -90.0)]);
+    let mut noise = Noise(seed);
+    let mut rows = "azimuth [deg],elevation [deg],ax [gn],ay [gn],az [gn]\n".to_owned();
+    for (azimuth, elevation) in poses.iter().chain(poses.iter().rev()) {
+        let a = azimuth.to_radians();
+        let e = elevation.to_radians() + error(elevation.to_radians());
+        let force = [
+            libm::cos(e) * libm::cos(a),
+            libm::cos(e) * libm::sin(a),
+            libm::sin(e),
+        ];
+        let _ = write!(rows, "{azimuth},{elevation}");
+        for reading in shown(force) {
+            let _ = write!(rows, ",{:.7}", reading + 2e-5 * noise.normal());
+        }
+        rows.push('\n');
+    }
+    rows
+}
+
+fn stand_case() -> String {
+    let row = |a: char| {
+        format!(
+            "    \"a{a} = b{a} + M{a}x*cos(elevation)*cos(azimuth) + M{a}y*cos(elevation)*sin(azimuth) + M{a}z*sin(elevation)\",\n"
+        )
+    };
+    format!(
+        "model = [\n{}]\n[columns]\nazimuth = \"angle\"\nelevation = \"angle\"\nax = \"output\"\nay = \"output\"\naz = \"output\"\n[noise]\nu = \"2e-5 gn\"\n",
+        ['x', 'y', 'z'].map(row).concat()
+    )
+}
+
+#[test]
+fn an_eccentric_elevation_reaches_all_axes_with_one_size() {
+    let rows = stand(
+        |e| 1.5e-4 * libm::sin(e + 0.6),
+        |force| force.map(|f| 1.002 * f - 0.003),
+        31,
+    );
+    let found = diagnosed("elevation", &rows, &stand_case());
+    let effect = &found["effects"][0]["named"][0];
+    assert_eq!(named(&found)[0], ["eccentricity"], "{found}");
+    assert_eq!(effect["along"], "elevation");
+    assert_eq!(effect["size"].as_array().map(Vec::len), Some(2));
+}
+
+#[test]
+fn a_pendulum_that_swings_out_multiplies_two_inputs() {
+    let shown = |[x, y, z]: [f64; 3]| [x + 0.001, 0.999 * y + 2e-4 * y * x, z];
+    let found = diagnosed("product", &stand(|_| 0.0, shown, 37), &stand_case());
+    assert_eq!(named(&found)[0], ["cross-product"], "{found}");
+    let label = &found["effects"][0]["named"][0]["variants"][0]["label"];
+    assert!(
+        label.as_str().unwrap_or_default().starts_with("ay"),
+        "{label}"
+    );
+}

@@ -19,10 +19,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     for column in &conditions {
         cells.extend(of_condition(ground, *column));
     }
-    for column in numeric.iter().filter(|c| positive(ground.numbers(**c))) {
-        if ground.in_model(*column) {
-            continue;
-        }
+    for column in conditions.iter().filter(|c| spreads(ground, **c)) {
         cells.push(reciprocal(ground, *column));
     }
     for (at, x) in conditions.iter().enumerate() {
@@ -191,9 +188,12 @@ pub(super) fn scale_nodes(ground: &Ground<'_>, temperature: bool) -> Vec<(Node, 
     }
 }
 
-fn positive(x: &[f64]) -> bool {
-    let (least, most) = range(x);
-    least > 0.0 && most > 1.2 * least
+/// Whether a quantity with a true zero varies by so much that its inverse is no line.
+fn spreads(ground: &Ground<'_>, column: usize) -> bool {
+    const FACTOR: f64 = 2.0;
+    let (least, most) = range(ground.numbers(column));
+    let has_zero = ground.case().columns[column].unit.origin.is_none();
+    has_zero && least > 0.0 && most > FACTOR * least
 }
 
 fn reciprocal(ground: &Ground<'_>, column: usize) -> Cell {
@@ -232,19 +232,23 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
         |x, z| x * z,
     );
     let text = format!("({} - mean)*({} - mean)", name(x), name(z));
-    let mut cells = vec![on_outputs(
-        ground,
-        "interaction",
-        pair.clone(),
-        &along,
-        vec![(String::new(), vec![(product, text)])],
-    )];
+    let mut cells = Vec::new();
+    if meet(ground, x, z) {
+        cells.push(on_outputs(
+            ground,
+            "interaction",
+            pair.clone(),
+            &along,
+            vec![(String::new(), vec![(product, text)])],
+        ));
+    }
     let (of_x, of_z) = (ground.numbers(x), ground.numbers(z));
-    if range(of_x).0 > 0.0 && range(of_z).0 > 0.0 && (positive(of_x) || positive(of_z)) {
+    let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));
+    let size = [x, z].iter().any(|c| ground.is_like(*c, "m"));
+    let positive = range(of_x).0 > 0.0 && range(of_z).0 > 0.0;
+    if positive && (gas && size || spreads(ground, x) && spreads(ground, z)) {
         let inverse = map2(of_x, of_z, |x, z| 1.0 / (x * z));
         let text = format!("1/({}*{})", name(x), name(z));
-        let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));
-        let size = [x, z].iter().any(|c| ground.is_like(*c, "m"));
         let id = if gas && size {
             "mean-free-path"
         } else {
@@ -271,6 +275,17 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
         ));
     }
     cells
+}
+
+/// Whether the product of two conditions is likely to mean something: one of them is applied, or both are
+/// of the air.
+fn meet(ground: &Ground<'_>, x: usize, z: usize) -> bool {
+    let applied = |c: usize| ground.case().columns[c].role == Role::Stimulus;
+    let of_air = |c: usize| {
+        let relative = ground.case().columns[c].unit.symbol == "%";
+        ground.is_temperature(c) || ground.is_like(c, "Pa") || relative
+    };
+    applied(x) || applied(z) || of_air(x) && of_air(z)
 }
 
 /// Variants of the same modifiers; for other chapters.

@@ -240,15 +240,22 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     } else {
         "lag"
     };
-    let variants = time_constants(ground).into_iter().map(|tau| {
+    let scales = time_constants(ground);
+    let lacks = |tau: f64| {
         let modifier = map2(&lag(t, x, tau), x, |lagged, x| lagged - x);
-        let term = Term::new(
-            node,
-            modifier,
-            format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau)),
-        );
-        Variation::one(format!("τ = {tau} {unit}", tau = figure(tau)), term).shaped("τ", tau, &unit)
+        let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
+        Term::new(node, modifier, text)
+    };
+    let single = scales.iter().map(|tau| {
+        let label = format!("τ = {} {unit}", figure(*tau));
+        Variation::one(label, lacks(*tau)).shaped("τ", *tau, &unit)
     });
+    // Two bodies, one in the other.
+    let double = scales.iter().step_by(2).map(|tau| {
+        let label = format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau));
+        Variation::of(label, vec![lacks(*tau), lacks(4.0 * tau)])
+    });
+    let variants = single.chain(double);
     let lagged = Cell {
         effect: effect(id),
         words: words(ground, label),

@@ -144,10 +144,7 @@ fn groups(frame: &Frame<'_>) -> Vec<Vec<usize>> {
     let mut groups = std::collections::BTreeMap::<Vec<u32>, Vec<usize>>::new();
     for (block, rows) in frame.blocks.iter().enumerate() {
         let key = labelled.iter().map(|labels| labels.of_row[rows[0]]);
-        groups
-            .entry(key.map(|label| label as u32).collect())
-            .or_default()
-            .push(block);
+        groups.entry(key.collect()).or_default().push(block);
     }
     groups.into_values().collect()
 }

@@ -1,7 +1,7 @@
 //! Zero and scale errors of what the model takes as exact: a constant that the output adds, a shift or a
 //! factor of a stimulus, an angle or a time.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::Cell;
 use super::ground::{Ground, Node};
@@ -35,16 +35,16 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             &data.name,
         ));
     }
-    cells.retain_mut(|cell| {
+    let absorbed = Absorbed::by_parameters(ground);
+    for cell in &mut cells {
         cell.variants.retain(|variation| {
             let columns = variation.columns(ground);
-            let visible = columns
+            columns
                 .column_iter()
-                .any(|column| is_left(ground, &column.into_owned()));
-            visible
+                .any(|column| absorbed.leaves(&column.into_owned()))
         });
-        !cell.variants.is_empty()
-    });
+    }
+    cells.retain(|cell| !cell.variants.is_empty());
     cells
 }
 
@@ -56,23 +56,35 @@ fn cell(ground: &Ground<'_>, id: &str, node: Node, modifier: Vec<f64>, text: &st
     cell
 }
 
-/// Whether something of a regressor is left beside the slopes by the parameters.
-fn is_left(ground: &Ground<'_>, column: &DVector<f64>) -> bool {
-    let slopes = &ground.fit.jacobian;
-    let scales = DVector::from_iterator(slopes.ncols(), slopes.column_iter().map(|c| c.norm()));
-    let mut scaled = slopes.clone();
-    for (mut column, scale) in scaled.column_iter_mut().zip(&scales) {
-        if *scale > 0.0 {
-            column /= *scale;
+/// What the parameters of the model take away from a regressor.
+struct Absorbed {
+    /// Orthonormal directions, observations × at most the number of unknowns.
+    basis: DMatrix<f64>,
+}
+
+impl Absorbed {
+    fn by_parameters(ground: &Ground<'_>) -> Absorbed {
+        /// Directions with a smaller part of the largest singular value are noise of the arithmetic.
+        const LEAST: f64 = 1e-9;
+        let mut slopes = ground.fit.jacobian.clone();
+        for mut column in slopes.column_iter_mut() {
+            let norm = column.norm();
+            if norm > 0.0 {
+                column /= norm;
+            }
+        }
+        let decomposed = slopes.svd(true, false);
+        let basis = decomposed.u.unwrap_or_default();
+        let kept: Vec<usize> = (0..basis.ncols())
+            .filter(|k| decomposed.singular_values[*k] > LEAST)
+            .collect();
+        Absorbed {
+            basis: basis.select_columns(&kept),
         }
     }
-    let basis = scaled.svd(true, false);
-    let Some(u) = &basis.u else { return true };
-    let mut rest = column.clone();
-    for (direction, value) in u.column_iter().zip(&basis.singular_values) {
-        if *value > 1e-9 {
-            rest -= direction * direction.dot(&rest);
-        }
+
+    fn leaves(&self, column: &DVector<f64>) -> bool {
+        let rest = column - &self.basis * self.basis.tr_mul(column);
+        rest.norm() > LEFT * column.norm()
     }
-    rest.norm() > LEFT * column.norm()
 }

@@ -169,7 +169,7 @@ fn a_line_with_two_reflections_ripples_along_the_frequency() {
     let case = "model = \"loss = a + b*f\"\n[columns]\nloss = \"output\"\nf = \"stimulus\"\n[noise]\nu = \"0.004 dB\"\n";
     let found = diagnosed("line", &rows, case);
     let (names, label) = first(&found);
-    assert_eq!(names, ["ripple"], "{found}");
+    assert_eq!(names, ["wave"], "{found}");
     let period: f64 = label.split(' ').nth(1).unwrap().parse().unwrap();
     assert!((period - 0.4997).abs() < 0.03, "{label}");
 }

@@ -12,8 +12,9 @@
 //! | `response`, `limits` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `implicit` | the same where the model holds a constant against several columns |
+//! | `zero` | zero and scale errors of what the model takes as exact |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
-//! | `heating`, `waves`, `readout` | power of the signal, what repeats along a stimulus, rounding and slips |
+//! | `heating`, `stem`, `waves`, `readout` | power of the signal, loss along a stem, what repeats, rounding and slips |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
 //! | `generics` | competitors without a name |
 
@@ -31,9 +32,11 @@ pub(super) mod modifiers;
 mod readout;
 mod response;
 mod rows;
+mod stem;
 mod time;
 mod user;
 mod waves;
+mod zero;
 
 use std::sync::LazyLock;
 
@@ -270,12 +273,14 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells.extend(inputs::cells(ground));
     cells.extend(fields::cells(ground));
     cells.extend(conditions::cells(ground));
+    cells.extend(zero::cells(ground));
     cells.extend(time::cells(ground));
+    cells.extend(waves::cells(ground));
     cells.extend(levels::cells(ground));
     cells.extend(angles::cells(ground));
     cells.extend(rows::cells(ground));
     cells.extend(readout::cells(ground));
-    cells.extend(waves::cells(ground));
+    cells.extend(stem::cells(ground));
     cells.extend(heating::cells(ground));
     cells.extend(user::cells(ground));
     let settings = &ground.frame.case.settings;

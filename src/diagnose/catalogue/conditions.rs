@@ -2,7 +2,7 @@
 //! squared, as a rate, inversely, and together.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{centred, figure, lag, map, map2, mean, range, rate};
+use super::modifiers::{centred, correlation, figure, lag, map, map2, mean, range, rate};
 use super::response::{levels_of, on_node, on_outputs, time_constants, words};
 use super::{Cell, Modifier, Variants, Words};
 use crate::diagnose::case::Role;
@@ -67,7 +67,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             )
         })
         .collect();
-    let square = square.into_iter().chain(squares(x, &label)).collect();
+    let square = square.into_iter().chain(squares(ground, column)).collect();
     let second = if temperature {
         "tempco-quadratic"
     } else {
@@ -78,7 +78,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let mut cell = on_node(ground, id, words.clone(), &label, node, linear.clone());
         cell.words.p = ground.name(node);
         cells.push(cell);
-        let squares = squares(x, &label);
+        let squares = squares(ground, column);
         let words = cells[cells.len() - 1].words.clone();
         cells.push(on_node(
             ground,
@@ -105,12 +105,15 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     cells
 }
 
-/// The square alone, and with a linear part; nothing where the numbers are the same up to their sign.
-fn squares(x: &[f64], label: &str) -> Variants {
+/// The square alone, and with a linear part; nothing where the numbers are the same up to their sign, or
+/// vary so little that the square is a line.
+fn squares(ground: &Ground<'_>, column: usize) -> Variants {
     /// Through so many values a square with a line goes anyhow.
     const FEW: usize = 3;
+    let (x, label) = (ground.numbers(column), ground.label(column));
     let square = map(x, |x| x * x);
-    if !varies(&square) {
+    let is_line = correlation(&square, x).abs() > 0.995;
+    if !varies(&square) || is_line {
         return Vec::new();
     }
     let text = format!("{label}^2");

@@ -37,11 +37,9 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     for column in ground.numeric() {
         cells.extend(values(ground, Node::Output, column));
     }
+    // Smooth errors of an angle are harmonics, which have names.
     for column in &turning {
-        let name = ground.label(*column);
-        let node = Node::Column(*column);
-        cells.extend(smooth(ground, node, name, ground.numbers(*column)));
-        cells.extend(values(ground, node, *column));
+        cells.extend(values(ground, Node::Column(*column), *column));
     }
     let on_angles: Vec<Node> = turning.iter().map(|c| Node::Column(*c)).collect();
     for column in 0..ground.case().columns.len() {
@@ -119,7 +117,7 @@ fn values(ground: &Ground<'_>, node: Node, column: usize) -> Option<Cell> {
         .map(|value| (map(x, |x| f64::from(u8::from(x == *value))), 1.0))
         .collect();
     let few = values.len() >= 4 && values.len() * 2 <= ground.frame.blocks.len();
-    few.then(|| generic(ground, "levels", node, ground.label(column), &features))
+    few.then(|| at_levels(ground, node, ground.label(column), &features))
 }
 
 /// A value of its own at each label.
@@ -134,7 +132,21 @@ fn labels(ground: &Ground<'_>, node: Node, column: usize) -> Option<Cell> {
         .map(|level| (indicator(labels, *level), 1.0))
         .collect();
     let name = ground.label(column);
-    Some(generic(ground, "levels", node, name, &features))
+    Some(at_levels(ground, node, name, &features))
+}
+
+/// A value of its own at every level, or at a single one.
+fn at_levels(ground: &Ground<'_>, node: Node, name: &str, features: &[Feature]) -> Cell {
+    /// More levels are not looked at one by one.
+    const MOST: usize = 24;
+    let mut cell = generic(ground, "levels", node, name, features);
+    if (3..=MOST).contains(&features.len()) {
+        for feature in features {
+            let single = generic(ground, "levels", node, name, std::slice::from_ref(feature));
+            cell.variants.extend(single.variants);
+        }
+    }
+    cell
 }
 
 /// On one response, and on each of them in its own way; an error of a column reaches all.

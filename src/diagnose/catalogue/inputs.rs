@@ -5,7 +5,7 @@
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{correlation, creeps, figure, lag, largest, map, map2, play, range, rate};
+use super::modifiers::{correlation, creeps, figure, largest, late, map, map2, play, range, rate};
 use super::response::time_constants;
 use super::{Cell, Modifier, Term, Variation, Words, effect};
 use crate::diagnose::case::Role;
@@ -281,7 +281,7 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     let unit = ground.time_unit();
     let scales = time_constants(ground);
     let lacks = |input: &Input, tau: f64| {
-        let modifier = map2(&lag(&t, &input.own, tau), &input.own, |late, now| {
+        let modifier = map2(&late(&t, &input.own, tau), &input.own, |late, now| {
             late - now
         });
         let text = format!("(lag(signal, {} {unit}) - signal)", figure(tau));

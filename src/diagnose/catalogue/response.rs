@@ -3,7 +3,8 @@
 
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{
-    centred, creeps, direction, figure, grid, lag, map, map2, mean, play, range, rate, typical_step,
+    centred, creeps, direction, figure, grid, late, map, map2, mean, play, range, rate,
+    typical_step,
 };
 use super::{Cell, Term, Variants, Variation, Words, effect};
 use crate::diagnose::case::Role;
@@ -242,7 +243,7 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     let scales = time_constants(ground);
     let lacks = |tau: f64| {
-        let modifier = map2(&lag(t, x, tau), x, |lagged, x| lagged - x);
+        let modifier = map2(&late(t, x, tau), x, |late, x| late - x);
         let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
         Term::new(node, modifier, text)
     };

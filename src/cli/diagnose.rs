@@ -1,7 +1,5 @@
 //! `gumption diagnose`: a declared model confronted with a recording.
 
-use std::io::{IsTerminal, stderr};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use gumption::diagnose::case::{Case, Purpose};
@@ -9,6 +7,7 @@ use gumption::diagnose::{self, Diagnosis};
 use gumption::report;
 
 use super::form::Form;
+use super::progress::Steps;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -32,25 +31,14 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Outcome {
     let mut case = match Case::load(&args.case, Purpose::Diagnosis) {
         Ok(case) => case,
-        Err(rejection) => {
-            output::warn(&rejection.render(output::may_style(&stderr())));
-            return Outcome::BadInput;
-        }
+        Err(rejection) => return output::refused(&rejection),
     };
     if let Some(seed) = args.seed {
         case.settings.seed = seed;
     }
-    let progress = stderr().is_terminal();
-    let show = |share: f64| {
-        if progress {
-            output::warn(&format!("\r\x1b[K{:.0} %", 100.0 * share));
-        }
-        ControlFlow::Continue(())
-    };
-    let found = diagnose::diagnose(&case, &show);
-    if progress {
-        output::warn("\r\x1b[K");
-    }
+    let steps = Steps::shown("diagnosis");
+    let found = diagnose::diagnose(&case, &|share| steps.at(share));
+    drop(steps);
     match found {
         Ok(diagnosis) => written(args, &case, &diagnosis).max(beside(args, &case, &diagnosis)),
         Err(failure) => output::complain(&format!(

@@ -73,6 +73,8 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
             data: Data::Numbers(term.modifier.clone()),
             u: None,
             u_common: None,
+            full_scale: None,
+            resolution: None,
         });
         additions.push(Addition {
             parameter,

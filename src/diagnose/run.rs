@@ -14,7 +14,9 @@ use super::evidence::{
 use super::fit::{Fit, NoFit};
 use super::frame::Frame;
 use super::noise::{self, Claimed};
+use super::omitted::{self, Omitted};
 use super::place;
+use super::separation::{self, Known, Separating};
 
 /// Why a case could not be diagnosed.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,8 +62,10 @@ pub struct Diagnosis {
     pub adopted: Option<Adopted>,
     /// Number of means (blocks) and of rows in the recording.
     pub blocks: Vec<Vec<usize>>,
-    /// What would be seen of effects that were not adopted.
+    /// What effects cost that were not adopted and may be there all the same, the dearest first.
     pub omitted: Vec<Omitted>,
+    /// Explanations that the recording cannot tell apart, with the measurements that would.
+    pub separating: Vec<Separating>,
 }
 
 /// A fitted quantity.
@@ -94,15 +98,6 @@ pub struct Adopted {
     pub residuals: DVector<f64>,
     /// Further checks.
     pub confirmation: Confirmation,
-}
-
-/// What an effect that was not adopted may do to a parameter all the same.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Omitted {
-    /// The atom.
-    pub atom: usize,
-    /// Change of each unknown per unit of the first coefficient.
-    pub gain: Vec<f64>,
 }
 
 /// Confronts the declared model of a case with its recording.
@@ -186,8 +181,22 @@ pub fn diagnose(
     };
     let before = confirm::quality(&frame, &fit, &claimed, &claimed);
     let adopted = adopt_named(&ground, &cells, &places, &examination, &claimed);
-    let omitted = omitted(&ground, &baseline, &cells, &places, &examination);
     let unknowns = estimates(&frame, &fit, &claimed, before.scale);
+    let improved = adopted
+        .as_ref()
+        .and_then(|adopted| omitted::improved_baseline(case, adopted, &claimed));
+    let known = adopted.as_ref().map_or(&[][..], |adopted| &adopted.atoms);
+    let known: Vec<usize> = known.iter().map(|atom| places[*atom].0).collect();
+    let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
+    let omitted = omitted::lines(&ground, &cells, &baseline, improved.as_ref(), &known, &u);
+    let known = Known {
+        case,
+        frame: &frame,
+        fit: &fit,
+        claimed: &claimed,
+    };
+    let slots = &examination.slots;
+    let separating = separation::separating(&known, &ground, &cells, &places, &baseline, slots);
     Ok(Diagnosis {
         examination,
         located,
@@ -197,6 +206,7 @@ pub fn diagnose(
         adopted,
         blocks: frame.blocks.clone(),
         omitted,
+        separating,
         cells,
         atoms: places,
         noise: claimed,
@@ -407,27 +417,4 @@ pub(super) fn estimates(
             u: scale * covariance[(at, at)].max(0.0).sqrt(),
         })
         .collect()
-}
-
-fn omitted(
-    ground: &Ground<'_>,
-    baseline: &Baseline,
-    cells: &[Cell],
-    places: &[(usize, usize)],
-    examination: &Examination,
-) -> Vec<Omitted> {
-    let of = examination
-        .invisible
-        .iter()
-        .filter(|invisible| !invisible.idle)
-        .map(|invisible| {
-            let (cell, variation) = places[invisible.atom];
-            let columns = cells[cell].variants[variation].columns(ground);
-            let gain = baseline.gain(&columns);
-            Omitted {
-                atom: invisible.atom,
-                gain: gain.column(0).iter().copied().collect(),
-            }
-        });
-    of.collect()
 }

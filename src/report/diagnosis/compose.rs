@@ -1,7 +1,7 @@
 //! A diagnosis as blocks: verdict, where, what, the improvement, what remains open.
 
 use crate::diagnose::case::Case;
-use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
+use crate::diagnose::evidence::{Alternative, Slot, State};
 use crate::diagnose::{Adopted, Diagnosis, Estimated, Quality};
 
 use crate::report::document::Block;
@@ -9,6 +9,7 @@ use crate::report::language::Language;
 use crate::report::number::{NONE, aligned, freedom, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
+use super::open;
 use super::words::{name, name_of_atom, noise, probability, verdict};
 
 /// Cells of the scan that are shown.
@@ -25,8 +26,8 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> 
     blocks.extend(slots(diagnosis, language));
     blocks.extend(improvement(case, diagnosis, language));
     blocks.extend(parameters(diagnosis, language));
-    blocks.extend(rivals(diagnosis, language));
-    blocks.extend(invisible(case, diagnosis, language));
+    blocks.extend(open::lines(diagnosis, language));
+    blocks.extend(open::rivals(diagnosis, language));
     blocks.push(Block::Footer(vec![footer(case, diagnosis, language)]));
     blocks
 }
@@ -423,90 +424,6 @@ fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
                 .into(),
         ),
         Block::Table(table.without_empty_columns()),
-    ]
-}
-
-/// What cannot be told apart, and what would help.
-fn rivals(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
-    let mut sentences = Vec::new();
-    for slot in &diagnosis.examination.slots {
-        for alternative in &slot.named {
-            let Some(rival) = alternative
-                .nearest
-                .as_ref()
-                .filter(|rival| rival.alias || rival.kappa < 4.0)
-            else {
-                continue;
-            };
-            let own = name(&diagnosis.cells[alternative.candidate], language);
-            let other = name(&diagnosis.cells[rival.candidate], language);
-            sentences.push(if rival.alias {
-                language.pick(
-                    format!("{own} and {other} are one in this experiment: no recording of this design tells them apart."),
-                    format!("在此试验中{own}与{other}完全等效：按此设计的任何记录都不能区分。"),
-                )
-            } else {
-                language.pick(
-                    format!("{own} and {other} are hard to tell apart here (κ = {}); about {} times as many rows of the same kind would.", significant(rival.kappa, 2), significant((5.0 / rival.kappa.max(0.1)).powi(2), 2)),
-                    format!("此处{own}与{other}难以区分（κ = {}）；约需 {} 倍的同类数据。", significant(rival.kappa, 2), significant((5.0 / rival.kappa.max(0.1)).powi(2), 2)),
-                )
-            });
-        }
-    }
-    if sentences.is_empty() {
-        return Vec::new();
-    }
-    vec![
-        Block::Section(
-            language
-                .pick(
-                    "What this recording cannot tell apart",
-                    "此记录不能区分的解释",
-                )
-                .into(),
-        ),
-        Block::List(sentences),
-    ]
-}
-
-fn invisible(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
-    /// More are in the JSON.
-    const MOST: usize = 8;
-    let mut names: Vec<String> = Vec::new();
-    for omitted in &diagnosis.omitted {
-        let name = name(&diagnosis.cells[diagnosis.atoms[omitted.atom].0], language);
-        let worst = omitted
-            .gain
-            .iter()
-            .enumerate()
-            .filter(|(_, gain)| gain.is_finite())
-            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        let parameter = worst
-            .and_then(|(at, _)| diagnosis.unknowns.get(at))
-            .map_or("", |unknown| unknown.name.as_str());
-        let sentence = language.pick(
-            format!("{name}: hides in {parameter}"),
-            format!("{name}：隐藏在 {parameter} 中"),
-        );
-        if !names.contains(&sentence) {
-            names.push(sentence);
-        }
-    }
-    let _ = case;
-    if names.is_empty() || diagnosis.examination.verdict == Verdict::None && names.is_empty() {
-        return Vec::new();
-    }
-    names.truncate(MOST);
-    vec![
-        Block::Section(
-            language
-                .pick(
-                    "What this recording cannot show, and what would be absorbed",
-                    "此记录无法显示、会被参数吸收的影响",
-                )
-                .into(),
-        ),
-        Block::List(names),
     ]
 }
 

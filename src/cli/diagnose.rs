@@ -20,7 +20,7 @@ pub(super) struct Args {
     /// Seed of the random numbers [default: that of the case, else 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Write the improved case and its recording into this folder
+    /// Write the improved case, its recording and the budget of its parameters into this folder
     #[arg(long, value_name = "DIR")]
     improved: Option<PathBuf>,
     /// Write plots of the residuals (SVG) into this folder
@@ -62,19 +62,18 @@ fn written(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
 fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
     let mut outcome = Outcome::Done;
     if let Some(folder) = &args.improved {
-        outcome = outcome.max(match diagnose::improved(case, diagnosis) {
-            Some((text, recording)) => files(
-                folder,
-                vec![
-                    ("case.toml".to_owned(), text),
-                    (diagnose::IMPROVED_RECORDING.to_owned(), recording),
-                ],
-            ),
+        let budget = diagnose::budget(case, diagnosis);
+        let mut contents = vec![("budget.toml".to_owned(), budget)];
+        match diagnose::improved(case, diagnosis) {
+            Some((text, recording)) => contents.extend([
+                ("case.toml".to_owned(), text),
+                (diagnose::IMPROVED_RECORDING.to_owned(), recording),
+            ]),
             None => {
-                output::warn("nothing was adopted, and so there is no improved case to write\n");
-                Outcome::Done
+                output::warn("nothing was adopted: there is no improved case, only the budget\n")
             }
-        });
+        }
+        outcome = outcome.max(files(folder, contents));
     }
     if let Some(folder) = &args.plots {
         outcome = outcome.max(files(

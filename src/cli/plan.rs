@@ -19,9 +19,13 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    // What cannot be read is refused by the reader that follows, in its own words.
-    let text = std::fs::read_to_string(&args.file).unwrap_or_default();
-    match kind_of(&text) {
+    let text = match std::fs::read(&args.file) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            return output::complain(&format!("cannot read {}: {error}", args.file.display()));
+        }
+    };
+    match kind_of(&String::from_utf8_lossy(&text)) {
         Kind::Case => case(&args.file, &args.form),
         Kind::Calibration => calibrate::plan(&args.file, &args.form),
         Kind::Budget => output::complain(&format!(

@@ -2,7 +2,7 @@
 //! allows: once more, in the other order, at other angles, between the levels, with conditions that vary
 //! otherwise, with specimens exchanged.
 
-use super::case::{Case, Data, Role, Rows, repeated};
+use super::case::{Case, Column, Data, Role, Rows, repeated};
 use crate::quantity::UnitTable;
 use crate::recording::Labels;
 
@@ -81,8 +81,7 @@ pub fn extras(case: &Case) -> Vec<Extra> {
         match (&column.data, column.role) {
             (Data::Numbers(numbers), Role::Angle | Role::Stimulus) if used(case, index) => {
                 let levels = levels(numbers);
-                let angle = column.role == Role::Angle;
-                if angle && levels.len() <= MOUNTS {
+                if is_angle(column) && levels.len() <= MOUNTS {
                     for (value, text) in mountings(case, index, &levels) {
                         let column = name.clone();
                         let measure = Measure::Set {
@@ -125,6 +124,15 @@ pub fn extras(case: &Case) -> Vec<Extra> {
         }
     }
     extras
+}
+
+/// Whether a column holds angles, by its role or its unit.
+fn is_angle(column: &Column) -> bool {
+    let symbol = &column.unit.symbol;
+    column.role == Role::Angle
+        || ["°", "deg", "rad"]
+            .iter()
+            .any(|unit| symbol.ends_with(unit))
 }
 
 fn used(case: &Case, column: usize) -> bool {

@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::case::Case;
+use super::case::{Case, Role};
+use super::catalogue::modifiers::range;
 use super::catalogue::{Cell, Ground, Variation};
 use super::evidence::{self, Baseline};
 use super::fit;
@@ -22,12 +23,19 @@ pub struct Omitted {
     pub visibility: f64,
     /// Largest shift of the output that would not surprise, in its unit; `None` where nothing is known.
     pub shift: Option<f64>,
+    /// What it does to the unknowns of the declared model.
+    pub before: Cost,
+    /// What it does with the adopted physics in the model; the same where nothing is adopted.
+    pub after: Cost,
+}
+
+/// What an effect that is not in the model does to the unknowns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cost {
     /// Change of each unknown for a largest shift of one.
     pub gain: Vec<f64>,
-    /// Standard uncertainty that it adds to each unknown of the declared model; zeros where no size is known.
-    pub before: Vec<f64>,
-    /// The same with the adopted physics in the model; that of the declared model where nothing is adopted.
-    pub after: Vec<f64>,
+    /// Standard uncertainty that it adds to each unknown; zeros where no size is known.
+    pub u: Vec<f64>,
 }
 
 impl Omitted {
@@ -40,7 +48,7 @@ impl Omitted {
 
     /// What it costs most, as a multiple of the standard uncertainties without it: unknown and multiple.
     pub fn worst(&self, u: &[f64]) -> Option<(usize, f64)> {
-        let of = self.after.iter().zip(u).enumerate();
+        let of = self.after.u.iter().zip(u).enumerate();
         of.filter(|(_, (_, u))| **u > 0.0)
             .map(|(at, (line, u))| (at, line / u))
             .filter(|(_, ratio)| ratio.is_finite())
@@ -69,12 +77,17 @@ pub(super) fn lines(
         .filter_map(|(index, cell)| {
             let step = cell.variants.len().div_ceil(VARIANTS).max(1);
             let variants = cell.variants.iter().enumerate().step_by(step);
+            let variants = variants.filter(|(_, variation)| acts(ground, cell, variation));
             let of = variants.filter_map(|(number, variation)| {
                 let mut line = line(ground, cell, variation, (declared, improved), &scales)?;
                 (line.cell, line.variation) = (index, number);
                 Some(line)
             });
-            let dear = |line: &Omitted| line.worst(u).map_or(-1.0, |(_, ratio)| ratio);
+            // Where no size is known, the variant that shows best.
+            let dear = |line: &Omitted| match line.shift {
+                Some(_) => 1.0 + line.worst(u).map_or(0.0, |(_, ratio)| ratio),
+                None => line.visibility,
+            };
             of.max_by(|a, b| dear(a).total_cmp(&dear(b)))
         })
         .collect();
@@ -82,6 +95,27 @@ pub(super) fn lines(
     let dear = |line: &Omitted| line.worst(u).map_or(-1.0, |(_, ratio)| ratio);
     lines.sort_by(|a, b| dear(b).total_cmp(&dear(a)));
     lines
+}
+
+/// Whether a variation is an effect of something that varies: an offset is what parameters are for, and two
+/// levels have no curvature.
+fn acts(ground: &Ground<'_>, cell: &Cell, variation: &Variation) -> bool {
+    /// A modifier that varies by less than this part of its size is an offset.
+    const VARIES: f64 = 0.2;
+    let steady = |modifier: &[f64]| {
+        let (least, most) = range(modifier);
+        most - least < VARIES * most.abs().max(least.abs())
+    };
+    let case = ground.case();
+    let along = case.column(&cell.place.along);
+    let stimulus = along.filter(|column| case.columns[*column].role == Role::Stimulus);
+    let two = stimulus
+        .and_then(|column| case.columns[column].numbers())
+        .is_some_and(|numbers| {
+            let (least, most) = range(numbers);
+            numbers.iter().all(|x| *x == least || *x == most)
+        });
+    !two && !variation.terms.iter().all(|term| steady(&term.modifier))
 }
 
 fn line(
@@ -97,13 +131,18 @@ fn line(
     let visibility = (0..columns.ncols()).map(each).fold(1.0, f64::min);
     let shift = typical::shift(ground, cell, variation, &unified, scales);
     let unknowns = declared.parameters();
-    let cost = |baseline: &Baseline| -> Vec<f64> {
+    let cost = |baseline: &Baseline| {
         // Uniform between −shift and shift.
         let spread = shift.map(|shift| shift / 3.0_f64.sqrt());
         let u = spread.map(|spread| evidence::omitted(baseline, columns, spread));
-        u.map_or(vec![0.0; unknowns], |u| {
-            u.iter().take(unknowns).copied().collect()
-        })
+        let mut gain = largest(&baseline.gain(columns));
+        gain.truncate(unknowns);
+        Cost {
+            gain,
+            u: u.map_or(vec![0.0; unknowns], |u| {
+                u.iter().take(unknowns).copied().collect()
+            }),
+        }
     };
     let before = cost(declared);
     Some(Omitted {
@@ -111,7 +150,6 @@ fn line(
         variation: 0,
         visibility,
         shift,
-        gain: largest(&declared.gain(columns)),
         after: improved.map_or_else(|| before.clone(), cost),
         before,
     })
@@ -123,6 +161,37 @@ fn largest(gain: &DMatrix<f64>) -> Vec<f64> {
     gain.row_iter()
         .map(|row| row.iter().fold(0.0, most))
         .collect()
+}
+
+/// What it costs that a slot has several explanations: for each unknown the root of Σ p·d², d being how
+/// far the other explanations move it from where the adopted one leaves it.
+pub(super) fn choice(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    declared: &Baseline,
+    slot: &evidence::Slot,
+) -> Vec<f64> {
+    let moved = |alternative: &evidence::Alternative| -> Option<DVector<f64>> {
+        let (cell, variation) = places[alternative.variants.first()?.atom];
+        let columns = cells[cell].variants[variation].columns(ground);
+        let size = alternative
+            .estimate
+            .map(|x| if x.is_finite() { x } else { 0.0 });
+        (columns.ncols() == size.len()).then(|| declared.gain(&columns) * size)
+    };
+    let mut squares = DVector::zeros(declared.parameters());
+    let mut all = slot
+        .named
+        .iter()
+        .filter_map(|a| Some((a.probability, moved(a)?)));
+    let Some((_, adopted)) = all.next() else {
+        return squares.as_slice().to_vec();
+    };
+    for (probability, other) in all {
+        squares += (other - &adopted).map(|d| probability * d * d);
+    }
+    squares.iter().map(|square: &f64| square.sqrt()).collect()
 }
 
 /// The recording reduced to what the improved model leaves, its unknowns in the order of the declared

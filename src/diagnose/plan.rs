@@ -97,7 +97,7 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     let cells = catalogue::cells(&ground);
     let baseline = baseline(&frame, &fit, &claimed)?;
     let (candidates, atoms, places) = question(&ground, &cells, &claimed, &baseline);
-    let (atoms, places, unified) = named(atoms, places);
+    let (atoms, places, unified) = named(&cells, atoms, places);
     step(progress, 0.1)?;
     let found = evidence::visibility(&baseline, &candidates, &atoms)?;
     let effects = prospects(&ground, &cells, (&atoms, &places, &unified), &found);
@@ -186,13 +186,16 @@ fn assumed(frame: &Frame<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> {
 
 type Places = Vec<(usize, usize)>;
 
-/// Named atoms, in units of their largest shift.
-fn named(atoms: Vec<Atom>, places: Places) -> (Vec<Atom>, Places, Vec<Unified>) {
+/// Named atoms of free size, in units of their largest shift.
+fn named(cells: &[Cell], atoms: Vec<Atom>, places: Places) -> (Vec<Atom>, Places, Vec<Unified>) {
     let mut kept = (Vec::new(), Vec::new(), Vec::new());
     for (mut atom, place) in atoms.into_iter().zip(places) {
         let Shape::Columns(columns) = &atom.shape else {
             continue;
         };
+        if cells[place.0].effect.exact.is_some() {
+            continue;
+        }
         if let Some(unified) = typical::unified(columns.clone()) {
             atom.shape = Shape::Columns(unified.columns.clone());
             kept.0.push(atom);
@@ -212,7 +215,7 @@ fn prospects(
 ) -> Vec<Prospect> {
     let scales = typical::full_scales(ground);
     let mut prospects = Vec::new();
-    for cell in 0..cells.len() {
+    for (cell, of) in cells.iter().enumerate() {
         let mut own: Vec<(&evidence::Seen, f64)> = found
             .seen
             .iter()
@@ -221,12 +224,11 @@ fn prospects(
             .filter(|(seen, _)| seen.visibility > 1e-4)
             .collect();
         own.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((seen, detectable)) = own.get(own.len() / 2) else {
+        let Some((seen, detectable)) = own.get(own.len().saturating_sub(1) / 2) else {
             continue;
         };
         let pair = found.pairs.iter().find(|pair| pair.atom == seen.atom);
         let variation = places[seen.atom].1;
-        let of = &cells[cell];
         prospects.push(Prospect {
             cell,
             variation,
@@ -268,7 +270,7 @@ fn classes(cells: &[Cell], places: &[(usize, usize)], atoms: &[Vec<usize>]) -> V
     classes
 }
 
-/// Pairs that effects of a usual strength are not told apart in.
+/// Pairs that effects of a usual strength are not told apart in, even by twice as many rows.
 fn pairs(effects: &[Prospect]) -> Vec<(usize, usize)> {
     let mut pairs = Vec::new();
     for effect in effects {
@@ -278,7 +280,7 @@ fn pairs(effects: &[Prospect]) -> Vec<(usize, usize)> {
         let kappa = STRENGTH * (1.0 - cosine * cosine).max(0.0).sqrt();
         let pair = (effect.cell.min(rival), effect.cell.max(rival));
         let known = effects.iter().any(|other| other.cell == rival);
-        if kappa < SEPARATED && known && !pairs.contains(&pair) {
+        if kappa < SEPARATED / std::f64::consts::SQRT_2 && known && !pairs.contains(&pair) {
             pairs.push(pair);
         }
     }

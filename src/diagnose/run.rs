@@ -13,6 +13,7 @@ use super::evidence::{
 };
 use super::fit::{Fit, NoFit};
 use super::frame::Frame;
+use super::held_out::{self, HeldOutQuality};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::place;
@@ -64,6 +65,11 @@ pub struct Diagnosis {
     pub blocks: Vec<Vec<usize>>,
     /// What effects cost that were not adopted and may be there all the same, the dearest first.
     pub omitted: Vec<Omitted>,
+    /// How well the held-out recording is predicted, if the case names one.
+    pub held_out: Option<HeldOutQuality>,
+    /// For each slot, where something is adopted, what it costs each unknown that the slot has several
+    /// explanations.
+    pub choices: Vec<Vec<f64>>,
     /// Explanations that the recording cannot tell apart, with the measurements that would.
     pub separating: Vec<Separating>,
 }
@@ -98,6 +104,24 @@ pub struct Adopted {
     pub residuals: DVector<f64>,
     /// Further checks.
     pub confirmation: Confirmation,
+}
+
+impl Diagnosis {
+    /// The standard uncertainties of the unknowns with everything that may be there unseen, and with the
+    /// choice between explanations: of the declared model, or of the one with the adopted physics in it.
+    pub fn u_with_unseen(&self) -> Vec<f64> {
+        let estimates = match &self.adopted {
+            Some(adopted) => &adopted.unknowns,
+            None => &self.unknowns,
+        };
+        let of = estimates.iter().enumerate().map(|(at, estimate)| {
+            let lines = self.omitted.iter().map(|line| line.after.u.get(at));
+            let choices = self.choices.iter().map(|choice| choice.get(at));
+            let squares = lines.chain(choices).flatten().map(|u| u * u);
+            (estimate.u * estimate.u + squares.sum::<f64>()).sqrt()
+        });
+        of.collect()
+    }
 }
 
 /// Confronts the declared model of a case with its recording.
@@ -185,8 +209,14 @@ pub fn diagnose(
     let improved = adopted
         .as_ref()
         .and_then(|adopted| omitted::improved_baseline(case, adopted, &claimed));
-    let known = adopted.as_ref().map_or(&[][..], |adopted| &adopted.atoms);
-    let known: Vec<usize> = known.iter().map(|atom| places[*atom].0).collect();
+    let listed = examination.slots.iter().filter(|_| adopted.is_some());
+    let known: Vec<usize> = listed
+        .clone()
+        .flat_map(|slot| slot.named.iter().map(|named| named.candidate))
+        .collect();
+    let choices = listed
+        .map(|slot| omitted::choice(&ground, &cells, &places, &baseline, slot))
+        .collect();
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
     let omitted = omitted::lines(&ground, &cells, &baseline, improved.as_ref(), &known, &u);
     let known = Known {
@@ -195,6 +225,14 @@ pub fn diagnose(
         fit: &fit,
         claimed: &claimed,
     };
+    let held_out = held_out::held_out(
+        &known,
+        &ground,
+        &cells,
+        &places,
+        &unknowns,
+        adopted.as_ref(),
+    );
     let slots = &examination.slots;
     let separating = separation::separating(&known, &ground, &cells, &places, &baseline, slots);
     Ok(Diagnosis {
@@ -207,6 +245,8 @@ pub fn diagnose(
         blocks: frame.blocks.clone(),
         omitted,
         separating,
+        held_out,
+        choices,
         cells,
         atoms: places,
         noise: claimed,

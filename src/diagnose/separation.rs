@@ -90,7 +90,7 @@ pub(super) fn design(
     };
     let ground = Ground::new(&frame, &fit);
     let cells = catalogue::cells(&ground);
-    let baseline = baseline(&frame, &fit, &claimed(known, &frame, &fit)).ok()?;
+    let baseline = baseline(&frame, &fit, &noise_of(known, &frame, &fit)).ok()?;
     let worths = sets
         .iter()
         .map(|set| worth(&ground, &cells, &baseline, extra, set))
@@ -127,8 +127,8 @@ fn worth(
     evidence::separate(&sizes, &[action]).ok()?.pop()
 }
 
-/// Values of the unknowns in a longer design; a label that is new there begins with the value of the first.
-fn unknowns(known: &Known<'_>, frame: &Frame<'_>) -> DVector<f64> {
+/// Values of the unknowns in another design; a label that is new there begins with the value of the first.
+pub(super) fn unknowns(known: &Known<'_>, frame: &Frame<'_>) -> DVector<f64> {
     let own = &known.frame.unknowns;
     let value = |name: &str| {
         let stem = name.split('[').next().unwrap_or(name);
@@ -143,8 +143,8 @@ fn unknowns(known: &Known<'_>, frame: &Frame<'_>) -> DVector<f64> {
     DVector::from_iterator(frame.unknowns.len(), values)
 }
 
-/// The noise of a longer design: what is claimed, or for each response what the rows at hand have.
-fn claimed(known: &Known<'_>, frame: &Frame<'_>, fit: &Fit) -> Claimed {
+/// The noise of another design: what is claimed, or for each response what the rows at hand have.
+pub(super) fn noise_of(known: &Known<'_>, frame: &Frame<'_>, fit: &Fit) -> Claimed {
     match &known.case.noise {
         NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow(_) => {
             noise::planned(frame, fit)

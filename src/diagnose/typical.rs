@@ -120,9 +120,8 @@ pub fn shift(
         .map(|row| unified.columns.row(row).amax() / full_scales[row])
         .fold(0.0, f64::max);
     let of_share = |wanted: f64| (share > 0.0).then(|| wanted / share);
-    let stated = case.settings.typical.iter();
-    let stated = stated.filter(|(id, _)| *id == cell.effect.id);
-    if let Some((_, wanted)) = stated.last() {
+    let mut stated = case.settings.typical.iter();
+    if let Some((_, wanted)) = stated.find(|(id, _)| *id == cell.effect.id) {
         return of_share(*wanted);
     }
     if let Some(own) = cell.typical {

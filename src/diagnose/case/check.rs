@@ -119,6 +119,7 @@ impl Checker<'_> {
             text: self.text.to_owned(),
             path: path.to_path_buf(),
             units: self.units,
+            own_units: own_units(file),
             rows,
             left_out,
             columns,
@@ -298,4 +299,12 @@ impl Checker<'_> {
         }
         constants
     }
+}
+
+fn own_units(file: &CaseTable) -> Vec<(String, String)> {
+    let named = file.unit.as_ref().map_or(&[][..], |n| &n.value.entries);
+    let pairs = named
+        .iter()
+        .map(|(name, unit)| (name.clone(), unit.value.clone()));
+    pairs.collect()
 }

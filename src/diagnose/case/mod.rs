@@ -42,6 +42,8 @@ pub struct Case {
     pub path: PathBuf,
     /// Units of the program and of the file.
     pub units: UnitTable,
+    /// Names and definitions of the file's own units.
+    pub own_units: Vec<(String, String)>,
     /// The rows, in the order of the recording.
     pub rows: usize,
     /// Rows of the file that were left out because a value is missing.

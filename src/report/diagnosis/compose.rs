@@ -2,7 +2,9 @@
 
 use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State};
-use crate::diagnose::{Adopted, Diagnosis, Estimated, Quality};
+use crate::diagnose::{Adopted, Diagnosis, Estimated, HeldOutQuality, Quality};
+
+use crate::special::chi_squared_sf;
 
 use crate::report::document::Block;
 use crate::report::language::Language;
@@ -237,6 +239,7 @@ fn improvement(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Bl
     if let Some(adopted) = &diagnosis.adopted {
         blocks.extend(confirmation(adopted, language));
     }
+    blocks.extend(badly_predicted(case, diagnosis, language));
     blocks
 }
 
@@ -322,6 +325,9 @@ fn qualities(
             cell(after.and_then(|after| after.held_out.get(index).copied())).into(),
         ]);
     }
+    if let Some(held) = &diagnosis.held_out {
+        held_out(&mut table, case, held, language);
+    }
     if !diagnosis.noise.is_estimated() {
         table.push(vec![
             "χ²/ν".into(),
@@ -337,6 +343,63 @@ fn qualities(
             .into(),
     ]);
     table.without_empty_columns()
+}
+
+/// Prediction of the recording that was held out.
+fn held_out(table: &mut Table, case: &Case, held: &HeldOutQuality, language: Language) {
+    let after = held.after.as_ref();
+    for (index, response) in case.responses.iter().enumerate() {
+        let unit = if response.unit.is_one() {
+            String::new()
+        } else {
+            format!(" / {}", response.unit.typeset())
+        };
+        let expected = significant(held.expected[index], 3);
+        let label = language.pick(
+            format!(
+                "error predicting {} (noise {expected}), {}{unit}",
+                held.file, response.name
+            ),
+            format!(
+                "对 {} 的预测误差（噪声 {expected}），{}{unit}",
+                held.file, response.name
+            ),
+        );
+        table.push(vec![
+            label.into(),
+            significant(held.before.rms[index], 3).into(),
+            after
+                .map_or(String::new(), |p| significant(p.rms[index], 3))
+                .into(),
+        ]);
+    }
+    let count = held.observations as f64;
+    table.push(vec![
+        language
+            .pick(
+                format!("χ²/n of that prediction, n = {}", held.observations),
+                format!("该预测的 χ²/n，n = {}", held.observations),
+            )
+            .into(),
+        significant(held.before.chi_squared / count, 3).into(),
+        after
+            .map_or(String::new(), |p| significant(p.chi_squared / count, 3))
+            .into(),
+    ]);
+}
+
+/// A remark where the recording that was held out is predicted worse than the noise allows.
+fn badly_predicted(case: &Case, diagnosis: &Diagnosis, language: Language) -> Option<Block> {
+    let held = diagnosis.held_out.as_ref()?;
+    let best = held.after.as_ref().unwrap_or(&held.before);
+    let p = chi_squared_sf(best.chi_squared, held.observations as f64);
+    let known = !diagnosis.noise.is_estimated();
+    (known && p < case.settings.alpha).then(|| {
+        Block::Paragraph(language.pick(
+            format!("{} is predicted worse than the noise allows (p = {}): its conditions show something that those of the recording do not. Diagnose it too.", held.file, probability(p)),
+            format!("对 {} 的预测误差超出噪声（p = {}）：其条件显示出本记录未显示的影响，请对其也进行诊断。", held.file, probability(p)),
+        ))
+    })
 }
 
 fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
@@ -397,8 +460,13 @@ fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
             if diagnosis.adopted.is_some() { "u" } else { "" },
             ColumnKind::Numbers,
         ),
+        (
+            language.pick("u with unseen", "计入未见影响的 u"),
+            ColumnKind::Numbers,
+        ),
         (language.pick("unit", "单位"), ColumnKind::Names),
     ]);
+    let unseen = diagnosis.u_with_unseen();
     for (index, unknown) in diagnosis.unknowns.iter().take(MOST).enumerate() {
         let after: Option<&Estimated> = diagnosis
             .adopted
@@ -414,13 +482,20 @@ fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
             after
                 .map_or(String::new(), |after| significant(after.u, 2))
                 .into(),
+            unseen
+                .get(index)
+                .map_or(String::new(), |u| significant(*u, 2))
+                .into(),
             unknown.unit.as_str().into(),
         ]);
     }
     vec![
         Block::Section(
             language
-                .pick("What it changes in the result", "对结果的影响")
+                .pick(
+                    "What it changes in the result and its uncertainty",
+                    "对结果及其不确定度的影响",
+                )
                 .into(),
         ),
         Block::Table(table.without_empty_columns()),

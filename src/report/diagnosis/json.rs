@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
-use crate::diagnose::{Diagnosis, Estimated, Omitted, Quality};
+use crate::diagnose::{Diagnosis, Estimated, Omitted, Prediction, Quality};
 
 use super::words::{measure, name, name_of_atom, noise, verdict};
 use crate::report::language::Language;
@@ -55,6 +55,18 @@ pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
             "agreement": adopted.confirmation.agreement,
         })),
         "omitted": diagnosis.omitted.iter().map(|line| omitted(diagnosis, line, language)).collect::<Vec<_>>(),
+        "held_out": diagnosis.held_out.as_ref().map(|held| {
+            let prediction = |p: &Prediction| json!({ "rms": p.rms, "chi_squared": finite(p.chi_squared) });
+            json!({
+                "file": held.file,
+                "observations": held.observations,
+                "expected_noise": held.expected,
+                "before": prediction(&held.before),
+                "after": held.after.as_ref().map(prediction),
+            })
+        }),
+        "choices": diagnosis.choices.iter().map(|u| by_unknown(diagnosis, u)).collect::<Vec<_>>(),
+        "u_with_unseen": by_unknown(diagnosis, &diagnosis.u_with_unseen()),
         "separating": diagnosis.separating.iter().map(|of| json!({
             "effect": of.slot,
             "rivals": of.rivals.iter().map(|cell| name(&diagnosis.cells[*cell], language)).collect::<Vec<_>>(),
@@ -76,6 +88,13 @@ fn omitted(diagnosis: &Diagnosis, line: &Omitted, language: Language) -> Value {
         .iter()
         .map(|unknown| unknown.name.clone());
     super::open::omitted_json(&diagnosis.cells, line, unknowns.collect(), language)
+}
+
+/// Numbers by the names of the unknowns.
+fn by_unknown(diagnosis: &Diagnosis, values: &[f64]) -> Value {
+    let pairs = diagnosis.unknowns.iter().zip(values);
+    let pairs = pairs.map(|(unknown, value)| (unknown.name.clone(), finite(*value)));
+    Value::Object(pairs.collect())
 }
 
 fn verdict_word(verdict: Verdict) -> &'static str {

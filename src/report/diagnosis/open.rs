@@ -11,7 +11,7 @@ use crate::report::number::{percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
 use super::json::finite;
-use super::words::{measure, name};
+use super::words::{full_name, measure, slot_name};
 
 /// More are in the JSON.
 const MOST: usize = 8;
@@ -24,7 +24,36 @@ pub(super) fn lines(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
         Some(adopted) => &adopted.unknowns,
         None => &diagnosis.unknowns,
     };
-    omitted(&diagnosis.cells, &diagnosis.omitted, estimates, language)
+    let mut blocks = omitted(&diagnosis.cells, &diagnosis.omitted, estimates, language);
+    blocks.extend(choices(diagnosis, estimates, language));
+    blocks
+}
+
+/// What it costs not to know which explanation is right.
+fn choices(diagnosis: &Diagnosis, estimates: &[Estimated], language: Language) -> Option<Block> {
+    let slots = diagnosis.examination.slots.iter().zip(&diagnosis.choices);
+    let sentences = slots.filter_map(|(slot, u)| {
+        let parts = estimates
+            .iter()
+            .zip(u)
+            .filter(|(own, u)| **u > MATTERS * own.u);
+        let parts: Vec<String> = parts
+            .map(|(own, u)| format!("{} {} {}", own.name, significant(*u, 2), own.unit))
+            .map(|text| text.trim().to_owned())
+            .collect();
+        let names = slot_name(diagnosis, slot, language);
+        (!parts.is_empty()).then(|| {
+            language.pick(
+                format!(
+                    "Not to know whether it is {names} costs u: {}.",
+                    parts.join(", ")
+                ),
+                format!("不能判定是{names}所带来的 u：{}。", parts.join("，")),
+            )
+        })
+    });
+    let sentences: Vec<String> = sentences.collect();
+    (!sentences.is_empty()).then_some(Block::List(sentences))
 }
 
 /// The same for a diagnosis or a plan.
@@ -59,13 +88,13 @@ pub(super) fn omitted(
         ]);
         for (line, at) in dear.iter().take(MOST) {
             table.push(vec![
-                name(&cells[line.cell], language).into(),
+                full_name(&cells[line.cell], language).into(),
                 format!("{} %", percent(line.visibility)).into(),
                 line.shift
                     .map_or(String::new(), |s| significant(s, 2))
                     .into(),
                 estimates.get(*at).map_or("", |e| e.name.as_str()).into(),
-                significant(line.after[*at], 2).into(),
+                significant(line.after.u[*at], 2).into(),
                 significant(u[*at], 2).into(),
             ]);
         }
@@ -90,13 +119,13 @@ pub(super) fn omitted(
         .iter()
         .filter(|line| line.is_invisible() && line.shift.is_none())
         .filter_map(|line| {
-            let gains = line.gain.iter().zip(&u).map(|(gain, u)| gain.abs() / u);
+            let gains = line.after.gain.iter().zip(&u).map(|(gain, u)| gain.abs() / u);
             let worst = gains.enumerate().filter(|(_, g)| g.is_finite());
             let (at, _) = worst.max_by(|a, b| a.1.total_cmp(&b.1))?;
-            let (what, parameter) = (name(&cells[line.cell], language), &estimates.get(at)?.name);
+            let (what, parameter) = (full_name(&cells[line.cell], language), &estimates.get(at)?.name);
             Some(language.pick(
-                format!("{what}: hides in {parameter}, {} per unit of the largest shift of the output; no size is usual", significant(line.gain[at], 2)),
-                format!("{what}：隐藏在 {parameter} 中，输出最大偏移每单位引起 {}；无通常大小", significant(line.gain[at], 2)),
+                format!("{what}: hides in {parameter}, {} per unit of the largest shift of the output; no size is usual", significant(line.after.gain[at], 2)),
+                format!("{what}：隐藏在 {parameter} 中，输出最大偏移每单位引起 {}；无通常大小", significant(line.after.gain[at], 2)),
             ))
         })
         .take(MOST)
@@ -130,15 +159,15 @@ pub(super) fn omitted_json(
         pairs.collect::<serde_json::Map<_, _>>()
     };
     json!({
-        "effect": name(cell, language),
+        "effect": full_name(cell, language),
         "id": cell.effect.id,
         "variant": cell.variants[line.variation].label,
         "invisible": line.is_invisible(),
         "visibility": finite(line.visibility),
         "usual_shift": line.shift,
-        "gain": by_unknown(&line.gain),
-        "u_declared": by_unknown(&line.before),
-        "u": by_unknown(&line.after),
+        "gain": by_unknown(&line.after.gain),
+        "u_declared": by_unknown(&line.before.u),
+        "u": by_unknown(&line.after.u),
     })
 }
 
@@ -166,7 +195,7 @@ fn separating(diagnosis: &Diagnosis, of: &Separating, language: Language) -> Vec
     const SHOWN: usize = 4;
     let names = of.rivals.iter();
     let names: Vec<String> = names
-        .map(|cell| name(&diagnosis.cells[*cell], language))
+        .map(|cell| full_name(&diagnosis.cells[*cell], language))
         .collect();
     let names = names.join(language.pick(" or ", " 或 "));
     let kappa = significant(of.kappa, 2);

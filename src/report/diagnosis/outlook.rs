@@ -11,7 +11,7 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::json::{estimates, finite};
 use super::open;
-use super::words::{measure, name, noise};
+use super::words::{full_name, measure, name, noise};
 
 /// Name and version of the format.
 pub const FORMAT: &str = "gumption-outlook-1";
@@ -124,7 +124,7 @@ fn effects(outlook: &Outlook, language: Language) -> Table {
     ]);
     for prospect in &outlook.effects {
         let rival = prospect.rival.map_or(String::new(), |(cell, _)| {
-            name(&outlook.cells[cell], language)
+            full_name(&outlook.cells[cell], language)
         });
         let alone = prospect.rival.is_none();
         let separable = match prospect.separable {
@@ -165,7 +165,7 @@ fn classes(outlook: &Outlook, language: Language) -> Vec<Block> {
     let lines = outlook.classes.iter().map(|class| {
         let names = class
             .iter()
-            .map(|cell| name(&outlook.cells[*cell], language));
+            .map(|cell| full_name(&outlook.cells[*cell], language));
         names.collect::<Vec<_>>().join(" = ")
     });
     vec![
@@ -228,34 +228,43 @@ fn extras(outlook: &Outlook, language: Language) -> Vec<Block> {
     ]
 }
 
+/// How many pairs, and some of those that the fewest measurements tell apart.
 fn told_apart(outlook: &Outlook, promise: &Promise, language: Language) -> String {
-    let pairs = promise
-        .resolved
-        .iter()
-        .map(|at| pair(outlook, *at, language));
-    shortened(pairs.collect(), outlook.pairs.len(), language)
+    let (count, all) = (promise.resolved.len(), outlook.pairs.len());
+    if count == 0 {
+        return NONE.to_owned();
+    }
+    let helpers = |at: usize| {
+        let with = outlook.extras.iter().filter(|p| p.resolved.contains(&at));
+        with.count()
+    };
+    let mut pairs = promise.resolved.clone();
+    pairs.sort_by_key(|at| helpers(*at));
+    let names = pairs.iter().map(|at| pair(outlook, *at, language));
+    let names = shortened(names.collect(), language);
+    language.pick(
+        format!("{count} of {all}: {names}"),
+        format!("{all} 对中的 {count} 对：{names}"),
+    )
 }
 
 fn revealed(outlook: &Outlook, promise: &Promise, language: Language) -> String {
     let names = promise.revealed.iter();
-    let names = names.map(|cell| name(&outlook.cells[*cell], language));
-    shortened(names.collect(), usize::MAX, language)
+    let names = names.map(|cell| full_name(&outlook.cells[*cell], language));
+    shortened(names.collect(), language)
 }
 
 fn pair(outlook: &Outlook, at: usize, language: Language) -> String {
     let (a, b) = outlook.pairs[at];
-    let of = |cell: usize| name(&outlook.cells[cell], language);
+    let of = |cell: usize| full_name(&outlook.cells[cell], language);
     format!("{} | {}", of(a), of(b))
 }
 
 /// A few of a list, and how many there are.
-fn shortened(list: Vec<String>, all: usize, language: Language) -> String {
-    const SHOWN: usize = 3;
+fn shortened(list: Vec<String>, language: Language) -> String {
+    const SHOWN: usize = 2;
     if list.is_empty() {
         return NONE.to_owned();
-    }
-    if list.len() == all && all > 1 {
-        return language.pick(format!("all {all} pairs"), format!("全部 {all} 对"));
     }
     let rest = list.len().saturating_sub(SHOWN);
     let mut text = list[..list.len().min(SHOWN)].join("; ");
@@ -292,7 +301,7 @@ pub fn json(case: &Case, outlook: &Outlook, language: Language) -> Value {
             "usual": p.typical,
             "rival": p.rival.map(|(rival, cosine)| json!({ "id": cell(rival).effect.id, "name": name(cell(rival), language), "cosine": finite(cosine) })),
         })).collect::<Vec<_>>(),
-        "classes": outlook.classes.iter().map(|class| class.iter().map(|at| name(cell(*at), language)).collect::<Vec<_>>()).collect::<Vec<_>>(),
+        "classes": outlook.classes.iter().map(|class| class.iter().map(|at| full_name(cell(*at), language)).collect::<Vec<_>>()).collect::<Vec<_>>(),
         "omitted": outlook.omitted.iter().map(|line| open::omitted_json(&outlook.cells, line, unknowns(), language)).collect::<Vec<_>>(),
         "pairs": (0..outlook.pairs.len()).map(|at| pair(outlook, at, language)).collect::<Vec<_>>(),
         "measurements": outlook.extras.iter().map(|promise| json!({
@@ -300,7 +309,7 @@ pub fn json(case: &Case, outlook: &Outlook, language: Language) -> Value {
             "cost": promise.extra.cost,
             "rows": promise.extra.rows.count,
             "tells_apart": promise.resolved.iter().map(|at| pair(outlook, *at, language)).collect::<Vec<_>>(),
-            "makes_visible": promise.revealed.iter().map(|at| name(cell(*at), language)).collect::<Vec<_>>(),
+            "makes_visible": promise.revealed.iter().map(|at| full_name(cell(*at), language)).collect::<Vec<_>>(),
         })).collect::<Vec<_>>(),
     })
 }

@@ -20,6 +20,15 @@ pub(super) fn name(cell: &Cell, language: Language) -> String {
     cell.words.fill(language.of(&cell.effect.name))
 }
 
+/// The name, and what distinguishes a cell whose only variant has a label: the harmonic of an angle.
+pub(super) fn full_name(cell: &Cell, language: Language) -> String {
+    let name = name(cell, language);
+    match cell.variants.as_slice() {
+        [only] if !only.label.is_empty() => format!("{name} ({})", only.label),
+        _ => name,
+    }
+}
+
 /// The name, and what distinguishes the variant.
 pub(super) fn name_of_atom(diagnosis: &Diagnosis, atom: usize, language: Language) -> String {
     let (cell, variation) = diagnosis.atoms[atom];

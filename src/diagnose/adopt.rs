@@ -75,6 +75,7 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
             u_common: None,
             full_scale: None,
             resolution: None,
+            as_difference: false,
         });
         additions.push(Addition {
             parameter,
@@ -200,7 +201,7 @@ fn compiled(case: &Case, texts: &[String]) -> Option<Equations> {
     let columns = case
         .columns
         .iter()
-        .map(|c| (c.name.clone(), c.unit.clone()));
+        .map(|c| (c.name.clone(), c.unit_in_formulas()));
     let symbols: Vec<Quantity> = parameters
         .chain(columns)
         .map(|(name, unit)| Quantity { name, unit })

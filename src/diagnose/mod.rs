@@ -38,6 +38,7 @@ pub mod rivals;
 mod run;
 mod separation;
 mod simulate;
+mod spread;
 mod typical;
 
 pub use adopt::{Addition, Extended};
@@ -54,3 +55,4 @@ pub use result::budget;
 pub use run::{Adopted, Diagnosis, Estimated, Failure, diagnose};
 pub use separation::Separating;
 pub use simulate::{Sheet, simulate};
+pub use spread::Growth;

@@ -30,7 +30,11 @@ impl Checker<'_> {
     ) -> Option<Action> {
         let table = &stated.value;
         let cost = table.cost.as_ref().map_or(1.0, |cost| cost.value);
-        if let Some(cost) = table.cost.as_ref().filter(|cost| cost.value.is_nan() || cost.value <= 0.0) {
+        if let Some(cost) = table
+            .cost
+            .as_ref()
+            .filter(|cost| cost.value.is_nan() || cost.value <= 0.0)
+        {
             let fault = Fault::new(SETTING, cost.span.clone(), "a cost is positive");
             self.faults.push(fault.label("expected a positive number"));
         }

@@ -88,8 +88,8 @@ impl Checker<'_> {
         let present = wanted.iter().filter(|w| w.present);
         let requests: Vec<Request> = present.map(|w| w.request.clone()).collect();
         let recorded = Recording::open(self.files, &csv_path, &requests, &self.units)?;
-        let (columns, rows, left_out) = self.columns(&wanted, &recorded);
-        let declared = declared::declared(&mut self, file, models, &columns, &constants);
+        let (mut columns, rows, left_out) = self.columns(&wanted, &recorded);
+        let declared = declared::with_points(&mut self, file, models, &mut columns, &constants);
         let noise = self.noise(file, &columns, declared.as_ref());
         let averaging = self.averaging(file, &columns);
         let settings = self.settings(file);

@@ -173,6 +173,7 @@ impl Checker<'_> {
                 u_common,
                 full_scale,
                 resolution,
+                as_difference: false,
             });
         }
         (columns, complete.len(), all - complete.len())

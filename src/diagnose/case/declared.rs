@@ -11,6 +11,7 @@ use crate::budget::values::OneOrMany;
 use crate::diagnose::faults::{LEFT_SIDE, MISSING, ROLE, UNKNOWN_NAME};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::{Fault, nearest};
+use crate::model::faults::POINT;
 use crate::model::{Outline, Role as SymbolRole, Symbol, outline};
 
 /// The declared model of a case.
@@ -21,6 +22,33 @@ pub(super) struct Declared {
 }
 
 pub(super) type Models = Stated<OneOrMany<String>>;
+
+/// Reads the models. Where they use a temperature with an origin like an amount, as in `t = a + b * ref`
+/// with both in °C, the columns count as differences from 0 °C.
+pub(super) fn with_points(
+    checker: &mut Checker<'_>,
+    file: &CaseTable,
+    models: &Models,
+    columns: &mut [Column],
+    constants: &[Symbol],
+) -> Option<Declared> {
+    let before = checker.faults.len();
+    let plain = declared(checker, file, models, columns, constants);
+    let point = |fault: &Fault| fault.code == POINT;
+    if plain.is_some() || !checker.faults[before..].iter().all(point) {
+        return plain;
+    }
+    let refused = checker.faults.split_off(before);
+    for column in columns.iter_mut() {
+        column.as_difference = column.unit.is_point();
+    }
+    let taken = declared(checker, file, models, columns, constants);
+    if taken.is_none() {
+        checker.faults.truncate(before);
+        checker.faults.extend(refused);
+    }
+    taken
+}
 
 /// Reads the models; nothing if they have faults.
 pub(super) fn declared(
@@ -108,7 +136,9 @@ pub(super) fn declared(
 /// Parameters and columns, in the order of the vector of their values.
 fn symbols(parameters: &[Parameter], columns: &[Column]) -> Vec<Quantity> {
     let parameters = parameters.iter().map(|p| (p.name.clone(), p.unit.clone()));
-    let columns = columns.iter().map(|c| (c.name.clone(), c.unit.clone()));
+    let columns = columns
+        .iter()
+        .map(|c| (c.name.clone(), c.unit_in_formulas()));
     parameters
         .chain(columns)
         .map(|(name, unit)| Quantity { name, unit })
@@ -158,7 +188,7 @@ fn response(
         }
         return Some(Response {
             name: name.clone(),
-            unit: column.unit.clone(),
+            unit: column.unit_in_formulas(),
             observed: Observed::Column(at),
         });
     }

@@ -95,6 +95,8 @@ pub struct Column {
     pub full_scale: Option<f64>,
     /// The step of its numbers, where it is stated.
     pub resolution: Option<f64>,
+    /// Whether formulas take temperatures with an origin as differences from 0 of their scale.
+    pub as_difference: bool,
 }
 
 /// What a column holds, row by row.
@@ -302,6 +304,15 @@ impl Case {
 }
 
 impl Column {
+    /// The unit that the numbers have in formulas.
+    pub fn unit_in_formulas(&self) -> Unit {
+        if self.as_difference {
+            self.unit.difference()
+        } else {
+            self.unit.clone()
+        }
+    }
+
     /// The numbers; nothing for labels.
     pub fn numbers(&self) -> Option<&[f64]> {
         match &self.data {

@@ -29,7 +29,7 @@ pub(super) fn inferred_units(
     let mut known: Vec<Symbol> = constants.to_vec();
     known.extend(columns.iter().map(|column| Symbol {
         name: column.name.clone(),
-        unit: column.unit.clone(),
+        unit: column.unit_in_formulas(),
         role: SymbolRole::Constant(1.0),
     }));
     let mut units: Vec<Option<Unit>> = vec![None; names.len()];
@@ -72,8 +72,8 @@ fn search_units(
     let used = columns
         .iter()
         .filter(|c| matches!(c.data, Data::Numbers(_) | Data::Absent))
-        .map(|c| &c.unit);
-    let fixed = constants.iter().map(|c| &c.unit);
+        .map(Column::unit_in_formulas);
+    let fixed = constants.iter().map(|c| c.unit.clone());
     for unit in used.chain(fixed) {
         let difference = unit.difference();
         for candidate in [unit.clone(), difference.clone(), one.quotient(&difference)] {
@@ -107,7 +107,11 @@ fn search_units(
             .iter()
             .zip(units)
             .map(|(name, unit)| (name.clone(), unit.clone().unwrap_or_else(Unit::one)))
-            .chain(columns.iter().map(|c| (c.name.clone(), c.unit.clone())))
+            .chain(
+                columns
+                    .iter()
+                    .map(|c| (c.name.clone(), c.unit_in_formulas())),
+            )
             .map(|(name, unit)| Quantity { name, unit })
             .collect::<Vec<_>>();
         let responses: Vec<Quantity> = responses

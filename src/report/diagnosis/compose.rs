@@ -52,6 +52,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
             format!("；略去 {n} 行缺值"),
         ),
     };
+    let differences = as_differences(case, language);
     let alarm = diagnosis.examination.levels.first();
     let p = alarm.map_or(NONE.to_owned(), |level| probability(level.p));
     vec![
@@ -61,7 +62,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
         ),
         (
             language.pick("Recording", "记录").into(),
-            recorded + &left_out,
+            recorded + &left_out + &differences,
         ),
         (
             language.pick("Noise", "噪声").into(),
@@ -83,6 +84,20 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
             ),
         ),
     ]
+}
+
+/// Columns whose temperatures count from 0 °C.
+fn as_differences(case: &Case, language: Language) -> String {
+    let names = case.columns.iter().filter(|column| column.as_difference);
+    let names: Vec<&str> = names.map(|column| column.name.as_str()).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    let names = names.join(", ");
+    language.pick(
+        format!("; {names} count from 0 of their scale"),
+        format!("；{names} 以其温标零点为起点"),
+    )
 }
 
 fn located(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {

@@ -27,6 +27,7 @@ mod place;
 pub mod rivals;
 mod run;
 mod simulate;
+mod spread;
 
 pub use adopt::{Addition, Extended};
 pub use compare::{Opinion, Pick, opinions};
@@ -36,3 +37,4 @@ pub use improved::{RECORDING as IMPROVED_RECORDING, improved};
 pub use noise::{Claimed, Origin};
 pub use run::{Adopted, Diagnosis, Estimated, Failure, Omitted, diagnose};
 pub use simulate::{Sheet, simulate};
+pub use spread::Growth;

@@ -8,6 +8,7 @@ use super::correlation::{self, Correlated};
 use super::evidence::{Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
+use super::spread::{self, Growth};
 
 /// The noise of the observations.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +21,8 @@ pub struct Claimed {
     pub origin: Origin,
     /// How the observations are correlated; `None` if they are independent.
     pub correlated: Option<Correlated>,
+    /// How noise that was estimated grows with the reading, for each response; empty where it is claimed.
+    pub growth: Vec<Option<Growth>>,
 }
 
 /// Where the noise comes from.
@@ -84,9 +87,9 @@ pub fn settle(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
     Ok((fit, claimed))
 }
 
-/// The noise that a model with effects in it leaves: size and correlation.
+/// The noise that a model with effects in it leaves: size, growth with the reading, and correlation.
 pub fn refined(frame: &Frame<'_>, fit: &Fit) -> Claimed {
-    let mut claimed = estimated(frame, fit);
+    let mut claimed = spread_out(frame, fit);
     claimed.correlated = correlation::estimate(frame, &fit.residuals, &claimed.u);
     claimed
 }
@@ -98,6 +101,7 @@ pub fn planned(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         dof: f64::INFINITY,
         origin: Origin::Estimated,
         correlated: None,
+        growth: Vec::new(),
     })
 }
 
@@ -176,6 +180,7 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
         dof,
         origin,
         correlated: None,
+        growth: Vec::new(),
     })?;
     match &case.noise {
         NoiseClaim::AtRest { readings, .. } => {
@@ -292,6 +297,31 @@ fn counts(case: &Case) -> Vec<f64> {
     )
 }
 
+/// The noise that a model leaves, where it grows with the reading.
+pub fn spread_out(frame: &Frame<'_>, fit: &Fit) -> Claimed {
+    let mut claimed = estimated(frame, fit);
+    let blocks = frame.blocks.len();
+    let freedom = (frame.observations() as f64 - frame.unknowns.len() as f64).max(1.0);
+    let share = freedom / frame.observations() as f64;
+    for (response, spread) in spread::estimate(frame, fit).into_iter().enumerate() {
+        let Some(spread) = spread else {
+            claimed.growth.push(None);
+            continue;
+        };
+        let values = frame.reduced(&fit.linear.values[response]);
+        let mut u = claimed.u.rows_mut(response * blocks, blocks);
+        for (u, value) in u.iter_mut().zip(&values) {
+            *u *= spread.at(*value);
+        }
+        let own = fit.residuals.rows(response * blocks, blocks);
+        let scale = (own.component_div(&u).norm_squared() / (blocks as f64 * share)).sqrt();
+        u *= scale;
+        let at_level = u[0] / spread.at(values[0]);
+        claimed.growth.push(Some(spread.growth(at_level)));
+    }
+    claimed
+}
+
 /// One standard uncertainty for each response, from the residuals.
 fn estimated(frame: &Frame<'_>, fit: &Fit) -> Claimed {
     let blocks = frame.blocks.len();
@@ -318,6 +348,7 @@ fn estimated(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         dof: 0.0,
         origin: Origin::Estimated,
         correlated: None,
+        growth: Vec::new(),
     }
 }
 

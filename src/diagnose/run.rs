@@ -150,6 +150,13 @@ pub fn diagnose(
         0.0,
         if claimed.is_estimated() { 0.4 } else { 0.9 },
     )?;
+    if claimed.is_estimated() && examination.verdict == Verdict::None {
+        let spread = noise::spread_out(&frame, &fit);
+        if spread.growth.iter().any(Option::is_some) {
+            claimed = spread;
+            (baseline, examination) = ask(&claimed, &mut places, 0.4, 0.6)?;
+        }
+    }
     if claimed.is_estimated() && examination.verdict != Verdict::None {
         // Noise and effects are estimated in turn: what an effect explains is no noise.
         for round in 0..ROUNDS {
@@ -161,8 +168,8 @@ pub fn diagnose(
                 Some((frame, fit)) => noise::refined(&Frame::new(&frame.case), &fit),
                 None => noise::refined(&frame, &fit),
             };
-            let from = 0.4 + 0.25 * f64::from(round);
-            (baseline, examination) = ask(&claimed, &mut places, from, from + 0.25)?;
+            let from = 0.4 + 0.17 * f64::from(round);
+            (baseline, examination) = ask(&claimed, &mut places, from, from + 0.17)?;
             if examination
                 .fitted
                 .as_ref()
@@ -219,7 +226,7 @@ fn missized(cells: &[Cell], examination: &Examination) -> Vec<usize> {
 /// Visible share of an effect below which it is the curvature of the model that shows.
 const TRACE: f64 = 1e-4;
 /// So often noise and effects are estimated in turn.
-const ROUNDS: u8 = 2;
+const ROUNDS: u8 = 3;
 
 pub(super) fn settings(case: &Case) -> evidence::Settings {
     evidence::Settings {

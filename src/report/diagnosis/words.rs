@@ -97,10 +97,12 @@ pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
         String::new()
     };
     let text = match &claimed.origin {
-        Origin::Estimated => language.pick(
-            "estimated from the residuals".to_owned(),
-            "由残差估计".to_owned(),
-        ),
+        Origin::Estimated => {
+            language
+                .pick("estimated from the residuals", "由残差估计")
+                .to_owned()
+                + &growth(claimed, language)
+        }
         Origin::Case => language.pick(
             "as stated in the case".to_owned(),
             "由案例文件给出".to_owned(),
@@ -121,6 +123,29 @@ pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
         ),
     };
     text + &dof
+}
+
+/// How estimated noise grows with the reading, if it does for any response.
+fn growth(claimed: &Claimed, language: Language) -> String {
+    let grows: Vec<String> = claimed
+        .growth
+        .iter()
+        .flatten()
+        .map(|growth| {
+            format!(
+                "u² = {}² + ({} % · y)²",
+                significant(growth.constant, 2),
+                significant(100.0 * growth.proportional, 2)
+            )
+        })
+        .collect();
+    if grows.is_empty() {
+        return String::new();
+    }
+    language
+        .pick(", growing with the reading: ", "，随示值增大：")
+        .to_owned()
+        + &grows.join("; ")
 }
 
 /// Probability of a false alarm in words.

@@ -154,3 +154,25 @@ fn light_that_does_not_go_out_is_one_with_its_second_harmonic() {
         "{listed:?}"
     );
 }
+
+#[test]
+fn a_time_constant_follows_the_temperature() {
+    let mut noise = Noise(36);
+    let mut rows = "t [s],oil [degC],level [mm]\n".to_owned();
+    for row in 0..96 {
+        let (t, oil) = (2.0 * f64::from(row % 16), 15.0 + 3.0 * f64::from(row / 16));
+        let tau = 12.0 * libm::exp(-0.02 * (oil - 22.0));
+        let level = 80.0 * libm::exp(-t / tau) + 0.05 * noise.normal();
+        let _ = writeln!(rows, "{t},{oil},{level:.4}");
+    }
+    let case = "model = \"level = h0*exp(-t/tau)\"\n[columns]\nt = \"stimulus\"\noil = \"covariate\"\nlevel = \"output\"\n[parameter]\nh0 = { start = 80, unit = \"mm\" }\ntau = { start = 10, unit = \"s\" }\n";
+    let found = diagnosed("outflow", &rows, case);
+    let first = &found["effects"][0]["named"][0];
+    assert_eq!(first["id"], "parameter-sensitivity", "{found}");
+    assert!(
+        first["name"]
+            .as_str()
+            .is_some_and(|name| name.contains("tau")),
+        "{first}"
+    );
+}

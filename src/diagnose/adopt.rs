@@ -71,6 +71,9 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
             data: Data::Numbers(term.modifier.clone()),
             u: None,
             u_common: None,
+            full_scale: None,
+            resolution: None,
+            as_difference: false,
         });
         if is_new {
             case.parameters.push(Parameter {
@@ -205,7 +208,7 @@ fn compiled(case: &Case, texts: &[String]) -> Option<Equations> {
     let columns = case
         .columns
         .iter()
-        .map(|c| (c.name.clone(), c.unit.clone()));
+        .map(|c| (c.name.clone(), c.unit_in_formulas()));
     let symbols: Vec<Quantity> = parameters
         .chain(columns)
         .map(|(name, unit)| Quantity { name, unit })

@@ -12,7 +12,7 @@
 //! | `response`, `limits` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `implicit` | the same where the model holds a constant against several columns |
-//! | `zero` | zero and scale errors of what the model takes as exact |
+//! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
 //! | `heating`, `stem`, `waves`, `readout` | power of the signal, loss along a stem, what repeats, rounding and slips |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
@@ -29,6 +29,7 @@ mod inputs;
 mod levels;
 mod limits;
 pub(super) mod modifiers;
+mod parameters;
 mod readout;
 mod response;
 mod rows;
@@ -277,6 +278,7 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells.extend(time::cells(ground));
     cells.extend(waves::cells(ground));
     cells.extend(levels::cells(ground));
+    cells.extend(parameters::cells(ground));
     cells.extend(angles::cells(ground));
     cells.extend(rows::cells(ground));
     cells.extend(readout::cells(ground));

@@ -325,7 +325,7 @@ pub(super) fn question(
             family: cell.effect.family.clone(),
             place: cell.place.clone(),
             typical: cell.typical,
-            repeats: matches!(cell.effect.id.as_str(), "outlier" | "step" | "odd-level"),
+            repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
         });
         let before = atoms.len();
         for (number, variation) in cell.variants.iter().enumerate() {

@@ -41,8 +41,8 @@ fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str
         P::TemperatureScale => &[("tempco-scale", &["temperature"])],
         P::WarmUp => &[("warm-up", &[])],
         P::LoadHeating => &[("cubic", &[]), ("self-heating", &[]), ("lag", &[])],
-        P::Drift => &[("drift", &[]), ("ageing", &[]), ("curved-drift", &[])],
-        P::ScaleDrift => &[("drift-scale", &[]), ("ageing-scale", &[])],
+        P::Drift => &[("drift", &[])],
+        P::ScaleDrift => &[("drift-scale", &[])],
         P::Settling => &[("lag", &[])],
         P::Hysteresis => &[("hysteresis", &[])],
         P::Backlash => &[("play", &["head"])],
@@ -58,18 +58,9 @@ fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str
             ("sensitivity-quadratic", &["vibration"]),
         ],
         P::GSensitivity | P::GSquared => &[("cross-sensitivity", &["cx", "cy", "cz"])],
-        P::RunShift => &[
-            ("level-shift", &["run"]),
-            ("odd-level", &["run"]),
-            ("level-change", &["run"]),
-            ("step", &[]),
-        ],
-        P::RunScale => &[
-            ("level-scale", &["run"]),
-            ("odd-level-scale", &["run"]),
-            ("step-scale", &[]),
-        ],
-        P::Knock => &[("step", &[])],
+        // A jump between two runs is a shift of the runs, whatever made it.
+        P::RunShift | P::Knock => &[("level-shift", &["run"]), ("step", &[])],
+        P::RunScale => &[("level-scale", &["run"]), ("step-scale", &[])],
         P::SwappedLabel => &[("swapped", &[]), ("outlier", &[])],
         P::LocalRub | P::Resonance | P::MotorPickup | P::Popcorn | P::WrongUnit => &[],
     }

@@ -43,11 +43,11 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         (_, true) => "cross-sensitivity",
         _ => "sensitivity",
     };
-    let delayed = delayed(ground, &own, &text);
+    let delayed = delayed(ground, column, &own, &text);
     let linear: Variants = delayed
         .iter()
         .cloned()
-        .chain(leading(ground, &own, &text))
+        .chain(leading(ground, column, &own, &text))
         .collect();
     let words = words(ground, &label);
     cells.push(on_outputs(
@@ -131,10 +131,11 @@ fn squares(ground: &Ground<'_>, column: usize) -> Variants {
     variants
 }
 
-/// The modifier without a lag, and with each of a series of time constants.
-fn delayed(ground: &Ground<'_>, own: &[f64], text: &str) -> Variants {
+/// The modifier without a lag, and with each of a series of time constants where it has to get through
+/// something first.
+fn delayed(ground: &Ground<'_>, column: usize, own: &[f64], text: &str) -> Variants {
     let mut variants = vec![(String::new(), vec![(own.to_vec(), text.to_owned())])];
-    if ground.is_timed() {
+    if ground.is_timed() && !ground.is_immediate(column) {
         let unit = ground.time_unit();
         for tau in time_constants(ground) {
             let lagged = lag(&ground.clock.values, own, tau);
@@ -150,8 +151,14 @@ fn delayed(ground: &Ground<'_>, own: &[f64], text: &str) -> Variants {
 
 /// The modifier and its rate of change, each with a size of its own: the sensor follows before or behind
 /// the instrument that shows the condition, by less than a lag can be told.
-fn leading(ground: &Ground<'_>, own: &[f64], text: &str) -> Option<(String, Vec<Modifier>)> {
-    ground.is_timed().then(|| {
+fn leading(
+    ground: &Ground<'_>,
+    column: usize,
+    own: &[f64],
+    text: &str,
+) -> Option<(String, Vec<Modifier>)> {
+    let late = ground.is_timed() && !ground.is_immediate(column);
+    late.then(|| {
         let rate = (rate(&ground.clock.values, own), format!("d{text}/dt"));
         (
             "with its rate of change".to_owned(),

@@ -175,6 +175,13 @@ impl<'f> Ground<'f> {
         like(&self.case().columns[column].unit, unit)
     }
 
+    /// Whether a condition acts at once: pressure, voltage, vibration, speed, frequency, field. Heat and
+    /// moisture take their time.
+    pub fn is_immediate(&self, column: usize) -> bool {
+        let units = ["Pa", "V", "m/s^2", "m/s", "rad/s", "T"];
+        units.iter().any(|unit| self.is_like(column, unit))
+    }
+
     /// Whether a column is stated in a unit of angle.
     pub fn is_angle(&self, column: usize) -> bool {
         let unit = &self.case().columns[column].unit;

@@ -55,46 +55,21 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             cells.push(cell);
         }
     };
-    let linear = centred(t);
-    add(
-        ["drift", "drift-scale"],
-        single("", linear.clone(), format!("({along} - mean)")),
-        None,
+    let steady = single("", centred(t), format!("({along} - mean)"));
+    let scales = grid(
+        (span * 3e-3).max(ground.clock.interval()),
+        span / 3.0,
+        2.2,
+        7,
     );
+    let mut drifts = steady;
+    if ground.is_timed() {
+        drifts.extend(curved(ground, &since, &scales));
+    }
+    add(["drift", "drift-scale"], drifts, Some("t₀"));
     add(["step", "step-scale"], steps(ground, &along), None);
     if ground.is_timed() {
-        let both = vec![(
-            String::new(),
-            vec![
-                (linear.clone(), format!("({along} - mean)")),
-                (map(&linear, |t| t * t), format!("({along} - mean)^2")),
-            ],
-        )];
-        add(["curved-drift", ""], both, None);
         let unit = ground.time_unit();
-        let scales = grid(
-            (span * 3e-3).max(ground.clock.interval()),
-            span / 3.0,
-            2.2,
-            7,
-        );
-        let logarithms = scales.iter().map(|scale| {
-            let modifier = map(&since, |t| libm::log1p(t / scale));
-            (
-                format!("t₀ = {scale} {unit}", scale = figure(*scale)),
-                vec![(
-                    modifier,
-                    format!("ln(1 + t/{scale})", scale = figure(*scale)),
-                )],
-            )
-        });
-        // Diffusion and creep go with the root of time.
-        let root = (
-            "root of time".to_owned(),
-            vec![(map(&since, libm::sqrt), "sqrt(t)".to_owned())],
-        );
-        let ageing = logarithms.chain([root]).collect();
-        add(["ageing", "ageing-scale"], ageing, Some("t₀"));
         let decay = |tau: f64| {
             let modifier = map(&since, |t| libm::exp(-t / tau));
             (modifier, format!("exp(-t/{})", figure(tau)))
@@ -130,6 +105,35 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         }
     }
     cells
+}
+
+/// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes
+/// relax, or with its root, as where something diffuses.
+fn curved(ground: &Ground<'_>, since: &[f64], scales: &[f64]) -> Variants {
+    let unit = ground.time_unit();
+    let logarithms = scales.iter().map(|scale| {
+        let shown = figure(*scale);
+        (
+            format!("slowing down, t₀ = {shown} {unit}"),
+            vec![(
+                map(since, |t| libm::log1p(t / scale)),
+                format!("ln(1 + t/{shown})"),
+            )],
+        )
+    });
+    let root = (
+        "with the root of time".to_owned(),
+        vec![(map(since, libm::sqrt), "sqrt(t)".to_owned())],
+    );
+    let linear = centred(since);
+    let bent = (
+        "bent".to_owned(),
+        vec![
+            (linear.clone(), "(t - mean)".to_owned()),
+            (map(&linear, |t| t * t), "(t - mean)^2".to_owned()),
+        ],
+    );
+    logarithms.chain([root, bent]).collect()
 }
 
 /// Notes the continuous parameter that stands in the labels.

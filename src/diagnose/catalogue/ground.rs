@@ -100,16 +100,21 @@ impl<'f> Ground<'f> {
     /// Whether a column is what some output takes in, or acts on it as a function of itself: no mere
     /// factor of other columns.
     pub fn is_direct(&self, column: usize) -> bool {
-        const SAME: f64 = 1e-6;
+        /// Values this near to one another, as a part of the range, are the same …
+        const NEAR: f64 = 1e-3;
+        /// … and so are slopes, as a part of the largest.
+        const SAME: f64 = 0.05;
         let x = self.numbers(column);
         let mut order: Vec<usize> = (0..x.len()).collect();
         order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
+        let (least, most) = super::modifiers::range(x);
         let by_itself = |response: usize| {
             let slope = self.slope(Node::Column(column), response);
-            let size = slope.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
+            let size = super::modifiers::largest(&slope);
             order.windows(2).all(|pair| {
                 let (a, b) = (pair[0], pair[1]);
-                x[a] != x[b] || (slope[a] - slope[b]).abs() <= SAME * size
+                let near = x[b] - x[a] <= NEAR * (most - least);
+                !near || (slope[a] - slope[b]).abs() <= SAME * size
             })
         };
         let responses = 0..self.case().responses.len();

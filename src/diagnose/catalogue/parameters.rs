@@ -39,10 +39,10 @@ fn shaping(ground: &Ground<'_>) -> Vec<usize> {
 }
 
 fn proportional(a: &[f64], b: &[f64]) -> bool {
+    /// A signal with a trace of another input still has a scale of its own.
+    const TRACE: f64 = 0.01;
     let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
     let (ab, aa, bb) = (dot(a, b), dot(a, a), dot(b, b));
-    // A signal with a trace of another input still has the scale of its own.
-    const TRACE: f64 = 0.01;
     ab * ab >= (1.0 - TRACE) * aa * bb
 }
 

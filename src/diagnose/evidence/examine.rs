@@ -8,7 +8,8 @@ use super::closed_form::Scale;
 use super::confusion::confusions;
 use super::findings::{Examination, Fitted, Invisible, Slot, State, Verdict};
 use super::fit::fitted;
-use super::guard::{leftover, margin, stands};
+use super::guard::{leftover, margin, stands, unlisted};
+use super::null::Simulated;
 use super::question::{Question, Refusal, Shape};
 use super::search::{Search, frame_of, search};
 use super::slots::{Member, slot};
@@ -36,16 +37,22 @@ pub fn examine(
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Examination, Refusal> {
     let space = Space::new(question)?;
-    let search = search(&space, question, progress)?;
+    let settings = &question.settings;
+    let simulated = Simulated::new(question.baseline, &space, settings.seed, settings.draws);
+    let search = search(&space, question, &simulated, progress)?;
     let generic_probability = search.generic_probability();
     let explanation = explanation(&search, generic_probability);
     let (named, generic) = (&explanation.named, explanation.generic);
     let mut slots = slots(&space, question, named, generic);
-    let margin = margin(&space, named);
-    let leftover = if named.is_empty() || generic.is_some() {
-        1.0
+    let competitor = if named.is_empty() {
+        None
     } else {
-        leftover(&space, question, named)
+        unlisted(&space)
+    };
+    let margin = (competitor.as_ref()).map_or(f64::INFINITY, |other| margin(&space, named, other));
+    let leftover = match &competitor {
+        Some(other) if generic.is_none() => leftover(&space, named, other, &simulated),
+        _ => 1.0,
     };
     if leftover < LEFT {
         slots.push(nameless());
@@ -62,7 +69,7 @@ pub fn examine(
     Ok(Examination {
         verdict,
         fitted: (!named.is_empty()).then(|| Fitted {
-            confusions: confusions(&space, question, named, &slots),
+            confusions: confusions(&space, question, named, &slots, &simulated),
             ..fitted(&space, question, &set)
         }),
         slots,

@@ -25,6 +25,7 @@
 //! | `examine` | the examination from end to end |
 //! | `closed_form` | Bayes factors |
 //! | `space` | atoms as directions in the space of z, and sets of them |
+//! | `beside` | all directions beside a set |
 //! | `null` | simulated recordings that the model alone explains |
 //! | `gate` | the test whether an effect is left |
 //! | `pairs` | two effects that mask each other |
@@ -44,6 +45,7 @@
 )]
 
 mod baseline;
+mod beside;
 mod closed_form;
 mod confusion;
 mod examine;

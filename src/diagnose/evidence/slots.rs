@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::beside::{Beside, Rest};
 use super::closed_form::log_sum;
 use super::findings::{Alternative, Slot, State, Variant};
 use super::fit::{estimate, nearest};
@@ -85,24 +86,13 @@ pub(super) fn replacements(
     rest: &Frame,
     generic: Option<usize>,
 ) -> Vec<(usize, f64)> {
-    let mut scores = Vec::new();
-    for (index, block) in space.blocks.iter().enumerate() {
-        if !space.may_join(rest, block, question) {
-            continue;
-        }
-        let score = match (block.kind(), generic) {
-            (Kind::Named, None) => space.extended(rest, index).map(|set| space.score(&set)),
-            (Kind::Named, Some(generic)) => space
-                .extended(rest, index)
-                .and_then(|set| space.score_with_generic(&set, generic)),
-            (Kind::Generic, None) => space.score_with_generic(rest, index),
-            (Kind::Generic, Some(_)) => None,
-        };
-        if let Some(score) = score {
-            scores.push((index, score));
-        }
+    let beside = Beside::new(space, question, rest);
+    if let Some(generic) = generic {
+        return beside.scores_with(generic);
     }
-    scores
+    let observed = beside.observed();
+    let score = |one: &Rest| Some((one.block, beside.score(one, &observed)?));
+    beside.rests.iter().filter_map(score).collect()
 }
 
 /// A candidate with its probability and its blocks.

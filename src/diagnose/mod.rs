@@ -22,6 +22,7 @@ pub mod faults;
 mod fit;
 mod frame;
 mod improved;
+mod local;
 mod noise;
 mod place;
 pub mod rivals;

@@ -13,6 +13,7 @@ use super::evidence::{
 };
 use super::fit::{Fit, NoFit};
 use super::frame::Frame;
+use super::local;
 use super::noise::{self, Claimed};
 use super::place;
 
@@ -180,6 +181,8 @@ pub fn diagnose(
             }
         }
     }
+    let nameless = local::nameless(&ground, &cells, &places, &examination);
+    examination.demote(&nameless);
     let located = if examination.verdict == Verdict::None {
         Vec::new()
     } else {

@@ -113,7 +113,8 @@ impl<'s> Beside<'s> {
     pub(super) fn add_squares(&self, rest: &Rest, recordings: &DMatrix<f64>, sums: &mut [f64]) {
         let first = self.space.places(rest.block).start;
         let lanes = recordings.nrows();
-        let column = |k: usize| &recordings.as_slice()[(first + k) * lanes..(first + k + 1) * lanes];
+        let column =
+            |k: usize| &recordings.as_slice()[(first + k) * lanes..(first + k + 1) * lanes];
         if rest.turn.len() == 1 {
             let factor = rest.turn[(0, 0)] * rest.turn[(0, 0)];
             for (sum, x) in sums.iter_mut().zip(column(0)) {
@@ -149,7 +150,12 @@ impl<'s> Beside<'s> {
             Kind::Named => {
                 let d = self.frame.basis.ncols() + components.len();
                 let fit = self.frame.fit + components.norm_squared();
-                let prior: f64 = self.frame.blocks.iter().map(|b| space.blocks[*b].log_odds).sum();
+                let prior: f64 = self
+                    .frame
+                    .blocks
+                    .iter()
+                    .map(|b| space.blocks[*b].log_odds)
+                    .sum();
                 (d <= space.room()).then(|| named(d, fit, space.rss(), space.scale) + prior + own)
             }
             Kind::Generic => {
@@ -194,11 +200,7 @@ impl<'s> Beside<'s> {
                 let left = observed.rows(own.start, own.len()) - &shared * &components;
                 let (ladder, turn) = scaled(&roots, gram)?;
                 let found = turn * left;
-                ladder.log_bayes_factor(
-                    found.iter().map(|c| c * c),
-                    residual.rss,
-                    residual.scale,
-                )
+                ladder.log_bayes_factor(found.iter().map(|c| c * c), residual.rss, residual.scale)
             };
             Some((rest.block, score + evidence + block.log_odds))
         };

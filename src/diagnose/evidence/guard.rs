@@ -5,16 +5,27 @@
 //! whose covariance matrix is the average of AAᵀ over all named atoms (each of unit length, candidates
 //! alike). A named set has to be better by far than this competitor, alone or with a part of the set.
 
+use std::collections::BTreeSet;
+
 use nalgebra::{DMatrix, DVector};
 
+use super::beside::Beside;
 use super::closed_form::Scale;
+use super::fit::estimate;
 use super::gate::combined;
 use super::null::{Simulated, side_by_side};
-use super::question::Kind;
+use super::question::{Kind, Question};
+use super::search::frame_of;
 use super::space::{Block, Form, Frame, Residual, Space, joined, smooth, without};
 
 /// Simulated recordings behind a probability.
 const DRAWS: usize = 2048;
+/// Share of an effect (squared) that a generic has to hold to be able to say it again.
+const HELD: f64 = 0.9;
+/// Logarithm of the Bayes factor from which on a generic says more than the named effects.
+const MORE: f64 = 1.0;
+/// Logarithm of the odds that a generic loses that says nothing more.
+const DISCOUNT: f64 = 3.0;
 /// Directions of the competitor.
 const DIRECTIONS: usize = 40;
 /// Directions with less than this share of the variance are left out.
@@ -152,6 +163,56 @@ pub(super) fn leftover(
     .flatten()
     .collect();
     combined(observed, &draws)
+}
+
+/// Generics that only say again what named effects say: a curve over the supply contains the straight
+/// line, and where the line fits, the line is meant.
+#[derive(Debug, Default)]
+pub(super) struct Again(BTreeSet<usize>);
+
+impl Again {
+    /// Those that hold an effect of a set nearly whole and explain nothing beside the set.
+    pub(super) fn of(space: &Space, question: &Question, named: &[usize]) -> Again {
+        let Some(frame) = space.frame(named) else {
+            return Again::default();
+        };
+        let effects: Vec<DVector<f64>> = named
+            .iter()
+            .map(|block| {
+                let others: Vec<usize> = named.iter().copied().filter(|b| b != block).collect();
+                let rest = frame_of(space, &others);
+                estimate(space, question, &rest, *block).visible
+            })
+            .collect();
+        let beside = Beside::new(space, question, &frame);
+        let observed = beside.observed();
+        let says_more = |generic: usize| {
+            let rest = beside.rests.iter().find(|rest| rest.block == generic);
+            rest.is_some_and(|rest| {
+                let components = beside.components(rest, &observed);
+                let squares = components.iter().map(|c| c * c);
+                rest.evidence(squares, &beside.residual) > MORE
+            })
+        };
+        let generics = space.blocks.iter().enumerate().filter(|(_, block)| {
+            matches!(block.form, Form::Smooth(_))
+                && effects.iter().any(|effect| {
+                    let held = block.basis.tr_mul(effect).norm_squared();
+                    held > HELD * effect.norm_squared()
+                })
+        });
+        let again = generics.map(|(index, _)| index);
+        Again(again.filter(|generic| !says_more(*generic)).collect())
+    }
+
+    /// What is taken from the logarithm of the odds of a block.
+    pub(super) fn discount(&self, block: usize) -> f64 {
+        if self.0.contains(&block) {
+            DISCOUNT
+        } else {
+            0.0
+        }
+    }
 }
 
 /// χ² over what is known of its scale; the same for all if nothing is.

@@ -32,6 +32,7 @@
 //! | `search` | the set of effects that explains a recording |
 //! | `slots` | which candidates could stand for each effect |
 //! | `fit` | estimates, strength, distance to rivals |
+//! | `kin` | effects that are the shape of another, aliases, mixtures |
 //! | `guard` | effects outside the catalogue that look like what is in it |
 //! | `confusion` | how often names are confused, by simulation |
 //! | `locate` | where the mismatch sits |
@@ -54,6 +55,7 @@ mod fit;
 mod gate;
 mod generic;
 mod guard;
+mod kin;
 mod locate;
 mod noise;
 mod null;

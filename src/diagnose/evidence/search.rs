@@ -7,6 +7,7 @@ use super::beside::Beside;
 use super::closed_form::log_sum;
 use super::findings::Level;
 use super::gate;
+use super::guard::Again;
 use super::null::Simulated;
 use super::pairs::Pairs;
 use super::question::{Kind, Question, Refusal};
@@ -172,6 +173,13 @@ fn add_seeds(
 }
 
 impl Search {
+    /// Takes from the odds of sets with generics what these lose.
+    pub(super) fn discount(&mut self, again: &Again) {
+        for set in &mut self.visited {
+            set.score -= set.generic.map_or(0.0, |generic| again.discount(generic));
+        }
+    }
+
     /// Posterior probability that an effect without a name is there.
     pub(super) fn generic_probability(&self) -> f64 {
         let with = log_sum(

@@ -172,6 +172,18 @@ impl Space {
         named(frame.basis.ncols(), frame.fit, self.rss(), self.scale) + prior
     }
 
+    /// Standard deviation of the noise in whitened units when d directions are fitted that reduce χ² by
+    /// what lies along two bases.
+    pub(super) fn sigma(&self, d: usize, one: &DMatrix<f64>, other: &DMatrix<f64>) -> f64 {
+        match self.scale.less(d) {
+            Scale::Known => 1.0,
+            Scale::Estimated { total } => {
+                let fit = one.tr_mul(&self.z).norm_squared() + other.tr_mul(&self.z).norm_squared();
+                ((self.rss() - fit).max(0.0) / total.max(1.0)).sqrt()
+            }
+        }
+    }
+
     /// A candidate is in a set once, unless it is of a kind that repeats.
     pub(super) fn may_join(&self, frame: &Frame, block: &Block, question: &Question) -> bool {
         frame.blocks.iter().all(|other| {

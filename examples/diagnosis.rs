@@ -258,7 +258,7 @@ fn shown(trial: &Trial, answer: &Answer) -> String {
     );
     for effect in &answer.effects {
         let names = effect.named.iter().map(|name| {
-            let variant = name.variants.first().map_or("", String::as_str);
+            let variant = name.variants.first().map_or("", |one| one.label.as_str());
             format!(
                 "{} {} [{variant}] {:.3}",
                 name.id, name.along, name.probability

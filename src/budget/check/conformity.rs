@@ -22,6 +22,60 @@ struct Subject<'a> {
     unit: &'a Unit,
 }
 
+const BAND_AND_PROBABILITY: &str = "a guard band beside a probability";
+
+/// Probabilities and the guard band, as far as they are stated.
+struct Guards {
+    /// Probability of conformance.
+    inner: Option<Guard>,
+    /// Probability of non-conformance.
+    outer: Option<Guard>,
+    /// The guard band, and the place of its key.
+    band: Option<(Guard, std::ops::Range<usize>)>,
+}
+
+impl Guards {
+    fn are_probable(&self) -> bool {
+        self.inner.is_some() || self.outer.is_some()
+    }
+
+    /// The rule that a word names; none where it is complete without what else is stated.
+    fn rule(&self, word: RuleWord) -> Option<DecisionRule> {
+        let whole = Guard::Expanded(1.0);
+        let band = self.band.as_ref().map(|(guard, _)| *guard);
+        let guard = |stated: Option<Guard>| stated.or(band).unwrap_or(whole);
+        let bare = !self.are_probable() && band.is_none();
+        let (rule, fits) = match word {
+            RuleWord::GuardedAcceptance => (
+                DecisionRule::GuardedAcceptance(guard(self.inner)),
+                self.outer.is_none(),
+            ),
+            RuleWord::GuardedRejection => (
+                DecisionRule::GuardedRejection(guard(self.outer)),
+                self.inner.is_none(),
+            ),
+            RuleWord::NonBinary => (
+                DecisionRule::NonBinary {
+                    inner: guard(self.inner),
+                    outer: guard(self.outer),
+                },
+                self.inner.is_some() == self.outer.is_some(),
+            ),
+            RuleWord::Simple => (DecisionRule::Simple, bare),
+            RuleWord::IlacG8 => (DecisionRule::GuardedAcceptance(whole), bare),
+            RuleWord::Iso14253 => (
+                DecisionRule::NonBinary {
+                    inner: Guard::Probability(ISO_14253_PROBABILITY),
+                    outer: Guard::Probability(ISO_14253_PROBABILITY),
+                },
+                bare,
+            ),
+            RuleWord::Jjf1094 => (DecisionRule::Jjf1094, bare),
+        };
+        fits.then_some(rule)
+    }
+}
+
 impl Checker<'_> {
     /// Reads `[conformity]`.
     pub(super) fn conformity(&mut self, file: &FileTable, register: &Register) -> Vec<Conformity> {
@@ -141,65 +195,28 @@ impl Checker<'_> {
         let inner = self.stated_probability(&table.conformance_probability);
         let outer = self.stated_probability(&table.nonconformance_probability);
         let band = self.band(table, subject);
-        let (inner, outer, band) = (inner?, outer?, band?);
-        let probable = inner.is_some() || outer.is_some();
+        let guards = Guards {
+            inner: inner?,
+            outer: outer?,
+            band: band?,
+        };
         let Some(word) = &table.rule else {
-            return match (inner, outer, &band) {
-                (Some(inner), Some(outer), None) => Some(DecisionRule::NonBinary { inner, outer }),
-                (Some(inner), None, None) => Some(DecisionRule::GuardedAcceptance(inner)),
-                (None, Some(outer), None) => Some(DecisionRule::GuardedRejection(outer)),
-                (None, None, None) if table.refused => None,
-                (None, None, _) => self.refuse(no_rule(stated)),
-                (_, _, Some((_, key))) => self.clash(key, "a guard band beside a probability"),
-            };
+            return self.rule_of_guards(stated, &guards);
         };
-        if let (true, Some((_, key))) = (probable, &band) {
-            return self.clash(key, "a guard band beside a probability");
+        if let (true, Some((_, key))) = (guards.are_probable(), &guards.band) {
+            return self.clash(key, BAND_AND_PROBABILITY);
         }
-        let whole = Guard::Expanded(1.0);
-        let guard = |stated: Option<Guard>| {
-            stated
-                .or(band.as_ref().map(|(guard, _)| *guard))
-                .unwrap_or(whole)
-        };
         let extra = table
             .conformance_probability
             .as_ref()
             .or(table.nonconformance_probability.as_ref())
             .map(|stated| stated.key.clone())
-            .or(band.as_ref().map(|(_, key)| key.clone()));
-        let (rule, fits) = match word.value {
-            RuleWord::GuardedAcceptance => (
-                DecisionRule::GuardedAcceptance(guard(inner)),
-                outer.is_none(),
-            ),
-            RuleWord::GuardedRejection => (
-                DecisionRule::GuardedRejection(guard(outer)),
-                inner.is_none(),
-            ),
-            RuleWord::NonBinary => (
-                DecisionRule::NonBinary {
-                    inner: guard(inner),
-                    outer: guard(outer),
-                },
-                inner.is_some() == outer.is_some(),
-            ),
-            RuleWord::Simple => (DecisionRule::Simple, extra.is_none()),
-            RuleWord::IlacG8 => (DecisionRule::GuardedAcceptance(whole), extra.is_none()),
-            RuleWord::Iso14253 => (
-                DecisionRule::NonBinary {
-                    inner: Guard::Probability(ISO_14253_PROBABILITY),
-                    outer: Guard::Probability(ISO_14253_PROBABILITY),
-                },
-                extra.is_none(),
-            ),
-            RuleWord::Jjf1094 => (DecisionRule::Jjf1094, extra.is_none()),
-        };
-        if !fits {
+            .or(guards.band.as_ref().map(|(_, key)| key.clone()));
+        let Some(rule) = guards.rule(word.value) else {
             let key = extra.unwrap_or(word.key.clone());
             let what = format!("rule = \"{}\" is complete without it", word.value.word());
             return self.clash(&key, &what);
-        }
+        };
         if rule == DecisionRule::Jjf1094 && tolerance.is_some_and(|t| t.width().is_none()) {
             return self.refuse(
                 Fault::new(
@@ -215,6 +232,22 @@ impl Checker<'_> {
             );
         }
         Some(rule)
+    }
+
+    /// The rule where no word names one.
+    fn rule_of_guards(
+        &mut self,
+        stated: &Stated<ConformityTable>,
+        guards: &Guards,
+    ) -> Option<DecisionRule> {
+        match (guards.inner, guards.outer, &guards.band) {
+            (Some(inner), Some(outer), None) => Some(DecisionRule::NonBinary { inner, outer }),
+            (Some(inner), None, None) => Some(DecisionRule::GuardedAcceptance(inner)),
+            (None, Some(outer), None) => Some(DecisionRule::GuardedRejection(outer)),
+            (None, None, None) if stated.value.refused => None,
+            (None, None, _) => self.refuse(no_rule(stated)),
+            (_, _, Some((_, key))) => self.clash(key, BAND_AND_PROBABILITY),
+        }
     }
 
     fn clash<T>(&mut self, key: &std::ops::Range<usize>, what: &str) -> Option<T> {

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
-use crate::fault::Fault;
+use super::Fault;
 
 /// Nobody mends more at once.
 const SHOWN: usize = 25;

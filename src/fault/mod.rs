@@ -1,11 +1,15 @@
 //! What is wrong in a user's file: a stable code, the place, what was expected, the mend.
 //!
-//! A [`Fault`] is plain data; the budget module draws it under the user's own lines. Spans are
+//! A [`Fault`] is plain data; a [`Rejection`] draws all faults of a file under the user's own lines. Spans are
 //! byte ranges into *the text that the faulty module was given*: the model module is given the
 //! text of a formula, and the budget module moves its spans to the place of that formula in the
 //! file.
 
+mod rejection;
+
 use std::ops::Range;
+
+pub use rejection::Rejection;
 
 /// A stable error code with its explanation (`gumption explain CODE`).
 ///

@@ -144,7 +144,7 @@ pub(super) fn leftover(
         block.evidence(components.iter().copied(), &residual),
         excess(&residual),
     ];
-    let chunks = simulated.chunks().min(DRAWS / gumption_lanes::LANES).max(1);
+    let chunks = simulated.chunks().clamp(1, DRAWS / gumption_lanes::LANES);
     let draws: Vec<[f64; 2]> = side_by_side(chunks, |index| {
         let recordings = simulated.chunk(index);
         let components = &recordings.errors * &block.basis;

@@ -168,3 +168,128 @@ fn mixture(
     let most = found.ncols().min(DIRECTIONS * d);
     found.columns(0, most).into_owned()
 }
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use gumption_lanes::{Block as Lanes, Generator, level};
+
+    use super::super::baseline::{Baseline, Prior};
+    use super::super::examine::examine;
+    use super::super::findings::{Examination, State};
+    use super::super::noise::{Covariance, Noise};
+    use super::super::question::{Atom, Candidate, Place, Settings, Shape};
+    use super::*;
+    use crate::special::normal_quantile;
+
+    const ROWS: usize = 80;
+
+    fn column(f: impl Fn(f64) -> f64) -> DVector<f64> {
+        DVector::from_fn(ROWS, |row, _| f(row as f64 * 0.5))
+    }
+
+    fn relaxation(tau: f64) -> DVector<f64> {
+        column(|t| libm::exp(-t / tau))
+    }
+
+    fn wave() -> DVector<f64> {
+        column(|t| libm::sin(1.9 * t))
+    }
+
+    fn errors(stream: u64) -> DVector<f64> {
+        let mut generator = Generator::new(20, 3, stream);
+        let mut block = Lanes::ZERO;
+        let mut out = Vec::new();
+        while out.len() < ROWS {
+            generator.uniforms(level(), &mut block);
+            out.extend(block.0.iter().map(|u| normal_quantile(*u)));
+        }
+        out.truncate(ROWS);
+        DVector::from_vec(out)
+    }
+
+    /// A constant is fitted; relaxations of one time constant and other courses are on offer.
+    fn asked(effect: DVector<f64>, stream: u64) -> (Examination, Vec<String>) {
+        let named = [
+            (
+                "relaxation",
+                [1.0, 2.5, 6.0, 15.0, 40.0].map(relaxation).to_vec(),
+            ),
+            ("slope", vec![column(|t| t)]),
+            ("square", vec![column(|t| (t - 20.0) * (t - 20.0))]),
+            ("inverse", vec![column(|t| 1.0 / (1.0 + t))]),
+            ("root", vec![column(f64::sqrt)]),
+            ("wave", vec![wave()]),
+            ("slow wave", vec![column(|t| libm::sin(0.4 * t))]),
+            (
+                "power",
+                vec![column(|t| libm::exp(-t / 6.0) + libm::exp(-t / 2.5))],
+            ),
+        ];
+        let (mut candidates, mut atoms) = (Vec::new(), Vec::new());
+        for (name, variants) in named {
+            for variant in variants {
+                atoms.push(Atom {
+                    candidate: candidates.len(),
+                    variant: String::new(),
+                    shape: Shape::Columns(DMatrix::from_columns(&[variant])),
+                    share: 1.0,
+                });
+            }
+            candidates.push(Candidate {
+                name: name.into(),
+                family: String::new(),
+                place: Place::default(),
+                typical: None,
+                repeats: false,
+            });
+        }
+        let noise = Noise::known(Covariance::Diagonal(DVector::from_element(ROWS, 1.0)));
+        let ones = DMatrix::from_element(ROWS, 1, 1.0);
+        let residuals = effect + errors(stream);
+        let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
+        let question = Question {
+            baseline: &baseline,
+            candidates: &candidates,
+            atoms: &atoms,
+            settings: Settings::default(),
+        };
+        let found = examine(&question, &|_| ControlFlow::Continue(())).unwrap();
+        let mut names: Vec<String> = found
+            .slots
+            .iter()
+            .filter(|slot| slot.state == State::Identified)
+            .map(|slot| candidates[slot.named[0].candidate].name.clone())
+            .collect();
+        names.sort();
+        (found, names)
+    }
+
+    #[test]
+    fn what_mends_the_shape_of_another_effect_has_no_name_of_its_own() {
+        for stream in 0..6 {
+            let effect = relaxation(1.7) * 40.0 + relaxation(20.0) * 40.0;
+            let (found, names) = asked(effect, stream);
+            assert!(found.levels.len() > 2, "one variant does not suffice");
+            assert!(names.is_empty() || names == ["relaxation"], "{names:?}");
+        }
+    }
+
+    #[test]
+    fn two_effects_are_two_names() {
+        for stream in 0..6 {
+            let (_, names) = asked(relaxation(15.0) * 40.0 + wave() * 3.0, stream);
+            assert_eq!(names, ["relaxation", "wave"], "{stream}");
+        }
+    }
+
+    #[test]
+    fn a_sum_of_two_variants_is_listed_with_their_candidate() {
+        let effect = (relaxation(6.0) + relaxation(2.5)) * 20.0;
+        let (found, _) = asked(effect, 1);
+        let listed: Vec<usize> = found.slots[0].named.iter().map(|n| n.candidate).collect();
+        // The sum is a candidate of its own (7) that fits exactly.
+        assert!(listed.contains(&7) && listed.contains(&0), "{listed:?}");
+    }
+}

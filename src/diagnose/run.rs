@@ -333,7 +333,7 @@ pub(super) fn question(
             family: cell.effect.family.clone(),
             place: cell.place.clone(),
             typical: cell.typical,
-            repeats: matches!(cell.effect.id.as_str(), "outlier" | "step" | "odd-level"),
+            repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
         });
         let before = atoms.len();
         let shapes: Vec<(usize, Shape)> = (cell.variants.iter().enumerate())

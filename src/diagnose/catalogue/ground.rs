@@ -63,6 +63,16 @@ impl<'f> Ground<'f> {
         &self.signal[response]
     }
 
+    /// The signal of a response in a row, if a column had another value there.
+    pub fn signal_at(&self, response: usize, row: usize, column: usize, value: f64) -> f64 {
+        let case = self.case();
+        let mut symbols = self.frame.symbols(row, &self.fit.unknowns);
+        let there = case.equations.value(response, &symbols);
+        symbols[case.parameters.len() + column] = value;
+        let other = case.equations.value(response, &symbols);
+        self.signal[response][row] + other - there
+    }
+
     /// The slope of a response by a node, row by row.
     pub fn slope(&self, node: Node, response: usize) -> Vec<f64> {
         let slopes = &self.fit.linear.slopes[response];

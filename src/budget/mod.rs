@@ -28,6 +28,7 @@ pub(crate) mod table;
 pub(crate) mod tables;
 pub(crate) mod values;
 pub(crate) mod variants;
+pub(crate) mod writing;
 
 use nalgebra::DMatrix;
 

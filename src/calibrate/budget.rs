@@ -9,6 +9,7 @@ use std::fmt::Write;
 use super::calibration::Calibration;
 use super::causes::{Cause, Origin};
 use super::experiment::{Doubt, Experiment, Scope};
+use crate::budget::writing::{key, quoted};
 use crate::distribution::Distribution;
 use crate::quantity::Unit;
 
@@ -353,26 +354,4 @@ fn name_of(cause: &Cause, number: usize) -> String {
     } else {
         format!("{prefix}{name}")
     }
-}
-
-/// A name as a key of TOML.
-fn key(name: &str) -> String {
-    let bare = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    if bare { name.to_owned() } else { quoted(name) }
-}
-
-fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' => out += "\\\"",
-            '\\' => out += "\\\\",
-            '\n' => out += "\\n",
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04X}", u32::from(c));
-            }
-            c => out.push(c),
-        }
-    }
-    out + "\""
 }

@@ -109,7 +109,7 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
     let case = frame.case;
     let (variances, dof, origin): (Vec<Vec<f64>>, f64, Origin) = match &case.noise {
         NoiseClaim::Estimated => return None,
-        NoiseClaim::Stated { u, dof, origin } => {
+        NoiseClaim::Stated { u, dof, origin, .. } => {
             let counts = counts(case);
             let of = |u: &f64| counts.iter().map(|n| u * u / n).collect();
             let origin = match origin {
@@ -186,6 +186,9 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
         NoiseClaim::AtRest { readings, .. } => {
             Some(in_time(frame, fit, readings, &claimed).unwrap_or(claimed))
         }
+        NoiseClaim::Stated { walk, .. } if walk.iter().any(|walk| *walk > 0.0) => {
+            Some(walking(frame, walk, &claimed).unwrap_or(claimed))
+        }
         _ => Some(claimed),
     }
 }
@@ -201,13 +204,7 @@ fn in_time(
     claimed: &Claimed,
 ) -> Option<Claimed> {
     let case = frame.case;
-    let clock = frame.time();
-    let factor = hours(&case.columns[clock.column?].unit, &case.units)?;
-    let times: Vec<f64> = frame
-        .reduced(&clock.values)
-        .iter()
-        .map(|t| t * factor)
-        .collect();
+    let times = times(frame)?;
     let counts: Vec<f64> = frame
         .blocks
         .iter()
@@ -270,6 +267,40 @@ fn in_time(
             matrix: over_u(mean),
         }),
         u: u.clone(),
+        ..claimed.clone()
+    })
+}
+
+/// Times of the blocks, h; nothing where no time was recorded.
+fn times(frame: &Frame<'_>) -> Option<Vec<f64>> {
+    let clock = frame.time();
+    let factor = hours(&frame.case.columns[clock.column?].unit, &frame.case.units)?;
+    let reduced = frame.reduced(&clock.values);
+    Some(reduced.iter().map(|t| t * factor).collect())
+}
+
+/// The claimed noise with a random walk beside it: cov = walk²·min(tᵢ, tⱼ), in hours since the first row.
+fn walking(frame: &Frame<'_>, walk: &[f64], claimed: &Claimed) -> Option<Claimed> {
+    let times = times(frame)?;
+    let first = times.iter().copied().fold(f64::INFINITY, f64::min);
+    let blocks = times.len();
+    let covariance = |a: usize, b: usize| {
+        let white = if a == b { claimed.u[a].powi(2) } else { 0.0 };
+        let ((response, i), (other, j)) = (frame.place(a), frame.place(b));
+        if response != other {
+            return white;
+        }
+        white + walk[response].powi(2) * (times[i].min(times[j]) - first)
+    };
+    let count = walk.len() * blocks;
+    let u = DVector::from_fn(count, |at, _| covariance(at, at).sqrt());
+    let matrix = DMatrix::from_fn(count, count, |a, b| covariance(a, b) / (u[a] * u[b]));
+    Some(Claimed {
+        correlated: Some(Correlated {
+            matrix,
+            draws: Vec::new(),
+        }),
+        u,
         ..claimed.clone()
     })
 }

@@ -62,9 +62,11 @@ pub(super) fn listed(
     for (candidate, mut variants) in shares {
         variants.sort_by(|a, b| b.0.total_cmp(&a.0));
         let (best, block) = variants[0];
-        // A candidate at the same place with more coefficients is the same, more general.
-        let general = question.candidates[candidate].place == *place
-            && space.blocks[block].basis.ncols() > own.basis.ncols();
+        // A candidate at the same place with more coefficients is the same, more general; one with many
+        // more, such as a value of its own for each level, holds anything.
+        let (more, few) = (space.blocks[block].basis.ncols(), own.basis.ncols());
+        let same = question.candidates[candidate].place == *place;
+        let general = (same && more > few) || more > few + 1;
         let alias = best > ALIAS && !general;
         let mixes = !question.candidates[candidate].repeats && variants.len() > 1;
         if alias || (mixes && kin(space, rest, &variants, estimate)) {

@@ -281,8 +281,22 @@ mod tests {
     #[test]
     fn two_effects_are_two_names() {
         for stream in 0..6 {
-            let (_, names) = asked(relaxation(15.0) * 40.0 + wave() * 3.0, stream);
-            assert_eq!(names, ["relaxation", "wave"], "{stream}");
+            let (found, names) = asked(relaxation(15.0) * 20.0 + wave() * 4.0, stream);
+            let slots: Vec<_> = (found.slots.iter())
+                .map(|slot| {
+                    let named = slot
+                        .named
+                        .iter()
+                        .map(|n| (n.candidate, n.probability, n.lambda));
+                    (slot.state, named.collect::<Vec<_>>(), slot.generic_share)
+                })
+                .collect();
+            assert_eq!(
+                names,
+                ["relaxation", "wave"],
+                "{stream}: {slots:?} {:?}",
+                found.verdict
+            );
         }
     }
 

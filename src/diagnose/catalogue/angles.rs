@@ -141,20 +141,14 @@ fn play(ground: &Ground<'_>, column: usize) -> Option<Cell> {
 /// angle, which no row shows: that one too is reached in the direction in which the run goes on.
 fn approach(ground: &Ground<'_>, column: usize) -> Vec<f64> {
     let x = ground.numbers(column);
-    let run = ground.case().with_role(Role::Run).next();
-    let run = run.and_then(|c| ground.case().columns[c].labels());
-    let begins = |row: usize| {
-        row == 0 || run.is_some_and(|labels| labels.of_row[row] != labels.of_row[row - 1])
-    };
+    let starts = starts(ground);
     let last = x.len() - 1;
-    let mut side = vec![0.0; x.len()];
+    let mut side: Vec<f64> = vec![1.0; x.len()];
     for row in 0..x.len() {
-        let step = if begins(row) && row < last {
-            x[row + 1] - x[row]
-        } else if row > 0 {
-            x[row] - x[row - 1]
-        } else {
-            0.0
+        let step = match row {
+            row if starts.contains(&row) && row < last => x[row + 1] - x[row],
+            0 => 0.0,
+            row => x[row] - x[row - 1],
         };
         side[row] = match step {
             0.0 if row > 0 => side[row - 1],
@@ -163,4 +157,34 @@ fn approach(ground: &Ground<'_>, column: usize) -> Vec<f64> {
         };
     }
     side
+}
+
+/// Rows in which a run begins.
+fn starts(ground: &Ground<'_>) -> Vec<usize> {
+    let run = ground.case().with_role(Role::Run).next();
+    let run = run.and_then(|c| ground.case().columns[c].labels());
+    let begins = |row: &usize| {
+        *row == 0 || run.is_some_and(|labels| labels.of_row[*row] != labels.of_row[row - 1])
+    };
+    (0..ground.rows()).filter(begins).collect()
+}
+
+/// The angle that turns in one direction through every run, with the rows in which runs begin.
+pub(super) fn runs_of_turns(ground: &Ground<'_>) -> Option<(usize, Vec<usize>)> {
+    let turning: Vec<usize> = angles(ground)
+        .into_iter()
+        .filter(|c| ground.in_model(*c))
+        .collect();
+    let ([angle], true) = (&turning[..], ground.is_timed()) else {
+        return None;
+    };
+    let x = ground.numbers(*angle);
+    let starts = starts(ground);
+    let ends = starts[1..].iter().copied().chain([x.len()]);
+    let steady = starts.iter().zip(ends).all(|(start, end)| {
+        let steps: Vec<f64> = x[*start..end].windows(2).map(|w| w[1] - w[0]).collect();
+        let one_way = |sign: f64| steps.iter().all(|step| sign * step > 0.0);
+        steps.len() >= 3 && (one_way(1.0) || one_way(-1.0))
+    });
+    (steady && starts.len() > 1).then_some((*angle, starts))
 }

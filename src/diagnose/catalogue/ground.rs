@@ -63,6 +63,16 @@ impl<'f> Ground<'f> {
         &self.signal[response]
     }
 
+    /// The signal of a response in a row, if a column had another value there.
+    pub fn signal_at(&self, response: usize, row: usize, column: usize, value: f64) -> f64 {
+        let case = self.case();
+        let mut symbols = self.frame.symbols(row, &self.fit.unknowns);
+        let there = case.equations.value(response, &symbols);
+        symbols[case.parameters.len() + column] = value;
+        let other = case.equations.value(response, &symbols);
+        self.signal[response][row] + other - there
+    }
+
     /// The slope of a response by a node, row by row.
     pub fn slope(&self, node: Node, response: usize) -> Vec<f64> {
         let slopes = &self.fit.linear.slopes[response];
@@ -100,16 +110,21 @@ impl<'f> Ground<'f> {
     /// Whether a column is what some output takes in, or acts on it as a function of itself: no mere
     /// factor of other columns.
     pub fn is_direct(&self, column: usize) -> bool {
-        const SAME: f64 = 1e-6;
+        /// Values this near to one another, as a part of the range, are the same …
+        const NEAR: f64 = 1e-3;
+        /// … and so are slopes, as a part of the largest.
+        const SAME: f64 = 0.05;
         let x = self.numbers(column);
         let mut order: Vec<usize> = (0..x.len()).collect();
         order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
+        let (least, most) = super::modifiers::range(x);
         let by_itself = |response: usize| {
             let slope = self.slope(Node::Column(column), response);
-            let size = slope.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
+            let size = super::modifiers::largest(&slope);
             order.windows(2).all(|pair| {
                 let (a, b) = (pair[0], pair[1]);
-                x[a] != x[b] || (slope[a] - slope[b]).abs() <= SAME * size
+                let near = x[b] - x[a] <= NEAR * (most - least);
+                !near || (slope[a] - slope[b]).abs() <= SAME * size
             })
         };
         let responses = 0..self.case().responses.len();

@@ -5,7 +5,9 @@
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{correlation, creeps, figure, largest, late, map, map2, play, range, rate};
+use super::modifiers::{
+    correlation, creeps, figure, held_lag, lag, largest, map, map2, play, range, rate,
+};
 use super::response::time_constants;
 use super::{Cell, Modifier, Term, Variation, Words, effect};
 use crate::diagnose::case::Role;
@@ -32,6 +34,8 @@ struct Input {
     own: Vec<f64>,
     /// Along the other axes, likewise.
     others: Vec<Modifier>,
+    /// Where a run begins: from which input, and how long before.
+    came: Vec<Option<(f64, f64)>>,
 }
 
 fn inputs(ground: &Ground<'_>) -> Vec<Input> {
@@ -45,9 +49,27 @@ fn inputs(ground: &Ground<'_>) -> Vec<Input> {
             response,
             own: whole(signal),
             others: others(ground, response),
+            came: came(ground, response),
         })
     };
     (0..case.responses.len()).filter_map(of_response).collect()
+}
+
+/// Where a head turns in one direction through each run, it goes back behind the first angle before the run,
+/// so that this one too is reached like the others; no row shows that.
+fn came(ground: &Ground<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
+    let Some((angle, starts)) = super::angles::runs_of_turns(ground) else {
+        return Vec::new();
+    };
+    let (x, t) = (ground.numbers(angle), &ground.clock.values);
+    let size = largest(ground.signal(response)).max(f64::MIN_POSITIVE);
+    let mut came = vec![None; ground.rows()];
+    for first in starts {
+        let behind = 2.0 * x[first] - x[first + 1];
+        let signal = ground.signal_at(response, first, angle, behind);
+        came[first] = Some((signal / size, t[first + 1] - t[first]));
+    }
+    came
 }
 
 /// As a part of the largest.
@@ -281,9 +303,13 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     let unit = ground.time_unit();
     let scales = time_constants(ground);
     let lacks = |input: &Input, tau: f64| {
-        let modifier = map2(&late(&t, &input.own, tau), &input.own, |late, now| {
-            late - now
-        });
+        let own = &input.own;
+        let late = if creeps(own) {
+            lag(&t, own, tau)
+        } else {
+            held_lag(&t, own, &input.came, tau)
+        };
+        let modifier = map2(&late, own, |late, now| late - now);
         let text = format!("(lag(signal, {} {unit}) - signal)", figure(tau));
         (modifier, text)
     };

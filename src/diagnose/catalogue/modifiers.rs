@@ -35,18 +35,24 @@ pub fn lag(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
 }
 
 /// First-order lag of a course that moves from dwell to dwell: each value is taken on at once, and held. It
-/// begins in balance.
-pub fn held_lag(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
+/// begins in balance. Where `came` says from which value a row was reached, and how long before, the course
+/// was there since the row before.
+pub fn held_lag(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<f64> {
     let mut out: Vec<f64> = Vec::with_capacity(x.len());
+    let towards = |value: f64, before: f64, time: f64| {
+        value + (before - value) * libm::exp(-time.max(0.0) / tau)
+    };
     for row in 0..x.len() {
-        let before = out.last().copied().unwrap_or(x[row]);
-        let step = if row == 0 { 0.0 } else { t[row] - t[row - 1] };
-        let kept = if step < 0.0 {
-            0.0
-        } else {
-            libm::exp(-step / tau)
-        };
-        out.push(x[row] + (before - x[row]) * kept);
+        let before = out.last().copied();
+        let gap = if row == 0 { 0.0 } else { t[row] - t[row - 1] };
+        out.push(match (came.get(row).copied().flatten(), before) {
+            (Some((from, since)), Some(before)) => {
+                towards(x[row], towards(from, before, gap - since), since)
+            }
+            (Some((from, since)), None) => towards(x[row], from, since),
+            (None, Some(before)) if gap >= 0.0 => towards(x[row], before, gap),
+            (None, _) => x[row],
+        });
     }
     out
 }
@@ -56,7 +62,7 @@ pub fn late(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
     if creeps(x) {
         lag(t, x, tau)
     } else {
-        held_lag(t, x, tau)
+        held_lag(t, x, &[], tau)
     }
 }
 
@@ -185,9 +191,13 @@ mod tests {
 
     #[test]
     fn a_step_that_is_held_decays() {
-        let lagged = held_lag(&[0.0, 1.0, 3.0], &[0.0, 1.0, 1.0], 2.0);
+        let lagged = held_lag(&[0.0, 1.0, 3.0], &[0.0, 1.0, 1.0], &[], 2.0);
         assert!((lagged[1] - (1.0 - libm::exp(-0.5))).abs() < 1e-12);
         assert!((lagged[2] - (1.0 - libm::exp(-1.5))).abs() < 1e-12);
+        // The first value was reached from 3, one unit of time before.
+        let came = held_lag(&[0.0, 1.0], &[2.0, 2.0], &[Some((3.0, 1.0)), None], 2.0);
+        assert!((came[0] - (2.0 + libm::exp(-0.5))).abs() < 1e-12);
+        assert!((came[1] - (2.0 + libm::exp(-1.0))).abs() < 1e-12);
     }
 
     #[test]

@@ -6,6 +6,7 @@ use super::causes::{Cause, causes};
 use super::experiment::{Experiment, Scatter, Weights, Words};
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
+use super::limits::{Limit, limits};
 use super::scatter::{ResponseScatter, Scatters, weights};
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
@@ -36,6 +37,10 @@ pub struct Calibration {
     /// Two points whose readings look exchanged: with them in each other's place the residuals would be a
     /// tenth or less.
     pub swapped: Option<[String; 2]>,
+    /// Values at which readings stay that should differ.
+    pub limits: Vec<Limit>,
+    /// Whether the equations are linear in the parameters.
+    pub linear: bool,
     /// Steps of the search; 0 for linear equations.
     pub iterations: usize,
     /// The calibrations of the parts, where the file wants them one by one.
@@ -153,6 +158,8 @@ fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
     let name = |point: usize| experiment.points.names[point].clone();
     Ok(Calibration {
         swapped: swapped.map(|pair| pair.map(name)),
+        limits: limits(&stack, &solution),
+        linear: stack.is_linear(),
         figures: figures(experiment, &solution.parameters, causes),
         readings: stack.readings(),
         left_out: stack.left_out,

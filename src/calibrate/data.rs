@@ -30,16 +30,26 @@ pub(super) fn points(
     let table = &definer.source.table;
     let recording = table.recording.as_ref();
     let file = recording.and_then(|recording| recording.value.file.as_ref());
-    match (file, &table.schedule, purpose) {
-        (_, Some(_), Purpose::Plan) => Ok(scheduled(definer, names)),
-        (Some(file), _, _) => recorded(definer, names, file, folder, purpose),
+    let points = match (file, &table.schedule, purpose) {
+        (_, Some(_), Purpose::Plan) => scheduled(definer, names),
+        (Some(file), _, _) => recorded(definer, names, file, folder, purpose)?,
         (None, _, _) => {
             if !table.refused && !recording.is_some_and(|recording| recording.value.refused) {
                 definer.faults.push(no_data(purpose));
             }
-            Ok(None)
+            None
         }
-    }
+    };
+    let together = recording.and_then(|stated| stated.value.together.as_ref());
+    let Some((points, together)) = points.as_ref().zip(together) else {
+        return Ok(points);
+    };
+    let columns: Vec<&str> = texts(&together.value);
+    Ok(Some(points.together(&columns)))
+}
+
+fn texts(list: &[Stated<String>]) -> Vec<&str> {
+    list.iter().map(|stated| stated.value.as_str()).collect()
 }
 
 fn no_data(purpose: Purpose) -> Fault {
@@ -69,12 +79,18 @@ pub(super) fn label_columns(definer: &Definer<'_>) -> Vec<String> {
             add(&by.value);
         }
     }
+    for (_, entry) in entries(&table.source) {
+        if let Some(by) = &entry.value.by {
+            add(&by.value);
+        }
+    }
     if let Some(separately) = &table.separately {
         add(&separately.value);
     }
     let recording = table.recording.as_ref();
     let dwells = recording.and_then(|stated| stated.value.dwells.as_ref());
-    for column in dwells.iter().flat_map(|list| &list.value) {
+    let together = recording.and_then(|stated| stated.value.together.as_ref());
+    for column in dwells.iter().chain(&together).flat_map(|list| &list.value) {
         add(&column.value);
     }
     for (name, entry) in entries(&table.column) {
@@ -333,7 +349,7 @@ fn findings(
     recording: &Recording,
     table: &RecordingTable,
 ) -> Vec<Finding> {
-    let outputs: Vec<&str> = names.responses.iter().map(String::as_str).collect();
+    let mut outputs: Vec<&str> = names.responses.iter().map(String::as_str).collect();
     let ranges: Vec<(&str, [f64; 2])> = entries(&table.ranges)
         .iter()
         .filter_map(|(role, range)| match range.value.as_slice() {
@@ -346,12 +362,18 @@ fn findings(
     let column = positions.and_then(|stated| stated.value.column.as_ref());
     let averages = table.averages.as_ref().map(|stated| stated.value);
     let samples = averages.map_or(table.dwells.is_some() || table.steps.is_some(), |a| !a);
+    if !samples {
+        // Averages may be equal; only a stated range tells their limit.
+        outputs.retain(|output| ranges.iter().any(|(role, _)| role == output));
+    }
+    let dwells = table.dwells.as_ref().filter(|_| samples);
     let mut findings = check(
         recording,
         &Checks {
             time: table.time.as_ref().map(|stated| stated.value.as_str()),
-            outputs: if samples { &outputs } else { &[] },
+            outputs: &outputs,
             ranges: &ranges,
+            dwells: &dwells.map_or_else(Vec::new, |list| texts(&list.value)),
             expected: column.map(|column| (column.value.as_str(), expected.as_slice())),
             fewest: 1,
         },
@@ -361,14 +383,5 @@ fn findings(
         crate::recording::Problem::LabelUnknown { label, .. } => !optional.contains(label.as_str()),
         _ => true,
     });
-    if !samples {
-        // Rows that are averages repeat positions, and equal averages are no saturation.
-        findings.retain(|finding| {
-            !matches!(
-                finding.problem,
-                crate::recording::Problem::LabelAgain { .. }
-            )
-        });
-    }
     findings
 }

@@ -114,6 +114,7 @@ fn merged(own: CalibrationTable, base: CalibrationTable, listed: &Listed) -> Cal
         parameter: entries_over(own.parameter.clone(), parameter),
         input: entries_over(own.input.clone(), input),
         reading: entries_over(own.reading.clone(), base.reading.clone()),
+        source: entries_over(own.source.clone(), base.source.clone()),
         result: entries_over(own.result.clone(), base.result.clone()),
         omitted: entries_over(own.omitted.clone(), base.omitted.clone()),
         positions: over(own.positions.clone(), base.positions.clone()),

@@ -6,8 +6,10 @@
 //! | [`faults`] | codes of what is refused |
 //! | `sheet` | CSV text as rows of fields, with their places |
 //! | `heading` | names and units in the first line |
+//! | `field` | numbers and times in the rows below |
 //! | `reader` | the columns that a procedure asks for |
 //! | `checks` | missing values, times that go backwards, saturation, labels … |
+//! | `words` | what is said of that, in both languages |
 //! | `segment` | dwells: stretches that belong together; settling |
 //! | `average` | mean of a dwell with its standard uncertainty; drift |
 //! | `allan` | Allan deviation, overlapping, with confidence intervals |
@@ -50,6 +52,7 @@ mod allan;
 mod average;
 mod checks;
 pub mod faults;
+mod field;
 mod heading;
 mod noise;
 mod power_law;
@@ -58,6 +61,7 @@ mod segment;
 mod sheet;
 #[cfg(test)]
 mod tests;
+mod words;
 
 pub use allan::{Allan, AllanPoint, Unsuitable, regular_interval};
 pub use average::{Average, Drift, TooFew};
@@ -93,6 +97,8 @@ pub struct Column {
     pub name: String,
     /// Its unit; `None` where nothing states one, and for labels.
     pub unit: Option<Unit>,
+    /// Whether its numbers were written with decimal commas.
+    pub decimal_comma: bool,
     /// What it holds, row by row.
     pub data: Data,
 }

@@ -210,3 +210,75 @@ fn saturated_samples_are_warned_of() {
         experiment.points.findings
     );
 }
+
+#[test]
+fn correlated_errors_must_act_on_the_same_points() {
+    let toml = RATE.replace("b\"]", "b + e\"]")
+        + "[input.e]\nunit = \"mV\"\nu = 1\n[reading.U]\nu = 1\n[[correlation]]\nbetween = [\"e\", \"U\"]\nr = 0.5\n";
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
+    says(
+        &toml,
+        csv,
+        &["acts on other points", "the same `scope` or `by`"],
+    );
+    let common = toml.replace("[reading.U]\n", "[reading.U]\nscope = \"common\"\n");
+    assert!(rejected(&common, csv, Purpose::Calibrate).is_ok());
+    let unknown = toml.replace("\"U\"]", "\"W\"]");
+    says(&unknown, csv, &["W"]);
+}
+
+#[test]
+fn a_partly_known_parameter_shares_no_error() {
+    let toml = RATE.replace("b\"]", "b + e\"]")
+        + "[input.b]\nunit = \"mV\"\nsource = \"dvm\"\n[input.e]\nunit = \"mV\"\nsource = \"dvm\"\n[source.dvm]\nunit = \"mV\"\nu = 0.1\n";
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
+    says(&toml, csv, &["what is known of it shares an error"]);
+}
+
+/// Two rates at which the output stays at its limit.
+#[test]
+fn averages_at_a_limit_are_told() {
+    let csv = "omega [deg/s],U [mV]\n-200,-2000\n-100,-1000.2\n0,0.3\n100,1000.1\n200,2000.2\n300,2500\n400,2500\n";
+    let found = calibrate(&experiment(RATE, csv)).expect("coefficients");
+    let [limit] = found.limits.as_slice() else {
+        panic!("one limit: {:?}", found.limits);
+    };
+    assert_eq!((limit.value, limit.points.len()), (2500.0, 2));
+    let good = csv
+        .replace("300,2500", "300,3000.3")
+        .replace("400,2500", "400,4000.2");
+    assert_eq!(
+        calibrate(&experiment(RATE, &good))
+            .expect("coefficients")
+            .limits,
+        []
+    );
+    // Equal readings of equal points are no limit.
+    let again = "omega [deg/s],U [mV]\n-1,-2\n-1,-2\n0,0.01\n0,-0.01\n1,2\n1,2\n1,2\n";
+    assert_eq!(
+        calibrate(&experiment(RATE, again))
+            .expect("coefficients")
+            .limits,
+        []
+    );
+}
+
+/// Six positions, each twice, half a turn apart: the averages do not see what the turn cancels.
+#[test]
+fn positions_are_averaged_together() {
+    let toml = POSITIONS.replace("file =", "together = [\"position\"]\nfile =");
+    let csv = "position,turned,U [mV]\nup,no,1.5\nup,yes,0.5\ndown,no,-1.3\ndown,yes,-0.7\nlevel,no,0.5\nlevel,yes,-0.5\n";
+    let found = calibrate(&experiment(&toml, csv)).expect("coefficients");
+    assert_eq!(found.readings, 3);
+    assert!(found.responses[0].rms < 1e-12, "{}", found.responses[0].rms);
+    let lost = csv.replace("down,yes,-0.7\n", "");
+    let experiment = experiment(&toml, &lost);
+    let [finding] = experiment.points.findings.as_slice() else {
+        panic!("{:?}", experiment.points.findings);
+    };
+    assert!(
+        finding.message().contains("\"down\" has 1 points"),
+        "{}",
+        finding.message()
+    );
+}

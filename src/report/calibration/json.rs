@@ -28,6 +28,12 @@ pub fn calibration_json(experiment: &Experiment, found: &Calibration, l: Languag
     value["readings"] = json!(found.readings);
     value["left_out"] = json!(found.left_out);
     value["swapped"] = json!(found.swapped);
+    value["limits"] = found
+        .limits
+        .iter()
+        .map(|limit| json!({ "response": limit.response, "value": limit.value, "points": limit.points }))
+        .collect();
+    value["linear"] = json!(found.linear);
     value["iterations"] = json!(found.iterations);
     value["scatter"] = json!(match found.scatter {
         Scatter::Residuals => "residuals",
@@ -76,7 +82,7 @@ pub fn calibration_json(experiment: &Experiment, found: &Calibration, l: Languag
         .points
         .findings
         .iter()
-        .map(|finding| json!({ "message": finding.message(), "advice": finding.advice(), "line": finding.line, "count": finding.count }))
+        .map(|finding| json!({ "message": l.pick(finding.message(), finding.message_zh()), "advice": l.pick(finding.advice(), finding.advice_zh()), "line": finding.line, "count": finding.count }))
         .collect();
     value
 }

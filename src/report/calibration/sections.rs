@@ -260,13 +260,21 @@ pub(super) fn correlations(figures: &Figures, l: Language) -> Vec<Block> {
         .iter()
         .map(|one| one.name.as_str())
         .collect();
-    let mut table = matrix(l, &names, &correlation(figures), "");
+    let r = correlation(figures);
+    let heading = Block::Section(l.word(Word::Correlation).to_owned());
+    let is_zero =
+        |(place, r): (usize, &f64)| place / names.len() == place % names.len() || r.abs() < 0.005;
+    if r.iter().enumerate().all(is_zero) {
+        let none = l.pick(
+            "All are 0.00; --json has the covariances.",
+            "均为 0.00；协方差见 --json。",
+        );
+        return vec![heading, Block::Paragraph(none.to_owned())];
+    }
+    let mut table = matrix(l, &names, &r, "");
     // The section says it.
     table.columns[0].head = String::new();
-    vec![
-        Block::Section(l.word(Word::Correlation).to_owned()),
-        Block::Table(table),
-    ]
+    vec![heading, Block::Table(table)]
 }
 
 /// Correlation coefficients from a covariance matrix.

@@ -257,8 +257,8 @@ fn width(distribution: &Distribution, u: f64, dof: f64) -> String {
             half_width(0.5 * (upper - lower), "distribution = \"arcsine\"\n")
         }
         _ if dof.is_infinite() => format!("u = {u:?}\n"),
-        // A t distribution of so few degrees of freedom has no standard deviation for Monte Carlo.
-        _ if dof <= 2.0 => format!("u = {u:?}\ndof = {dof:?}\ndistribution = \"normal\"\n"),
+        // The standard deviation of trials of a t distribution of so few degrees of freedom does not converge.
+        _ if dof <= 4.0 => format!("u = {u:?}\ndof = {dof:?}\ndistribution = \"normal\"\n"),
         _ => format!("u = {u:?}\ndof = {dof:?}\n"),
     }
 }

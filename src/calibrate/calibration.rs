@@ -34,9 +34,9 @@ pub struct Calibration {
     pub identifiability: Identifiability,
     /// What each omitted effect would shift.
     pub aliases: Vec<Alias>,
-    /// Two points whose readings look exchanged: with them in each other's place the residuals would be a
+    /// Two points, or two labels, whose readings look exchanged: with them in each other's place the residuals would be a
     /// tenth or less.
-    pub swapped: Option<[String; 2]>,
+    pub swapped: Option<[Words; 2]>,
     /// Values at which readings stay that should differ.
     pub limits: Vec<Limit>,
     /// Whether the equations are linear in the parameters.
@@ -83,7 +83,7 @@ pub struct Coefficient {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Residual {
     /// The point.
-    pub point: String,
+    pub point: Words,
     /// The response.
     pub response: String,
     /// What was read.
@@ -155,9 +155,8 @@ fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
     let causes = causes(&stack, &gain, &scatters, &u);
     let jacobian = stack.jacobian(&solution.parameters, &u);
     let swapped = swapped(&stack, &solution, &gain, &scatters);
-    let name = |point: usize| experiment.points.names[point].clone();
     Ok(Calibration {
-        swapped: swapped.map(|pair| pair.map(name)),
+        swapped,
         limits: limits(&stack, &solution),
         linear: stack.is_linear(),
         figures: figures(experiment, &solution.parameters, causes),

@@ -1,5 +1,6 @@
 //! Averages that an instrument could not exceed.
 
+use super::experiment::Words;
 use super::stack::{Row, Stack};
 use crate::least_squares::Solution;
 
@@ -11,7 +12,7 @@ pub struct Limit {
     /// The value.
     pub value: f64,
     /// The points.
-    pub points: Vec<String>,
+    pub points: Vec<Words>,
 }
 
 /// How far apart the equation puts readings that are equal, as a part of the range of all.
@@ -54,10 +55,10 @@ pub(super) fn limits(stack: &Stack<'_>, solution: &Solution) -> Vec<Limit> {
 
 impl Stack<'_> {
     /// The point of a row.
-    fn name(&self, row: usize) -> String {
+    fn name(&self, row: usize) -> Words {
         match self.rows[row] {
             Row::Reading { point, .. } => self.experiment.points.names[point].clone(),
-            Row::Prior { parameter } => self.experiment.parameters[parameter].name.clone(),
+            Row::Prior { parameter } => Words::plain(&self.experiment.parameters[parameter].name),
         }
     }
 }

@@ -64,7 +64,7 @@ pub use budget::budget;
 pub use calibration::{Calibration, Coefficient, Figures, Residual, calibrate, estimates};
 pub use causes::{Cause, Origin};
 pub use define::{Purpose, load, read};
-pub use dwells::Dwelling;
+pub use dwells::{Dwelling, DwellsBy};
 pub use experiment::{
     Act, Doubt, Experiment, FunctionResult, Heading, Input, Observed, Omitted, Parameter, Prior,
     Scatter, Scope, Target, Weights, Words,

@@ -224,6 +224,8 @@ table! {
         dwells: List<String>,
         /// The column whose steps tell the dwells apart.
         steps: String,
+        /// Without labels and steps: dwells are stretches at rest, in which no column of the equations scatters more than it does at its quietest, over so many rows.
+        still: u64,
         /// How far apart values of `steps` in one dwell may be, in its unit.
         tolerance: f64,
         /// The part at the beginning of each dwell that is left out.

@@ -1,5 +1,6 @@
 //! Points that a procedure averages: readings of the same position, half a turn apart.
 
+use super::experiment::Words;
 use super::points::{PointColumn, Points};
 use crate::recording::{Average, Finding, Labels, Problem};
 
@@ -32,7 +33,7 @@ impl Points {
             .iter()
             .map(|(labels, rows)| match rows.as_slice() {
                 [row] => self.names[*row].clone(),
-                rows => format!("{} ({} ×)", labels.join(", "), rows.len()),
+                rows => Words::plain(&format!("{} ({} ×)", labels.join(", "), rows.len())),
             })
             .collect();
         for (column, own) in points.columns.iter_mut().zip(&self.columns) {

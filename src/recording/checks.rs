@@ -44,8 +44,17 @@ pub enum Problem {
     Missing,
     /// No number in the whole column.
     Empty,
-    /// Its numbers have decimal commas.
+    /// Numbers have decimal commas.
     DecimalComma,
+    /// The unit is gram, which instruments write for the acceleration of free fall too.
+    Gram,
+    /// Samples of a dwell far from all its others.
+    Spike {
+        /// The one that is farthest.
+        value: f64,
+        /// The median of the dwell.
+        usual: f64,
+    },
     /// A field without a label.
     Unlabelled,
     /// The time goes backwards.
@@ -77,6 +86,8 @@ pub enum Problem {
         /// That value.
         value: f64,
     },
+    /// Each of many rows counts as a point, and nothing says that it is an average.
+    EachRow,
     /// There are too few rows.
     TooFew {
         /// How many there should be.
@@ -128,7 +139,9 @@ impl Finding {
             | Problem::TooFew { .. }
             | Problem::LabelAbsent { .. }
             | Problem::LabelUnknown { .. } => Severity::Error,
-            Problem::LabelAgain { .. } | Problem::DecimalComma => Severity::Note,
+            // Samples of minutes, taken for points, would give figures in earnest after a long search.
+            Problem::EachRow if self.count > 1000 => Severity::Error,
+            Problem::LabelAgain { .. } | Problem::DecimalComma | Problem::Gram => Severity::Note,
             _ => Severity::Warning,
         }
     }
@@ -152,7 +165,7 @@ pub fn check(recording: &Recording, checks: &Checks) -> Vec<Finding> {
         match &column.data {
             Data::Numbers(values) => {
                 findings.extend(look.missing(values));
-                findings.extend(look.decimal_comma(values));
+                findings.extend(look.gram(values));
                 if checks.time == Some(column.role.as_str()) {
                     findings.extend(look.time(values, &stretches));
                 }
@@ -175,8 +188,24 @@ pub fn check(recording: &Recording, checks: &Checks) -> Vec<Finding> {
         }
     }
     findings.extend(stretches.that_come_back(recording));
+    findings.extend(decimal_commas(recording));
     findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity()));
     findings
+}
+
+/// One finding for all columns with decimal commas.
+fn decimal_commas(recording: &Recording) -> Option<Finding> {
+    let columns = recording.columns.iter();
+    let headers: Vec<&str> = columns
+        .filter(|column| column.decimal_comma)
+        .map(|column| column.header.as_str())
+        .collect();
+    (!headers.is_empty()).then(|| Finding {
+        problem: Problem::DecimalComma,
+        column: Some(headers.join("\", \"")),
+        line: recording.line(0),
+        count: recording.rows(),
+    })
 }
 
 /// A column under inspection.
@@ -206,9 +235,10 @@ impl Look<'_> {
         Some(self.finding(problem, first, count))
     }
 
-    fn decimal_comma(&self, values: &[f64]) -> Option<Finding> {
-        let written = self.column.decimal_comma;
-        written.then(|| self.finding(Problem::DecimalComma, 0, values.len()))
+    fn gram(&self, values: &[f64]) -> Option<Finding> {
+        let unit = self.column.unit.as_ref()?;
+        let is_gram = ["g", "mg", "µg"].contains(&unit.symbol.as_str());
+        is_gram.then(|| self.finding(Problem::Gram, 0, values.len()))
     }
 
     fn time(&self, values: &[f64], stretches: &Stretches) -> Vec<Finding> {

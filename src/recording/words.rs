@@ -23,22 +23,36 @@ impl Finding {
             Problem::DecimalComma => {
                 format!("the commas in the numbers of \"{column}\" were read as decimal signs")
             }
+            Problem::Gram => format!("\"{column}\" is in gram"),
+            Problem::Spike { value, usual } => format!(
+                "\"{column}\" is {} where its dwell is about {}, line {line} (in {rows})",
+                short(*value),
+                short(*usual)
+            ),
             Problem::Unlabelled => format!("\"{column}\" has no label in {rows}, {lines}"),
             Problem::TimeBackwards { from, to } => {
                 format!(
-                    "the time \"{column}\" goes back from {from} to {to} in line {line} (in {rows})"
+                    "the time \"{column}\" goes back from {} to {} in line {line} (in {rows})",
+                    short(*from),
+                    short(*to)
                 )
             }
             Problem::TimeRepeated { time } => {
-                format!("the time \"{column}\" stays at {time} in line {line} (in {rows})")
+                format!(
+                    "the time \"{column}\" stays at {} in line {line} (in {rows})",
+                    short(*time)
+                )
             }
             Problem::TimeGap { longest, usual } => format!(
-                "the time \"{column}\" jumps by up to {longest} where {usual} is usual, first in line {line} (in {rows})"
+                "the time \"{column}\" jumps by up to {} where {} is usual, first in line {line} (in {rows})",
+                short(*longest),
+                short(*usual)
             ),
             Problem::Saturated { limit } => {
                 format!("\"{column}\" is stuck at {limit} in {rows}, {lines}: it looks saturated")
             }
             Problem::Constant { value } => format!("\"{column}\" is {value} in all {rows}"),
+            Problem::EachRow => format!("each of the {count} rows counts as a point by itself"),
             Problem::TooFew { needed } => {
                 format!("the recording has {rows}, at least {needed} are needed")
             }
@@ -70,20 +84,36 @@ impl Finding {
             Problem::Missing => format!("“{column}”{lines}没有数值"),
             Problem::Empty => format!("“{column}”整列没有数值"),
             Problem::DecimalComma => format!("“{column}”中的逗号按小数点读取"),
+            Problem::Gram => format!("“{column}”的单位是克"),
+            Problem::Spike { value, usual } => format!(
+                "“{column}”第 {line} 行为 {}，而所在驻留段约为 {}（共 {count} 行）",
+                short(*value),
+                short(*usual)
+            ),
             Problem::Unlabelled => format!("“{column}”{lines}没有标签"),
             Problem::TimeBackwards { from, to } => {
-                format!("时间列“{column}”在第 {line} 行由 {from} 倒退到 {to}（共 {count} 行）")
+                format!(
+                    "时间列“{column}”在第 {line} 行由 {} 倒退到 {}（共 {count} 行）",
+                    short(*from),
+                    short(*to)
+                )
             }
             Problem::TimeRepeated { time } => {
-                format!("时间列“{column}”在第 {line} 行停留在 {time}（共 {count} 行）")
+                format!(
+                    "时间列“{column}”在第 {line} 行停留在 {}（共 {count} 行）",
+                    short(*time)
+                )
             }
             Problem::TimeGap { longest, usual } => format!(
-                "时间列“{column}”有间断，最长 {longest}，通常间隔 {usual}，首见于第 {line} 行（共 {count} 行）"
+                "时间列“{column}”有间断，最长 {}，通常间隔 {}，首见于第 {line} 行（共 {count} 行）",
+                short(*longest),
+                short(*usual)
             ),
             Problem::Saturated { limit } => {
                 format!("“{column}”{lines}停在 {limit}，疑似饱和")
             }
             Problem::Constant { value } => format!("“{column}”全部 {count} 行均为 {value}"),
+            Problem::EachRow => format!("{count} 行各作为一个独立的点"),
             Problem::TooFew { needed } => format!("记录只有 {count} 行，至少需要 {needed} 行"),
             Problem::LabelAgain { label } => {
                 format!("“{column}”中的“{label}”在第 {line} 行再次出现，共 {count} 段")
@@ -104,6 +134,8 @@ impl Finding {
             Problem::Missing => "these values are left out; find out why they are missing".into(),
             Problem::Empty => "check that the column was recorded, or leave it out".into(),
             Problem::DecimalComma => "if they separate thousands, remove them".into(),
+            Problem::Gram => "if the acceleration of free fall is meant, write [gn], or state unit = \"gn\" for the column".into(),
+            Problem::Spike { .. } => "such samples shift the mean of the dwell; find out what happened, and leave them out if they are no readings".into(),
             Problem::Unlabelled => "label these rows, or leave them out: they belong to no dwell".into(),
             Problem::TimeBackwards { .. } => {
                 "sort the rows, or split the file where the clock was set or a new run begins".into()
@@ -118,6 +150,7 @@ impl Finding {
             Problem::Constant { .. } => {
                 "check that the output is connected; if its noise is below the resolution, state the resolution".into()
             }
+            Problem::EachRow => "if they are samples, say what tells dwells apart: `dwells`, `steps` or `still`; if each is an average, write averages = true".into(),
             Problem::TooFew { .. } => "record longer, or at more points".into(),
             Problem::LabelAgain { .. } => "each stretch is a dwell of its own; rename it if it is not the same".into(),
             Problem::LabelAbsent { .. } => "record it, or take it off the list".into(),
@@ -135,6 +168,10 @@ impl Finding {
             Problem::Missing => "这些值未使用，请查明缺失原因".into(),
             Problem::Empty => "请确认该列已记录，或不使用该列".into(),
             Problem::DecimalComma => "若为千位分隔符请去掉".into(),
+            Problem::Gram => "若指重力加速度，请写 [gn]，或为该列给出 unit = \"gn\"".into(),
+            Problem::Spike { .. } => {
+                "这类采样会使驻留段平均值偏移；请查明原因，若非真实读数请剔除".into()
+            }
             Problem::Unlabelled => "请补上标签或删去这些行：它们不属于任何驻留段".into(),
             Problem::TimeBackwards { .. } => {
                 "请按时间排序，或在时钟重置、新一轮测量处拆分文件".into()
@@ -145,6 +182,7 @@ impl Finding {
                 "请剔除停在极限处的行，或换大量程重新测量：极限处的平均值有偏".into()
             }
             Problem::Constant { .. } => "请检查输出是否接通；若噪声低于分辨力，请给出分辨力".into(),
+            Problem::EachRow => "若为采样，请用 dwells、steps 或 still 指明驻留段；若每行即平均值，请写 averages = true".into(),
             Problem::TooFew { .. } => "请延长记录或增加测量点".into(),
             Problem::LabelAgain { .. } => "每段各为一个驻留段；若非同一位置请改名".into(),
             Problem::LabelAbsent { .. } => "请补测该位置，或将其从清单中去掉".into(),
@@ -157,4 +195,10 @@ impl Finding {
             }
         }
     }
+}
+
+/// A number without the digits that come of differences.
+fn short(x: f64) -> String {
+    let rounded = format!("{x:.8e}").parse::<f64>().unwrap_or(x);
+    rounded.to_string()
 }

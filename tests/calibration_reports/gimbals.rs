@@ -14,7 +14,10 @@ fn shown(value: f64, u: f64) -> String {
 fn truth(name: &str) -> f64 {
     let path = common::root().join("calibrations/gimbals-65-positions.csv");
     let text = std::fs::read_to_string(path).expect("the recording");
-    let rest = text.split(&format!("{name} = ")).nth(1).expect("a true value");
+    let rest = text
+        .split(&format!("{name} = "))
+        .nth(1)
+        .expect("a true value");
     let number = rest.split([',', ';']).next().expect("its end");
     number.parse().expect("a number")
 }

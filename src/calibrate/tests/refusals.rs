@@ -1,6 +1,6 @@
 //! What is wrong is said, and where.
 
-use super::super::{Purpose, Trouble, calibrate};
+use super::super::{Purpose, Trouble, Words, calibrate};
 use super::{experiment, rejected};
 
 const RATE: &str = r#"
@@ -181,7 +181,7 @@ fn exchanged_labels_are_found() {
     let found = calibrate(&experiment(POSITIONS, &bad)).expect("figures");
     assert_eq!(
         found.swapped,
-        Some(["line 2".to_owned(), "line 3".to_owned()])
+        Some([2, 3].map(|line| Words::new(format!("line {line}"), format!("第 {line} 行"))))
     );
 }
 
@@ -280,5 +280,52 @@ fn positions_are_averaged_together() {
         finding.message().contains("\"down\" has 1 points"),
         "{}",
         finding.message()
+    );
+}
+
+/// Labels exchanged throughout, in all their points.
+#[test]
+fn labels_exchanged_throughout_are_found() {
+    let good = "position,turned,U [mV]\nup,no,1.001\nup,yes,0.999\ndown,no,-0.999\ndown,yes,-1.001\nlevel,no,0.002\nlevel,yes,-0.001\n";
+    let swapped = good
+        .replace("up", "x")
+        .replace("level", "up")
+        .replace('x', "level");
+    let of = |csv: &str| {
+        calibrate(&experiment(POSITIONS, csv))
+            .expect("coefficients")
+            .swapped
+    };
+    assert_eq!(of(good), None);
+    let labels = of(&swapped).expect("exchanged labels");
+    assert!(
+        labels.contains(&Words::plain("up")) && labels.contains(&Words::plain("level")),
+        "{labels:?}"
+    );
+}
+
+/// A sample that is no reading, in a dwell of many.
+#[test]
+fn spikes_are_told_at_their_line() {
+    let mut csv = "position,U [mV]\n".to_owned();
+    for (label, level) in [("up", 1.0), ("down", -1.0), ("level", 0.0)] {
+        for i in 0..200 {
+            let noise = 0.01 * f64::from(i * 7919 % 101) / 101.0;
+            csv += &format!("{label},{}\n", level + noise);
+        }
+    }
+    let toml = POSITIONS.replace("file =", "dwells = [\"position\"]\nfile =");
+    assert!(experiment(&toml, &csv).points.findings.is_empty());
+    let mut lines: Vec<&str> = csv.lines().collect();
+    lines[250] = "down,3";
+    let hurt = experiment(&toml, &lines.join("\n"));
+    let [spike] = hurt.points.findings.as_slice() else {
+        panic!("{:?}", hurt.points.findings);
+    };
+    assert_eq!((spike.line, spike.count), (251, 1));
+    assert!(
+        spike.message().contains("is 3 where its dwell"),
+        "{}",
+        spike.message()
     );
 }

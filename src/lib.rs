@@ -9,7 +9,8 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`fault`] | what is wrong in a user's file, and where |
+//! | [`fault`] | what is wrong in a user's file, and where; the file refused |
+//! | [`files`] | where files are read from: a disk, or a library in memory |
 //! | [`quantity`] | units, dimensions, rounding of decimal numbers |
 //! | [`special`] | special functions for quantiles and coverage factors |
 //! | [`statistics`] | statistics of readings: scatter, serial correlation, analysis of variance |
@@ -80,6 +81,7 @@ pub mod diagnose;
 pub mod distribution;
 pub mod equations;
 pub mod fault;
+pub mod files;
 pub mod least_squares;
 pub mod model;
 pub mod propagate;

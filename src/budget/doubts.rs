@@ -5,14 +5,14 @@ use std::path::Path;
 
 use toml::de::DeTable;
 
+use super::Budget;
 use super::check::{self, Origin, Variant};
-use super::files::Files;
 use super::reader::{elsewhere, leaves_the_rest, syntax_faults};
 use super::shelf::Shelf;
 use super::table::{Reader, Table, read_table};
 use super::tables::FileTable;
-use super::{Budget, Rejection};
-use crate::fault::Fault;
+use crate::fault::{Fault, Rejection};
+use crate::files::Files;
 
 /// The tables of a file, with the faults of their syntax and keys.
 ///

@@ -16,12 +16,10 @@ mod decision;
 mod distributions;
 pub(crate) mod doubts;
 pub mod faults;
-mod files;
 mod fit;
 mod parametric;
 mod profile;
 mod reader;
-mod rejection;
 pub(crate) mod saved;
 mod series;
 mod shelf;
@@ -30,6 +28,7 @@ pub(crate) mod table;
 pub(crate) mod tables;
 pub(crate) mod values;
 pub(crate) mod variants;
+pub(crate) mod writing;
 
 use nalgebra::DMatrix;
 
@@ -38,14 +37,15 @@ pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFi
 pub use decision::{
     Conformity, DecisionRule, Detection, Following, Follows, Guard, ISO_14253_PROBABILITY, Interval,
 };
-pub use files::Files;
 pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};
 pub(crate) use reader::syntax_faults;
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
-pub use rejection::Rejection;
 pub use saved::{RESULT_FORMAT, result_schema};
 pub use table::KeyRow;
+
+pub use crate::fault::Rejection;
+pub use crate::files::Files;
 
 use crate::distribution::Distribution;
 use crate::model::Model;

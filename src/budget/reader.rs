@@ -8,14 +8,13 @@ use toml::de::DeTable;
 
 use super::check::{self, Origin, Variant};
 use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE, UNUSED};
-use super::files::Files;
-use super::rejection::Rejection;
 use super::series;
 use super::shelf::Shelf;
 use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
 use super::{Heading, Profile, Row};
-use crate::fault::Fault;
+use crate::fault::{Fault, Rejection};
+use crate::files::Files;
 
 /// After so many syntax errors the rest of the file is hardly a budget.
 const MAX_SYNTAX_FAULTS: usize = 8;

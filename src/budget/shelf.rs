@@ -7,10 +7,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use super::Files;
 use super::reader::{self, Loaded};
-use super::rejection::Rejection;
 use super::saved::SavedResults;
+use crate::fault::Rejection;
+use crate::files::Files;
 
 /// Files that have been read, and those that are being read.
 #[derive(Debug)]

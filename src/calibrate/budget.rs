@@ -10,6 +10,7 @@ use super::calibration::{Calibration, Coefficient};
 use super::causes::{Cause, Origin};
 use super::components::lower_factor;
 use super::experiment::{Doubt, Experiment, Scope};
+use crate::budget::writing::{key, quoted};
 use crate::distribution::Distribution;
 use crate::quantity::Unit;
 
@@ -301,26 +302,4 @@ fn name_of(cause: &Cause, number: usize) -> String {
     } else {
         format!("{prefix}{name}")
     }
-}
-
-/// A name as a key of TOML.
-fn key(name: &str) -> String {
-    let bare = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-    if bare { name.to_owned() } else { quoted(name) }
-}
-
-fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' => out += "\\\"",
-            '\\' => out += "\\\\",
-            '\n' => out += "\\n",
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04X}", u32::from(c));
-            }
-            c => out.push(c),
-        }
-    }
-    out + "\""
 }

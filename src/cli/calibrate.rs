@@ -1,6 +1,5 @@
-//! `gumption calibrate` and `gumption plan`: calibration files in, coefficients or predictions out.
+//! `gumption calibrate`, and `gumption plan` of a calibration: coefficients or predictions out.
 
-use std::io::stderr;
 use std::path::PathBuf;
 
 use gumption::calibrate::{self, Calibration, Experiment, Purpose, Trouble};
@@ -22,15 +21,6 @@ pub(super) struct Args {
     budget: Vec<String>,
 }
 
-#[derive(Debug, clap::Args)]
-pub(super) struct PlanArgs {
-    /// Calibration file with a schedule (docs/calibrate.md)
-    #[arg(value_name = "FILE")]
-    file: PathBuf,
-    #[command(flatten)]
-    form: Form,
-}
-
 pub(super) fn run(args: &Args) -> Outcome {
     let experiment = match read(&args.file, Purpose::Calibrate) {
         Ok(experiment) => experiment,
@@ -50,17 +40,18 @@ pub(super) fn run(args: &Args) -> Outcome {
     shown.max(written)
 }
 
-pub(super) fn run_plan(args: &PlanArgs) -> Outcome {
-    let experiment = match read(&args.file, Purpose::Plan) {
+/// What a calibration would tell, from its schedule.
+pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
+    let experiment = match read(file, Purpose::Plan) {
         Ok(experiment) => experiment,
         Err(outcome) => return outcome,
     };
+    let lang = form.lang;
     let plan = match calibrate::plan(&experiment) {
         Ok(plan) => plan,
-        Err(trouble) => return failed(&args.file, &trouble, args.form.lang),
+        Err(trouble) => return failed(file, &trouble, lang),
     };
-    let lang = args.form.lang;
-    args.form.write(
+    form.write(
         || report::plan_json(&experiment, &plan, lang),
         || report::plan_markdown(&experiment, &plan, lang),
         |page| report::plan_text(&experiment, &plan, lang, page),
@@ -74,10 +65,7 @@ fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome 
 }
 
 fn read(file: &std::path::Path, purpose: Purpose) -> Result<Experiment, Outcome> {
-    calibrate::load(file, purpose).map_err(|rejection| {
-        output::warn(&rejection.render(output::may_style(&stderr())));
-        Outcome::BadInput
-    })
+    calibrate::load(file, purpose).map_err(|rejection| output::refused(&rejection))
 }
 
 /// Writes the budgets that were asked for, all of them or none.

@@ -1,7 +1,5 @@
 //! `gumption diagnose`: a declared model confronted with a recording.
 
-use std::io::{IsTerminal, stderr};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use gumption::diagnose::case::{Case, Purpose};
@@ -9,6 +7,7 @@ use gumption::diagnose::{self, Diagnosis};
 use gumption::report;
 
 use super::form::Form;
+use super::progress::Steps;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -21,7 +20,7 @@ pub(super) struct Args {
     /// Seed of the random numbers [default: that of the case, else 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Write the improved case and its recording into this folder
+    /// Write the improved case, its recording and the budget of its parameters into this folder
     #[arg(long, value_name = "DIR")]
     improved: Option<PathBuf>,
     /// Write plots of the residuals (SVG) into this folder
@@ -32,25 +31,14 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Outcome {
     let mut case = match Case::load(&args.case, Purpose::Diagnosis) {
         Ok(case) => case,
-        Err(rejection) => {
-            output::warn(&rejection.render(output::may_style(&stderr())));
-            return Outcome::BadInput;
-        }
+        Err(rejection) => return output::refused(&rejection),
     };
     if let Some(seed) = args.seed {
         case.settings.seed = seed;
     }
-    let progress = stderr().is_terminal();
-    let show = |share: f64| {
-        if progress {
-            output::warn(&format!("\r\x1b[K{:.0} %", 100.0 * share));
-        }
-        ControlFlow::Continue(())
-    };
-    let found = diagnose::diagnose(&case, &show);
-    if progress {
-        output::warn("\r\x1b[K");
-    }
+    let steps = Steps::shown("diagnosis");
+    let found = diagnose::diagnose(&case, &|share| steps.at(share));
+    drop(steps);
     match found {
         Ok(diagnosis) => written(args, &case, &diagnosis).max(beside(args, &case, &diagnosis)),
         Err(failure) => output::complain(&format!(
@@ -74,19 +62,18 @@ fn written(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
 fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
     let mut outcome = Outcome::Done;
     if let Some(folder) = &args.improved {
-        outcome = outcome.max(match diagnose::improved(case, diagnosis) {
-            Some((text, recording)) => files(
-                folder,
-                vec![
-                    ("case.toml".to_owned(), text),
-                    (diagnose::IMPROVED_RECORDING.to_owned(), recording),
-                ],
-            ),
+        let budget = diagnose::budget(case, diagnosis);
+        let mut contents = vec![("budget.toml".to_owned(), budget)];
+        match diagnose::improved(case, diagnosis) {
+            Some((text, recording)) => contents.extend([
+                ("case.toml".to_owned(), text),
+                (diagnose::IMPROVED_RECORDING.to_owned(), recording),
+            ]),
             None => {
-                output::warn("nothing was adopted, and so there is no improved case to write\n");
-                Outcome::Done
+                output::warn("nothing was adopted: there is no improved case, only the budget\n")
             }
-        });
+        }
+        outcome = outcome.max(files(folder, contents));
     }
     if let Some(folder) = &args.plots {
         outcome = outcome.max(files(

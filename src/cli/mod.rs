@@ -12,6 +12,7 @@ mod form;
 mod grade;
 mod new;
 mod output;
+mod plan;
 mod progress;
 mod schema;
 mod simulate;
@@ -66,8 +67,8 @@ enum Command {
     Allan(allan::Args),
     /// Find coefficients with their covariance from a recording and measurement equations
     Calibrate(calibrate::Args),
-    /// Say what a calibration would tell, from its schedule alone
-    Plan(calibrate::PlanArgs),
+    /// Say what a calibration or an experiment would tell, from its design alone
+    Plan(plan::Args),
     /// Write a commented budget file to start from
     New(new::Args),
     /// Make a sealed case: simulated recordings in which something is concealed
@@ -89,7 +90,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Verify(args) => verify::run(&args),
         Command::Allan(args) => allan::run(&args),
         Command::Calibrate(args) => calibrate::run(&args),
-        Command::Plan(args) => calibrate::run_plan(&args),
+        Command::Plan(args) => plan::run(&args),
         Command::New(args) => new::run(&args),
         Command::Challenge(args) => challenge::run(&args),
         Command::Grade(args) => grade::run(&args),

@@ -3,6 +3,8 @@
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
+use gumption::budget::Rejection;
+
 use super::Outcome;
 
 /// Prints to standard output. A reader that has gone away (`gumption … | head`) is no error.
@@ -19,6 +21,12 @@ pub(super) fn print(text: &str) -> Outcome {
 /// Says on standard error what is wrong.
 pub(super) fn complain(message: &str) -> Outcome {
     warn(&format!("error: {message}\n"));
+    Outcome::BadInput
+}
+
+/// Shows the faults of a file.
+pub(super) fn refused(rejection: &Rejection) -> Outcome {
+    warn(&rejection.render(may_style(&std::io::stderr())));
     Outcome::BadInput
 }
 

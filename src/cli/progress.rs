@@ -1,6 +1,8 @@
-//! A line on standard error while Monte Carlo takes long.
+//! A line on standard error while Monte Carlo or a diagnosis takes long.
 
+use std::cell::Cell;
 use std::io::{IsTerminal, Write, stderr};
+use std::ops::ControlFlow;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -63,6 +65,51 @@ impl Drop for Progress {
     }
 }
 
+/// Shows the share of some work that is done, until it is dropped; then the line is gone.
+pub(super) struct Steps {
+    what: &'static str,
+    /// When the line is drawn next; `None` if nobody looks.
+    next: Cell<Option<Instant>>,
+    drawn: Cell<bool>,
+}
+
+impl Steps {
+    /// Begins, if standard error is a terminal.
+    pub(super) fn shown(what: &'static str) -> Steps {
+        let next = stderr().is_terminal().then(|| Instant::now() + PATIENCE);
+        Steps {
+            what,
+            next: Cell::new(next),
+            drawn: Cell::new(false),
+        }
+    }
+
+    /// The share that is done; the work is never asked to stop, as Ctrl-C ends the program.
+    pub(super) fn at(&self, share: f64) -> ControlFlow<()> {
+        let now = Instant::now();
+        if self.next.get().is_some_and(|next| now >= next) {
+            self.next.set(Some(now + BETWEEN));
+            self.drawn.set(true);
+            let _ = write!(stderr(), "\r\x1b[K{}", share_line(self.what, share));
+            let _ = stderr().flush();
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Drop for Steps {
+    fn drop(&mut self) {
+        if self.drawn.get() {
+            let _ = write!(stderr(), "\r\x1b[K");
+        }
+    }
+}
+
+fn share_line(what: &str, share: f64) -> String {
+    let percent = (100.0 * share).clamp(0.0, 100.0);
+    format!("{what}: {percent:.0} % (Ctrl-C ends it; nothing is written then)")
+}
+
 fn line(drawn: u64, elapsed: Duration) -> String {
     let millions = drawn as f64 / 1e6;
     let rate = millions / elapsed.as_secs_f64();
@@ -79,6 +126,12 @@ mod tests {
     fn the_line_tells_number_and_rate() {
         let line = line(300_000_000, Duration::from_secs(2));
         assert!(line.contains("300 million trials, 150 million a second"));
+    }
+
+    #[test]
+    fn the_share_is_told_in_percent() {
+        let line = share_line("diagnosis", 0.456);
+        assert!(line.starts_with("diagnosis: 46 % (Ctrl-C"), "{line}");
     }
 
     #[test]

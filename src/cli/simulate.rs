@@ -1,6 +1,5 @@
 //! `gumption simulate`: the recording that a declared model predicts.
 
-use std::io::stderr;
 use std::path::PathBuf;
 
 use gumption::diagnose::case::{Case, Purpose};
@@ -25,10 +24,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Outcome {
     let case = match Case::load(&args.case, Purpose::Plan) {
         Ok(case) => case,
-        Err(rejection) => {
-            output::warn(&rejection.render(output::may_style(&stderr())));
-            return Outcome::BadInput;
-        }
+        Err(rejection) => return output::refused(&rejection),
     };
     match simulate(&case, args.seed) {
         Ok(sheet) => match &args.output {

@@ -73,6 +73,9 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
             data: Data::Numbers(term.modifier.clone()),
             u: None,
             u_common: None,
+            full_scale: None,
+            resolution: None,
+            as_difference: false,
         });
         additions.push(Addition {
             parameter,
@@ -198,7 +201,7 @@ fn compiled(case: &Case, texts: &[String]) -> Option<Equations> {
     let columns = case
         .columns
         .iter()
-        .map(|c| (c.name.clone(), c.unit.clone()));
+        .map(|c| (c.name.clone(), c.unit_in_formulas()));
     let symbols: Vec<Quantity> = parameters
         .chain(columns)
         .map(|(name, unit)| Quantity { name, unit })

@@ -27,6 +27,8 @@ codes! {
         "A candidate has a `name` and a `formula` of columns, parameters and constants. `node` names the parameter or column that it changes; without it, it adds to the output.\n\n    [[candidate]]\n    name = \"mount sag\"\n    formula = \"sin(phi) * cos(phi)\"";
     SETTING = "D0112", "a setting is out of range",
         "alpha is a probability between 0 and 0.5; u and dof are positive.";
+    ROWS = "D0113", "rows beside the recording are not clear",
+        "A recording that is held out has the columns of the recording. A further measurement names its rows in a CSV file, as lists, or says what is changed when those of the recording are taken again:\n\n    [[action]]\n    name = \"second mounting\"\n    again = { mount = 90 }";
 }
 
 #[cfg(test)]

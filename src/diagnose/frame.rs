@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::case::{Blocks, Case, Data, Observed, Role};
+use super::case::{Blocks, Case, Data, Observed, Role, interval};
 
 /// Longer recordings in time are averaged in blocks, unless the case says otherwise.
 const MOST_BLOCKS: usize = 400;
@@ -275,10 +275,7 @@ impl Clock {
 
     /// Median of the positive differences of successive rows.
     pub fn interval(&self) -> f64 {
-        let pairs = self.values.windows(2).map(|pair| pair[1] - pair[0]);
-        let mut steps: Vec<f64> = pairs.filter(|step| *step > 0.0).collect();
-        steps.sort_by(f64::total_cmp);
-        steps.get(steps.len() / 2).copied().unwrap_or(1.0)
+        interval(&self.values)
     }
 }
 

@@ -4,6 +4,7 @@
 use super::Diagnosis;
 use super::case::{Case, Data, Role};
 use super::simulate::recorded;
+use crate::budget::writing::{key, quoted};
 
 /// Name of the recording beside the improved case.
 pub const RECORDING: &str = "recording.csv";
@@ -25,11 +26,21 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<(String, String)> 
         quoted(RECORDING),
         averaging(diagnosis)
     );
-    let models: Vec<String> = extended.model.iter().map(|model| quoted(model)).collect();
+    let models: Vec<String> = extended
+        .model
+        .iter()
+        .map(|model| model_text(model))
+        .collect();
     text += &match models.as_slice() {
         [one] => format!("model = {one}\n"),
         several => format!("model = [\n    {},\n]\n", several.join(",\n    ")),
     };
+    if !case.own_units.is_empty() {
+        text += "\n[unit]\n";
+        for (name, definition) in &case.own_units {
+            text += &format!("{} = {}\n", key(name), quoted(definition));
+        }
+    }
     text += "\n[columns]\n";
     for column in &extended.columns {
         if matches!(column.data, Data::Absent) {
@@ -67,18 +78,24 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<(String, String)> 
     Some((text, recorded(extended).csv()))
 }
 
-fn quoted(text: &str) -> String {
-    if text.contains('\n') {
-        return format!("'''\n{text}'''");
+/// A model as the case has it: several lines stay lines.
+fn model_text(model: &str) -> String {
+    if model.contains('\n') {
+        format!("'''\n{model}'''")
+    } else {
+        quoted(model)
     }
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-fn key(name: &str) -> String {
-    let bare = name
-        .chars()
-        .all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
-    if bare { name.to_owned() } else { quoted(name) }
+/// The path of a file that the case names, wherever the improved case is put.
+fn path(case: &Case, file: &str) -> String {
+    let folder = case
+        .path
+        .parent()
+        .unwrap_or_else(|| std::path::Path::new(""));
+    let joined = folder.join(file);
+    let full = std::fs::canonicalize(&joined).unwrap_or(joined);
+    quoted(&full.display().to_string())
 }
 
 fn averaging(diagnosis: &Diagnosis) -> String {
@@ -101,6 +118,9 @@ fn entry(column: &super::case::Column) -> String {
     }
     if let Some(u) = column.u_common {
         parts.push(format!("u_common = {u:e}"));
+    }
+    if let Some(full_scale) = column.full_scale {
+        parts.push(format!("full_scale = {full_scale:e}"));
     }
     if parts.len() == 1 {
         format!("\"{role}\"")
@@ -136,16 +156,21 @@ fn constants(case: &Case) -> String {
 
 /// The claim about the noise, and the settings.
 fn claims(case: &Case) -> String {
-    use super::case::NoiseClaim;
+    use super::case::{NoiseClaim, NoiseOrigin};
     let noise = match &case.noise {
-        NoiseClaim::Stated { u, dof, .. } => {
-            let dof = if dof.is_finite() {
-                format!("\ndof = {dof}")
-            } else {
-                String::new()
-            };
-            u.first()
-                .map_or(String::new(), |u| format!("\n[noise]\nu = {u:e}{dof}\n"))
+        NoiseClaim::Stated {
+            origin: NoiseOrigin::Budget(file),
+            ..
+        } => format!("\n[noise]\nbudget = {}\n", path(case, file)),
+        NoiseClaim::Stated { u, dof, walk, .. } => {
+            let mut lines = u.first().map_or(String::new(), |u| format!("u = {u:e}\n"));
+            if dof.is_finite() {
+                lines += &format!("dof = {dof}\n");
+            }
+            if let Some(walk) = walk.first().filter(|walk| **walk > 0.0) {
+                lines += &format!("walk = {walk:e}\n");
+            }
+            format!("\n[noise]\n{lines}")
         }
         NoiseClaim::Replicates(columns) => {
             let names: Vec<String> = columns
@@ -155,12 +180,26 @@ fn claims(case: &Case) -> String {
             format!("\n[noise]\nreplicates = [{}]\n", names.join(", "))
         }
         NoiseClaim::AtRest { file, .. } => {
-            format!("\n[noise]\nat_rest = {{ file = {} }}\n", quoted(file))
+            format!("\n[noise]\nat_rest = {{ file = {} }}\n", path(case, file))
         }
         NoiseClaim::Estimated | NoiseClaim::PerRow(_) => String::new(),
     };
-    format!(
-        "{noise}\n[diagnosis]\nalpha = {}\nseed = {}\n",
-        case.settings.alpha, case.settings.seed
-    )
+    let mut settings = format!(
+        "alpha = {}\nseed = {}\ndraws = {}\n",
+        case.settings.alpha, case.settings.seed, case.settings.draws
+    );
+    let list = |words: &[String]| {
+        let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
+        words.join(", ")
+    };
+    if let Some(catalogue) = &case.settings.catalogue {
+        settings += &format!("catalogue = [{}]\n", list(catalogue));
+    }
+    if !case.settings.exclude.is_empty() {
+        settings += &format!("exclude = [{}]\n", list(&case.settings.exclude));
+    }
+    for (id, share) in &case.settings.typical {
+        settings += &format!("typical.{id} = {share:e}\n");
+    }
+    format!("{noise}\n[diagnosis]\n{settings}")
 }

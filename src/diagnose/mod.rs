@@ -7,6 +7,11 @@
 //! | [`case`] | the case file: model, recording, claims |
 //! | `frame` | the rows as numbers; the model at any parameters |
 //! | `fit` | the declared model fitted to the recording |
+//! | `plan` | what an experiment can see and tell apart, without data |
+//! | `extra`, `separation` | measurements that may follow, and what they tell apart |
+//! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
+//! | `held_out` | prediction of a recording that the fit has not seen |
+//! | `result` | the parameters as the measurands of a budget |
 //! | [`rivals`] | methods in common use, to be compared with |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 
@@ -18,21 +23,36 @@ mod compare;
 mod confirm;
 mod correlation;
 pub mod evidence;
+mod extra;
 pub mod faults;
 mod fit;
 mod frame;
+mod held_out;
 mod improved;
 mod noise;
+mod omitted;
 mod place;
+mod plan;
+mod result;
 pub mod rivals;
 mod run;
+mod separation;
 mod simulate;
+mod spread;
+mod typical;
 
 pub use adopt::{Addition, Extended};
 pub use compare::{Opinion, Pick, opinions};
 pub use confirm::{Confirmation, Quality};
+pub use extra::{Extra, Measure};
 pub use fit::NoFit;
+pub use held_out::{HeldOutQuality, Prediction};
 pub use improved::{RECORDING as IMPROVED_RECORDING, improved};
 pub use noise::{Claimed, Origin};
-pub use run::{Adopted, Diagnosis, Estimated, Failure, Omitted, diagnose};
+pub use omitted::Omitted;
+pub use plan::{Outlook, Promise, Prospect, plan};
+pub use result::budget;
+pub use run::{Adopted, Diagnosis, Estimated, Failure, diagnose};
+pub use separation::Separating;
 pub use simulate::{Sheet, simulate};
+pub use spread::Growth;

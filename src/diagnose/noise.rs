@@ -8,6 +8,7 @@ use super::correlation::{self, Correlated};
 use super::evidence::{Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
+use super::spread::{self, Growth};
 
 /// The noise of the observations.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +21,8 @@ pub struct Claimed {
     pub origin: Origin,
     /// How the observations are correlated; `None` if they are independent.
     pub correlated: Option<Correlated>,
+    /// How noise that was estimated grows with the reading, for each response; empty where it is claimed.
+    pub growth: Vec<Option<Growth>>,
 }
 
 /// Where the noise comes from.
@@ -84,9 +87,9 @@ pub fn settle(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
     Ok((fit, claimed))
 }
 
-/// The noise that a model with effects in it leaves: size and correlation.
+/// The noise that a model with effects in it leaves: size, growth with the reading, and correlation.
 pub fn refined(frame: &Frame<'_>, fit: &Fit) -> Claimed {
-    let mut claimed = estimated(frame, fit);
+    let mut claimed = spread_out(frame, fit);
     claimed.correlated = correlation::estimate(frame, &fit.residuals, &claimed.u);
     claimed
 }
@@ -98,6 +101,7 @@ pub fn planned(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         dof: f64::INFINITY,
         origin: Origin::Estimated,
         correlated: None,
+        growth: Vec::new(),
     })
 }
 
@@ -105,7 +109,7 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
     let case = frame.case;
     let (variances, dof, origin): (Vec<Vec<f64>>, f64, Origin) = match &case.noise {
         NoiseClaim::Estimated => return None,
-        NoiseClaim::Stated { u, dof, origin } => {
+        NoiseClaim::Stated { u, dof, origin, .. } => {
             let counts = counts(case);
             let of = |u: &f64| counts.iter().map(|n| u * u / n).collect();
             let origin = match origin {
@@ -176,10 +180,14 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
         dof,
         origin,
         correlated: None,
+        growth: Vec::new(),
     })?;
     match &case.noise {
         NoiseClaim::AtRest { readings, .. } => {
             Some(in_time(frame, fit, readings, &claimed).unwrap_or(claimed))
+        }
+        NoiseClaim::Stated { walk, .. } if walk.iter().any(|walk| *walk > 0.0) => {
+            Some(walking(frame, walk, &claimed).unwrap_or(claimed))
         }
         _ => Some(claimed),
     }
@@ -196,13 +204,7 @@ fn in_time(
     claimed: &Claimed,
 ) -> Option<Claimed> {
     let case = frame.case;
-    let clock = frame.time();
-    let factor = hours(&case.columns[clock.column?].unit, &case.units)?;
-    let times: Vec<f64> = frame
-        .reduced(&clock.values)
-        .iter()
-        .map(|t| t * factor)
-        .collect();
+    let times = times(frame)?;
     let counts: Vec<f64> = frame
         .blocks
         .iter()
@@ -269,6 +271,40 @@ fn in_time(
     })
 }
 
+/// Times of the blocks, h; nothing where no time was recorded.
+fn times(frame: &Frame<'_>) -> Option<Vec<f64>> {
+    let clock = frame.time();
+    let factor = hours(&frame.case.columns[clock.column?].unit, &frame.case.units)?;
+    let reduced = frame.reduced(&clock.values);
+    Some(reduced.iter().map(|t| t * factor).collect())
+}
+
+/// The claimed noise with a random walk beside it: cov = walk²·min(tᵢ, tⱼ), in hours since the first row.
+fn walking(frame: &Frame<'_>, walk: &[f64], claimed: &Claimed) -> Option<Claimed> {
+    let times = times(frame)?;
+    let first = times.iter().copied().fold(f64::INFINITY, f64::min);
+    let blocks = times.len();
+    let covariance = |a: usize, b: usize| {
+        let white = if a == b { claimed.u[a].powi(2) } else { 0.0 };
+        let ((response, i), (other, j)) = (frame.place(a), frame.place(b));
+        if response != other {
+            return white;
+        }
+        white + walk[response].powi(2) * (times[i].min(times[j]) - first)
+    };
+    let count = walk.len() * blocks;
+    let u = DVector::from_fn(count, |at, _| covariance(at, at).sqrt());
+    let matrix = DMatrix::from_fn(count, count, |a, b| covariance(a, b) / (u[a] * u[b]));
+    Some(Claimed {
+        correlated: Some(Correlated {
+            matrix,
+            draws: Vec::new(),
+        }),
+        u,
+        ..claimed.clone()
+    })
+}
+
 /// The effect of independent errors of the columns of the model.
 fn add_columns(frame: &Frame<'_>, fit: Option<&Fit>, response: usize, variances: &mut [f64]) {
     let Some(fit) = fit else { return };
@@ -290,6 +326,31 @@ fn counts(case: &Case) -> Vec<f64> {
         || vec![1.0; case.rows],
         |numbers| numbers.iter().map(|n| n.max(1.0)).collect(),
     )
+}
+
+/// The noise that a model leaves, where it grows with the reading.
+pub fn spread_out(frame: &Frame<'_>, fit: &Fit) -> Claimed {
+    let mut claimed = estimated(frame, fit);
+    let blocks = frame.blocks.len();
+    let freedom = (frame.observations() as f64 - frame.unknowns.len() as f64).max(1.0);
+    let share = freedom / frame.observations() as f64;
+    for (response, spread) in spread::estimate(frame, fit).into_iter().enumerate() {
+        let Some(spread) = spread else {
+            claimed.growth.push(None);
+            continue;
+        };
+        let values = frame.reduced(&fit.linear.values[response]);
+        let mut u = claimed.u.rows_mut(response * blocks, blocks);
+        for (u, value) in u.iter_mut().zip(&values) {
+            *u *= spread.at(*value);
+        }
+        let own = fit.residuals.rows(response * blocks, blocks);
+        let scale = (own.component_div(&u).norm_squared() / (blocks as f64 * share)).sqrt();
+        u *= scale;
+        let at_level = u[0] / spread.at(values[0]);
+        claimed.growth.push(Some(spread.growth(at_level)));
+    }
+    claimed
 }
 
 /// One standard uncertainty for each response, from the residuals.
@@ -318,6 +379,7 @@ fn estimated(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         dof: 0.0,
         origin: Origin::Estimated,
         correlated: None,
+        growth: Vec::new(),
     }
 }
 

@@ -13,8 +13,11 @@ use super::evidence::{
 };
 use super::fit::{Fit, NoFit};
 use super::frame::Frame;
+use super::held_out::{self, HeldOutQuality};
 use super::noise::{self, Claimed};
+use super::omitted::{self, Omitted};
 use super::place;
+use super::separation::{self, Known, Separating};
 
 /// Why a case could not be diagnosed.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,8 +63,15 @@ pub struct Diagnosis {
     pub adopted: Option<Adopted>,
     /// Number of means (blocks) and of rows in the recording.
     pub blocks: Vec<Vec<usize>>,
-    /// What would be seen of effects that were not adopted.
+    /// What effects cost that were not adopted and may be there all the same, the dearest first.
     pub omitted: Vec<Omitted>,
+    /// How well the held-out recording is predicted, if the case names one.
+    pub held_out: Option<HeldOutQuality>,
+    /// For each slot, where something is adopted, what it costs each unknown that the slot has several
+    /// explanations.
+    pub choices: Vec<Vec<f64>>,
+    /// Explanations that the recording cannot tell apart, with the measurements that would.
+    pub separating: Vec<Separating>,
 }
 
 /// A fitted quantity.
@@ -96,13 +106,22 @@ pub struct Adopted {
     pub confirmation: Confirmation,
 }
 
-/// What an effect that was not adopted may do to a parameter all the same.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Omitted {
-    /// The atom.
-    pub atom: usize,
-    /// Change of each unknown per unit of the first coefficient.
-    pub gain: Vec<f64>,
+impl Diagnosis {
+    /// The standard uncertainties of the unknowns with everything that may be there unseen, and with the
+    /// choice between explanations: of the declared model, or of the one with the adopted physics in it.
+    pub fn u_with_unseen(&self) -> Vec<f64> {
+        let estimates = match &self.adopted {
+            Some(adopted) => &adopted.unknowns,
+            None => &self.unknowns,
+        };
+        let of = estimates.iter().enumerate().map(|(at, estimate)| {
+            let lines = self.omitted.iter().map(|line| line.after.u.get(at));
+            let choices = self.choices.iter().map(|choice| choice.get(at));
+            let squares = lines.chain(choices).flatten().map(|u| u * u);
+            (estimate.u * estimate.u + squares.sum::<f64>()).sqrt()
+        });
+        of.collect()
+    }
 }
 
 /// Confronts the declared model of a case with its recording.
@@ -150,6 +169,13 @@ pub fn diagnose(
         0.0,
         if claimed.is_estimated() { 0.4 } else { 0.9 },
     )?;
+    if claimed.is_estimated() && examination.verdict == Verdict::None {
+        let spread = noise::spread_out(&frame, &fit);
+        if spread.growth.iter().any(Option::is_some) {
+            claimed = spread;
+            (baseline, examination) = ask(&claimed, &mut places, 0.4, 0.6)?;
+        }
+    }
     if claimed.is_estimated() && examination.verdict != Verdict::None {
         // Noise and effects are estimated in turn: what an effect explains is no noise.
         for round in 0..ROUNDS {
@@ -161,8 +187,8 @@ pub fn diagnose(
                 Some((frame, fit)) => noise::refined(&Frame::new(&frame.case), &fit),
                 None => noise::refined(&frame, &fit),
             };
-            let from = 0.4 + 0.25 * f64::from(round);
-            (baseline, examination) = ask(&claimed, &mut places, from, from + 0.25)?;
+            let from = 0.4 + 0.17 * f64::from(round);
+            (baseline, examination) = ask(&claimed, &mut places, from, from + 0.17)?;
             if examination
                 .fitted
                 .as_ref()
@@ -186,8 +212,36 @@ pub fn diagnose(
     };
     let before = confirm::quality(&frame, &fit, &claimed, &claimed);
     let adopted = adopt_named(&ground, &cells, &places, &examination, &claimed);
-    let omitted = omitted(&ground, &baseline, &cells, &places, &examination);
     let unknowns = estimates(&frame, &fit, &claimed, before.scale);
+    let improved = adopted
+        .as_ref()
+        .and_then(|adopted| omitted::improved_baseline(case, adopted, &claimed));
+    let listed = examination.slots.iter().filter(|_| adopted.is_some());
+    let known: Vec<usize> = listed
+        .clone()
+        .flat_map(|slot| slot.named.iter().map(|named| named.candidate))
+        .collect();
+    let choices = listed
+        .map(|slot| omitted::choice(&ground, &cells, &places, &baseline, slot))
+        .collect();
+    let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
+    let omitted = omitted::lines(&ground, &cells, &baseline, improved.as_ref(), &known, &u);
+    let known = Known {
+        case,
+        frame: &frame,
+        fit: &fit,
+        claimed: &claimed,
+    };
+    let held_out = held_out::held_out(
+        &known,
+        &ground,
+        &cells,
+        &places,
+        &unknowns,
+        adopted.as_ref(),
+    );
+    let slots = &examination.slots;
+    let separating = separation::separating(&known, &ground, &cells, &places, &baseline, slots);
     Ok(Diagnosis {
         examination,
         located,
@@ -197,6 +251,9 @@ pub fn diagnose(
         adopted,
         blocks: frame.blocks.clone(),
         omitted,
+        separating,
+        held_out,
+        choices,
         cells,
         atoms: places,
         noise: claimed,
@@ -219,7 +276,7 @@ fn missized(cells: &[Cell], examination: &Examination) -> Vec<usize> {
 /// Visible share of an effect below which it is the curvature of the model that shows.
 const TRACE: f64 = 1e-4;
 /// So often noise and effects are estimated in turn.
-const ROUNDS: u8 = 2;
+const ROUNDS: u8 = 3;
 
 pub(super) fn settings(case: &Case) -> evidence::Settings {
     evidence::Settings {
@@ -407,27 +464,4 @@ pub(super) fn estimates(
             u: scale * covariance[(at, at)].max(0.0).sqrt(),
         })
         .collect()
-}
-
-fn omitted(
-    ground: &Ground<'_>,
-    baseline: &Baseline,
-    cells: &[Cell],
-    places: &[(usize, usize)],
-    examination: &Examination,
-) -> Vec<Omitted> {
-    let of = examination
-        .invisible
-        .iter()
-        .filter(|invisible| !invisible.idle)
-        .map(|invisible| {
-            let (cell, variation) = places[invisible.atom];
-            let columns = cells[cell].variants[variation].columns(ground);
-            let gain = baseline.gain(&columns);
-            Omitted {
-                atom: invisible.atom,
-                gain: gain.column(0).iter().copied().collect(),
-            }
-        });
-    of.collect()
 }

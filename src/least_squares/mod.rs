@@ -8,6 +8,7 @@
 //! | `problem` | points, their errors, the response: what is asked |
 //! | `solution` | what is answered, and the ways to fail |
 //! | `polynomial` | the response that is a polynomial in one predictor |
+//! | `gradient` | the response that is a function with its slopes |
 //! | `factor` | pivoted Householder QR and Cholesky, in either precision |
 //! | `whiten` | errors of y to unit variance |
 //! | `linear` | responses affine in their parameters, exact predictors |
@@ -42,6 +43,7 @@
 mod derivatives;
 mod errors_in_variables;
 mod factor;
+mod gradient;
 mod lack_of_fit;
 mod linear;
 mod nonlinear;
@@ -53,6 +55,7 @@ mod tests;
 mod whiten;
 
 pub use crate::dd::Dd;
+pub use gradient::Gradient;
 pub use lack_of_fit::{LackOfFit, Replicates, lack_of_fit, replicates};
 pub use polynomial::Polynomial;
 pub use problem::{Errors, Problem, Response, Scale, Spread};

@@ -93,18 +93,10 @@ impl Check<'_> {
         }
         let before: BTreeSet<String> = self.l.scope.keys().cloned().collect();
         let own = self.text(text, place, true);
-        let outcome = own.last().copied().and_then(|statement| {
-            let (value, expr) = self.statement_value(statement)?;
-            let (ids, unit) = self.result(index, measurand, &value, &expr, place)?;
-            Some(Outcome {
-                ids,
-                vector: value.vector,
-                scaled_twice: scaled_twice(&value, &expr, &unit),
-                unit,
-                statement,
-                own,
-            })
-        });
+        let outcome = own
+            .last()
+            .copied()
+            .and_then(|statement| self.outcome(index, measurand, statement, own, place));
         // The names of this text are its own.
         let added: Vec<String> = self
             .l
@@ -119,6 +111,27 @@ impl Check<'_> {
             self.spans.remove(&name);
         }
         outcome
+    }
+
+    /// The value of a statement as that of the measurand; `own` are the statements of its own text.
+    fn outcome(
+        &mut self,
+        index: usize,
+        measurand: &MeasurandSource<'_>,
+        statement: usize,
+        own: Vec<usize>,
+        place: Place,
+    ) -> Option<Outcome> {
+        let (value, expr) = self.statement_value(statement)?;
+        let (ids, unit) = self.result(index, measurand, &value, &expr, place)?;
+        Some(Outcome {
+            ids,
+            vector: value.vector,
+            scaled_twice: scaled_twice(&value, &expr, &unit),
+            unit,
+            statement,
+            own,
+        })
     }
 
     fn statement_value(&mut self, statement: usize) -> Option<(Value, Expr)> {
@@ -142,16 +155,7 @@ impl Check<'_> {
         match (self.l.scope.get(name), statement) {
             (Some(Binding::Value(_)), Some(statement)) => {
                 let place = self.statements[statement].place;
-                let (value, expr) = self.statement_value(statement)?;
-                let (ids, unit) = self.result(index, measurand, &value, &expr, place)?;
-                Some(Outcome {
-                    ids,
-                    vector: value.vector,
-                    scaled_twice: scaled_twice(&value, &expr, &unit),
-                    unit,
-                    statement,
-                    own: Vec::new(),
-                })
+                self.outcome(index, measurand, statement, Vec::new(), place)
             }
             (Some(Binding::Faulty), _) if self.l.symbol(name).is_none() => None,
             _ => {

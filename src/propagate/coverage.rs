@@ -249,10 +249,11 @@ fn scale_and_remainder(part: f64, rule: OutputShape) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::draft::component;
     use super::super::freedom;
     use super::*;
-    use crate::budget::{Evaluation, Owner, TScale};
-    use crate::quantity::{Rounding, Unit};
+    use crate::budget::TScale;
+    use crate::quantity::Rounding;
 
     const INF: f64 = f64::INFINITY;
 
@@ -269,22 +270,6 @@ mod tests {
             up_if_lowered_by_5_percent: false,
             t_scale: TScale::Scale,
             state_probability: true,
-        }
-    }
-
-    fn component(name: &str, distribution: Distribution, u: f64, dof: f64) -> Component {
-        Component {
-            name: name.to_string(),
-            label: name.to_string(),
-            owner: Owner::Input(0),
-            unit: Unit::one(),
-            distribution,
-            u,
-            dof,
-            evaluation: Evaluation::TypeB,
-            how: String::new(),
-            certificate: None,
-            reference: None,
         }
     }
 

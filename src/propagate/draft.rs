@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::{Coverage, CoverageBasis, Freedom, Gum};
 use crate::budget::{
     Budget, Component, Conventions, CoverageRule, DofRule, Evaluation, Group, Heading, Input, Law,
     Measurand, MonteCarloSettings, OutputShape, Owner, Points, TScale, Term, Trials,
@@ -9,6 +10,41 @@ use crate::budget::{
 use crate::distribution::Distribution;
 use crate::model::{MeasurandSource, Request, Role, Symbol, compile};
 use crate::quantity::{Rounding, Unit, UnitTable};
+
+/// A component of the first input, of dimension one.
+pub(super) fn component(name: &str, distribution: Distribution, u: f64, dof: f64) -> Component {
+    Component {
+        name: name.to_string(),
+        label: name.to_string(),
+        owner: Owner::Input(0),
+        unit: Unit::one(),
+        distribution,
+        u,
+        dof,
+        evaluation: Evaluation::TypeB,
+        how: String::new(),
+        certificate: None,
+        reference: None,
+    }
+}
+
+/// A result of the GUM with k = 2 and an interval y ± `half_width`.
+pub(super) fn gum(estimate: f64, u: f64, half_width: f64) -> Gum {
+    Gum {
+        estimate,
+        u,
+        inputs: Vec::new(),
+        components: Vec::new(),
+        freedom: Freedom::Infinite,
+        coverage: Coverage {
+            k: 2.0,
+            basis: CoverageBasis::Normal,
+            probability: 0.95,
+            expanded: 2.0 * u,
+            half_width_for_p: half_width,
+        },
+    }
+}
 
 /// A budget of dimensionless inputs with one component each.
 pub(super) struct Draft {
@@ -38,17 +74,8 @@ impl Draft {
     ) -> Self {
         let component = self.components.len();
         self.components.push(Component {
-            name: name.to_string(),
-            label: name.to_string(),
             owner: Owner::Input(self.inputs.len()),
-            unit: Unit::one(),
-            distribution,
-            u,
-            dof,
-            evaluation: Evaluation::TypeB,
-            how: String::new(),
-            certificate: None,
-            reference: None,
+            ..self::component(name, distribution, u, dof)
         });
         self.inputs.push(Input {
             name: name.to_string(),

@@ -398,23 +398,10 @@ fn is_asymmetric(mc: &MonteCarlo) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::propagate::{Coverage, CoverageBasis, Histogram};
+    use crate::propagate::{Histogram, draft};
 
     fn gum(estimate: f64, u: f64) -> Gum {
-        Gum {
-            estimate,
-            u,
-            inputs: Vec::new(),
-            components: Vec::new(),
-            freedom: Freedom::Infinite,
-            coverage: Coverage {
-                k: 2.0,
-                basis: CoverageBasis::Fixed,
-                probability: 0.95,
-                expanded: 2.0 * u,
-                half_width_for_p: 1.96 * u,
-            },
-        }
+        draft::gum(estimate, u, 1.96 * u)
     }
 
     #[test]

@@ -103,25 +103,9 @@ pub(crate) fn at(both: &[Validation; 2], digits: u8) -> &Validation {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Coverage, CoverageBasis, Freedom, Histogram};
+    use super::super::Histogram;
+    use super::super::draft::gum;
     use super::*;
-
-    fn gum(estimate: f64, u: f64, half_width: f64) -> Gum {
-        Gum {
-            estimate,
-            u,
-            inputs: Vec::new(),
-            components: Vec::new(),
-            freedom: Freedom::Infinite,
-            coverage: Coverage {
-                k: 2.0,
-                basis: CoverageBasis::Normal,
-                probability: 0.95,
-                expanded: 2.0 * u,
-                half_width_for_p: half_width,
-            },
-        }
-    }
 
     fn monte_carlo(u: Option<f64>, symmetric: [f64; 2]) -> MonteCarlo {
         MonteCarlo {

@@ -17,7 +17,7 @@
 //! | `noise` | white noise, bias instability and rate random walk from an Allan deviation |
 //!
 //! What makes a recording unreadable is a [`Fault`](crate::fault::Fault) in a
-//! [`Rejection`](crate::budget::Rejection), drawn under the user's own lines; what makes it doubtful is
+//! [`Rejection`](crate::fault::Rejection), drawn under the user's own lines; what makes it doubtful is
 //! a [`Finding`], which says how grave it is. Nothing is repaired, and no value is made up: a missing
 //! value is NaN, and every later step leaves it out and counts it.
 //!

@@ -12,8 +12,8 @@ use super::field::{Field, Instant, mend};
 use super::heading::Heading;
 use super::sheet::{Row, SHOWN, Sheet};
 use super::{Column, Data, Labels, Recording};
-use crate::budget::{Files, Rejection};
-use crate::fault::{Fault, nearest};
+use crate::fault::{Fault, Rejection, nearest};
+use crate::files::Files;
 use crate::quantity::{Unit, UnitTable, hint_for_clash};
 
 /// A column that is asked for.

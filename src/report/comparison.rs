@@ -3,6 +3,7 @@
 use crate::propagate::{
     Clause8, Coverage, CoverageBasis, FindingKind, MeasurandResult, Quasi, Run, Validation,
 };
+use crate::quantity::Unit;
 
 use super::document::Block;
 use super::language::{Language, Word};
@@ -46,118 +47,188 @@ pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
 fn table(report: &Report<'_>, measurand: usize, result: &MeasurandResult) -> Table {
     let l = report.language;
     let unit = &report.measurand(measurand).1;
-    let (gum, monte_carlo) = (&result.gum, result.monte_carlo.as_ref());
-    let p = probability(report.coverage_probability());
-    // Intervals need a scale to be rounded to even where u does not exist.
-    let scale = match monte_carlo {
-        Some(mc) => mc.u.unwrap_or((mc.symmetric[1] - mc.symmetric[0]) / 4.0),
-        None => gum.u,
-    };
-    let scale = if gum.u > 0.0 {
-        gum.u.min(if scale > 0.0 { scale } else { gum.u })
-    } else {
-        scale
-    };
-    let show = |x: f64| aligned(x, scale, TABLE_DIGITS);
-    let optional =
-        |x: Option<f64>, form: &dyn Fn(f64) -> String| x.map_or_else(|| NONE.to_string(), form);
-    let interval = |[low, high]: [f64; 2]| format!("[{}, {}]", show(low), show(high));
-    let three = |x: f64| significant(x, TABLE_DIGITS);
-
     let head = match symbol(unit) {
         none if none.is_empty() => none,
         unit => l.pick(format!("in {unit}"), format!("单位：{unit}")),
     };
-    let mut table = Table::new([
-        (head.as_str(), ColumnKind::Wrapped),
-        (l.word(Word::Gum), ColumnKind::Numbers),
-        (l.word(Word::MonteCarlo), ColumnKind::Numbers),
-    ]);
-    let mut row = |label: String, gum: String, trials: Option<String>| {
-        table.push(vec![
+    let mut both = SideBySide {
+        report,
+        measurand,
+        result,
+        scale: scale(result),
+        table: Table::new([
+            (head.as_str(), ColumnKind::Wrapped),
+            (l.word(Word::Gum), ColumnKind::Numbers),
+            (l.word(Word::MonteCarlo), ColumnKind::Numbers),
+        ]),
+    };
+    both.moments(unit);
+    both.second_order();
+    both.median();
+    both.intervals();
+    both.shape();
+    both.trials();
+    both.table
+}
+
+/// What values are rounded beside: intervals need a scale to be rounded to even where u does not exist.
+fn scale(result: &MeasurandResult) -> f64 {
+    let u = result.gum.u;
+    let scale = match &result.monte_carlo {
+        Some(mc) => mc.u.unwrap_or((mc.symmetric[1] - mc.symmetric[0]) / 4.0),
+        None => u,
+    };
+    if u > 0.0 {
+        u.min(if scale > 0.0 { scale } else { u })
+    } else {
+        scale
+    }
+}
+
+/// The table while it is filled.
+struct SideBySide<'a> {
+    report: &'a Report<'a>,
+    measurand: usize,
+    result: &'a MeasurandResult,
+    scale: f64,
+    table: Table,
+}
+
+impl SideBySide<'_> {
+    fn row(&mut self, label: String, gum: String, trials: Option<String>) {
+        self.table.push(vec![
             Cell::Text(label),
             gum.into(),
             trials.map_or(Cell::Empty, Cell::Text),
         ]);
-    };
-    row(
-        l.word(Word::Estimate).into(),
-        show(gum.estimate),
-        monte_carlo.map(|mc| optional(mc.estimate, &show)),
-    );
-    row(
-        with_unit(l.word(Word::StandardUncertainty), &difference_symbol(unit)),
-        three(gum.u),
-        monte_carlo.map(|mc| optional(mc.u, &three)),
-    );
-    let unseen = report.finds(measurand, |kind| {
-        matches!(kind, FindingKind::VanishingSensitivity { .. })
-    });
-    if let Some(second) = result.second_order.as_ref().filter(|s| s.matters || unseen) {
-        row(
-            l.word(Word::SecondOrderShift).into(),
-            show(gum.estimate + second.shift),
-            None,
-        );
-        row(l.word(Word::SecondOrderU).into(), three(second.u), None);
     }
-    if let Some(mc) = monte_carlo.filter(|mc| mc.estimate.is_none() || mc.u.is_none()) {
-        row(
-            l.word(Word::Median).into(),
-            String::new(),
-            Some(show(mc.median)),
+
+    fn value(&self, x: f64) -> String {
+        aligned(x, self.scale, TABLE_DIGITS)
+    }
+
+    fn interval(&self, [low, high]: [f64; 2]) -> String {
+        format!("[{}, {}]", self.value(low), self.value(high))
+    }
+
+    /// Estimate and standard uncertainty.
+    fn moments(&mut self, unit: &Unit) {
+        let (l, gum, mc) = (
+            self.report.language,
+            &self.result.gum,
+            self.result.monte_carlo.as_ref(),
+        );
+        let estimate = mc.map(|mc| optional(mc.estimate, |y| self.value(y)));
+        self.row(
+            l.word(Word::Estimate).into(),
+            self.value(gum.estimate),
+            estimate,
+        );
+        self.row(
+            with_unit(l.word(Word::StandardUncertainty), &difference_symbol(unit)),
+            three(gum.u),
+            mc.map(|mc| optional(mc.u, three)),
         );
     }
-    // The factor that the Monte Carlo interval would need: what k means there.
-    let implied = monte_carlo.and_then(|mc| {
-        mc.u.filter(|u| *u > 0.0)
-            .map(|u| (mc.symmetric[1] - mc.symmetric[0]) / (2.0 * u))
-    });
-    row(
-        l.word(Word::CoverageFactor).into(),
-        three(gum.coverage.k),
-        monte_carlo.map(|_| optional(implied, &three)),
-    );
-    let half = gum.coverage.half_width_for_p;
-    let name = match l {
-        Language::English => format!("{p} interval, symmetric"),
-        Language::Chinese => format!("{p} 包含区间，概率对称"),
-    };
-    row(
-        name,
-        interval([gum.estimate - half, gum.estimate + half]),
-        monte_carlo.map(|mc| interval(mc.symmetric)),
-    );
-    if let Some(mc) = monte_carlo {
-        row(
-            l.pick(
-                format!("{p} interval, shortest"),
-                format!("{p} 包含区间，最短"),
-            ),
-            String::new(),
-            Some(interval(mc.shortest)),
-        );
-        if let (Some(skewness), Some(kurtosis)) = (mc.skewness, mc.excess_kurtosis) {
-            let text = format!(
-                "{}, {}",
-                print(&at_place(skewness, -2)),
-                print(&at_place(kurtosis, -2))
-            );
-            let label = [l.word(Word::Skewness), l.word(Word::Kurtosis)].join(l.pick(", ", "、"));
-            row(label, String::new(), Some(text));
+
+    /// Where it changes the result.
+    fn second_order(&mut self) {
+        let (l, gum) = (self.report.language, &self.result.gum);
+        let unseen = self.report.finds(self.measurand, |kind| {
+            matches!(kind, FindingKind::VanishingSensitivity { .. })
+        });
+        let second = self.result.second_order.as_ref();
+        if let Some(second) = second.filter(|s| s.matters || unseen) {
+            let estimate = self.value(gum.estimate + second.shift);
+            self.row(l.word(Word::SecondOrderShift).into(), estimate, None);
+            self.row(l.word(Word::SecondOrderU).into(), three(second.u), None);
         }
     }
-    if let Some(run) = &report.evaluation.run {
-        row(
-            l.word(Word::Trials).into(),
-            String::new(),
-            Some(match &run.quasi {
-                Some(Quasi::Used(quasi)) => quasi::points(run, quasi, l),
-                _ => trials(run, measurand, l),
-            }),
-        );
+
+    /// In place of moments that do not exist.
+    fn median(&mut self) {
+        let l = self.report.language;
+        let mc = self.result.monte_carlo.as_ref();
+        if let Some(mc) = mc.filter(|mc| mc.estimate.is_none() || mc.u.is_none()) {
+            let median = self.value(mc.median);
+            self.row(l.word(Word::Median).into(), String::new(), Some(median));
+        }
     }
-    table
+
+    /// Coverage factor and coverage intervals.
+    fn intervals(&mut self) {
+        let (l, gum, mc) = (
+            self.report.language,
+            &self.result.gum,
+            self.result.monte_carlo.as_ref(),
+        );
+        // The factor that the Monte Carlo interval would need: what k means there.
+        let implied = mc.and_then(|mc| {
+            mc.u.filter(|u| *u > 0.0)
+                .map(|u| (mc.symmetric[1] - mc.symmetric[0]) / (2.0 * u))
+        });
+        self.row(
+            l.word(Word::CoverageFactor).into(),
+            three(gum.coverage.k),
+            mc.map(|_| optional(implied, three)),
+        );
+        let p = probability(self.report.coverage_probability());
+        let half = gum.coverage.half_width_for_p;
+        self.row(
+            l.pick(
+                format!("{p} interval, symmetric"),
+                format!("{p} 包含区间，概率对称"),
+            ),
+            self.interval([gum.estimate - half, gum.estimate + half]),
+            mc.map(|mc| self.interval(mc.symmetric)),
+        );
+        if let Some(mc) = mc {
+            self.row(
+                l.pick(
+                    format!("{p} interval, shortest"),
+                    format!("{p} 包含区间，最短"),
+                ),
+                String::new(),
+                Some(self.interval(mc.shortest)),
+            );
+        }
+    }
+
+    /// Skewness and excess kurtosis.
+    fn shape(&mut self) {
+        let l = self.report.language;
+        let mc = self.result.monte_carlo.as_ref();
+        let Some((skewness, kurtosis)) = mc.and_then(|mc| mc.skewness.zip(mc.excess_kurtosis))
+        else {
+            return;
+        };
+        let text = format!(
+            "{}, {}",
+            print(&at_place(skewness, -2)),
+            print(&at_place(kurtosis, -2))
+        );
+        let label = [l.word(Word::Skewness), l.word(Word::Kurtosis)].join(l.pick(", ", "、"));
+        self.row(label, String::new(), Some(text));
+    }
+
+    fn trials(&mut self) {
+        let l = self.report.language;
+        if let Some(run) = &self.report.evaluation.run {
+            let text = match &run.quasi {
+                Some(Quasi::Used(quasi)) => quasi::points(run, quasi, l),
+                _ => trials(run, self.measurand, l),
+            };
+            self.row(l.word(Word::Trials).into(), String::new(), Some(text));
+        }
+    }
+}
+
+fn three(x: f64) -> String {
+    significant(x, TABLE_DIGITS)
+}
+
+fn optional(x: Option<f64>, form: impl Fn(f64) -> String) -> String {
+    x.map_or_else(|| NONE.to_string(), form)
 }
 
 fn with_unit(label: &str, unit: &str) -> String {

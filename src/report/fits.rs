@@ -266,51 +266,15 @@ pub(super) fn test_figures(l: Language, test: &LackOfFit) -> String {
 
 /// The points with their distances from the curve.
 fn points(l: Language, fit: &Fit) -> Table {
-    let headed = |name: &str, unit: String| {
-        if unit.is_empty() {
-            name.to_string()
-        } else {
-            format!("{name} / {unit}")
-        }
-    };
-    let column = |head: String| Column {
-        head,
-        kind: ColumnKind::Numbers,
-    };
     let y = fit.response();
     let predictors = &fit.columns[1..];
-    let mut columns: Vec<Column> = predictors
-        .iter()
-        .chain([y])
-        .map(|c| column(headed(&c.name, symbol(&c.unit))))
-        .collect();
     // Where predictors are in doubt, a point lies beside the curve in both directions: the nearest point of
     // the curve is shown, and the distance from it as a whole.
     let adjusted: Vec<usize> = (0..predictors.len())
         .filter(|k| predictors[*k].u.is_some())
         .collect();
-    for k in &adjusted {
-        let name = &predictors[*k].name;
-        columns.push(column(
-            l.pick(format!("{name} on the curve"), format!("{name} 曲线值")),
-        ));
-    }
-    if adjusted.is_empty() {
-        columns.push(column(l.pick("on the curve", "曲线值").into()));
-        columns.push(column(l.pick("residual", "残差").into()));
-    } else {
-        columns.push(column(l.pick(
-            format!("{} on the curve", y.name),
-            format!("{} 曲线值", y.name),
-        )));
-    }
-    columns.push(column(if fit.weighted {
-        l.pick("distance / u", "距离 / u").into()
-    } else {
-        l.pick("residual / s", "残差 / s").into()
-    }));
     let mut table = Table {
-        columns,
+        columns: heads(l, fit, &adjusted),
         rows: Vec::new(),
     };
     // All to the digits that the smallest uncertainty has, or the spread of the residuals.
@@ -348,6 +312,39 @@ fn points(l: Language, fit: &Fit) -> Table {
         table.push(cells);
     }
     table
+}
+
+/// The heads of the points, where these predictors are in doubt.
+fn heads(l: Language, fit: &Fit, adjusted: &[usize]) -> Vec<Column> {
+    let y = fit.response();
+    let predictors = &fit.columns[1..];
+    let mut heads: Vec<String> = predictors
+        .iter()
+        .chain([y])
+        .map(|c| match symbol(&c.unit) {
+            none if none.is_empty() => c.name.clone(),
+            unit => format!("{} / {unit}", c.name),
+        })
+        .collect();
+    let on_the_curve =
+        |name: &str| l.pick(format!("{name} on the curve"), format!("{name} 曲线值"));
+    heads.extend(adjusted.iter().map(|k| on_the_curve(&predictors[*k].name)));
+    if adjusted.is_empty() {
+        heads.push(l.pick("on the curve", "曲线值").into());
+        heads.push(l.pick("residual", "残差").into());
+    } else {
+        heads.push(on_the_curve(&y.name));
+    }
+    heads.push(if fit.weighted {
+        l.pick("distance / u", "距离 / u").into()
+    } else {
+        l.pick("residual / s", "残差 / s").into()
+    });
+    let numbers = |head| Column {
+        head,
+        kind: ColumnKind::Numbers,
+    };
+    heads.into_iter().map(numbers).collect()
 }
 
 /// The last place to which values are shown beside deviations of this size: two digits of these, but never

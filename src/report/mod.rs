@@ -43,8 +43,9 @@ pub use calibration::{
     plan_markdown, plan_text,
 };
 pub use diagnosis::{
-    FORMAT as DIAGNOSIS_FORMAT, failure as diagnosis_failure, json as diagnosis_json,
-    markdown as diagnosis_markdown, plots as diagnosis_plots, text as diagnosis_text,
+    FORMAT as DIAGNOSIS_FORMAT, OUTLOOK_FORMAT, failure as diagnosis_failure,
+    json as diagnosis_json, markdown as diagnosis_markdown, outlook_json, outlook_markdown,
+    outlook_text, plots as diagnosis_plots, text as diagnosis_text,
 };
 pub use json::{FORMAT, json};
 pub use language::Language;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::Checker;
+use super::csv::lacks;
 use super::draft::{Context, Core, show};
 use super::type_a::Evaluated;
 use super::ways::Way;
@@ -227,15 +228,8 @@ impl Checker<'_> {
                 (_, None) => "column",
                 _ => "group",
             };
-            return self.refuse(
-                Fault::new(
-                    MISSING_KEY,
-                    place.clone(),
-                    format!("the CSV column lacks `{missing}`"),
-                )
-                .label(format!("`{missing}` is missing"))
-                .help("write { file = \"readings.csv\", column = \"V\", group = \"day\" }"),
-            );
+            let example = "{ file = \"readings.csv\", column = \"V\", group = \"day\" }";
+            return self.refuse(lacks(missing, place, example));
         };
         let names = &group.value.0;
         if names.is_empty() || names.len() > 2 {

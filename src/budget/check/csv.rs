@@ -88,15 +88,8 @@ impl Checker<'_> {
             } else {
                 "column"
             };
-            return self.refuse(
-                Fault::new(
-                    MISSING_KEY,
-                    place.clone(),
-                    format!("the CSV column lacks `{missing}`"),
-                )
-                .label(format!("`{missing}` is missing"))
-                .help("write { file = \"readings.csv\", column = \"name\" }"),
-            );
+            let example = "{ file = \"readings.csv\", column = \"name\" }";
+            return self.refuse(lacks(missing, place, example));
         };
         let rows = self.csv_fields(file, &[column])?;
         (2..)
@@ -236,4 +229,12 @@ impl Checker<'_> {
     fn csv_fault<T>(&mut self, stated: &Stated<String>, message: String) -> Option<T> {
         self.refuse(Fault::new(CSV, stated.span.clone(), message).label("needed from here"))
     }
+}
+
+/// A table that names no file, or not all that is needed to find a column in it.
+pub(super) fn lacks(missing: &str, place: &Range<usize>, example: &str) -> Fault {
+    let message = format!("the CSV column lacks `{missing}`");
+    Fault::new(MISSING_KEY, place.clone(), message)
+        .label(format!("`{missing}` is missing"))
+        .help(format!("write {example}"))
 }

@@ -13,6 +13,7 @@ use crate::budget::{Constant, Measurand};
 use crate::fault::Fault;
 use crate::model::faults::{NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
 use crate::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile};
+use crate::quantity::Unit;
 
 impl MeasurandTable {
     /// Whether its model or its unit was refused, or may be hidden behind an unknown key.
@@ -70,17 +71,7 @@ impl Checker<'_> {
     ) -> Option<Model> {
         let stated = entries(&file.measurand);
         if stated.is_empty() {
-            let refused = file.refused && file.present.iter().any(|(key, _)| *key == "measurand");
-            // A fit that was refused would have given the measurands.
-            if refused || file.unknown || file.present.iter().any(|(key, _)| *key == "fit") {
-                return None;
-            }
-            let end = self.text.trim_end().len();
-            return self.refuse(
-                Fault::new(NO_MEASURAND, end..end, "the file has no measurand")
-                    .label("expected a [measurand.NAME]")
-                    .help("add for example:\n[measurand.R]\nmodel = \"V / I\"\nunit = \"ohm\""),
-            );
+            return self.without_measurand(file);
         }
         let units: Vec<_> = stated
             .iter()
@@ -98,19 +89,8 @@ impl Checker<'_> {
         }
         let measurands: Vec<MeasurandSource<'_>> = stated
             .iter()
-            .zip(&units)
-            .map(|((name, entry), unit)| MeasurandSource {
-                name,
-                model: match &entry.value.model {
-                    Some(text) => Some(text.value.as_str()),
-                    // A measurand that is called like a parameter of a fit reports it.
-                    None => self.parameter_unit(name).map(|_| name.as_str()),
-                },
-                unit: match self.parameter_unit(name) {
-                    Some(_) => unit.clone(),
-                    None => entry.value.unit.as_ref().and(unit.clone()),
-                },
-            })
+            .zip(units)
+            .map(|((name, entry), unit)| self.measurand_source(name, &entry.value, unit))
             .collect();
         let symbols = symbols(constants, register);
         let units = self.units.clone();
@@ -143,6 +123,42 @@ impl Checker<'_> {
                 }
                 None
             }
+        }
+    }
+
+    fn without_measurand<T>(&mut self, file: &FileTable) -> Option<T> {
+        let refused = file.refused && file.present.iter().any(|(key, _)| *key == "measurand");
+        // A fit that was refused would have given the measurands.
+        if refused || file.unknown || file.present.iter().any(|(key, _)| *key == "fit") {
+            return None;
+        }
+        let end = self.text.trim_end().len();
+        self.refuse(
+            Fault::new(NO_MEASURAND, end..end, "the file has no measurand")
+                .label("expected a [measurand.NAME]")
+                .help("add for example:\n[measurand.R]\nmodel = \"V / I\"\nunit = \"ohm\""),
+        )
+    }
+
+    /// A measurand as the compiler sees it. One that is called like a parameter of a fit reports it.
+    fn measurand_source<'t>(
+        &self,
+        name: &'t str,
+        table: &'t MeasurandTable,
+        unit: Option<Unit>,
+    ) -> MeasurandSource<'t> {
+        let reports = self.parameter_unit(name).is_some();
+        MeasurandSource {
+            name,
+            model: match &table.model {
+                Some(text) => Some(text.value.as_str()),
+                None => reports.then_some(name),
+            },
+            unit: if reports {
+                unit
+            } else {
+                table.unit.as_ref().and(unit)
+            },
         }
     }
 

@@ -8,15 +8,13 @@ use super::Checker;
 use super::correlations::{Side, Statement};
 use super::draft::{Draft, Kind, Location, show};
 use super::groups::negative_eigenvalue;
-use super::register::Register;
+use super::register::{Register, no_such_input};
 use super::type_a::{mean_and_squares, student};
-use crate::budget::faults::{
-    CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS, UNKNOWN_NAME,
-};
+use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS};
 use crate::budget::table::Stated;
 use crate::budget::tables::{FileTable, JointTable};
 use crate::budget::{Evaluation, Group, Owner, TScale};
-use crate::fault::{Fault, nearest};
+use crate::fault::Fault;
 
 pub(super) type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
 
@@ -118,43 +116,13 @@ impl Checker<'_> {
             if let Some(taken) = register.taken_as(&name.value) {
                 return self.refuse(taken.not_to_be_correlated(name));
             }
-            let entry = register
-                .entries
-                .iter()
-                .find(|entry| entry.name == name.value);
-            let element = register
-                .inputs
-                .iter()
-                .position(|input| input.name == name.value);
-            match (entry, element) {
-                (Some(entry), _) => {
-                    for place in entry.places.clone() {
-                        let element = register
-                            .inputs
-                            .get(place)
-                            .map_or_else(String::new, |input| input.name.clone());
-                        places.push((place, name.map(|_| element)));
-                    }
-                }
-                (None, Some(place)) => places.push((place, name.clone())),
-                (None, None) => {
+            match places_of(name, register) {
+                Some(found) => places.extend(found),
+                None => {
                     complete = false;
-                    let known: Vec<&str> = register
-                        .entries
-                        .iter()
-                        .map(|entry| entry.name.as_str())
-                        .collect();
-                    let fault = Fault::new(
-                        UNKNOWN_NAME,
-                        name.span.clone(),
-                        format!("there is no input \"{}\"", name.value),
-                    )
-                    .label("not declared");
-                    self.faults
-                        .push(match nearest(&name.value, known.iter().copied()) {
-                            Some(near) => fault.help(format!("did you mean \"{near}\"?")),
-                            None => fault.help(format!("inputs: {}", known.join(", "))),
-                        });
+                    let entries = register.entries.iter();
+                    let known: Vec<&str> = entries.map(|entry| entry.name.as_str()).collect();
+                    self.faults.push(no_such_input(name, &known));
                 }
             }
         }
@@ -483,4 +451,21 @@ impl Checker<'_> {
 
 fn joints(file: &FileTable) -> &[Stated<JointTable>] {
     file.joint.as_ref().map_or(&[], |list| &list.value.0)
+}
+
+/// The places of a named input: of all elements of a vector, or of one of them.
+fn places_of(name: &Stated<String>, register: &Register) -> Option<Vec<(usize, Stated<String>)>> {
+    let mut entries = register.entries.iter();
+    if let Some(entry) = entries.find(|entry| entry.name == name.value) {
+        let own = |place: usize| {
+            let input = register.inputs.get(place);
+            input.map_or_else(String::new, |input| input.name.clone())
+        };
+        let places = entry.places.clone();
+        let named = places.map(|place| (place, name.map(|_| own(place))));
+        return Some(named.collect());
+    }
+    let mut inputs = register.inputs.iter();
+    let element = inputs.position(|input| input.name == name.value)?;
+    Some(vec![(element, name.clone())])
 }

@@ -20,6 +20,30 @@ const MOST_ELEMENTS: usize = 10_000;
 /// Elements that are drawn together for their common ν; the effort grows with their square.
 const LARGEST_FAMILY: usize = 200;
 
+/// A vector input while its components are entered.
+struct Vector<'v> {
+    name: &'v str,
+    unit: &'v Unit,
+    values: &'v [f64],
+    /// Place of its first element among the inputs.
+    start: usize,
+    /// Whether it has one component only.
+    alone: bool,
+    /// Labels of the components so far.
+    labels: Vec<String>,
+}
+
+impl<'v> Vector<'v> {
+    fn context(&self, entry: &Entry<'_>, element: usize) -> Context<'v> {
+        Context {
+            owner: self.name,
+            value: Some(self.values[element]),
+            unit: self.unit,
+            place: entry.place.clone(),
+        }
+    }
+}
+
 impl Checker<'_> {
     pub(super) fn vector(
         &mut self,
@@ -69,77 +93,33 @@ impl Checker<'_> {
                 input.estimate = *value;
             }
         }
-        let alone = list.len() == 1;
+        let mut vector = Vector {
+            name,
+            unit,
+            values,
+            start,
+            alone: list.len() == 1,
+            labels: Vec::new(),
+        };
         let mut complete = true;
-        let mut labels: Vec<String> = Vec::new();
         for entry in &list {
-            let done = self.vector_component(
-                name,
-                entry,
-                unit,
-                values,
-                register,
-                start,
-                alone,
-                &mut labels,
-            );
+            let done = self.vector_component(&mut vector, entry, register);
             complete &= done.is_some();
         }
         complete.then_some(())
     }
 
-    #[allow(clippy::too_many_arguments)]
     fn vector_component(
         &mut self,
-        name: &str,
+        vector: &mut Vector<'_>,
         entry: &Entry<'_>,
-        unit: &Unit,
-        values: &[f64],
         register: &mut Register,
-        start: usize,
-        alone: bool,
-        labels: &mut Vec<String>,
     ) -> Option<()> {
         if entry.way == Way::Source {
-            for (place, value) in (start..).zip(values) {
-                let context = Context {
-                    owner: name,
-                    value: Some(*value),
-                    unit,
-                    place: entry.place.clone(),
-                };
-                for piece in self.shared_pieces(entry, &context, register)? {
-                    if let Piece::Shared {
-                        component,
-                        coefficient,
-                        follows,
-                    } = piece
-                    {
-                        register.follow(place, component, coefficient, follows);
-                        register.act(place, component, coefficient);
-                    }
-                }
-            }
-            return Some(());
+            return self.source_of_vector(vector, entry, register);
         }
-        let listed = entry.table.readings.as_ref();
-        let by_element = listed.is_some_and(|stated| matches!(stated.value, Numbers::Lists(_)));
-        if locates(entry.way)
-            && !single(entry.table)
-            && !by_element
-            && entry.way != Way::Distribution
-        {
-            return self.refuse(
-                Fault::new(
-                    VECTOR,
-                    entry.place.clone(),
-                    format!("this component would state one estimate for all elements of {name}"),
-                )
-                .label("not for a vector")
-                .help(
-                    "state a deviation (`u`, `half_width`, `step` …), or readings for each element: readings = [[…], […]]",
-                ),
-            );
+        if states_one_estimate(entry) {
+            return self.refuse(one_estimate(vector.name, entry));
         }
         let listed = self.with_columns(entry.table);
         let entry = &Entry {
@@ -147,82 +127,121 @@ impl Checker<'_> {
             way: entry.way,
             place: entry.place.clone(),
         };
-        self.one_for_each(name, entry.table, values.len())?;
-        let relative = self.acts_in_proportion(entry, unit);
-        let common = entry
-            .table
-            .common
-            .as_ref()
-            .is_some_and(|stated| stated.value);
+        self.one_for_each(vector.name, entry.table, vector.values.len())?;
+        let family = self.elements(vector, entry, register)?;
+        if of_element(entry.table, 0).is_none() && entry.way != Way::Distribution {
+            self.family(vector.name, family, register);
+        }
+        Some(())
+    }
+
+    /// A cause that other inputs share, for each element.
+    fn source_of_vector(
+        &mut self,
+        vector: &Vector<'_>,
+        entry: &Entry<'_>,
+        register: &mut Register,
+    ) -> Option<()> {
+        for element in 0..vector.values.len() {
+            let context = vector.context(entry, element);
+            for piece in self.shared_pieces(entry, &context, register)? {
+                if let Piece::Shared {
+                    component,
+                    coefficient,
+                    follows,
+                } = piece
+                {
+                    let place = vector.start + element;
+                    register.follow(place, component, coefficient, follows);
+                    register.act(place, component, coefficient);
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Enters a component of every element, or the one that all share. Gives those that have one ν together.
+    fn elements(
+        &mut self,
+        vector: &mut Vector<'_>,
+        entry: &Entry<'_>,
+        register: &mut Register,
+    ) -> Option<Vec<usize>> {
+        let relative = self.acts_in_proportion(entry, vector.unit);
+        let common = is_common(entry.table);
         let mut first: Option<(usize, f64)> = None;
         let mut label = None;
         let mut family = Vec::new();
-        for (element, value) in values.iter().enumerate() {
+        for (element, value) in vector.values.iter().enumerate() {
             // A fraction of zero is zero: this element has no such doubt.
             if relative && *value == 0.0 {
                 continue;
             }
-            let context = Context {
-                owner: name,
-                value: Some(*value),
-                unit,
-                place: entry.place.clone(),
-            };
-            let mut draft = match of_element(entry.table, element) {
-                Some(table) => self.draft_following(&table, entry.way, &context)?,
-                None => self.draft_following(entry.table, entry.way, &context)?,
-            };
-            if !matches!(draft.location, Location::None | Location::Mean(_)) {
-                return self.refuse(
-                    Fault::new(
-                        VECTOR,
-                        entry.place.clone(),
-                        format!("this component would move the elements of {name}"),
-                    )
-                    .label("only symmetric deviations for a vector"),
-                );
-            }
-            self.other_mean(name, element, *value, &draft);
-            let dof = draft.dof;
-            let label = label.get_or_insert_with(|| another(labels, &draft.label));
+            let mut draft = self.element_draft(vector, entry, element)?;
+            let label = label.get_or_insert_with(|| another(&mut vector.labels, &draft.label));
             draft.label.clone_from(label);
-            let follows = draft.follows;
+            let sign = if relative { value.signum() } else { 1.0 };
+            let (follows, dof, u) = (draft.follows, draft.dof, draft.u);
             let (component, coefficient) = match first {
-                Some((component, u)) if common => (component, draft.u / u),
+                Some((component, first)) if common => (component, sign * (u / first)),
                 _ => {
-                    let owner_name = if common {
-                        name.to_string()
-                    } else {
-                        element_name(name, element)
-                    };
-                    let u = draft.u * if relative { value.signum() } else { 1.0 };
-                    let component = register.add(
-                        Owner::Input(start + element),
-                        &owner_name,
-                        unit,
-                        draft,
-                        alone,
-                    );
+                    let component = self.enter_element(vector, entry, element, draft, register);
                     if !common && dof.is_finite() {
                         family.push(component);
                     }
-                    if let Some(readings) = self.readings_of(entry.table, element) {
-                        register.readings.insert(component, readings);
-                    }
-                    first = Some((component, u));
-                    register.follow(start + element, component, 1.0, follows);
-                    register.act(start + element, component, 1.0);
-                    continue;
+                    first = Some((component, u * sign));
+                    (component, 1.0)
                 }
             };
-            let sign = if relative { value.signum() } else { 1.0 };
-            register.follow(start + element, component, sign * coefficient, follows);
-            register.act(start + element, component, sign * coefficient);
+            register.follow(vector.start + element, component, coefficient, follows);
+            register.act(vector.start + element, component, coefficient);
         }
-        if of_element(entry.table, 0).is_none() && entry.way != Way::Distribution {
-            self.family(name, family, register);
+        Some(family)
+    }
+
+    /// What the component says about one element.
+    fn element_draft(
+        &mut self,
+        vector: &Vector<'_>,
+        entry: &Entry<'_>,
+        element: usize,
+    ) -> Option<Draft> {
+        let context = vector.context(entry, element);
+        let draft = match of_element(entry.table, element) {
+            Some(table) => self.draft_following(&table, entry.way, &context)?,
+            None => self.draft_following(entry.table, entry.way, &context)?,
+        };
+        if !matches!(draft.location, Location::None | Location::Mean(_)) {
+            let message = format!("this component would move the elements of {}", vector.name);
+            return self.refuse(
+                Fault::new(VECTOR, entry.place.clone(), message)
+                    .label("only symmetric deviations for a vector"),
+            );
         }
-        Some(())
+        self.other_mean(vector.name, element, vector.values[element], &draft);
+        Some(draft)
+    }
+
+    /// Enters the component of an element, or of all of them.
+    fn enter_element(
+        &self,
+        vector: &Vector<'_>,
+        entry: &Entry<'_>,
+        element: usize,
+        draft: Draft,
+        register: &mut Register,
+    ) -> usize {
+        let owner = if is_common(entry.table) {
+            vector.name.to_string()
+        } else {
+            element_name(vector.name, element)
+        };
+        let place = Owner::Input(vector.start + element);
+        let component = register.add(place, &owner, vector.unit, draft, vector.alone);
+        if let Some(readings) = self.readings_of(entry.table, element) {
+            register.readings.insert(component, readings);
+        }
+        component
     }
 
     /// Elements whose u comes from one statement share the doubt about it: they have one ν together.
@@ -348,6 +367,25 @@ impl Checker<'_> {
             .is_some_and(|own| own.dimension == Unit::one().dimension);
         stated || (of_dimension_one && unit.dimension != Unit::one().dimension)
     }
+}
+
+/// Whether all elements share one error.
+fn is_common(table: &ComponentTable) -> bool {
+    table.common.as_ref().is_some_and(|stated| stated.value)
+}
+
+/// Whether the component would state one estimate for all elements.
+fn states_one_estimate(entry: &Entry<'_>) -> bool {
+    let listed = entry.table.readings.as_ref();
+    let by_element = listed.is_some_and(|stated| matches!(stated.value, Numbers::Lists(_)));
+    locates(entry.way) && !single(entry.table) && !by_element && entry.way != Way::Distribution
+}
+
+fn one_estimate(name: &str, entry: &Entry<'_>) -> Fault {
+    let message = format!("this component would state one estimate for all elements of {name}");
+    Fault::new(VECTOR, entry.place.clone(), message)
+        .label("not for a vector")
+        .help("state a deviation (`u`, `half_width`, `step` …), or readings for each element: readings = [[…], […]]")
 }
 
 /// The component as it stands for one element, if it lists an amount for each.

@@ -1,8 +1,15 @@
 //! The case file: a declared model, a recording, and what is claimed about both.
 
+mod actions;
 mod at_rest;
+mod candidates;
 mod check;
+mod columns;
 mod declared;
+mod noise;
+mod parameters;
+mod rows;
+mod settings;
 mod tables;
 
 use std::path::{Path, PathBuf};
@@ -14,7 +21,10 @@ use crate::model::Symbol;
 use crate::quantity::{Unit, UnitTable};
 use crate::recording::Labels;
 
+pub(super) use actions::repeated;
 pub(super) use at_rest::hours;
+pub use rows::Rows;
+pub(super) use rows::interval;
 pub use tables::RoleWord as Role;
 
 /// A checked case.
@@ -32,6 +42,8 @@ pub struct Case {
     pub path: PathBuf,
     /// Units of the program and of the file.
     pub units: UnitTable,
+    /// Names and definitions of the file's own units.
+    pub own_units: Vec<(String, String)>,
     /// The rows, in the order of the recording.
     pub rows: usize,
     /// Rows of the file that were left out because a value is missing.
@@ -54,6 +66,8 @@ pub struct Case {
     pub candidates: Vec<UserCandidate>,
     /// Further measurements that could be made.
     pub actions: Vec<Action>,
+    /// A recording that the fit does not see, and that it is to predict.
+    pub held_out: Option<HeldOut>,
     /// How rows are averaged.
     pub averaging: Averaging,
     /// How the diagnosis is run.
@@ -77,6 +91,12 @@ pub struct Column {
     pub u: Option<f64>,
     /// Standard uncertainty of an error that all rows share.
     pub u_common: Option<f64>,
+    /// For an output: the largest value that the instrument shows.
+    pub full_scale: Option<f64>,
+    /// The step of its numbers, where it is stated.
+    pub resolution: Option<f64>,
+    /// Whether formulas take temperatures with an origin as differences from 0 of their scale.
+    pub as_difference: bool,
 }
 
 /// What a column holds, row by row.
@@ -136,6 +156,8 @@ pub enum NoiseClaim {
         u: Vec<f64>,
         /// Degrees of freedom.
         dof: f64,
+        /// Random walk beside it, per root of an hour, one for each response; 0 if none is claimed.
+        walk: Vec<f64>,
         /// Where it comes from.
         origin: NoiseOrigin,
     },
@@ -194,8 +216,17 @@ pub struct Action {
     pub name: String,
     /// Effort.
     pub cost: f64,
-    /// The file with the rows that would be recorded.
-    pub rows: PathBuf,
+    /// The rows that would be recorded.
+    pub rows: Rows,
+}
+
+/// A recording of the same columns that is to be predicted.
+#[derive(Debug, Clone)]
+pub struct HeldOut {
+    /// Its file, as the case names it.
+    pub file: String,
+    /// Its rows.
+    pub rows: Rows,
 }
 
 /// How consecutive rows are averaged.
@@ -233,6 +264,9 @@ pub struct Settings {
     pub seed: u64,
     /// Simulated recordings without any effect.
     pub draws: usize,
+    /// Largest shifts of the output that would not surprise, as shares of full scale, by the identifier of
+    /// the effect.
+    pub typical: Vec<(String, f64)>,
 }
 
 /// What a case is read for.
@@ -270,6 +304,15 @@ impl Case {
 }
 
 impl Column {
+    /// The unit that the numbers have in formulas.
+    pub fn unit_in_formulas(&self) -> Unit {
+        if self.as_difference {
+            self.unit.difference()
+        } else {
+            self.unit.clone()
+        }
+    }
+
     /// The numbers; nothing for labels.
     pub fn numbers(&self) -> Option<&[f64]> {
         match &self.data {
@@ -287,11 +330,34 @@ impl Column {
     }
 }
 
-/// Whether a file is a case: it has a `recording` and a `model`.
-pub fn is_case(text: &str) -> bool {
+/// What a file of the program is, by its keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A case: a recording, or columns, and a model.
+    Case,
+    /// A calibration: equations, or a procedure.
+    Calibration,
+    /// A budget: measurands or inputs.
+    Budget,
+    /// None of them.
+    Unknown,
+}
+
+/// Recognises a file by its keys, also one with faults.
+pub fn kind_of(text: &str) -> Kind {
     let (table, _) = toml::de::DeTable::parse_recoverable(text);
-    let table = table.get_ref();
-    table.contains_key("recording") && table.contains_key("model")
+    let has = |keys: &[&str]| keys.iter().any(|key| table.get_ref().contains_key(*key));
+    if has(&["equations", "procedure", "schedule"]) {
+        Kind::Calibration
+    } else if has(&["measurand", "input"]) {
+        Kind::Budget
+    } else if has(&["recording", "columns"]) {
+        Kind::Case
+    } else if has(&["model"]) {
+        Kind::Budget
+    } else {
+        Kind::Unknown
+    }
 }
 
 /// The reference of keys, table by table.

@@ -5,7 +5,7 @@ use toml::de::DeValue;
 
 use crate::budget::faults::WRONG_TYPE;
 use crate::budget::table::{FromToml, KeyRow, Raw, Reader, Stated, table, words};
-use crate::budget::values::{Amount, Named, OneOrMany};
+use crate::budget::values::{Amount, Cell, Named, OneOrMany};
 use crate::budget::variants::ConstantEntry;
 
 type List<T> = Vec<Stated<T>>;
@@ -37,6 +37,8 @@ table! {
         candidate: OneOrMany<CandidateTable>,
         /// Further measurements that could be made, for the ranking of what would tell explanations apart.
         action: OneOrMany<ActionTable>,
+        /// A recording of the same columns that the fit does not see and that it is to predict.
+        held_out: HeldOutTable,
         /// How the diagnosis is run.
         diagnosis: DiagnosisTable,
     }
@@ -170,6 +172,10 @@ table! {
         u: Amount,
         /// Standard uncertainty of an error that all rows share.
         u_common: Amount,
+        /// Of an output: the largest value that it can show, to which typical sizes of effects refer; the range of the recording if left out.
+        full_scale: Amount,
+        /// Of an output: the step of its numbers (one unit of the last digit, one LSB).
+        resolution: Amount,
         /// What it is, in words.
         description: String,
     }
@@ -229,6 +235,10 @@ table! {
         u: Amount,
         /// Degrees of freedom of `u`; infinite if left out.
         dof: f64,
+        /// With `u`: random walk of the output per root of an hour, by the column `time`.
+        walk: Amount,
+        /// With `u`: the step of the output's numbers; its u is added.
+        resolution: Amount,
         /// Columns that say which rows are replicates: rows that agree in all of them differ by noise only.
         replicates: OneOrMany<String>,
         /// A recording at rest, from which the noise is taken.
@@ -275,14 +285,62 @@ table! {
 }
 
 table! {
+    /// A recording that is to be predicted.
+    HeldOutTable "held_out" {
+        /// Path of the CSV file, with the same columns as the recording.
+        file: String,
+    }
+}
+
+table! {
     /// A further measurement that could be made.
     ActionTable "[[action]]" {
         /// Its name.
         name: String,
         /// Effort, in any unit; 1 if left out.
         cost: f64,
-        /// A CSV file with the rows that would be recorded: all columns but the outputs.
-        rows: String,
+        /// The rows that would be recorded: a CSV file, or `{ COLUMN = [values], … }`. Outputs are left out.
+        rows: RowsEntry,
+        /// Instead of `rows`: the rows of the recording once more, with these columns at another value.
+        again: Named<Cell>,
+        /// With `again`: the order of the rows, "as recorded" (default) or "reversed".
+        order: OrderWord,
+    }
+}
+
+words! {
+    /// In which order the rows of a recording are taken again.
+    OrderWord {
+        /// As they were recorded.
+        Recorded "as recorded",
+        /// The last one first.
+        Reversed "reversed",
+    }
+}
+
+/// The rows of a further measurement.
+#[derive(Debug, Clone)]
+pub enum RowsEntry {
+    /// The path of a CSV file.
+    File(String),
+    /// Values of columns, a list or one for all rows.
+    Lists(Named<OneOrMany<Cell>>),
+}
+
+impl FromToml for RowsEntry {
+    fn expected() -> String {
+        "the path of a CSV file, or a table of columns".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        if matches!(value.get_ref(), DeValue::Table(_)) {
+            return Named::read(value, reader).map(RowsEntry::Lists);
+        }
+        String::read(value, reader).map(RowsEntry::File)
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [String::schema(), Named::<OneOrMany<Cell>>::schema()] })
     }
 }
 
@@ -299,5 +357,7 @@ table! {
         seed: u64,
         /// Simulated recordings without any effect, for the false-alarm rate.
         draws: u64,
+        /// By the identifier of an effect: the largest shift of the output that would not surprise, as a share of full scale.
+        typical: Named<f64>,
     }
 }

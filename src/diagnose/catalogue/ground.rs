@@ -147,9 +147,40 @@ impl<'f> Ground<'f> {
     /// The unit of time as text; `row` where no time was recorded.
     pub fn time_unit(&self) -> String {
         match self.clock.column {
-            Some(column) => self.case().columns[column].unit.typeset(),
+            Some(column) => self.unit(column),
             None => "row".to_owned(),
         }
+    }
+
+    /// What the time is called: its column, or the row.
+    pub fn along_time(&self) -> String {
+        match self.clock.column {
+            Some(column) => self.case().columns[column].name.clone(),
+            None => "row".to_owned(),
+        }
+    }
+
+    /// The unit of a column as text; nothing for a number.
+    pub fn unit(&self, column: usize) -> String {
+        let unit = &self.case().columns[column].unit;
+        if unit.is_one() {
+            String::new()
+        } else {
+            unit.typeset()
+        }
+    }
+
+    /// Whether the order of the rows says something that no stimulus says: it was recorded, or the rows are
+    /// not sorted by a stimulus.
+    pub fn is_ordered(&self) -> bool {
+        let sorted = |column: &usize| {
+            let numbers = self.frame.reduced(self.numbers(*column));
+            numbers.windows(2).all(|pair| pair[0] <= pair[1])
+                || numbers.windows(2).all(|pair| pair[0] >= pair[1])
+        };
+        let used = self.case().with_role(Role::Stimulus);
+        let used: Vec<usize> = used.filter(|column| self.in_model(*column)).collect();
+        self.is_timed() || !used.iter().any(sorted)
     }
 
     /// Seconds in a unit of the clock, where it is a time.

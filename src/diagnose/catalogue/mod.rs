@@ -9,7 +9,7 @@
 //! | `effects.toml` | names, prose, formulas of all effects |
 //! | `modifiers` | what a disturbance may follow, computed row by row |
 //! | `ground` | slopes of the nodes, and which columns can be what |
-//! | `response`, `conditions`, `time`, `levels`, `angles`, `rows` | the cells of the grammar |
+//! | `response`, `zero`, `conditions`, `time`, `waves`, `levels`, `parameters`, `angles`, `rows` | the cells of the grammar |
 //! | `generics` | competitors without a name |
 
 mod angles;
@@ -18,10 +18,13 @@ mod generics;
 mod ground;
 mod levels;
 pub(super) mod modifiers;
+mod parameters;
 mod response;
 mod rows;
 mod time;
 mod user;
+mod waves;
+mod zero;
 
 use std::sync::LazyLock;
 
@@ -219,8 +222,11 @@ impl Variation {
 pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = response::cells(ground);
     cells.extend(conditions::cells(ground));
+    cells.extend(zero::cells(ground));
     cells.extend(time::cells(ground));
+    cells.extend(waves::cells(ground));
     cells.extend(levels::cells(ground));
+    cells.extend(parameters::cells(ground));
     cells.extend(angles::cells(ground));
     cells.extend(rows::cells(ground));
     cells.extend(user::cells(ground));

@@ -17,10 +17,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     if ground.frame.blocks.len() < 6 || span <= 0.0 {
         return Vec::new();
     }
-    let along = match ground.clock.column {
-        Some(column) => ground.case().columns[column].name.clone(),
-        None => "row".to_owned(),
-    };
+    let along = ground.along_time();
     let (start, _) = range(t);
     let since = map(t, |t| t - start);
     // Rows of factors without a time may stand in any order.
@@ -29,7 +26,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         .columns
         .iter()
         .any(|column| matches!(column.role, Role::Run | Role::Factor));
-    if factors && !ground.is_timed() {
+    if (factors && !ground.is_timed()) || !ground.is_ordered() {
         return Vec::new();
     }
     let nodes = if ground.has_signal() {

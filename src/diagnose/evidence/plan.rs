@@ -86,6 +86,7 @@ pub fn visibility(
             named
                 .iter()
                 .filter(|rival| rival.candidate != block.candidate)
+                .filter(|rival| !extends(candidates, rival, block))
                 .map(|rival| pair(block, rival))
                 .max_by(|a, b| a.cosine.total_cmp(&b.cosine))
         })
@@ -112,6 +113,12 @@ fn seen(baseline: &Baseline, atom: usize, columns: &DMatrix<f64>) -> Seen {
         visibility,
         detectable: (visibility > INVISIBLE).then(|| DETECTED / shortest),
     }
+}
+
+/// Whether one effect is another with more freedom, as a curved drift is a drift: no rival to it.
+fn extends(candidates: &[Candidate], more: &Block, less: &Block) -> bool {
+    more.basis.ncols() > less.basis.ncols()
+        && candidates[more.candidate].family == candidates[less.candidate].family
 }
 
 /// The column of `block` that `rival` comes nearest to.

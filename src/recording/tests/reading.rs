@@ -178,7 +178,7 @@ fn overloads_and_words_are_missing_numbers() {
 
 #[test]
 fn a_file_that_cannot_be_read() {
-    use crate::budget::Files;
+    use crate::files::Files;
     let library = Files::Library(&[("a/b.csv", b"\xff\xfe"), ("c.csv", b"x\n1")]);
     let open = |path: &str| {
         Recording::open(library, path.as_ref(), &[], &UnitTable::default())

@@ -1,14 +1,17 @@
 //! A diagnosis as blocks: verdict, where, what, the improvement, what remains open.
 
 use crate::diagnose::case::Case;
-use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
-use crate::diagnose::{Adopted, Diagnosis, Estimated, Quality};
+use crate::diagnose::evidence::{Alternative, Slot, State};
+use crate::diagnose::{Adopted, Diagnosis, Estimated, HeldOutQuality, Quality};
+
+use crate::special::chi_squared_sf;
 
 use crate::report::document::Block;
 use crate::report::language::Language;
 use crate::report::number::{NONE, aligned, freedom, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
+use super::open;
 use super::words::{name, name_of_atom, noise, probability, verdict};
 
 /// Cells of the scan that are shown.
@@ -25,8 +28,8 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> 
     blocks.extend(slots(diagnosis, language));
     blocks.extend(improvement(case, diagnosis, language));
     blocks.extend(parameters(diagnosis, language));
-    blocks.extend(rivals(diagnosis, language));
-    blocks.extend(invisible(case, diagnosis, language));
+    blocks.extend(open::lines(diagnosis, language));
+    blocks.extend(open::rivals(diagnosis, language));
     blocks.push(Block::Footer(vec![footer(case, diagnosis, language)]));
     blocks
 }
@@ -49,6 +52,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
             format!("；略去 {n} 行缺值"),
         ),
     };
+    let differences = as_differences(case, language);
     let alarm = diagnosis.examination.levels.first();
     let p = alarm.map_or(NONE.to_owned(), |level| probability(level.p));
     vec![
@@ -58,7 +62,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
         ),
         (
             language.pick("Recording", "记录").into(),
-            recorded + &left_out,
+            recorded + &left_out + &differences,
         ),
         (
             language.pick("Noise", "噪声").into(),
@@ -80,6 +84,20 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
             ),
         ),
     ]
+}
+
+/// Columns whose temperatures count from 0 °C.
+fn as_differences(case: &Case, language: Language) -> String {
+    let names = case.columns.iter().filter(|column| column.as_difference);
+    let names: Vec<&str> = names.map(|column| column.name.as_str()).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    let names = names.join(", ");
+    language.pick(
+        format!("; {names} count from 0 of their scale"),
+        format!("；{names} 以其温标零点为起点"),
+    )
 }
 
 fn located(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
@@ -236,6 +254,7 @@ fn improvement(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Bl
     if let Some(adopted) = &diagnosis.adopted {
         blocks.extend(confirmation(adopted, language));
     }
+    blocks.extend(badly_predicted(case, diagnosis, language));
     blocks
 }
 
@@ -321,6 +340,9 @@ fn qualities(
             cell(after.and_then(|after| after.held_out.get(index).copied())).into(),
         ]);
     }
+    if let Some(held) = &diagnosis.held_out {
+        held_out(&mut table, case, held, language);
+    }
     if !diagnosis.noise.is_estimated() {
         table.push(vec![
             "χ²/ν".into(),
@@ -336,6 +358,63 @@ fn qualities(
             .into(),
     ]);
     table.without_empty_columns()
+}
+
+/// Prediction of the recording that was held out.
+fn held_out(table: &mut Table, case: &Case, held: &HeldOutQuality, language: Language) {
+    let after = held.after.as_ref();
+    for (index, response) in case.responses.iter().enumerate() {
+        let unit = if response.unit.is_one() {
+            String::new()
+        } else {
+            format!(" / {}", response.unit.typeset())
+        };
+        let expected = significant(held.expected[index], 3);
+        let label = language.pick(
+            format!(
+                "error predicting {} (noise {expected}), {}{unit}",
+                held.file, response.name
+            ),
+            format!(
+                "对 {} 的预测误差（噪声 {expected}），{}{unit}",
+                held.file, response.name
+            ),
+        );
+        table.push(vec![
+            label.into(),
+            significant(held.before.rms[index], 3).into(),
+            after
+                .map_or(String::new(), |p| significant(p.rms[index], 3))
+                .into(),
+        ]);
+    }
+    let count = held.observations as f64;
+    table.push(vec![
+        language
+            .pick(
+                format!("χ²/n of that prediction, n = {}", held.observations),
+                format!("该预测的 χ²/n，n = {}", held.observations),
+            )
+            .into(),
+        significant(held.before.chi_squared / count, 3).into(),
+        after
+            .map_or(String::new(), |p| significant(p.chi_squared / count, 3))
+            .into(),
+    ]);
+}
+
+/// A remark where the recording that was held out is predicted worse than the noise allows.
+fn badly_predicted(case: &Case, diagnosis: &Diagnosis, language: Language) -> Option<Block> {
+    let held = diagnosis.held_out.as_ref()?;
+    let best = held.after.as_ref().unwrap_or(&held.before);
+    let p = chi_squared_sf(best.chi_squared, held.observations as f64);
+    let known = !diagnosis.noise.is_estimated();
+    (known && p < case.settings.alpha).then(|| {
+        Block::Paragraph(language.pick(
+            format!("{} is predicted worse than the noise allows (p = {}): its conditions show something that those of the recording do not. Diagnose it too.", held.file, probability(p)),
+            format!("对 {} 的预测误差超出噪声（p = {}）：其条件显示出本记录未显示的影响，请对其也进行诊断。", held.file, probability(p)),
+        ))
+    })
 }
 
 fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
@@ -396,8 +475,13 @@ fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
             if diagnosis.adopted.is_some() { "u" } else { "" },
             ColumnKind::Numbers,
         ),
+        (
+            language.pick("u with unseen", "计入未见影响的 u"),
+            ColumnKind::Numbers,
+        ),
         (language.pick("unit", "单位"), ColumnKind::Names),
     ]);
+    let unseen = diagnosis.u_with_unseen();
     for (index, unknown) in diagnosis.unknowns.iter().take(MOST).enumerate() {
         let after: Option<&Estimated> = diagnosis
             .adopted
@@ -413,100 +497,23 @@ fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
             after
                 .map_or(String::new(), |after| significant(after.u, 2))
                 .into(),
+            unseen
+                .get(index)
+                .map_or(String::new(), |u| significant(*u, 2))
+                .into(),
             unknown.unit.as_str().into(),
         ]);
     }
     vec![
         Block::Section(
             language
-                .pick("What it changes in the result", "对结果的影响")
+                .pick(
+                    "What it changes in the result and its uncertainty",
+                    "对结果及其不确定度的影响",
+                )
                 .into(),
         ),
         Block::Table(table.without_empty_columns()),
-    ]
-}
-
-/// What cannot be told apart, and what would help.
-fn rivals(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
-    let mut sentences = Vec::new();
-    for slot in &diagnosis.examination.slots {
-        for alternative in &slot.named {
-            let Some(rival) = alternative
-                .nearest
-                .as_ref()
-                .filter(|rival| rival.alias || rival.kappa < 4.0)
-            else {
-                continue;
-            };
-            let own = name(&diagnosis.cells[alternative.candidate], language);
-            let other = name(&diagnosis.cells[rival.candidate], language);
-            sentences.push(if rival.alias {
-                language.pick(
-                    format!("{own} and {other} are one in this experiment: no recording of this design tells them apart."),
-                    format!("在此试验中{own}与{other}完全等效：按此设计的任何记录都不能区分。"),
-                )
-            } else {
-                language.pick(
-                    format!("{own} and {other} are hard to tell apart here (κ = {}); about {} times as many rows of the same kind would.", significant(rival.kappa, 2), significant((5.0 / rival.kappa.max(0.1)).powi(2), 2)),
-                    format!("此处{own}与{other}难以区分（κ = {}）；约需 {} 倍的同类数据。", significant(rival.kappa, 2), significant((5.0 / rival.kappa.max(0.1)).powi(2), 2)),
-                )
-            });
-        }
-    }
-    if sentences.is_empty() {
-        return Vec::new();
-    }
-    vec![
-        Block::Section(
-            language
-                .pick(
-                    "What this recording cannot tell apart",
-                    "此记录不能区分的解释",
-                )
-                .into(),
-        ),
-        Block::List(sentences),
-    ]
-}
-
-fn invisible(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
-    /// More are in the JSON.
-    const MOST: usize = 8;
-    let mut names: Vec<String> = Vec::new();
-    for omitted in &diagnosis.omitted {
-        let name = name(&diagnosis.cells[diagnosis.atoms[omitted.atom].0], language);
-        let worst = omitted
-            .gain
-            .iter()
-            .enumerate()
-            .filter(|(_, gain)| gain.is_finite())
-            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        let parameter = worst
-            .and_then(|(at, _)| diagnosis.unknowns.get(at))
-            .map_or("", |unknown| unknown.name.as_str());
-        let sentence = language.pick(
-            format!("{name}: hides in {parameter}"),
-            format!("{name}：隐藏在 {parameter} 中"),
-        );
-        if !names.contains(&sentence) {
-            names.push(sentence);
-        }
-    }
-    let _ = case;
-    if names.is_empty() || diagnosis.examination.verdict == Verdict::None && names.is_empty() {
-        return Vec::new();
-    }
-    names.truncate(MOST);
-    vec![
-        Block::Section(
-            language
-                .pick(
-                    "What this recording cannot show, and what would be absorbed",
-                    "此记录无法显示、会被参数吸收的影响",
-                )
-                .into(),
-        ),
-        Block::List(names),
     ]
 }
 

@@ -4,9 +4,9 @@ use serde_json::{Value, json};
 
 use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
-use crate::diagnose::{Diagnosis, Estimated, Quality};
+use crate::diagnose::{Diagnosis, Estimated, Omitted, Prediction, Quality};
 
-use super::words::{name, name_of_atom, noise, verdict};
+use super::words::{measure, name, name_of_atom, noise, verdict};
 use crate::report::language::Language;
 
 /// Name and version of the format.
@@ -54,12 +54,47 @@ pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
             "parts": adopted.confirmation.parts.iter().map(|(part, value, u)| json!({ "part": part, "value": value, "u": u })).collect::<Vec<_>>(),
             "agreement": adopted.confirmation.agreement,
         })),
-        "invisible": diagnosis.omitted.iter().map(|omitted| json!({
-            "effect": name_of_atom(diagnosis, omitted.atom, language),
-            "id": diagnosis.cells[diagnosis.atoms[omitted.atom].0].effect.id,
-            "gain": diagnosis.unknowns.iter().zip(&omitted.gain).map(|(unknown, gain)| (unknown.name.clone(), finite(*gain))).collect::<serde_json::Map<_, _>>(),
+        "omitted": diagnosis.omitted.iter().map(|line| omitted(diagnosis, line, language)).collect::<Vec<_>>(),
+        "held_out": diagnosis.held_out.as_ref().map(|held| {
+            let prediction = |p: &Prediction| json!({ "rms": p.rms, "chi_squared": finite(p.chi_squared) });
+            json!({
+                "file": held.file,
+                "observations": held.observations,
+                "expected_noise": held.expected,
+                "before": prediction(&held.before),
+                "after": held.after.as_ref().map(prediction),
+            })
+        }),
+        "choices": diagnosis.choices.iter().map(|u| by_unknown(diagnosis, u)).collect::<Vec<_>>(),
+        "u_with_unseen": by_unknown(diagnosis, &diagnosis.u_with_unseen()),
+        "separating": diagnosis.separating.iter().map(|of| json!({
+            "effect": of.slot,
+            "rivals": of.rivals.iter().map(|cell| name(&diagnosis.cells[*cell], language)).collect::<Vec<_>>(),
+            "kappa": finite(of.kappa),
+            "measurements": of.extras.iter().map(|(extra, worth)| json!({
+                "name": measure(&extra.measure, language),
+                "cost": extra.cost,
+                "kappa": finite(worth.kappa),
+                "resolved": finite(worth.resolved),
+                "repeats": finite(worth.repeats),
+            })).collect::<Vec<_>>(),
         })).collect::<Vec<_>>(),
     })
+}
+
+fn omitted(diagnosis: &Diagnosis, line: &Omitted, language: Language) -> Value {
+    let unknowns = diagnosis
+        .unknowns
+        .iter()
+        .map(|unknown| unknown.name.clone());
+    super::open::omitted_json(&diagnosis.cells, line, unknowns.collect(), language)
+}
+
+/// Numbers by the names of the unknowns.
+fn by_unknown(diagnosis: &Diagnosis, values: &[f64]) -> Value {
+    let pairs = diagnosis.unknowns.iter().zip(values);
+    let pairs = pairs.map(|(unknown, value)| (unknown.name.clone(), finite(*value)));
+    Value::Object(pairs.collect())
 }
 
 fn verdict_word(verdict: Verdict) -> &'static str {
@@ -124,13 +159,13 @@ fn quality(quality: &Quality) -> Value {
     })
 }
 
-fn estimates(list: &[Estimated]) -> Vec<Value> {
+pub(super) fn estimates(list: &[Estimated]) -> Vec<Value> {
     list.iter()
         .map(|e| json!({ "name": e.name, "unit": e.unit, "value": e.value, "u": e.u }))
         .collect()
 }
 
 /// A number that JSON can hold.
-fn finite(x: f64) -> Value {
+pub(super) fn finite(x: f64) -> Value {
     if x.is_finite() { json!(x) } else { Value::Null }
 }

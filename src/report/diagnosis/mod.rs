@@ -2,16 +2,19 @@
 
 mod compose;
 mod json;
+mod open;
+mod outlook;
 mod plots;
 mod words;
 
-use crate::diagnose::Diagnosis;
 use crate::diagnose::case::Case;
+use crate::diagnose::{Diagnosis, Outlook};
 
 use super::language::Language;
 use super::text::{Page, draw};
 
 pub use json::{FORMAT, json};
+pub use outlook::{FORMAT as OUTLOOK_FORMAT, json as outlook_json};
 pub use plots::plots;
 
 /// The report for a terminal.
@@ -22,6 +25,16 @@ pub fn text(case: &Case, diagnosis: &Diagnosis, language: Language, page: Page) 
 /// The report as Markdown.
 pub fn markdown(case: &Case, diagnosis: &Diagnosis, language: Language) -> String {
     super::markdown::draw(&compose::blocks(case, diagnosis, language))
+}
+
+/// A plan for a terminal.
+pub fn outlook_text(case: &Case, outlook: &Outlook, language: Language, page: Page) -> String {
+    draw(&outlook::blocks(case, outlook, language), page)
+}
+
+/// A plan as Markdown.
+pub fn outlook_markdown(case: &Case, outlook: &Outlook, language: Language) -> String {
+    super::markdown::draw(&outlook::blocks(case, outlook, language))
 }
 
 pub use words::failure;

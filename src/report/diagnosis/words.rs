@@ -3,7 +3,7 @@
 use crate::diagnose::case::Case;
 use crate::diagnose::catalogue::{Cell, Text};
 use crate::diagnose::evidence::{Refusal, Slot, State, Verdict};
-use crate::diagnose::{Claimed, Diagnosis, Failure, NoFit, Origin};
+use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
 
 use crate::report::language::Language;
 use crate::report::number::{freedom, significant};
@@ -18,6 +18,15 @@ impl Language {
 /// The name of a candidate with its columns in it.
 pub(super) fn name(cell: &Cell, language: Language) -> String {
     cell.words.fill(language.of(&cell.effect.name))
+}
+
+/// The name, and what distinguishes a cell whose only variant has a label: the harmonic of an angle.
+pub(super) fn full_name(cell: &Cell, language: Language) -> String {
+    let name = name(cell, language);
+    match cell.variants.as_slice() {
+        [only] if !only.label.is_empty() => format!("{name} ({})", only.label),
+        _ => name,
+    }
 }
 
 /// The name, and what distinguishes the variant.
@@ -97,10 +106,12 @@ pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
         String::new()
     };
     let text = match &claimed.origin {
-        Origin::Estimated => language.pick(
-            "estimated from the residuals".to_owned(),
-            "由残差估计".to_owned(),
-        ),
+        Origin::Estimated => {
+            language
+                .pick("estimated from the residuals", "由残差估计")
+                .to_owned()
+                + &growth(claimed, language)
+        }
         Origin::Case => language.pick(
             "as stated in the case".to_owned(),
             "由案例文件给出".to_owned(),
@@ -121,6 +132,61 @@ pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
         ),
     };
     text + &dof
+}
+
+/// A further measurement as a phrase.
+pub(super) fn measure(measure: &Measure, language: Language) -> String {
+    match measure {
+        Measure::Own(name) => name.clone(),
+        Measure::Again => language
+            .pick("the same once more", "原样重复一次")
+            .to_owned(),
+        Measure::Reversed => language
+            .pick(
+                "the same once more, in reversed order",
+                "按相反顺序重复一次",
+            )
+            .to_owned(),
+        Measure::Set { column, value } => language.pick(
+            format!("the same once more with {column} at {value}"),
+            format!("将 {column} 设为 {value} 后重复一次"),
+        ),
+        Measure::Between { column } => language.pick(
+            format!("the same once more with {column} half way between its values"),
+            format!("将 {column} 取在原有各值的中间后重复一次"),
+        ),
+        Measure::Opposite { column } => language.pick(
+            format!("the same once more while {column} varies twice as much in the opposite sense"),
+            format!("使 {column} 反向并以两倍幅度变化时重复一次"),
+        ),
+        Measure::Exchanged { column } => language.pick(
+            format!("the same once more with each {column} in the place of the next"),
+            format!("将各 {column} 依次互换后重复一次"),
+        ),
+    }
+}
+
+/// How estimated noise grows with the reading, if it does for any response.
+fn growth(claimed: &Claimed, language: Language) -> String {
+    let grows: Vec<String> = claimed
+        .growth
+        .iter()
+        .flatten()
+        .map(|growth| {
+            format!(
+                "u² = {}² + ({} % · y)²",
+                significant(growth.constant, 2),
+                significant(100.0 * growth.proportional, 2)
+            )
+        })
+        .collect();
+    if grows.is_empty() {
+        return String::new();
+    }
+    language
+        .pick(", growing with the reading: ", "，随示值增大：")
+        .to_owned()
+        + &grows.join("; ")
 }
 
 /// Probability of a false alarm in words.

@@ -9,14 +9,12 @@ use super::understood::{
     AnalysisJson, ComponentJson, ConstantJson, Conventions, GroupJson, Heading, InputJson,
     TakenJson,
 };
-use crate::budget::{Adaptive, Law};
-use crate::propagate::{Quasi, Run, SobolIndex};
+use crate::budget::{Adaptive, NamedFigure, Remark};
+use crate::propagate::{Finding, Quasi, Run, SobolIndex};
 use crate::report::indices::names;
-use crate::report::{Report, analyses, language::Language, remarks, schema::record, statement};
+use crate::report::{Report, language::Language, remarks, schema::record, statement};
 
-use super::{
-    FORMAT, Number, claims, decisions, fits, joint, matrix, number, numbers, result, understood,
-};
+use super::{FORMAT, Number, claims, decisions, fits, joint, number, numbers, result, understood};
 
 record! {
     /// One evaluated budget.
@@ -198,20 +196,11 @@ impl<'a> Document<'a> {
     pub(super) fn new(report: &Report<'a>) -> Self {
         let budget = report.budget;
         let evaluation = report.evaluation;
-        let heading = &budget.heading;
         Document {
             format: FORMAT,
             generator: format!("gumption {}", env!("CARGO_PKG_VERSION")),
             label: report.label,
-            heading: Heading {
-                title: &heading.title,
-                method: heading.method.as_deref(),
-                object: heading.object.as_deref(),
-                author: heading.author.as_deref(),
-                date: heading.date.as_deref(),
-                reference: heading.reference.as_deref(),
-                note: heading.note.as_deref(),
-            },
+            heading: understood::heading(&budget.heading),
             conventions: understood::conventions(&budget.conventions),
             measurands: evaluation
                 .results
@@ -225,72 +214,17 @@ impl<'a> Document<'a> {
                 .iter()
                 .map(|c| understood::component(c, &budget.inputs))
                 .collect(),
-            correlated: budget
-                .groups
-                .iter()
-                .map(|g| GroupJson {
-                    members: g.members.iter().map(|m| *m as u64).collect(),
-                    correlation: matrix(&g.correlation),
-                    law: match g.law {
-                        Law::Normal => "normal",
-                        Law::StudentT { .. } => "t",
-                        Law::GaussianCopula { .. } => "gaussian-copula",
-                    }
-                    .to_string(),
-                    degrees_of_freedom: g.dof.map(Number),
-                })
-                .collect(),
-            analyses: budget
-                .analyses
-                .iter()
-                .map(|analysis| {
-                    let (kind, verdicts) = analyses::codes(&analysis.found);
-                    AnalysisJson {
-                        component: &analysis.name,
-                        kind,
-                        verdicts,
-                    }
-                })
-                .collect(),
-            taken_results: budget
-                .chain
-                .taken
-                .iter()
-                .map(|taken| TakenJson {
-                    name: &taken.input,
-                    file: &taken.file,
-                    row: taken.row.as_deref(),
-                    measurand: &taken.measurand,
-                    title: &taken.title,
-                    equation: taken.equation.as_deref(),
-                })
-                .collect(),
-            constants: budget
-                .constants
-                .iter()
-                .map(|c| ConstantJson {
-                    name: &c.name,
-                    values: numbers(&c.values),
-                    unit: &c.unit.symbol,
-                    description: c.description.as_deref(),
-                    reference: c.reference.as_deref(),
-                })
-                .collect(),
+            correlated: budget.groups.iter().map(understood::group).collect(),
+            analyses: budget.analyses.iter().map(understood::analysis).collect(),
+            taken_results: budget.chain.taken.iter().map(understood::taken).collect(),
+            constants: budget.constants.iter().map(understood::constant).collect(),
             fits: budget.fits.iter().map(fits::fit).collect(),
             joint: evaluation.joint.as_ref().map(joint::joint),
             monte_carlo_run: evaluation.run.as_ref().map(run),
             sensitivity_indices: sensitivity(report),
             conformity: decisions::conformity(report),
             detection: decisions::detection(report),
-            figures: evaluation
-                .figures
-                .iter()
-                .map(|f| FigureJson {
-                    name: &f.name,
-                    value: number(f.value),
-                    unit: &f.unit.symbol,
-                })
-                .collect(),
+            figures: evaluation.figures.iter().map(figure).collect(),
             claims: budget
                 .claims
                 .iter()
@@ -300,31 +234,48 @@ impl<'a> Document<'a> {
             findings: evaluation
                 .findings
                 .iter()
-                .map(|f| FindingJson {
-                    measurand: f.measurand.map(|m| report.measurand(m).0.to_string()),
-                    kind: remarks::code(&f.kind).to_string(),
-                    message: remarks::finding_sentence(report, f.measurand, &f.kind),
-                })
+                .map(|f| finding(report, f))
                 .collect(),
-            remarks: budget
-                .remarks
-                .iter()
-                .map(|r| RemarkJson {
-                    en: &r.en,
-                    zh: &r.zh,
-                })
-                .collect(),
-            statement: StatementJson {
-                en: statement(&Report {
-                    language: Language::English,
-                    ..*report
-                }),
-                zh: statement(&Report {
-                    language: Language::Chinese,
-                    ..*report
-                }),
-            },
+            remarks: budget.remarks.iter().map(remark).collect(),
+            statement: in_both_languages(report),
         }
+    }
+}
+
+fn figure(figure: &NamedFigure) -> FigureJson<'_> {
+    FigureJson {
+        name: &figure.name,
+        value: number(figure.value),
+        unit: &figure.unit.symbol,
+    }
+}
+
+fn finding(report: &Report<'_>, found: &Finding) -> FindingJson {
+    let measurand = found.measurand;
+    FindingJson {
+        measurand: measurand.map(|m| report.measurand(m).0.to_string()),
+        kind: remarks::code(&found.kind).to_string(),
+        message: remarks::finding_sentence(report, measurand, &found.kind),
+    }
+}
+
+fn remark(remark: &Remark) -> RemarkJson<'_> {
+    RemarkJson {
+        en: &remark.en,
+        zh: &remark.zh,
+    }
+}
+
+fn in_both_languages(report: &Report<'_>) -> StatementJson {
+    let sentences = |language| {
+        statement(&Report {
+            language,
+            ..*report
+        })
+    };
+    StatementJson {
+        en: sentences(Language::English),
+        zh: sentences(Language::Chinese),
     }
 }
 

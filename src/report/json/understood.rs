@@ -1,10 +1,13 @@
 //! The budget as it was understood: heading, conventions, inputs and their components.
 
-use super::{Number, number, numbers};
+use super::{Number, matrix, number, numbers};
+use crate::budget::chain::TakenResult;
 use crate::budget::{
-    Component, CoverageRule, DofRule, Evaluation as Kind, Input, OutputShape, Owner, TScale,
+    Analysis, Component, Constant, CoverageRule, DofRule, Evaluation as Kind, Group, Input, Law,
+    OutputShape, Owner, TScale,
 };
 use crate::quantity::Rounding;
+use crate::report::analyses;
 use crate::report::schema::record;
 use serde_json::Value;
 
@@ -196,6 +199,18 @@ record! {
     }
 }
 
+pub(super) fn heading(stated: &crate::budget::Heading) -> Heading<'_> {
+    Heading {
+        title: &stated.title,
+        method: stated.method.as_deref(),
+        object: stated.object.as_deref(),
+        author: stated.author.as_deref(),
+        date: stated.date.as_deref(),
+        reference: stated.reference.as_deref(),
+        note: stated.note.as_deref(),
+    }
+}
+
 pub(super) fn conventions(c: &crate::budget::Conventions) -> Conventions<'_> {
     Conventions {
         profile: &c.profile,
@@ -339,5 +354,49 @@ fn parameters(distribution: &crate::distribution::Distribution) -> Value {
             serde_json::json!({ "values": numbers(values), "probabilities": numbers(probabilities) })
         }
         D::Empirical { sample } => serde_json::json!({ "sample": numbers(sample) }),
+    }
+}
+
+pub(super) fn group(group: &Group) -> GroupJson {
+    let law = match group.law {
+        Law::Normal => "normal",
+        Law::StudentT { .. } => "t",
+        Law::GaussianCopula { .. } => "gaussian-copula",
+    };
+    GroupJson {
+        members: group.members.iter().map(|m| *m as u64).collect(),
+        correlation: matrix(&group.correlation),
+        law: law.to_string(),
+        degrees_of_freedom: group.dof.map(Number),
+    }
+}
+
+pub(super) fn analysis(analysis: &Analysis) -> AnalysisJson<'_> {
+    let (kind, verdicts) = analyses::codes(&analysis.found);
+    AnalysisJson {
+        component: &analysis.name,
+        kind,
+        verdicts,
+    }
+}
+
+pub(super) fn taken(taken: &TakenResult) -> TakenJson<'_> {
+    TakenJson {
+        name: &taken.input,
+        file: &taken.file,
+        row: taken.row.as_deref(),
+        measurand: &taken.measurand,
+        title: &taken.title,
+        equation: taken.equation.as_deref(),
+    }
+}
+
+pub(super) fn constant(constant: &Constant) -> ConstantJson<'_> {
+    ConstantJson {
+        name: &constant.name,
+        values: numbers(&constant.values),
+        unit: &constant.unit.symbol,
+        description: constant.description.as_deref(),
+        reference: constant.reference.as_deref(),
     }
 }

@@ -35,6 +35,18 @@ pub(super) struct Column<'f> {
     pub place: Range<usize>,
 }
 
+impl Column<'_> {
+    /// A component of one value, under the name that the column has in messages.
+    fn context<'c>(&'c self, name: &'c str, entry: &Entry<'_>, element: usize) -> Context<'c> {
+        Context {
+            owner: name,
+            value: Some(self.values[element]),
+            unit: &self.unit,
+            place: entry.place.clone(),
+        }
+    }
+}
+
 /// Why a column is in doubt.
 pub(super) struct ColumnErrors {
     /// Errors of the single values.
@@ -167,74 +179,21 @@ impl Checker<'_> {
         register: &mut Register,
     ) -> Option<ColumnErrors> {
         let table = column.table;
-        let n = column.values.len();
-        let mut variance = vec![0.0; n];
-        let mut known = false;
-        let mut common = Vec::new();
-        let bare = table.components.is_none() && table.component.present.is_empty();
-        if !bare {
-            let name = format!("{owner}.{}", column.name);
-            let before = self.faults.len();
-            let list = self.ways(
-                &name,
-                &table.components,
-                &table.component,
-                &column.place,
-                &column.unit,
-            )?;
-            let mut drafts: Vec<(Draft, Vec<f64>)> = Vec::new();
-            for entry in &list {
-                match self.fit_cause(&name, entry, column, register) {
-                    Some(Cause::Independent(u)) => {
-                        known = true;
-                        for (sum, u) in variance.iter_mut().zip(u) {
-                            *sum += u * u;
-                        }
-                    }
-                    Some(Cause::Common(draft, coefficients)) => drafts.push((*draft, coefficients)),
-                    Some(Cause::Shared(causes)) => common.extend(causes),
-                    None => {}
-                }
-            }
-            if self.faults.len() > before {
-                return None;
-            }
-            common.extend(self.enter_common(&name, column, drafts, register));
-        }
-        if table.component.present.is_empty() {
-            // Nothing stands beside the matrix or the weights but further reasons.
-        } else if let Some(key) = table
-            .covariance
-            .as_ref()
-            .map(|stated| ("covariance", &stated.key))
-            .or(table
-                .weights
-                .as_ref()
-                .map(|stated| ("weights", &stated.key)))
-        {
-            let (own, span) = &table.component.present[0];
-            return self.refuse(
-                Fault::new(
-                    TWO_WAYS,
-                    key.1.clone(),
-                    format!("the uncertainty of {} is stated twice, by `{own}` and by `{}`", column.name, key.0),
-                )
-                .label("stated again here")
-                .related(span.clone(), "first stated here")
-                .help(format!(
-                    "keep one; another reason for doubt stands in components = [{{ name = \"…\", {own} = … }}]"
-                )),
-            );
+        let mut errors = Independent {
+            variance: vec![0.0; column.values.len()],
+            known: false,
+        };
+        let common = self.causes_of(owner, column, &mut errors, register)?;
+        if let Some(fault) = stated_twice(column) {
+            return self.refuse(fault);
         }
         if let Some(weights) = &table.weights {
-            known = true;
-            for (sum, v) in variance.iter_mut().zip(self.fit_weights(column, weights)?) {
-                *sum += v;
-            }
+            errors.add(self.fit_weights(column, weights)?);
         }
+        let Independent { variance, known } = errors;
         let spread = match &table.covariance {
             Some(covariance) => {
-                let mut matrix = self.symmetric(covariance, n, "values")?;
+                let mut matrix = self.symmetric(covariance, variance.len(), "values")?;
                 for (i, v) in variance.iter().enumerate() {
                     matrix[(i, i)] += v;
                 }
@@ -244,6 +203,44 @@ impl Checker<'_> {
             None => Spread::Exact,
         };
         Some(ColumnErrors { spread, common })
+    }
+
+    /// The components of a column: independent ones are added to `errors`, the others are entered.
+    fn causes_of(
+        &mut self,
+        owner: &str,
+        column: &Column<'_>,
+        errors: &mut Independent,
+        register: &mut Register,
+    ) -> Option<Vec<Common>> {
+        let table = column.table;
+        if table.components.is_none() && table.component.present.is_empty() {
+            return Some(Vec::new());
+        }
+        let name = format!("{owner}.{}", column.name);
+        let before = self.faults.len();
+        let list = self.ways(
+            &name,
+            &table.components,
+            &table.component,
+            &column.place,
+            &column.unit,
+        )?;
+        let mut common = Vec::new();
+        let mut drafts: Vec<(Draft, Vec<f64>)> = Vec::new();
+        for entry in &list {
+            match self.fit_cause(&name, entry, column, register) {
+                Some(Cause::Independent(u)) => errors.add(u.into_iter().map(|u| u * u).collect()),
+                Some(Cause::Common(draft, coefficients)) => drafts.push((*draft, coefficients)),
+                Some(Cause::Shared(causes)) => common.extend(causes),
+                None => {}
+            }
+        }
+        if self.faults.len() > before {
+            return None;
+        }
+        common.extend(self.enter_common(&name, column, drafts, register));
+        Some(common)
     }
 
     /// Variances 1/w.
@@ -299,14 +296,12 @@ impl Checker<'_> {
             return self.fit_source(name, entry, column, register);
         }
         if locates(entry.way) && !single(entry.table) && entry.way != Way::Distribution {
+            let message =
+                format!("this component would state one estimate for all values of {name}");
             return self.refuse(
-                Fault::new(
-                    VECTOR,
-                    entry.place.clone(),
-                    format!("this component would state one estimate for all values of {name}"),
-                )
-                .label("not for a column")
-                .help("state a deviation: `u`, `half_width`, `step` …"),
+                Fault::new(VECTOR, entry.place.clone(), message)
+                    .label("not for a column")
+                    .help("state a deviation: `u`, `half_width`, `step` …"),
             );
         }
         let listed = self.with_columns(entry.table);
@@ -316,38 +311,7 @@ impl Checker<'_> {
             place: entry.place.clone(),
         };
         self.one_for_each(name, entry.table, column.values.len())?;
-        let relative = self.acts_in_proportion(entry, &column.unit);
-        let mut first: Option<Draft> = None;
-        let mut u = Vec::new();
-        for (element, value) in column.values.iter().enumerate() {
-            // A fraction of zero is zero.
-            if relative && *value == 0.0 {
-                u.push(0.0);
-                continue;
-            }
-            let context = Context {
-                owner: name,
-                value: Some(*value),
-                unit: &column.unit,
-                place: entry.place.clone(),
-            };
-            let draft = match of_element(entry.table, element) {
-                Some(table) => self.draft(&table, entry.way, &context)?,
-                None => self.draft(entry.table, entry.way, &context)?,
-            };
-            if !matches!(draft.location, Location::None | Location::Mean(_)) {
-                return self.refuse(
-                    Fault::new(
-                        VECTOR,
-                        entry.place.clone(),
-                        format!("this component would move the values of {name}"),
-                    )
-                    .label("only symmetric deviations for a column"),
-                );
-            }
-            u.push(draft.u * if relative { value.signum() } else { 1.0 });
-            first.get_or_insert(draft);
-        }
+        let (u, first) = self.value_errors(name, entry, column)?;
         let Some(first) = first else {
             return Some(Cause::Independent(u));
         };
@@ -370,6 +334,41 @@ impl Checker<'_> {
         Some(Cause::Independent(u.into_iter().map(f64::abs).collect()))
     }
 
+    /// Standard uncertainties of the values, with the sign of the value where they are fractions of it;
+    /// and the first of the components.
+    fn value_errors(
+        &mut self,
+        name: &str,
+        entry: &Entry<'_>,
+        column: &Column<'_>,
+    ) -> Option<(Vec<f64>, Option<Draft>)> {
+        let relative = self.acts_in_proportion(entry, &column.unit);
+        let mut first: Option<Draft> = None;
+        let mut u = Vec::new();
+        for (element, value) in column.values.iter().enumerate() {
+            // A fraction of zero is zero.
+            if relative && *value == 0.0 {
+                u.push(0.0);
+                continue;
+            }
+            let context = column.context(name, entry, element);
+            let draft = match of_element(entry.table, element) {
+                Some(table) => self.draft(&table, entry.way, &context)?,
+                None => self.draft(entry.table, entry.way, &context)?,
+            };
+            if !matches!(draft.location, Location::None | Location::Mean(_)) {
+                let message = format!("this component would move the values of {name}");
+                return self.refuse(
+                    Fault::new(VECTOR, entry.place.clone(), message)
+                        .label("only symmetric deviations for a column"),
+                );
+            }
+            u.push(draft.u * if relative { value.signum() } else { 1.0 });
+            first.get_or_insert(draft);
+        }
+        Some((u, first))
+    }
+
     /// A shared cause that acts on every value.
     fn fit_source(
         &mut self,
@@ -379,13 +378,8 @@ impl Checker<'_> {
         register: &mut Register,
     ) -> Option<Cause> {
         let mut causes: Vec<Common> = Vec::new();
-        for (element, value) in column.values.iter().enumerate() {
-            let context = Context {
-                owner: name,
-                value: Some(*value),
-                unit: &column.unit,
-                place: entry.place.clone(),
-            };
+        for element in 0..column.values.len() {
+            let context = column.context(name, entry, element);
             for piece in self.shared_pieces(entry, &context, register)? {
                 let Piece::Shared {
                     component,
@@ -451,4 +445,43 @@ enum Cause {
     Common(Box<Draft>, Vec<f64>),
     /// `[source.NAME]`s, entered already.
     Shared(Vec<Common>),
+}
+
+/// Errors of the single values, summed in quadrature.
+struct Independent {
+    variance: Vec<f64>,
+    /// Whether any were stated.
+    known: bool,
+}
+
+impl Independent {
+    fn add(&mut self, variance: Vec<f64>) {
+        self.known = true;
+        for (sum, v) in self.variance.iter_mut().zip(variance) {
+            *sum += v;
+        }
+    }
+}
+
+/// A covariance matrix or weights beside another statement of the uncertainty.
+fn stated_twice(column: &Column<'_>) -> Option<Fault> {
+    let table = column.table;
+    let (own, first) = table.component.present.first()?;
+    let covariance = table.covariance.as_ref();
+    let weights = table.weights.as_ref();
+    let (key, again) = covariance
+        .map(|stated| ("covariance", &stated.key))
+        .or(weights.map(|stated| ("weights", &stated.key)))?;
+    let message = format!(
+        "the uncertainty of {} is stated twice, by `{own}` and by `{key}`",
+        column.name
+    );
+    Some(
+        Fault::new(TWO_WAYS, again.clone(), message)
+            .label("stated again here")
+            .related(first.clone(), "first stated here")
+            .help(format!(
+                "keep one; another reason for doubt stands in components = [{{ name = \"…\", {own} = … }}]"
+            )),
+    )
 }

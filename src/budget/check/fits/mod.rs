@@ -32,7 +32,7 @@ use crate::model::Model;
 use crate::quantity::Unit;
 
 use columns::ColumnErrors;
-use formula::Parameter;
+use formula::{Parameter, Scope};
 
 pub(super) use residual::Scatter;
 
@@ -82,7 +82,14 @@ impl Checker<'_> {
             self.hidden_names = true;
             return None;
         };
-        let formula = match self.fit_formula(name, stated, &columns, constants, file) {
+        let scope = Scope {
+            name,
+            stated,
+            columns: &columns,
+            constants,
+            file,
+        };
+        let formula = match self.fit_formula(&scope) {
             Ok(formula) => formula,
             Err(parameters) => {
                 self.hidden_names |= parameters.is_empty();

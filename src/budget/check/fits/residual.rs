@@ -4,6 +4,7 @@ use super::super::Checker;
 use super::super::draft::{Context, Core, show};
 use super::Fitted;
 use crate::budget::faults::{MODIFIER, RESIDUAL_OF, UNIT_CLASH, UNKNOWN_NAME};
+use crate::budget::table::Stated;
 use crate::budget::tables::ComponentTable;
 use crate::budget::variants::ReadingsOf;
 use crate::fault::{Fault, nearest};
@@ -72,86 +73,24 @@ impl Checker<'_> {
         context: &Context<'_>,
     ) -> Option<Core> {
         let stated = table.residual_of.as_ref()?;
-        let owner = context.owner;
-        let Some(scatter) = self
-            .fit_named(table)
-            .map(|index| self.scatters[index].clone())
-        else {
-            let known: Vec<&str> = self.scatters.iter().map(|s| s.fit.as_str()).collect();
-            let help = match nearest(&stated.value, known.iter().copied()) {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None if known.is_empty() => format!("declare it: [fit.{}]", stated.value),
-                None => format!("fits: {}", known.join(", ")),
-            };
-            return self.refuse(
-                Fault::new(
-                    UNKNOWN_NAME,
-                    stated.span.clone(),
-                    format!("there is no fit \"{}\"", stated.value),
-                )
-                .label("not declared")
-                .help(help),
-            );
+        let Some(index) = self.fit_named(table) else {
+            let fault = self.no_such_fit(stated);
+            return self.refuse(fault);
         };
+        let scatter = self.scatters[index].clone();
         if scatter.refused {
             return None;
         }
         let Some((s, dof, unit)) = scatter.known else {
-            return self.refuse(
-                Fault::new(
-                    RESIDUAL_OF,
-                    stated.span.clone(),
-                    format!(
-                        "the data of the fit {} have uncertainties of their own",
-                        scatter.fit
-                    ),
-                )
-                .label("its residuals do not stand for the scatter of a reading")
-                .help(format!(
-                    "state the uncertainty of {owner} as that of the data: u = …"
-                )),
-            );
+            return self.refuse(own_uncertainties(&scatter.fit, stated, context.owner));
         };
-        let m = match table.of.as_ref().map(|of| (of.value, of)) {
-            None | Some((ReadingsOf::Single, _)) => 1.0,
-            Some((ReadingsOf::Several(count), _)) => count as f64,
-            Some((ReadingsOf::Mean, of)) => {
-                return self.refuse(
-                    Fault::new(
-                        MODIFIER,
-                        of.span.clone(),
-                        format!("it is not stated how many readings {owner} is the mean of"),
-                    )
-                    .label("of how many?")
-                    .help("write `of = 3` for the mean of three, or leave it out for a single reading"),
-                );
-            }
-        };
+        let m = self.mean_of(table, context.owner)?;
         let Some(conversion) = unit.conversion_to(&context.unit.difference()) else {
-            return self.refuse(
-                Fault::new(
-                    UNIT_CLASH,
-                    stated.span.clone(),
-                    format!(
-                        "the fit {} scatters in {}, {owner} is in {}",
-                        scatter.fit, unit.symbol, context.unit.symbol
-                    ),
-                )
-                .label("units do not fit")
-                .help("the scatter is that of the column on the left of the formula"),
-            );
+            return self.refuse(other_unit(&scatter.fit, &unit, stated, context));
         };
         let u = s * conversion.factor / m.sqrt();
         if u == 0.0 {
-            return self.refuse(
-                Fault::new(
-                    RESIDUAL_OF,
-                    stated.span.clone(),
-                    format!("the fit {} passes through all its points", scatter.fit),
-                )
-                .label("no scatter")
-                .help("state the resolution of the readings: { step = … }"),
-            );
+            return self.refuse(no_scatter(&scatter.fit, stated));
         }
         let root = if m == 1.0 {
             "s".to_string()
@@ -164,4 +103,62 @@ impl Checker<'_> {
         core.dof = dof;
         Some(core)
     }
+
+    /// Of how many readings a value is the mean.
+    fn mean_of(&mut self, table: &ComponentTable, owner: &str) -> Option<f64> {
+        let Some(of) = &table.of else {
+            return Some(1.0);
+        };
+        match of.value {
+            ReadingsOf::Single => Some(1.0),
+            ReadingsOf::Several(count) => Some(count as f64),
+            ReadingsOf::Mean => {
+                let message = format!("it is not stated how many readings {owner} is the mean of");
+                self.refuse(
+                    Fault::new(MODIFIER, of.span.clone(), message)
+                        .label("of how many?")
+                        .help("write `of = 3` for the mean of three, or leave it out for a single reading"),
+                )
+            }
+        }
+    }
+
+    fn no_such_fit(&self, stated: &Stated<String>) -> Fault {
+        let known: Vec<&str> = self.scatters.iter().map(|s| s.fit.as_str()).collect();
+        let help = match nearest(&stated.value, known.iter().copied()) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None if known.is_empty() => format!("declare it: [fit.{}]", stated.value),
+            None => format!("fits: {}", known.join(", ")),
+        };
+        let message = format!("there is no fit \"{}\"", stated.value);
+        Fault::new(UNKNOWN_NAME, stated.span.clone(), message)
+            .label("not declared")
+            .help(help)
+    }
+}
+
+fn own_uncertainties(fit: &str, stated: &Stated<String>, owner: &str) -> Fault {
+    let message = format!("the data of the fit {fit} have uncertainties of their own");
+    Fault::new(RESIDUAL_OF, stated.span.clone(), message)
+        .label("its residuals do not stand for the scatter of a reading")
+        .help(format!(
+            "state the uncertainty of {owner} as that of the data: u = …"
+        ))
+}
+
+fn other_unit(fit: &str, unit: &Unit, stated: &Stated<String>, context: &Context<'_>) -> Fault {
+    let message = format!(
+        "the fit {fit} scatters in {}, {} is in {}",
+        unit.symbol, context.owner, context.unit.symbol
+    );
+    Fault::new(UNIT_CLASH, stated.span.clone(), message)
+        .label("units do not fit")
+        .help("the scatter is that of the column on the left of the formula")
+}
+
+fn no_scatter(fit: &str, stated: &Stated<String>) -> Fault {
+    let message = format!("the fit {fit} passes through all its points");
+    Fault::new(RESIDUAL_OF, stated.span.clone(), message)
+        .label("no scatter")
+        .help("state the resolution of the readings: { step = … }")
 }

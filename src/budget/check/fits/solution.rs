@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::super::Checker;
 use super::super::register::Register;
 use super::columns::{Column, ColumnErrors, Common};
+use super::failures::Unsolved;
 use super::formula::Formula;
 use crate::budget::faults::{FIT_COLUMNS, FIT_ERRORS};
 use crate::budget::fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest};
@@ -76,7 +77,15 @@ impl Checker<'_> {
         };
         let mut solution = match least_squares::solve(&problem) {
             Ok(solution) => solution,
-            Err(failure) => return self.fit_failure(name, stated, formula, columns, &failure),
+            Err(failure) => {
+                let unsolved = Unsolved {
+                    name,
+                    stated,
+                    formula,
+                    columns,
+                };
+                return self.refuse(unsolved.fault(&failure));
+            }
         };
         if !weighted && solution.residual_sd <= NOISE * problem.y.amax() {
             solution.covariance.fill(0.0);
@@ -246,34 +255,8 @@ impl Solved {
         first: usize,
         register: &mut Register,
     ) -> Fit {
-        let solution = self.solution;
-        let u: Vec<f64> = solution
-            .covariance
-            .diagonal()
-            .iter()
-            .map(|v| v.max(0.0).sqrt())
-            .collect();
-        for (place, estimate) in solution.parameters.iter().enumerate() {
-            if let Some(input) = register.inputs.get_mut(first + place) {
-                input.estimate = *estimate;
-            }
-        }
-        for (component, actions) in &self.causes {
-            for (place, action) in actions.iter().enumerate() {
-                // What the arithmetic leaves of zero is no action.
-                let size = actions.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
-                if action.abs() > 1e-14 * size {
-                    register.act(first + place, *component, *action);
-                }
-            }
-        }
-        let combined = |place: usize| {
-            let causes = self.causes.iter().map(|(component, actions)| {
-                let u = register.components.get(*component).map_or(0.0, |c| c.u);
-                (u * actions[place]).powi(2)
-            });
-            (u[place].powi(2) + causes.sum::<f64>()).sqrt()
-        };
+        self.enter_estimates(first, register);
+        let u = self.standard_uncertainties();
         let parameters: Vec<FitParameter> = formula
             .parameters
             .iter()
@@ -282,41 +265,25 @@ impl Solved {
                 name: parameter.name.clone(),
                 description: parameter.description.clone(),
                 unit: register.inputs[first + place].unit.clone(),
-                estimate: solution.parameters[place],
+                estimate: self.solution.parameters[place],
                 u: u[place],
-                combined_u: combined(place),
+                combined_u: self.combined(place, u[place], register),
                 input: first + place,
             })
             .collect();
-        let correlation = DMatrix::from_fn(u.len(), u.len(), |i, j| {
-            if i == j || u[i] * u[j] == 0.0 {
-                f64::from(u8::from(i == j))
-            } else {
-                (solution.covariance[(i, j)] / (u[i] * u[j])).clamp(-1.0, 1.0)
-            }
-        });
-        let columns = columns.iter().enumerate().map(|(index, column)| FitColumn {
-            name: column.name.to_string(),
-            description: column
-                .table
-                .description
-                .as_ref()
-                .map(|text| text.value.clone()),
-            unit: column.unit.clone(),
-            values: column.values.clone(),
-            u: self.u[index].clone(),
-            common: self.common[index]
-                .iter()
-                .filter_map(|component| Some(register.components.get(*component)?.name.clone()))
-                .collect(),
-        });
+        let columns = columns.iter().zip(&self.u).zip(&self.common);
+        let columns = columns
+            .map(|((column, u), common)| fit_column(column, u.clone(), common, register))
+            .collect();
+        let correlation = correlation(&self.solution.covariance, &u);
+        let solution = self.solution;
         let text = |stated: &Option<Stated<String>>| stated.as_ref().map(|text| text.value.clone());
         Fit {
             name: name.to_string(),
             description: text(&stated.value.description),
             reference: text(&stated.value.reference),
             equation: formula.equation.clone(),
-            columns: columns.collect(),
+            columns,
             parameters,
             correlation,
             stated: self.scale == Scale::Stated,
@@ -335,5 +302,70 @@ impl Solved {
             adjusted: solution.adjusted_x,
             covariance: solution.covariance,
         }
+    }
+
+    /// Gives the parameters their estimates and the action of common causes.
+    fn enter_estimates(&self, first: usize, register: &mut Register) {
+        for (place, estimate) in self.solution.parameters.iter().enumerate() {
+            if let Some(input) = register.inputs.get_mut(first + place) {
+                input.estimate = *estimate;
+            }
+        }
+        for (component, actions) in &self.causes {
+            let size = actions.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+            for (place, action) in actions.iter().enumerate() {
+                // What the arithmetic leaves of zero is no action.
+                if action.abs() > 1e-14 * size {
+                    register.act(first + place, *component, *action);
+                }
+            }
+        }
+    }
+
+    /// Of the parameters, from the fit alone.
+    fn standard_uncertainties(&self) -> Vec<f64> {
+        let variances = self.solution.covariance.diagonal();
+        variances.iter().map(|v| v.max(0.0).sqrt()).collect()
+    }
+
+    /// Standard uncertainty of a parameter with the common causes.
+    fn combined(&self, place: usize, u: f64, register: &Register) -> f64 {
+        let causes = self.causes.iter().map(|(component, actions)| {
+            let u = register.components.get(*component).map_or(0.0, |c| c.u);
+            (u * actions[place]).powi(2)
+        });
+        (u.powi(2) + causes.sum::<f64>()).sqrt()
+    }
+}
+
+/// Correlation coefficients; none for parameters that are exact.
+fn correlation(covariance: &DMatrix<f64>, u: &[f64]) -> DMatrix<f64> {
+    DMatrix::from_fn(u.len(), u.len(), |i, j| {
+        if i == j || u[i] * u[j] == 0.0 {
+            f64::from(u8::from(i == j))
+        } else {
+            (covariance[(i, j)] / (u[i] * u[j])).clamp(-1.0, 1.0)
+        }
+    })
+}
+
+/// A column for the report, with the names of its common causes.
+fn fit_column(
+    column: &Column<'_>,
+    u: Option<Vec<f64>>,
+    common: &[usize],
+    register: &Register,
+) -> FitColumn {
+    let description = column.table.description.as_ref();
+    FitColumn {
+        name: column.name.to_string(),
+        description: description.map(|text| text.value.clone()),
+        unit: column.unit.clone(),
+        values: column.values.clone(),
+        u,
+        common: common
+            .iter()
+            .filter_map(|component| Some(register.components.get(*component)?.name.clone()))
+            .collect(),
     }
 }

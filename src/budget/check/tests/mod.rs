@@ -1,0 +1,139 @@
+//! Checks of whole small files; published numbers where there are any.
+
+mod correlations;
+mod faults;
+mod type_a;
+mod ways;
+
+use std::path::Path;
+
+use crate::budget::{Budget, Figure, Law, Rejection, TScale, read};
+use crate::distribution::Distribution;
+
+fn refused(text: &str) -> Rejection {
+    read(text, "budget.toml", Path::new("")).expect_err("the file has a fault")
+}
+
+/// Codes of the faults, each with the text that it points at.
+fn faults(text: &str) -> Vec<(&'static str, String)> {
+    let rejection = refused(text);
+    let shown =
+        |fault: &crate::fault::Fault| text.get(fault.span.clone()).unwrap_or_default().to_string();
+    rejection
+        .faults
+        .iter()
+        .map(|fault| (fault.code.id, shown(fault)))
+        .collect()
+}
+
+fn budget(text: &str) -> Budget {
+    match read(text, "budget.toml", Path::new("")) {
+        Ok(mut loaded) => loaded.rows.remove(0).budget,
+        Err(rejection) => panic!("{rejection}"),
+    }
+}
+
+/// A budget of one input with these keys.
+fn one(keys: &str) -> String {
+    format!("[measurand.Y]\nmodel = \"X\"\nunit = \"V\"\n[input.X]\nunit = \"V\"\n{keys}\n")
+}
+
+/// u, ν and the distribution of the only component.
+fn component(keys: &str) -> (f64, f64, Distribution) {
+    let component = budget(&one(keys)).components.remove(0);
+    (component.u, component.dof, component.distribution)
+}
+
+/// A [[correlation]] of two quantities.
+fn correlation(a: &str, b: &str, r: f64) -> String {
+    format!("[[correlation]]\nbetween = [\"{a}\", \"{b}\"]\nr = {r}\n")
+}
+
+#[track_caller]
+fn close(a: f64, b: f64) {
+    assert!((a - b).abs() <= 1e-12 * b.abs(), "{a} is not {b}");
+}
+
+#[test]
+fn the_template_loads() {
+    let budget = budget(&crate::budget::template());
+    assert_eq!(budget.inputs.len(), 4);
+    assert_eq!(budget.components.len(), 6);
+    // 50 ppm of 10.0021 mA, rectangular.
+    close(budget.components[3].u, 10.0021 * 50e-6 / 3f64.sqrt());
+}
+
+#[test]
+fn series_replace_values_row_by_row() {
+    let text = "[measurand.Y]\nmodel = \"X\"\n[input.X]\nu = 0.1\n[series]\ncolumns = [\"label\", \"X\", \"claim.value\"]\nrows = [[\"one\", 1, 1.1], [\"two\", 2, 2.2]]\n";
+    let rows = read(text, "budget.toml", Path::new("")).unwrap().rows;
+    assert_eq!(rows.len(), 2);
+    assert_eq!(rows[1].label.as_deref(), Some("two"));
+    assert_eq!(rows[1].budget.inputs[0].estimate, 2.0);
+    assert_eq!(
+        rows[1].budget.claims[0].figure(&Figure::Estimate),
+        Some(2.2)
+    );
+    assert_eq!(
+        faults(&text.replace("[\"two\", 2, 2.2]", "[\"two\", 2]"))
+            .iter()
+            .filter(|f| f.0 == "B0404")
+            .count(),
+        1
+    );
+    assert!(
+        faults(&text.replace("\"X\", \"claim", "\"x\", \"claim"))
+            .iter()
+            .any(|f| f.0 == "B0301")
+    );
+}
+
+#[test]
+fn claims_are_read_in_the_unit_of_the_measurand() {
+    let claim = budget(&one("value = 1\nu = 0.1\n[claim]\nU = \"200 mV\"\nk = 2"))
+        .claims
+        .remove(0);
+    close(claim.figure(&Figure::ExpandedUncertainty).unwrap(), 0.2);
+    assert_eq!(
+        faults(&one("value = 1\nu = 0.1\n[claim]\nnote = \"x\""))[0].0,
+        "B0403"
+    );
+}
+
+#[test]
+fn profiles_and_overrides() {
+    let refused = faults(&format!("profile = \"Gum\"\n{}", one("value = 1\nu = 1")));
+    assert_eq!(refused[0], ("B0108", "\"Gum\"".into()));
+    let budget = budget(&format!("profile = \"EA\"\n{}", one("value = 1\nu = 1")));
+    assert_eq!(budget.conventions.coverage_probability, 0.9545);
+}
+
+#[test]
+fn certificates_past_due_are_remarked() {
+    let text = one("value = 1\ncertificate = { U = 1, k = 2, number = \"A1\", due = 2025-12-31 }");
+    assert_eq!(
+        budget(&format!("date = 2026-01-15\n{text}")).remarks.len(),
+        1
+    );
+    assert!(
+        budget(&format!("date = 2025-01-15\n{text}"))
+            .remarks
+            .is_empty()
+    );
+}
+
+#[test]
+fn the_schema_knows_every_key() {
+    let schema = crate::budget::schema();
+    assert_eq!(schema["additionalProperties"], false);
+    assert!(
+        schema["properties"]["input"]["additionalProperties"]["properties"]["half_width"]
+            .is_object()
+    );
+    let rows = crate::budget::keys();
+    assert!(
+        rows.iter()
+            .any(|row| row.table == "input.NAME.certificate" && row.key == "U"),
+        "{rows:#?}"
+    );
+}

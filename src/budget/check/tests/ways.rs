@@ -1,0 +1,232 @@
+//! Ways to state an uncertainty.
+
+use super::*;
+
+#[test]
+fn type_a_of_a_mean_a_single_reading_and_several() {
+    // s² = 2.5 for 1 … 5.
+    let (u, dof, distribution) = component("readings = [1, 2, 3, 4, 5]");
+    close(u, 0.5f64.sqrt());
+    assert_eq!(dof, 4.0);
+    assert_eq!(
+        distribution,
+        Distribution::StudentT {
+            location: 0.0,
+            scale: u,
+            dof: 4.0
+        }
+    );
+    assert_eq!(
+        budget(&one("readings = [1, 2, 3, 4, 5]")).inputs[0].estimate,
+        3.0
+    );
+    close(
+        component("value = 2.5\nreadings = [1, 2, 3, 4, 5]\nof = \"single\"").0,
+        2.5f64.sqrt(),
+    );
+    close(
+        component("value = 2.5\nreadings = [1, 2, 3, 4, 5]\nof = 2").0,
+        1.25f64.sqrt(),
+    );
+    let single = budget(&one("readings = [1, 2, 6]\nof = \"single\""));
+    assert_eq!(
+        (single.inputs[0].estimate, single.components[0].u),
+        (3.0, 7f64.sqrt())
+    );
+}
+
+#[test]
+fn pooled_standard_deviation() {
+    let (u, dof, _) = component("readings = [1, 3]\npooled = { s = 0.2, dof = 20 }");
+    close(u, 0.2 / 2f64.sqrt());
+    assert_eq!(dof, 20.0);
+    close(
+        component("value = 1\npooled = { s = \"200 mV\", dof = 20 }\nof = \"single\"").0,
+        0.2,
+    );
+    assert_eq!(
+        faults(&one("value = 1\npooled = { s = 0.2, dof = 20 }"))[0].0,
+        "B0207"
+    );
+}
+
+#[test]
+fn limits_of_every_shape() {
+    let u = |shape: &str| {
+        component(&format!(
+            "value = 1\nhalf_width = 0.6\ndistribution = {shape}"
+        ))
+        .0
+    };
+    close(u("\"uniform\""), 0.6 / 3f64.sqrt());
+    close(u("\"triangular\""), 0.6 / 6f64.sqrt());
+    close(u("\"arcsine\""), 0.6 / 2f64.sqrt());
+    close(
+        u("\"trapezoidal\"\nbeta = 0.5"),
+        0.6 * (1.25f64 / 6.0).sqrt(),
+    );
+    close(
+        u("\"curvilinear-trapezoid\"\nd = 0.3"),
+        (0.12f64 + 0.01).sqrt(),
+    );
+    // GUM 4.3.4: half-width at 95 % of a normal distribution.
+    assert!((u("\"normal\"\np = 0.95") - 0.6 / 1.959963984540054).abs() < 1e-12);
+}
+
+#[test]
+fn a_stated_u_keeps_its_value_for_every_shape() {
+    for shape in ["uniform", "triangular", "arcsine", "normal"] {
+        let (u, _, distribution) =
+            component(&format!("value = 1\nu = 0.3\ndistribution = \"{shape}\""));
+        assert_eq!(u, 0.3);
+        close(distribution.standard_deviation().unwrap(), 0.3);
+    }
+}
+
+#[test]
+fn certificates_with_k_or_p() {
+    close(
+        component("value = 1\ncertificate = { U = 0.4, k = 2 }").0,
+        0.2,
+    );
+    // GUM table G.2: t_0.95(10) = 2.23.
+    let (u, dof, _) = component("value = 1\ncertificate = { U = 2.228, p = 0.95, dof = 10 }");
+    assert!((u - 1.0).abs() < 1e-4 && dof == 10.0);
+    close(
+        component("value = 1\ncertificate = { U = 0.4, k = 2, p = 0.95 }").0,
+        0.2,
+    );
+    assert_eq!(
+        faults(&one("value = 1\ncertificate = { U = 0.4 }")),
+        [("B0205", "0.4".into())]
+    );
+    assert_eq!(
+        faults(&one(
+            "value = 1\ncertificate = { U = 0.4, k = 3, p = 0.95 }"
+        ))[0]
+            .0,
+        "B0206"
+    );
+    assert_eq!(
+        faults(&one("value = 1\ncertificate = { U = 0.4, p = 95 }"))[0].0,
+        "B0204"
+    );
+}
+
+#[test]
+fn specification_resolution_and_bits() {
+    let text = "value = -5\nspecification = { reading = \"0.002 %\", range = \"6 ppm\", span = 10, counts = 3, step = 1e-5 }";
+    close(
+        component(text).0,
+        (5.0 * 2e-5 + 10.0 * 6e-6 + 3e-5) / 3f64.sqrt(),
+    );
+    close(
+        component("value = 1\nstep = \"10 mV\"").0,
+        0.005 / 3f64.sqrt(),
+    );
+    close(
+        component("value = 1\nbits = 3\nrange = [-4, 4]").0,
+        0.5 / 3f64.sqrt(),
+    );
+}
+
+#[test]
+fn asymmetric_limits_move_the_estimate() {
+    let budget = budget(&one("value = 10\nplus = 0.4\nminus = 0.2"));
+    close(budget.inputs[0].estimate, 10.1);
+    close(budget.components[0].u, 0.3 / 3f64.sqrt());
+    assert_eq!(budget.remarks.len(), 1);
+    assert_eq!(faults(&one("value = 10\nlimits = [1, 2]"))[0].0, "B0211");
+}
+
+#[test]
+fn counts_and_proportions() {
+    let dimensionless = |keys: &str| {
+        let text = format!("[measurand.Y]\nmodel = \"X\"\n[input.X]\n{keys}\n");
+        let budget = budget(&text);
+        (budget.inputs[0].estimate, budget.components[0].u)
+    };
+    assert_eq!(dimensionless("count = 8"), (9.0, 3.0));
+    assert_eq!(
+        dimensionless("count = 16\nprior = \"reciprocal\""),
+        (16.0, 4.0)
+    );
+    // Beta(2, 4): mean 1/3, variance 8/252.
+    let (mean, u) = dimensionless("successes = 1\ntrials = 4");
+    close(mean, 1.0 / 3.0);
+    close(u, (8.0f64 / 252.0).sqrt());
+}
+
+#[test]
+fn gum_u_and_dof_beside_a_shape() {
+    // JCGM 101 9.5, δα: the GUM column uses the rectangle, Monte Carlo the curvilinear trapezoid.
+    let keys = "value = 0\nhalf_width = 1\ndistribution = \"curvilinear-trapezoid\"\nd = 0.1\ndof = 50\ngum_u = 0.58";
+    let (u, dof, distribution) = component(keys);
+    assert_eq!((u, dof), (0.58, 50.0));
+    assert_eq!(
+        distribution,
+        Distribution::CurvilinearTrapezoid {
+            lower: -1.0,
+            upper: 1.0,
+            d: 0.1
+        }
+    );
+}
+
+#[test]
+fn the_t_scale_is_a_convention() {
+    let text = format!(
+        "[conventions]\nt_scale = \"standard-deviation\"\n{}",
+        one("value = 1\nu = 0.3\ndof = 8")
+    );
+    let budget = budget(&text);
+    assert_eq!(budget.conventions.t_scale, TScale::StandardDeviation);
+    close(
+        budget.components[0]
+            .distribution
+            .standard_deviation()
+            .unwrap(),
+        0.3,
+    );
+    assert_eq!(
+        budget.conventions.overrides,
+        ["t_scale = \"standard-deviation\""]
+    );
+}
+
+#[test]
+fn relative_amounts() {
+    close(component("value = -4\nu = \"50 ppm\"").0, 2e-4);
+    close(component("value = -4\nu = 0.01\nrelative = true").0, 0.04);
+    assert_eq!(faults(&one("value = 0\nu = \"50 ppm\""))[0].0, "B0214");
+    let ratio = "[measurand.Y]\nmodel = \"X\"\n[input.X]\nvalue = 2\nu = \"1 %\"\n";
+    assert_eq!(faults(ratio), [("B0113", "\"1 %\"".into())]);
+    let angle = "[measurand.Y]\nmodel = \"X\"\nunit = \"°\"\n[input.X]\nvalue = 2\nunit = \"°\"\nu = \"6 '\"\n";
+    close(budget(angle).components[0].u, 0.1);
+    let temperature = "[measurand.Y]\nmodel = \"X\"\nunit = \"°C\"\n[input.X]\nvalue = \"293.15 K\"\nunit = \"°C\"\nu = \"0.1 °C\"\n";
+    let budget = budget(temperature);
+    assert!(
+        (budget.inputs[0].estimate - 20.0).abs() < 1e-9 && budget.components[0].unit.symbol == "K"
+    );
+    close(budget.components[0].u, 0.1);
+}
+
+#[test]
+fn readings_without_scatter_are_left_to_the_resolution() {
+    let text = one("components = [{ readings = [1.5, 1.5, 1.5] }, { step = 0.1 }]");
+    let budget = budget(&text);
+    assert_eq!(
+        (budget.inputs[0].estimate, budget.components.len()),
+        (1.5, 1)
+    );
+    assert_eq!(budget.remarks.len(), 1);
+}
+
+#[test]
+fn the_larger_of_resolution_and_repeatability() {
+    let parts = one("components = [{ readings = [1, 2, 3] }, { step = 0.1 }]");
+    assert_eq!(budget(&parts).components.len(), 2);
+    let largest = budget(&format!("[conventions]\nresolution = \"largest\"\n{parts}"));
+    assert_eq!(largest.components.len(), 1);
+    assert_eq!(largest.components[0].label, "repeatability");
+}

@@ -1,0 +1,33 @@
+//! What inputs have to do with one another.
+
+use super::List;
+use crate::budget::table::table;
+use crate::budget::values::Dof;
+
+table! {
+    /// Correlation of two quantities.
+    CorrelationTable "[[correlation]]" {
+        /// Two inputs, shared causes, or components such as `"V.calibration"`; of more names, every pair.
+        between: List<String>,
+        /// Correlation coefficient.
+        r: f64,
+        /// How it is known.
+        reference: String,
+    }
+}
+
+table! {
+    /// Inputs that were measured together.
+    JointTable "[[joint]]" {
+        /// The inputs. Without a matrix, their readings were taken simultaneously.
+        inputs: List<String>,
+        /// Covariance matrix in the units of the inputs, row by row.
+        covariance: List<List<f64>>,
+        /// Correlation matrix, row by row; the inputs state their own uncertainties.
+        correlation: List<List<f64>>,
+        /// Degrees of freedom of the covariance matrix.
+        dof: Dof,
+        /// Where the matrix comes from.
+        reference: String,
+    }
+}

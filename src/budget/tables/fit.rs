@@ -1,0 +1,76 @@
+//! Curves fitted to data.
+
+use super::List;
+use super::component::ComponentTable;
+use crate::budget::table::{table, words};
+use crate::budget::values::{Amount, Named};
+use crate::budget::variants::{FitParameters, Numbers};
+
+table! {
+    /// A curve fitted to data by least squares; its parameters are inputs under their own names.
+    FitTable "[fit]" {
+        /// What is fitted.
+        description: String,
+        /// The formula: the response column on the left, other columns, parameters and constants on the right.
+        model: String,
+        /// In place of `model`: degree of a polynomial.
+        polynomial: u64,
+        /// With `polynomial`: the column on the left.
+        response: String,
+        /// With `polynomial`: the column of which it is a polynomial.
+        predictor: String,
+        /// With `polynomial`: false for a curve through the origin.
+        intercept: bool,
+        /// The observed data: one column for each quantity of the formula.
+        data: Named<FitColumnTable>,
+        /// The parameters with unit and start value, or a list of their names; without it every name of the formula that is no column and no constant.
+        parameters: FitParameters,
+        /// Whether the uncertainties of the data are used as stated, or known only up to a factor that follows from the residuals.
+        scale: ScaleWord,
+        /// Correlation coefficients of the errors of predictor and response, one for each point.
+        correlation: List<f64>,
+        /// Where the data come from.
+        reference: String,
+    }
+}
+
+table! {
+    /// A column of data: its values, and why they are in doubt. Without doubt it is exact; where no column has any, the residuals tell the scatter of the response.
+    FitColumnTable "[fit.NAME.data]" {
+        /// The observed values, as a list or from a CSV file.
+        values: Numbers,
+        /// Their unit; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+        /// Covariance matrix of the values in the square of their unit, row by row.
+        covariance: List<List<f64>>,
+        /// Weights of the values, 1/u², as a list or from a CSV file.
+        weights: Numbers,
+        /// Several reasons to doubt the values; those with `common = true` and shared causes act on all points together.
+        components: List<ComponentTable>,
+        with component: ComponentTable
+    }
+}
+
+table! {
+    /// A parameter of a fit.
+    FitParameterTable "[fit.NAME.parameters]" {
+        /// Its unit; where it is left out, the one that follows from the formula if that is linear in the parameters.
+        unit: String,
+        /// Where the search begins; needed for formulas that are not linear in the parameters.
+        start: Amount,
+        /// What it is.
+        description: String,
+    }
+}
+
+words! {
+    /// What the stated uncertainties of the data of a fit are worth.
+    ScaleWord {
+        /// Used as they are.
+        Stated "stated",
+        /// Known up to a common factor, which the residuals tell.
+        Residuals "residuals",
+    }
+}

@@ -1,0 +1,55 @@
+//! Inputs, and causes that several of them share.
+
+use super::List;
+use super::component::ComponentTable;
+use crate::budget::table::table;
+use crate::budget::values::Amount;
+use crate::budget::variants::RowLabel;
+
+table! {
+    /// A quantity on which measurands depend: its estimate and its reasons for doubt.
+    InputTable "[input]" {
+        /// Its estimate, in its unit.
+        value: Amount,
+        /// Estimates of a vector.
+        values: List<f64>,
+        /// Its unit; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+        /// Heading under which the budget table sums it up.
+        group: String,
+        /// Result of another budget, or a saved result, in place of a value and its uncertainty.
+        from: FromTable,
+        /// Several reasons to doubt the input; with a single one its keys may stand in the input itself.
+        components: List<ComponentTable>,
+        with component: ComponentTable
+    }
+}
+
+table! {
+    /// A result of another file, with everything that makes it uncertain.
+    FromTable "`from`" {
+        /// Path of another budget, from the folder of this one; its formulas and components become part of this budget.
+        budget: String,
+        /// Path of a file that `gumption eval --save` wrote; the result is taken over in linear form.
+        result: String,
+        /// Which of its measurands; may be left out where it has only one.
+        measurand: String,
+        /// Which row of its series, by label or by number.
+        row: RowLabel,
+    }
+}
+
+table! {
+    /// A cause of uncertainty that several inputs share; its value is zero.
+    SourceTable "[source]" {
+        /// Its unit; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+        /// Several reasons for doubt; with a single one its keys may stand in the table itself.
+        components: List<ComponentTable>,
+        with component: ComponentTable
+    }
+}

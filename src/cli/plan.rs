@@ -1,0 +1,63 @@
+//! `gumption plan`: what a calibration or an experiment would tell, before anything is measured.
+
+use std::path::{Path, PathBuf};
+
+use gumption::diagnose::case::{Case, Kind, Purpose, kind_of};
+use gumption::{diagnose, report};
+
+use super::form::Form;
+use super::progress::Steps;
+use super::{Outcome, calibrate, output};
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// A calibration file with a schedule (docs/calibrate.md) or a case (docs/diagnose.md)
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    #[command(flatten)]
+    form: Form,
+}
+
+pub(super) fn run(args: &Args) -> Outcome {
+    let text = match std::fs::read(&args.file) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            return output::complain(&format!("cannot read {}: {error}", args.file.display()));
+        }
+    };
+    match kind_of(&String::from_utf8_lossy(&text)) {
+        Kind::Case => case(&args.file, &args.form),
+        Kind::Calibration => calibrate::plan(&args.file, &args.form),
+        Kind::Budget => output::complain(&format!(
+            "{} is a budget, which has no design to plan; evaluate it with `gumption eval`",
+            args.file.display()
+        )),
+        Kind::Unknown => output::complain(&format!(
+            "{} is neither a calibration (it would have `equations` or `procedure`) nor a case (it would have `recording` and `model`)",
+            args.file.display()
+        )),
+    }
+}
+
+fn case(file: &Path, form: &Form) -> Outcome {
+    let case = match Case::load(file, Purpose::Plan) {
+        Ok(case) => case,
+        Err(rejection) => return output::refused(&rejection),
+    };
+    let steps = Steps::shown("plan");
+    let found = diagnose::plan(&case, &|share| steps.at(share));
+    drop(steps);
+    let lang = form.lang;
+    match found {
+        Ok(outlook) => form.write(
+            || report::outlook_json(&case, &outlook, lang),
+            || report::outlook_markdown(&case, &outlook, lang),
+            |page| report::outlook_text(&case, &outlook, lang, page),
+        ),
+        Err(failure) => output::complain(&format!(
+            "{}: {}",
+            file.display(),
+            report::diagnosis_failure(&case, &failure, lang)
+        )),
+    }
+}

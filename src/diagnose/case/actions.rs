@@ -1,0 +1,213 @@
+//! Further measurements that the user could make.
+
+use super::check::Checker;
+use super::rows::{Complete, Rows, continued};
+use super::tables::{ActionTable, CaseTable, OrderWord, RowsEntry};
+use super::{Action, Column, Data};
+use crate::budget::table::Stated;
+use crate::budget::values::{Cell, Named, OneOrMany};
+use crate::diagnose::faults::{MISSING, ROWS, SETTING};
+use crate::fault::Fault;
+use crate::recording::Labels;
+
+impl Checker<'_> {
+    /// The actions of a case with a recording of so many rows.
+    pub fn actions(&mut self, file: &CaseTable, columns: &[Column], rows: usize) -> Vec<Action> {
+        let list = file
+            .action
+            .as_ref()
+            .map_or(&[][..], |list| list.value.0.as_slice());
+        list.iter()
+            .filter_map(|stated| self.action(stated, columns, rows))
+            .collect()
+    }
+
+    fn action(
+        &mut self,
+        stated: &Stated<ActionTable>,
+        columns: &[Column],
+        rows: usize,
+    ) -> Option<Action> {
+        let table = &stated.value;
+        let cost = table.cost.as_ref().map_or(1.0, |cost| cost.value);
+        if let Some(cost) = table
+            .cost
+            .as_ref()
+            .filter(|cost| cost.value.is_nan() || cost.value <= 0.0)
+        {
+            let fault = Fault::new(SETTING, cost.span.clone(), "a cost is positive");
+            self.faults.push(fault.label("expected a positive number"));
+        }
+        let again = table.again.is_some() || table.order.is_some();
+        let (Some(name), true) = (&table.name, table.rows.is_some() != again) else {
+            if !table.refused {
+                self.faults.push(
+                    Fault::new(
+                        MISSING,
+                        stated.span.clone(),
+                        "a further measurement has a `name` and one of `rows` and `again`",
+                    )
+                    .label("expected both")
+                    .help("rows = \"more.csv\", rows = { x = [1, 2, 3] }, or again = { mount = 90 } for the rows of the recording once more"),
+                );
+            }
+            return None;
+        };
+        let rows = match &table.rows {
+            Some(entry) => match &entry.value {
+                RowsEntry::File(path) => {
+                    let path = Stated {
+                        value: path.clone(),
+                        span: entry.span.clone(),
+                        key: entry.key.clone(),
+                    };
+                    self.rows_of_file(&path, columns, Complete::Planned)?
+                }
+                RowsEntry::Lists(lists) => self.listed(entry, lists, columns)?,
+            },
+            None => self.again(table, columns, rows)?,
+        };
+        Some(Action {
+            name: name.value.clone(),
+            cost,
+            rows,
+        })
+    }
+
+    /// Rows whose columns are lists.
+    fn listed(
+        &mut self,
+        entry: &Stated<RowsEntry>,
+        lists: &Named<OneOrMany<Cell>>,
+        columns: &[Column],
+    ) -> Option<Rows> {
+        let before = self.faults.len();
+        let lengths = lists.entries.iter().map(|(_, list)| list.value.0.len());
+        let count = lengths.max().unwrap_or(0);
+        let mut stated: Vec<Option<Data>> = vec![None; columns.len()];
+        for (name, list) in &lists.entries {
+            let Some(at) = self.column_of(name, list, columns) else {
+                continue;
+            };
+            let cells = &list.value.0;
+            if cells.len() != 1 && cells.len() != count {
+                let message = format!("{name} has {} values, others {count}", cells.len());
+                let fault = Fault::new(ROWS, list.span.clone(), message);
+                self.faults
+                    .push(fault.label("expected one value, or as many as the others"));
+                continue;
+            }
+            let cells = (0..count).map(|row| &cells[row.min(cells.len() - 1)]);
+            stated[at] = self.data(&columns[at], cells);
+        }
+        let mut data = Vec::new();
+        for (column, own) in columns.iter().zip(stated) {
+            match own.or_else(|| continued(column, count)) {
+                Some(own) => data.push(own),
+                None if self.faults.len() == before => {
+                    let message = format!("the rows do not say what {} is", column.name);
+                    let fault = Fault::new(ROWS, entry.span.clone(), message);
+                    self.faults
+                        .push(fault.label(format!("{} is missing", column.name)));
+                }
+                None => {}
+            }
+        }
+        (self.faults.len() == before).then_some(Rows { count, data })
+    }
+
+    /// The rows of the recording once more.
+    fn again(&mut self, table: &ActionTable, columns: &[Column], count: usize) -> Option<Rows> {
+        let before = self.faults.len();
+        let recorded = Rows {
+            count,
+            data: columns.iter().map(|c| c.data.clone()).collect(),
+        };
+        let reversed = table
+            .order
+            .as_ref()
+            .is_some_and(|order| order.value == OrderWord::Reversed);
+        let mut rows = repeated(&recorded, columns, reversed);
+        let entries = table.again.as_ref().map_or(&[][..], |t| &t.value.entries);
+        for (name, cell) in entries {
+            let Some(at) = self.column_of(name, cell, columns) else {
+                continue;
+            };
+            let cells = std::iter::repeat_n(cell, count);
+            if let Some(data) = self.data(&columns[at], cells) {
+                rows.data[at] = data;
+            }
+        }
+        (self.faults.len() == before).then_some(rows)
+    }
+
+    fn column_of<T>(&mut self, name: &str, entry: &Stated<T>, columns: &[Column]) -> Option<usize> {
+        let stated = Stated {
+            value: name.to_owned(),
+            span: entry.key.clone(),
+            key: entry.key.clone(),
+        };
+        self.known(&stated, columns)
+    }
+
+    /// Values as a column holds them.
+    fn data<'c>(
+        &mut self,
+        column: &Column,
+        cells: impl Iterator<Item = &'c Stated<Cell>>,
+    ) -> Option<Data> {
+        if let Data::Labels(known) = &column.data {
+            let mut labels = Labels {
+                levels: known.levels.clone(),
+                of_row: Vec::new(),
+            };
+            for cell in cells {
+                let text = match &cell.value {
+                    Cell::Text(text) => text.clone(),
+                    Cell::Number(number) => number.to_string(),
+                };
+                let at = labels.levels.iter().position(|level| *level == text);
+                let at = at.unwrap_or_else(|| {
+                    labels.levels.push(text);
+                    labels.levels.len() - 1
+                });
+                labels.of_row.push(at as u32);
+            }
+            return Some(Data::Labels(labels));
+        }
+        let mut numbers = Vec::new();
+        for cell in cells {
+            let Cell::Number(number) = cell.value else {
+                let message = format!("{} holds numbers", column.name);
+                let fault = Fault::new(ROWS, cell.span.clone(), message);
+                self.faults
+                    .push(fault.label(format!("expected a number in {}", column.unit.symbol)));
+                return None;
+            };
+            numbers.push(number);
+        }
+        Some(Data::Numbers(numbers))
+    }
+}
+
+/// The rows of a recording once more, in the same order or the last one first: what was applied is that
+/// of the row, times go on, and conditions follow the same course as before.
+pub(in crate::diagnose) fn repeated(recorded: &Rows, columns: &[Column], reversed: bool) -> Rows {
+    use super::tables::RoleWord::{Count, Covariate, Order, Time, Uncertainty};
+    let count = recorded.count;
+    let forth: Vec<usize> = (0..count).collect();
+    let places: Vec<usize> = if reversed {
+        (0..count).rev().collect()
+    } else {
+        forth
+    };
+    let mut rows = recorded.taken(&places);
+    for ((data, own), column) in rows.data.iter_mut().zip(&recorded.data).zip(columns) {
+        match column.role {
+            Time | Order => *data = continued(column, count).unwrap_or(Data::Absent),
+            Covariate | Count | Uncertainty => *data = own.clone(),
+            _ => {}
+        }
+    }
+    rows
+}

@@ -1,0 +1,247 @@
+//! The columns that take part, and their rows.
+
+use std::ops::Range;
+
+use super::check::Checker;
+use super::tables::{CaseTable, ColumnTable, RoleWord};
+use super::{Column, Data, Purpose};
+use crate::budget::table::Stated;
+use crate::budget::values::{Amount, OneOrMany};
+use crate::diagnose::faults::{MISSING, UNKNOWN_NAME};
+use crate::fault::{Fault, nearest};
+use crate::model::Symbol;
+use crate::quantity::Unit;
+use crate::recording::{Content, Heading, Labels, Recording, Request};
+
+impl Checker<'_> {
+    /// The columns that take part: the declared ones, and those that only the model names.
+    pub fn wanted(
+        &mut self,
+        file: &CaseTable,
+        models: &Stated<OneOrMany<String>>,
+        headings: &[Heading],
+        constants: &[Symbol],
+    ) -> Vec<Wanted> {
+        let mut wanted = Vec::new();
+        let declared = file
+            .columns
+            .as_ref()
+            .map_or(&[][..], |named| named.value.entries.as_slice());
+        for (name, stated) in declared {
+            let table = &stated.value.0;
+            let role = match &table.role {
+                Some(role) => role.value,
+                None => {
+                    if !table.refused {
+                        self.faults.push(
+                            Fault::new(
+                                MISSING,
+                                stated.key.clone(),
+                                format!("the column {name} has no role"),
+                            )
+                            .label("`role` is missing")
+                            .help(format!("write for example {name} = \"covariate\"")),
+                        );
+                    }
+                    continue;
+                }
+            };
+            if role == RoleWord::Ignore {
+                continue;
+            }
+            let header = table.column.as_ref().map_or(name, |column| &column.value);
+            let present = headings
+                .iter()
+                .any(|h| h.text == *header || h.name == *header);
+            let expected = self.purpose == Purpose::Plan && role == RoleWord::Output;
+            if !present && !expected {
+                let span = table
+                    .column
+                    .as_ref()
+                    .map_or(stated.key.clone(), |column| column.span.clone());
+                self.no_column(header, span, headings);
+                continue;
+            }
+            let unit = match &table.unit {
+                Some(unit) => self.unit(Some(unit)),
+                None => None,
+            };
+            wanted.push(Wanted::new(
+                name,
+                header,
+                role,
+                unit,
+                present,
+                Some((stated.key.clone(), table.clone())),
+            ));
+        }
+        let known = |name: &str, wanted: &[Wanted]| {
+            constants.iter().any(|constant| constant.name == name)
+                || wanted.iter().any(|w| w.name == name)
+                || declared.iter().any(|(declared, _)| declared == name)
+        };
+        for model in &models.value.0 {
+            let Ok(outline) = crate::model::outline(&model.value, &self.units) else {
+                continue;
+            };
+            let given = outline
+                .gives
+                .iter()
+                .map(|(name, _)| (name, RoleWord::Output));
+            let needed = outline
+                .needs
+                .iter()
+                .map(|(name, _)| (name, RoleWord::Stimulus));
+            for (name, role) in given.chain(needed) {
+                let heading = headings.iter().any(|h| h.text == *name || h.name == *name);
+                if heading && !known(name, &wanted) {
+                    wanted.push(Wanted::new(name, name, role, None, true, None));
+                }
+            }
+        }
+        wanted
+    }
+
+    fn no_column(&mut self, name: &str, span: Range<usize>, headings: &[Heading]) {
+        let names: Vec<&str> = headings.iter().map(|h| h.name.as_str()).collect();
+        let texts = headings.iter().map(|h| h.text.as_str());
+        let help = match nearest(name, names.iter().copied().chain(texts)) {
+            Some(near) => format!("did you mean \"{near}\"?"),
+            None => format!("its columns are: {}", names.join(", ")),
+        };
+        self.faults.push(
+            Fault::new(
+                UNKNOWN_NAME,
+                span,
+                format!("the recording has no column \"{name}\""),
+            )
+            .label("not in the first line of the recording")
+            .help(help),
+        );
+    }
+
+    /// The columns without the rows that lack a value.
+    pub fn columns(
+        &mut self,
+        wanted: &[Wanted],
+        recorded: &Recording,
+    ) -> (Vec<Column>, usize, usize) {
+        let all = recorded.rows();
+        let complete: Vec<usize> = (0..all)
+            .filter(|row| {
+                wanted.iter().all(|w| match recorded.numbers(&w.name) {
+                    Some(numbers) => !w.present || numbers[*row].is_finite(),
+                    None => true,
+                })
+            })
+            .collect();
+        let mut columns = Vec::new();
+        for w in wanted {
+            let column = recorded.column(&w.name);
+            let unit = match (column.and_then(|c| c.unit.clone()), &w.unit) {
+                (_, Some(unit)) => unit.clone(),
+                (Some(unit), None) => unit,
+                (None, None) => Unit::one(),
+            };
+            let data = if !w.present {
+                Data::Absent
+            } else if let Some(numbers) = recorded.numbers(&w.name) {
+                Data::Numbers(complete.iter().map(|row| numbers[*row]).collect())
+            } else if let Some(labels) = recorded.labels(&w.name) {
+                Data::Labels(Labels {
+                    levels: labels.levels.clone(),
+                    of_row: complete.iter().map(|row| labels.of_row[*row]).collect(),
+                })
+            } else {
+                Data::Absent
+            };
+            let table = w.stated.as_ref().map(|(_, table)| table);
+            let mut amount = |of: fn(&ColumnTable) -> &Option<Stated<Amount>>| {
+                let stated = of(table?).as_ref()?;
+                self.spread(stated, &unit)
+            };
+            let (u, u_common) = (amount(|t| &t.u), amount(|t| &t.u_common));
+            let full_scale = amount(|t| &t.full_scale);
+            let resolution = amount(|t| &t.resolution);
+            columns.push(Column {
+                name: w.name.clone(),
+                header: column.map_or_else(|| w.header.clone(), |c| c.header.clone()),
+                role: w.role,
+                unit,
+                data,
+                u,
+                u_common,
+                full_scale,
+                resolution,
+                as_difference: false,
+            });
+        }
+        (columns, complete.len(), all - complete.len())
+    }
+
+    /// A column that a key names.
+    pub fn known(&mut self, name: &Stated<String>, columns: &[Column]) -> Option<usize> {
+        let found = columns.iter().position(|column| column.name == name.value);
+        if found.is_none() {
+            let names = columns.iter().map(|column| column.name.as_str());
+            let fault = Fault::new(
+                UNKNOWN_NAME,
+                name.span.clone(),
+                format!("the case has no column {}", name.value),
+            )
+            .label("not a column of this case");
+            self.faults.push(match nearest(&name.value, names) {
+                Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+                None => fault.help("declare it below [columns]"),
+            });
+        }
+        found
+    }
+}
+
+/// A column that is asked of the recording.
+pub(super) struct Wanted {
+    name: String,
+    header: String,
+    role: RoleWord,
+    unit: Option<Unit>,
+    pub present: bool,
+    stated: Option<(Range<usize>, ColumnTable)>,
+    pub request: Request,
+}
+
+impl Wanted {
+    fn new(
+        name: &str,
+        header: &str,
+        role: RoleWord,
+        unit: Option<Unit>,
+        present: bool,
+        stated: Option<(Range<usize>, ColumnTable)>,
+    ) -> Wanted {
+        let content = match role {
+            RoleWord::Run
+            | RoleWord::Factor
+            | RoleWord::Position
+            | RoleWord::Axis
+            | RoleWord::Direction => Content::Labels,
+            _ => Content::Numbers,
+        };
+        let request = Request {
+            role: name.to_owned(),
+            column: header.to_owned(),
+            content,
+            unit: unit.clone(),
+            like: None,
+        };
+        Wanted {
+            name: name.to_owned(),
+            header: header.to_owned(),
+            role,
+            unit,
+            present,
+            stated,
+            request,
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! How rows are averaged, and how the diagnosis is run.
+
+use super::check::Checker;
+use super::tables::{AverageEntry, CaseTable, DiagnosisTable};
+use super::{Averaging, Blocks, Column, Settings};
+use crate::budget::table::Stated;
+use crate::diagnose::catalogue::effects;
+use crate::diagnose::faults::{ROLE, SETTING, UNKNOWN_NAME};
+use crate::fault::{Fault, nearest};
+
+impl Checker<'_> {
+    pub fn averaging(&mut self, file: &CaseTable, columns: &[Column]) -> Averaging {
+        let table = file
+            .recording
+            .as_ref()
+            .map(|stated| stated.value.0.clone())
+            .unwrap_or_default();
+        let settle = table
+            .settle_rows
+            .as_ref()
+            .map_or(0, |rows| rows.value as usize);
+        let blocks = match (&table.dwells, &table.average) {
+            (Some(names), _) => {
+                let mut found = Vec::new();
+                for name in &names.value.0 {
+                    let Some(column) = self.known(name, columns) else {
+                        continue;
+                    };
+                    if columns[column].labels().is_none() {
+                        self.faults.push(
+                            Fault::new(
+                                ROLE,
+                                name.span.clone(),
+                                format!("{} holds numbers, not labels", name.value),
+                            )
+                            .label("expected a run, factor or position"),
+                        );
+                    }
+                    found.push(column);
+                }
+                Blocks::Dwells(found)
+            }
+            (None, None) => Blocks::Auto,
+            (None, Some(stated)) => match stated.value {
+                AverageEntry::Auto => Blocks::Auto,
+                AverageEntry::Nothing => Blocks::Rows,
+                AverageEntry::AtMost(most) => Blocks::AtMost(most.max(1) as usize),
+            },
+        };
+        Averaging { blocks, settle }
+    }
+
+    pub fn settings(&mut self, file: &CaseTable) -> Settings {
+        let table = file
+            .diagnosis
+            .as_ref()
+            .map(|stated| stated.value.clone())
+            .unwrap_or_default();
+        let texts = |list: &Option<Stated<Vec<Stated<String>>>>| {
+            list.as_ref().map(|list| {
+                list.value
+                    .iter()
+                    .map(|text| text.value.clone())
+                    .collect::<Vec<_>>()
+            })
+        };
+        let alpha = table.alpha.as_ref().map_or(0.01, |alpha| alpha.value);
+        if !(alpha > 0.0 && alpha < 0.5) {
+            let span = table
+                .alpha
+                .as_ref()
+                .map_or(0..0, |alpha| alpha.span.clone());
+            self.faults.push(
+                Fault::new(
+                    SETTING,
+                    span,
+                    format!("alpha = {alpha} is not a small probability"),
+                )
+                .label("expected a number between 0 and 0.5"),
+            );
+        }
+        Settings {
+            alpha,
+            catalogue: texts(&table.catalogue),
+            exclude: texts(&table.exclude).unwrap_or_default(),
+            seed: table.seed.as_ref().map_or(1, |seed| seed.value),
+            draws: table
+                .draws
+                .as_ref()
+                .map_or(2000, |draws| draws.value.clamp(200, 100_000) as usize),
+            typical: self.typical(&table),
+        }
+    }
+
+    /// Shares of full scale, by the identifiers of effects.
+    fn typical(&mut self, table: &DiagnosisTable) -> Vec<(String, f64)> {
+        let entries = table.typical.as_ref().map_or(&[][..], |t| &t.value.entries);
+        let mut sizes = Vec::new();
+        for (id, share) in entries {
+            let ids = effects().iter().map(|effect| effect.id.as_str());
+            if !ids.clone().any(|known| known == id) {
+                let fault = Fault::new(
+                    UNKNOWN_NAME,
+                    share.key.clone(),
+                    format!("the catalogue has no effect {id}"),
+                )
+                .label("not known");
+                self.faults.push(match nearest(id, ids) {
+                    Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+                    None => fault.help("`gumption plan` lists the effects that a case can have"),
+                });
+            } else if !(share.value > 0.0 && share.value.is_finite()) {
+                self.faults.push(
+                    Fault::new(SETTING, share.span.clone(), "a typical size is positive")
+                        .label("expected a share of full scale such as 1e-4"),
+                );
+            } else {
+                sizes.push((id.clone(), share.value));
+            }
+        }
+        sizes
+    }
+}

@@ -1,0 +1,94 @@
+//! What makes a parameter of the model another one from row to row: a condition, the time, the run. Offset
+//! and scale have chapters of their own; this is about time constants, exponents, angles, coefficients.
+
+use super::ground::{Ground, Node, varies};
+use super::levels::{indicator, present};
+use super::modifiers::{centred, figure, mean};
+use super::response::{on_node, words};
+use super::{Cell, Modifier};
+use crate::diagnose::case::Role;
+
+/// Models with more of them are tables of coefficients: their inputs are disturbed instead, axis by axis.
+const MOST: usize = 4;
+
+/// Cells of the parameters that are neither an offset nor the scale.
+pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    let shaping = shaping(ground);
+    if shaping.len() > MOST {
+        return Vec::new();
+    }
+    shaping
+        .into_iter()
+        .flat_map(|parameter| of_parameter(ground, Node::Parameter(parameter)))
+        .collect()
+}
+
+/// Parameters with a slope that is neither constant nor in proportion to the signal.
+fn shaping(ground: &Ground<'_>) -> Vec<usize> {
+    if ground.case().responses.len() != 1 || ground.is_implicit(0) {
+        return Vec::new();
+    }
+    let signal = ground.signal(0);
+    (0..ground.case().parameters.len())
+        .filter(|parameter| {
+            let shared = ground.case().parameters[*parameter].per.is_none();
+            let slope = ground.slope(Node::Parameter(*parameter), 0);
+            shared && varies(&slope) && !proportional(&slope, signal)
+        })
+        .collect()
+}
+
+fn proportional(a: &[f64], b: &[f64]) -> bool {
+    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+    let (ab, aa, bb) = (dot(a, b), dot(a, a), dot(b, b));
+    ab * ab >= (1.0 - 1e-6) * aa * bb
+}
+
+fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
+    let case = ground.case();
+    let mut cells = Vec::new();
+    let mut add = |id: &str, along: &str, modifiers: Vec<Modifier>| {
+        let variants = vec![(String::new(), modifiers)];
+        let mut cell = on_node(ground, id, words(ground, along), along, node, variants);
+        cell.words.p = ground.name(node);
+        cells.push(cell);
+    };
+    for column in ground.numeric() {
+        if ground.in_model(column) {
+            continue;
+        }
+        let (x, name) = (ground.numbers(column), &case.columns[column].name);
+        let text = format!("({name} - {})", figure(mean(x)));
+        add("parameter-sensitivity", name, vec![(centred(x), text)]);
+    }
+    if ground.is_timed() {
+        let along = ground.along_time();
+        let text = format!("({along} - {})", figure(mean(&ground.clock.values)));
+        add(
+            "parameter-drift",
+            &along,
+            vec![(centred(&ground.clock.values), text)],
+        );
+    }
+    for column in &case.columns {
+        let Some(labels) = column.labels() else {
+            continue;
+        };
+        let levels = present(labels);
+        let few = levels.len() >= 2 && levels.len() * 4 <= ground.frame.blocks.len();
+        if !few || !matches!(column.role, Role::Run | Role::Factor | Role::Direction) {
+            continue;
+        }
+        // Differences to the first level: the mean is the parameter itself.
+        let shifts = levels[1..].iter().map(|level| {
+            let label = labels.levels.get(*level as usize);
+            let label = label.map_or("", String::as_str);
+            (
+                indicator(labels, *level),
+                format!("[{} = {label}]", column.name),
+            )
+        });
+        add("parameter-shift", &column.name, shifts.collect());
+    }
+    cells
+}

@@ -1,0 +1,175 @@
+//! Waves of a constant period over a stimulus, the time or the order of the rows: the pitch of a lead screw,
+//! a grating, interference, hum, a beat with the sampling.
+
+use std::f64::consts::TAU;
+
+use super::Cell;
+use super::Variants;
+use super::ground::Ground;
+use super::modifiers::{figure, map, range};
+use super::response::{on_outputs, words};
+use crate::diagnose::case::Role;
+
+/// A wave with fewer periods is the business of drifts and smooth curves.
+const FEWEST_PERIODS: f64 = 3.0;
+
+/// A course with fewer different values says nothing of waves.
+const LEAST_VALUES: usize = 16;
+
+/// Up to so many values the frequencies are half a period per range apart, beyond it a whole one.
+const FINE: usize = 130;
+
+/// Highest peaks of the residuals' spectrum, to which the nearest frequency is moved.
+const PEAKS: usize = 3;
+
+/// What a wave may follow.
+struct Course {
+    name: String,
+    unit: String,
+    values: Vec<f64>,
+}
+
+/// One cell for each course.
+pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    courses(ground)
+        .iter()
+        .filter_map(|course| wave(ground, course))
+        .collect()
+}
+
+fn courses(ground: &Ground<'_>) -> Vec<Course> {
+    let case = ground.case();
+    let mut courses: Vec<Course> = (0..case.columns.len())
+        .filter(|column| case.columns[*column].role == Role::Stimulus && ground.in_model(*column))
+        .map(|column| Course {
+            name: case.columns[column].name.clone(),
+            unit: ground.unit(column),
+            values: ground.numbers(column).to_vec(),
+        })
+        .collect();
+    if ground.is_ordered() {
+        courses.push(Course {
+            name: ground.along_time(),
+            unit: ground.time_unit(),
+            values: ground.clock.values.clone(),
+        });
+    }
+    courses
+}
+
+fn wave(ground: &Ground<'_>, course: &Course) -> Option<Cell> {
+    let blocks = ground.frame.reduced(&course.values);
+    let (least, most) = range(&blocks);
+    let mut distinct = blocks.clone();
+    distinct.sort_by(f64::total_cmp);
+    distinct.dedup();
+    let span = most - least;
+    if distinct.len() < LEAST_VALUES || span <= 0.0 {
+        return None;
+    }
+    let step = if distinct.len() <= FINE { 0.5 } else { 1.0 };
+    let highest = (distinct.len() - 1) as f64 / 2.0;
+    let count = ((highest - FEWEST_PERIODS) / step).floor() as usize;
+    let mut frequencies: Vec<f64> = (0..=count)
+        .map(|k| (FEWEST_PERIODS + step * k as f64) / span)
+        .collect();
+    move_to_peaks(ground, &blocks, &mut frequencies, step / span);
+    let variants: Variants = frequencies
+        .iter()
+        .map(|frequency| {
+            let period = 1.0 / frequency;
+            let of =
+                |wave: fn(f64) -> f64| map(&course.values, |x| wave(TAU * frequency * (x - least)));
+            let argument = format!(
+                "2*pi*({} - {})/{}",
+                course.name,
+                figure(least),
+                figure(period)
+            );
+            (
+                format!("period {} {}", figure(period), course.unit)
+                    .trim_end()
+                    .to_owned(),
+                vec![
+                    (of(libm::sin), format!("sin({argument})")),
+                    (of(libm::cos), format!("cos({argument})")),
+                ],
+            )
+        })
+        .collect();
+    Some(on_outputs(
+        ground,
+        "wave",
+        words(ground, &course.name),
+        &course.name,
+        variants,
+    ))
+}
+
+/// Moves the frequencies next to the highest peaks of the residuals' spectrum onto them: a line between two
+/// frequencies of the grid would leave a part of itself to further explanations.
+fn move_to_peaks(ground: &Ground<'_>, x: &[f64], frequencies: &mut [f64], step: f64) {
+    let power = |frequency: f64| power(ground, x, frequency);
+    let heights: Vec<f64> = frequencies.iter().map(|f| power(*f)).collect();
+    let mut peaks: Vec<usize> = (0..heights.len())
+        .filter(|k| {
+            (*k == 0 || heights[*k] >= heights[*k - 1])
+                && heights.get(*k + 1).is_none_or(|next| heights[*k] >= *next)
+        })
+        .collect();
+    peaks.sort_by(|a, b| heights[*b].total_cmp(&heights[*a]));
+    for peak in peaks.into_iter().take(PEAKS) {
+        frequencies[peak] = summit(power, frequencies[peak], step / 2.0);
+    }
+}
+
+/// The highest point within `reach`, by ever narrower scans.
+fn summit(power: impl Fn(f64) -> f64, start: f64, reach: f64) -> f64 {
+    let (mut best, mut height, mut reach) = (start, power(start), reach);
+    for _ in 0..6 {
+        let centre = best;
+        for side in [-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0] {
+            let at = centre + side * reach;
+            let here = power(at);
+            if here > height {
+                (best, height) = (at, here);
+            }
+        }
+        reach /= 3.0;
+    }
+    best
+}
+
+/// Power of the residuals at a frequency: the sum of squares that a sine and a cosine take away (Lomb and
+/// Scargle), over all responses.
+fn power(ground: &Ground<'_>, x: &[f64], frequency: f64) -> f64 {
+    let first = x[0];
+    let waves: Vec<(f64, f64)> = x
+        .iter()
+        .map(|x| {
+            let phase = TAU * frequency * (x - first);
+            (libm::sin(phase), libm::cos(phase))
+        })
+        .collect();
+    let sum = |f: &dyn Fn(&(f64, f64)) -> f64| waves.iter().map(f).sum::<f64>();
+    let (ss, cc, sc) = (
+        sum(&|w| w.0 * w.0),
+        sum(&|w| w.1 * w.1),
+        sum(&|w| w.0 * w.1),
+    );
+    let determinant = ss * cc - sc * sc;
+    if determinant <= 1e-6 * ss * cc {
+        return 0.0;
+    }
+    let residuals = ground.fit.residuals.as_slice();
+    residuals
+        .chunks(x.len())
+        .map(|of_response| {
+            let along = |f: fn(&(f64, f64)) -> f64| -> f64 {
+                waves.iter().zip(of_response).map(|(w, r)| f(w) * r).sum()
+            };
+            let (s, c) = (along(|w| w.0), along(|w| w.1));
+            (cc * s * s - 2.0 * sc * s * c + ss * c * c) / determinant
+        })
+        .sum()
+}

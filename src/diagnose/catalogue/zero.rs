@@ -1,0 +1,90 @@
+//! Zero and scale errors of what the model takes as exact: a constant that the output adds, a shift or a
+//! factor of a stimulus, an angle or a time.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::Cell;
+use super::ground::{Ground, Node};
+use super::response::{on_node, words};
+use crate::diagnose::case::Role;
+
+/// Part of a regressor that must be left when the parameters have absorbed what they can.
+const LEFT: f64 = 1e-3;
+
+/// Cells of the outputs and of the columns that the model uses; those that its parameters absorb are left
+/// out, since no budget asks for an offset twice.
+pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    if (0..ground.case().responses.len()).all(|response| ground.is_implicit(response)) {
+        return Vec::new();
+    }
+    let rows = ground.rows();
+    let one = || vec![1.0; rows];
+    let mut cells = vec![cell(ground, "zero", Node::Output, one(), "1")];
+    for (column, data) in ground.case().columns.iter().enumerate() {
+        let exact = matches!(data.role, Role::Stimulus | Role::Angle | Role::Time);
+        let Some(numbers) = data.numbers().filter(|_| exact && ground.in_model(column)) else {
+            continue;
+        };
+        let node = Node::Column(column);
+        cells.push(cell(ground, "zero-of", node, one(), "1"));
+        cells.push(cell(
+            ground,
+            "factor-of",
+            node,
+            numbers.to_vec(),
+            &data.name,
+        ));
+    }
+    let absorbed = Absorbed::by_parameters(ground);
+    for cell in &mut cells {
+        cell.variants.retain(|variation| {
+            let columns = variation.columns(ground);
+            columns
+                .column_iter()
+                .any(|column| absorbed.leaves(&column.into_owned()))
+        });
+    }
+    cells.retain(|cell| !cell.variants.is_empty());
+    cells
+}
+
+fn cell(ground: &Ground<'_>, id: &str, node: Node, modifier: Vec<f64>, text: &str) -> Cell {
+    let name = ground.name(node);
+    let variants = vec![(String::new(), vec![(modifier, text.to_owned())])];
+    let mut cell = on_node(ground, id, words(ground, &name), "", node, variants);
+    cell.words.p = name;
+    cell
+}
+
+/// What the parameters of the model take away from a regressor.
+struct Absorbed {
+    /// Orthonormal directions, observations × at most the number of unknowns.
+    basis: DMatrix<f64>,
+}
+
+impl Absorbed {
+    fn by_parameters(ground: &Ground<'_>) -> Absorbed {
+        /// Directions with a smaller part of the largest singular value are noise of the arithmetic.
+        const LEAST: f64 = 1e-9;
+        let mut slopes = ground.fit.jacobian.clone();
+        for mut column in slopes.column_iter_mut() {
+            let norm = column.norm();
+            if norm > 0.0 {
+                column /= norm;
+            }
+        }
+        let decomposed = slopes.svd(true, false);
+        let basis = decomposed.u.unwrap_or_default();
+        let kept: Vec<usize> = (0..basis.ncols())
+            .filter(|k| decomposed.singular_values[*k] > LEAST)
+            .collect();
+        Absorbed {
+            basis: basis.select_columns(&kept),
+        }
+    }
+
+    fn leaves(&self, column: &DVector<f64>) -> bool {
+        let rest = column - &self.basis * self.basis.tr_mul(column);
+        rest.norm() > LEFT * column.norm()
+    }
+}

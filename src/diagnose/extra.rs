@@ -1,0 +1,199 @@
+//! Measurements that may follow a recording: those that the case names, and those that any experiment
+//! allows: once more, in the other order, at other angles, between the levels, with conditions that vary
+//! otherwise, with specimens exchanged.
+
+use super::case::{Case, Column, Data, Role, Rows, repeated};
+use crate::quantity::UnitTable;
+use crate::recording::Labels;
+
+/// A measurement that may follow.
+#[derive(Debug, Clone)]
+pub struct Extra {
+    /// What is done.
+    pub measure: Measure,
+    /// Effort: one is that of the recording.
+    pub cost: f64,
+    /// The rows that are recorded.
+    pub rows: Rows,
+}
+
+/// What is done in a further measurement.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Measure {
+    /// What the case says.
+    Own(String),
+    /// The same again.
+    Again,
+    /// The same with the last row first.
+    Reversed,
+    /// The same with a column at another value.
+    Set {
+        /// The column.
+        column: String,
+        /// Value and unit.
+        value: String,
+    },
+    /// The same at values half way between those of a column.
+    Between {
+        /// The column.
+        column: String,
+    },
+    /// The same with a condition that varies twice as much, in the opposite sense.
+    Opposite {
+        /// The column.
+        column: String,
+    },
+    /// The same with labels exchanged.
+    Exchanged {
+        /// The column.
+        column: String,
+    },
+}
+
+/// A column of angles with at most so many values is a mounting.
+const MOUNTS: usize = 4;
+/// Columns with more values are not set to levels.
+const LEVELS: usize = 100;
+
+/// All further measurements of a case.
+pub fn extras(case: &Case) -> Vec<Extra> {
+    let own = case.actions.iter().map(|action| Extra {
+        measure: Measure::Own(action.name.clone()),
+        cost: action.cost,
+        rows: action.rows.clone(),
+    });
+    let mut extras: Vec<Extra> = own.collect();
+    let recorded = Rows::of(case);
+    let again = |measure: Measure, cost: f64, reversed: bool| Extra {
+        measure,
+        cost,
+        rows: repeated(&recorded, &case.columns, reversed),
+    };
+    extras.push(again(Measure::Again, 1.0, false));
+    extras.push(again(Measure::Reversed, 1.0, true));
+    for (index, column) in case.columns.iter().enumerate() {
+        let mut changed = |measure: Measure, cost: f64, data: Data| {
+            let mut extra = again(measure, cost, false);
+            extra.rows.data[index] = data;
+            extras.push(extra);
+        };
+        let name = column.name.clone();
+        match (&column.data, column.role) {
+            (Data::Numbers(numbers), Role::Angle | Role::Stimulus) if used(case, index) => {
+                let levels = levels(numbers);
+                if is_angle(column) && levels.len() <= MOUNTS {
+                    for (value, text) in mountings(case, index, &levels) {
+                        let column = name.clone();
+                        let measure = Measure::Set {
+                            column,
+                            value: text,
+                        };
+                        changed(measure, 2.0, Data::Numbers(vec![value; numbers.len()]));
+                    }
+                } else if (3..=LEVELS).contains(&levels.len()) {
+                    let between = numbers.iter().map(|x| between(*x, &levels)).collect();
+                    changed(
+                        Measure::Between { column: name },
+                        1.0,
+                        Data::Numbers(between),
+                    );
+                }
+            }
+            (Data::Numbers(numbers), Role::Covariate) if levels(numbers).len() > 1 => {
+                let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+                let opposite = numbers.iter().map(|x| mean - 2.0 * (x - mean)).collect();
+                changed(
+                    Measure::Opposite { column: name },
+                    1.5,
+                    Data::Numbers(opposite),
+                );
+            }
+            (Data::Labels(labels), Role::Factor) if (2..=LEVELS).contains(&labels.levels.len()) => {
+                let count = labels.levels.len() as u32;
+                let exchanged = Labels {
+                    levels: labels.levels.clone(),
+                    of_row: labels.of_row.iter().map(|l| (l + 1) % count).collect(),
+                };
+                changed(
+                    Measure::Exchanged { column: name },
+                    1.0,
+                    Data::Labels(exchanged),
+                );
+            }
+            _ => {}
+        }
+    }
+    extras
+}
+
+/// Whether a column holds angles, by its role or its unit.
+fn is_angle(column: &Column) -> bool {
+    let symbol = &column.unit.symbol;
+    column.role == Role::Angle
+        || ["°", "deg", "rad"]
+            .iter()
+            .any(|unit| symbol.ends_with(unit))
+}
+
+fn used(case: &Case, column: usize) -> bool {
+    let place = case.parameters.len() + column;
+    (0..case.responses.len()).any(|response| case.equations.uses(response).contains(&place))
+}
+
+/// Different values in ascending order.
+fn levels(numbers: &[f64]) -> Vec<f64> {
+    let mut levels = numbers.to_vec();
+    levels.sort_by(f64::total_cmp);
+    let size = levels.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    levels.dedup_by(|a, b| (*a - *b).abs() <= 1e-9 * size);
+    levels
+}
+
+/// Half way to the next level; the last one goes half way back.
+fn between(x: f64, levels: &[f64]) -> f64 {
+    let above = levels.iter().position(|level| *level >= x).unwrap_or(0);
+    match levels.get(above + 1) {
+        Some(next) => 0.5 * (levels[above] + next),
+        None => 0.5 * (levels[above] + levels[above.saturating_sub(1)]),
+    }
+}
+
+/// Mountings that were not used: turned by an eighth, a quarter, half a turn.
+fn mountings(case: &Case, column: usize, levels: &[f64]) -> Vec<(f64, String)> {
+    let unit = &case.columns[column].unit;
+    let Ok(degree) = UnitTable::default().parse("°") else {
+        return Vec::new();
+    };
+    let Some(conversion) = degree.conversion_to(unit) else {
+        return Vec::new();
+    };
+    let turned = [45.0, 90.0, 180.0].map(|angle| (levels[0] + conversion.apply(angle), angle));
+    let near = |value: f64| {
+        let same = 1e-6 * conversion.apply(360.0);
+        levels.iter().any(|level| (level - value).abs() < same)
+    };
+    turned
+        .into_iter()
+        .filter(|(value, _)| !near(*value))
+        .map(|(value, _)| {
+            let shown = super::catalogue::modifiers::figure(value);
+            (
+                value,
+                format!("{shown} {}", unit.typeset()).trim().to_owned(),
+            )
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_between_levels() {
+        let levels = levels(&[20.0, 0.0, 10.0, 10.0]);
+        assert_eq!(levels, [0.0, 10.0, 20.0]);
+        assert_eq!(between(0.0, &levels), 5.0);
+        assert_eq!(between(20.0, &levels), 15.0);
+    }
+}

@@ -1,0 +1,232 @@
+//! The prediction of a recording that the fit has not seen: by the declared model, and by the one with the
+//! adopted physics in it.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::case::Data;
+use super::catalogue::{self, Cell, Ground, Term};
+use super::confirm;
+use super::fit::{self, Fit};
+use super::frame::Frame;
+use super::noise::Claimed;
+use super::run::{Adopted, Estimated};
+use super::separation::{Known, noise_of};
+
+/// How well a recording is predicted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeldOutQuality {
+    /// The file, as the case names it.
+    pub file: String,
+    /// Its rows, or means of rows.
+    pub observations: usize,
+    /// Root mean square of the claimed noise, for each response.
+    pub expected: Vec<f64>,
+    /// By the declared model.
+    pub before: Prediction,
+    /// With the adopted physics; `None` if nothing was adopted, or where its course in this recording does
+    /// not follow from the columns.
+    pub after: Option<Prediction>,
+}
+
+/// A prediction against what was observed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prediction {
+    /// Root mean square of the errors, for each response.
+    pub rms: Vec<f64>,
+    /// Sum of the squares of the errors over their variances: of the noise and of the parameters.
+    pub chi_squared: f64,
+}
+
+/// Predicts the held-out recording of a case, if there is one.
+pub(super) fn held_out(
+    known: &Known<'_>,
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    unknowns: &[Estimated],
+    adopted: Option<&Adopted>,
+) -> Option<HeldOutQuality> {
+    let held = known.case.held_out.as_ref()?;
+    let case = known.case.with(&held.rows);
+    let frame = Frame::new(&case);
+    let covariance = confirm::covariance(known.frame, known.fit, known.claimed);
+    let model = Model {
+        names: known.frame.unknowns.iter().map(|u| &u.name).collect(),
+        values: unknowns,
+        covariance: &covariance,
+    };
+    let fit = model.at(&frame);
+    let claimed = noise_of(known, &frame, &fit);
+    let after = adopted.and_then(|adopted| improved(known, ground, cells, places, adopted));
+    let rms = |values: &DVector<f64>| root_mean_squares(&frame, values);
+    Some(HeldOutQuality {
+        file: held.file.clone(),
+        observations: frame.observations(),
+        expected: rms(&claimed.u),
+        before: model.prediction(&frame, &fit, &claimed),
+        after,
+    })
+}
+
+/// A fitted model, to be evaluated on other rows.
+struct Model<'m> {
+    names: Vec<&'m String>,
+    values: &'m [Estimated],
+    covariance: &'m DMatrix<f64>,
+}
+
+impl Model<'_> {
+    /// The value of an unknown; for a label that was not seen the mean of those that were.
+    fn value(&self, name: &str) -> f64 {
+        if let Some(own) = self.values.iter().find(|value| value.name == name) {
+            return own.value;
+        }
+        let stem = |name: &str| name.split('[').next().map(str::to_owned);
+        let alike = self.values.iter().filter(|v| stem(&v.name) == stem(name));
+        let (sum, count) = alike.fold((0.0, 0), |(sum, count), v| (sum + v.value, count + 1));
+        if count > 0 {
+            sum / f64::from(count)
+        } else {
+            0.0
+        }
+    }
+
+    fn at(&self, frame: &Frame<'_>) -> Fit {
+        let values = frame.unknowns.iter().map(|u| self.value(&u.name));
+        fit::at(frame, DVector::from_iterator(frame.unknowns.len(), values))
+    }
+
+    fn prediction(&self, frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> Prediction {
+        let places: Vec<Option<usize>> = frame
+            .unknowns
+            .iter()
+            .map(|unknown| self.names.iter().position(|name| **name == unknown.name))
+            .collect();
+        let covariance = |a: usize, b: usize| match (places[a], places[b]) {
+            (Some(a), Some(b)) => self.covariance[(a, b)],
+            _ => 0.0,
+        };
+        let count = places.len();
+        let covariance = DMatrix::from_fn(count, count, covariance);
+        let of_model = &fit.jacobian * covariance;
+        let squared = |at: usize| {
+            let model = of_model.row(at).dot(&fit.jacobian.row(at)).max(0.0);
+            fit.residuals[at].powi(2) / (claimed.u[at].powi(2) + model)
+        };
+        Prediction {
+            rms: root_mean_squares(frame, &fit.residuals),
+            chi_squared: (0..frame.observations()).map(squared).sum(),
+        }
+    }
+}
+
+fn root_mean_squares(frame: &Frame<'_>, values: &DVector<f64>) -> Vec<f64> {
+    let blocks = frame.blocks.len();
+    (0..frame.case.responses.len())
+        .map(|response| {
+            (values.rows(response * blocks, blocks).norm_squared() / blocks as f64).sqrt()
+        })
+        .collect()
+}
+
+fn improved(
+    known: &Known<'_>,
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    adopted: &Adopted,
+) -> Option<Prediction> {
+    let held = known.case.held_out.as_ref()?;
+    let both = known.case.followed_by(&held.rows);
+    let frame = Frame::new(&both);
+    let fit = fit::at(&frame, super::separation::unknowns(known, &frame));
+    let wide = Ground::new(&frame, &fit);
+    let others = catalogue::cells(&wide);
+    let mut rows = held.rows.clone();
+    for atom in &adopted.atoms {
+        let (cell, variation) = places[*atom];
+        let cell = &cells[cell];
+        let other = others
+            .iter()
+            .find(|other| other.effect.id == cell.effect.id && other.words == cell.words)?;
+        for term in &cell.variants[variation].terms {
+            let modifier = continued(term, other, ground.rows())?;
+            rows.data.push(Data::Numbers(modifier));
+        }
+    }
+    let extended = &adopted.extended.case;
+    let fitted = Frame::new(extended);
+    let values: Vec<Estimated> = adopted
+        .unknowns
+        .iter()
+        .chain(&adopted.coefficients)
+        .cloned()
+        .collect();
+    let value = |name: &str| {
+        let own = values.iter().find(|value| value.name == name);
+        own.map_or(0.0, |own| own.value)
+    };
+    let at = fitted.unknowns.iter().map(|unknown| value(&unknown.name));
+    let at = fit::at(&fitted, DVector::from_iterator(fitted.unknowns.len(), at));
+    let covariance = confirm::covariance(&fitted, &at, known.claimed);
+    let model = Model {
+        names: fitted.unknowns.iter().map(|u| &u.name).collect(),
+        values: &values,
+        covariance: &covariance,
+    };
+    let case = extended.with(&rows);
+    let frame = Frame::new(&case);
+    let fit = model.at(&frame);
+    let claimed = noise_of(known, &frame, &fit);
+    Some(model.prediction(&frame, &fit, &claimed))
+}
+
+/// The course of a modifier in the rows that follow the first `rows`: of the term of the same effect that
+/// is, but for its origin and its unit, the same in the first rows. Origins and units (the mean of a column,
+/// the start of the recording) belong to the recording in which the effect was found.
+fn continued(term: &Term, cell: &Cell, rows: usize) -> Option<Vec<f64>> {
+    /// What is left of the modifier by another one, as a share of its variance, at most.
+    const LEFT: f64 = 0.05;
+    let terms = cell.variants.iter().flat_map(|variation| &variation.terms);
+    let like = terms.filter(|other| other.node == term.node && other.response == term.response);
+    let fits = like.filter_map(|other| {
+        let first = other.modifier.get(..rows)?;
+        let (factor, offset, left) = line_through(first, &term.modifier);
+        Some((other, factor, offset, left))
+    });
+    let (other, factor, offset, left) = fits.min_by(|a, b| a.3.total_cmp(&b.3))?;
+    let rest = other.modifier.get(rows..)?;
+    (left < LEFT).then(|| rest.iter().map(|x| factor * x + offset).collect())
+}
+
+/// The straight line from `x` to `y`, and what it leaves of the variance of `y`; a `y` without variance is
+/// followed by its own value.
+fn line_through(x: &[f64], y: &[f64]) -> (f64, f64, f64) {
+    let count = x.len().max(1) as f64;
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / count;
+    let (mean_x, mean_y) = (mean(x), mean(y));
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for (x, y) in x.iter().zip(y) {
+        xx += (x - mean_x) * (x - mean_x);
+        xy += (x - mean_x) * (y - mean_y);
+        yy += (y - mean_y) * (y - mean_y);
+    }
+    if !(yy > 0.0 && xx > 0.0) {
+        return (0.0, mean_y, if yy > 0.0 { 1.0 } else { 0.0 });
+    }
+    let factor = xy / xx;
+    (factor, mean_y - factor * mean_x, 1.0 - xy * xy / (xx * yy))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::line_through;
+
+    #[test]
+    fn origin_and_unit_of_a_modifier_are_found() {
+        let (factor, offset, left) = line_through(&[0.0, 1.0, 2.0], &[3.0, 5.0, 7.0]);
+        assert!((factor - 2.0).abs() < 1e-12 && (offset - 3.0).abs() < 1e-12);
+        assert!(left.abs() < 1e-12);
+        assert!(line_through(&[0.0, 1.0, 0.0], &[0.0, 0.0, 1.0]).2 > 0.5);
+    }
+}

@@ -1,0 +1,226 @@
+//! What effects cost that are not in the model and may be there all the same: a budget line for each.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::case::{Case, Role};
+use super::catalogue::modifiers::range;
+use super::catalogue::{Cell, Ground, Variation};
+use super::evidence::{self, Baseline};
+use super::fit;
+use super::frame::Frame;
+use super::noise::Claimed;
+use super::run::{Adopted, baseline};
+use super::typical;
+
+/// An effect of the catalogue that is not in the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Omitted {
+    /// Index of the candidate.
+    pub cell: usize,
+    /// Index of its variant that costs most.
+    pub variation: usize,
+    /// Share of it that the parameters do not absorb, 0 … 1.
+    pub visibility: f64,
+    /// Largest shift of the output that would not surprise, in its unit; `None` where nothing is known.
+    pub shift: Option<f64>,
+    /// What it does to the unknowns of the declared model.
+    pub before: Cost,
+    /// What it does with the adopted physics in the model; the same where nothing is adopted.
+    pub after: Cost,
+}
+
+/// What an effect that is not in the model does to the unknowns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cost {
+    /// Change of each unknown for a largest shift of one.
+    pub gain: Vec<f64>,
+    /// Standard uncertainty that it adds to each unknown; zeros where no size is known.
+    pub u: Vec<f64>,
+}
+
+impl Omitted {
+    /// Whether the recording cannot show it.
+    pub fn is_invisible(&self) -> bool {
+        /// The curvature of the model makes as much of what it absorbs.
+        const TRACE: f64 = 1e-4;
+        self.visibility < TRACE
+    }
+
+    /// What it costs most, as a multiple of the standard uncertainties without it: unknown and multiple.
+    pub fn worst(&self, u: &[f64]) -> Option<(usize, f64)> {
+        let of = self.after.u.iter().zip(u).enumerate();
+        of.filter(|(_, (_, u))| **u > 0.0)
+            .map(|(at, (line, u))| (at, line / u))
+            .filter(|(_, ratio)| ratio.is_finite())
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// Fewer variants of a candidate show what the rest would.
+const VARIANTS: usize = 24;
+
+/// The lines of all candidates but those in `adopted`, the dearest first. `u` holds the standard
+/// uncertainties of the unknowns without them.
+pub(super) fn lines(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    declared: &Baseline,
+    improved: Option<&Baseline>,
+    adopted: &[usize],
+    u: &[f64],
+) -> Vec<Omitted> {
+    let scales = typical::full_scales(ground);
+    let mut lines: Vec<Omitted> = cells
+        .iter()
+        .enumerate()
+        .filter(|(index, cell)| cell.effect.family != "unnamed" && !adopted.contains(index))
+        .filter_map(|(index, cell)| {
+            let step = cell.variants.len().div_ceil(VARIANTS).max(1);
+            let variants = cell.variants.iter().enumerate().step_by(step);
+            let variants = variants.filter(|(_, variation)| acts(ground, cell, variation));
+            let of = variants.filter_map(|(number, variation)| {
+                let mut line = line(ground, cell, variation, (declared, improved), &scales)?;
+                (line.cell, line.variation) = (index, number);
+                Some(line)
+            });
+            // Where no size is known, the variant that shows best.
+            let dear = |line: &Omitted| match line.shift {
+                Some(_) => 1.0 + line.worst(u).map_or(0.0, |(_, ratio)| ratio),
+                None => line.visibility,
+            };
+            of.max_by(|a, b| dear(a).total_cmp(&dear(b)))
+        })
+        .collect();
+    lines.retain(|line| line.shift.is_some() || line.is_invisible());
+    let dear = |line: &Omitted| line.worst(u).map_or(-1.0, |(_, ratio)| ratio);
+    lines.sort_by(|a, b| dear(b).total_cmp(&dear(a)));
+    lines
+}
+
+/// Whether a variation is an effect of something that varies: an offset is what parameters are for, and two
+/// levels have no curvature.
+fn acts(ground: &Ground<'_>, cell: &Cell, variation: &Variation) -> bool {
+    /// A modifier that varies by less than this part of its size is an offset.
+    const VARIES: f64 = 0.2;
+    let steady = |modifier: &[f64]| {
+        let (least, most) = range(modifier);
+        most - least < VARIES * most.abs().max(least.abs())
+    };
+    let case = ground.case();
+    let along = case.column(&cell.place.along);
+    let stimulus = along.filter(|column| case.columns[*column].role == Role::Stimulus);
+    let two = stimulus
+        .and_then(|column| case.columns[column].numbers())
+        .is_some_and(|numbers| {
+            let (least, most) = range(numbers);
+            numbers.iter().all(|x| *x == least || *x == most)
+        });
+    !two && !variation.terms.iter().all(|term| steady(&term.modifier))
+}
+
+fn line(
+    ground: &Ground<'_>,
+    cell: &Cell,
+    variation: &Variation,
+    (declared, improved): (&Baseline, Option<&Baseline>),
+    scales: &DVector<f64>,
+) -> Option<Omitted> {
+    let unified = typical::unified(variation.columns(ground))?;
+    let columns = &unified.columns;
+    let each = |j: usize| declared.visibility(&columns.column(j).into_owned());
+    let visibility = (0..columns.ncols()).map(each).fold(1.0, f64::min);
+    let shift = typical::shift(ground, cell, variation, &unified, scales);
+    let unknowns = declared.parameters();
+    let cost = |baseline: &Baseline| {
+        // Uniform between −shift and shift.
+        let spread = shift.map(|shift| shift / 3.0_f64.sqrt());
+        let u = spread.map(|spread| evidence::omitted(baseline, columns, spread));
+        let mut gain = largest(&baseline.gain(columns));
+        gain.truncate(unknowns);
+        Cost {
+            gain,
+            u: u.map_or(vec![0.0; unknowns], |u| {
+                u.iter().take(unknowns).copied().collect()
+            }),
+        }
+    };
+    let before = cost(declared);
+    Some(Omitted {
+        cell: 0,
+        variation: 0,
+        visibility,
+        shift,
+        after: improved.map_or_else(|| before.clone(), cost),
+        before,
+    })
+}
+
+/// For each unknown the gain of the column that moves it most.
+fn largest(gain: &DMatrix<f64>) -> Vec<f64> {
+    let most = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
+    gain.row_iter()
+        .map(|row| row.iter().fold(0.0, most))
+        .collect()
+}
+
+/// What it costs that a slot has several explanations: for each unknown the root of Σ p·d², d being how
+/// far the other explanations move it from where the adopted one leaves it.
+pub(super) fn choice(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    declared: &Baseline,
+    slot: &evidence::Slot,
+) -> Vec<f64> {
+    let moved = |alternative: &evidence::Alternative| -> Option<DVector<f64>> {
+        let (cell, variation) = places[alternative.variants.first()?.atom];
+        let columns = cells[cell].variants[variation].columns(ground);
+        let size = alternative
+            .estimate
+            .map(|x| if x.is_finite() { x } else { 0.0 });
+        (columns.ncols() == size.len()).then(|| declared.gain(&columns) * size)
+    };
+    let mut squares = DVector::zeros(declared.parameters());
+    let mut all = slot
+        .named
+        .iter()
+        .filter_map(|a| Some((a.probability, moved(a)?)));
+    let Some((_, adopted)) = all.next() else {
+        return squares.as_slice().to_vec();
+    };
+    for (probability, other) in all {
+        squares += (other - &adopted).map(|d| probability * d * d);
+    }
+    squares.iter().map(|square: &f64| square.sqrt()).collect()
+}
+
+/// The recording reduced to what the improved model leaves, its unknowns in the order of the declared
+/// ones and then the adopted coefficients.
+pub(super) fn improved_baseline(
+    case: &Case,
+    adopted: &Adopted,
+    claimed: &Claimed,
+) -> Option<Baseline> {
+    let extended = &adopted.extended.case;
+    let frame = Frame::new(extended);
+    let estimates = adopted.unknowns.iter().chain(&adopted.coefficients);
+    let value = |name: &str| {
+        let found = estimates.clone().find(|estimate| estimate.name == name);
+        found.map(|estimate| estimate.value)
+    };
+    let values: Option<Vec<f64>> = frame.unknowns.iter().map(|u| value(&u.name)).collect();
+    let mut fit = fit::at(&frame, DVector::from_vec(values?));
+    let declared = Frame::new(case);
+    let known = declared.unknowns.iter().map(|u| u.name.as_str());
+    let added = adopted.coefficients.iter().map(|c| c.name.as_str());
+    let order: Option<Vec<usize>> = known
+        .chain(added)
+        .map(|name| frame.unknowns.iter().position(|u| u.name == name))
+        .collect();
+    let order = order?;
+    let mut frame = frame;
+    frame.unknowns = order.iter().map(|at| frame.unknowns[*at].clone()).collect();
+    fit.jacobian = fit.jacobian.select_columns(&order);
+    fit.unknowns = fit.unknowns.select_rows(&order);
+    baseline(&frame, &fit, claimed).ok()
+}

@@ -1,0 +1,349 @@
+//! A plan: what an experiment can see and tell apart, from its design alone, and which further measurement
+//! helps most.
+
+use std::ops::ControlFlow;
+
+use nalgebra::DVector;
+
+use super::case::{Case, Observed};
+use super::catalogue::{self, Cell, Ground};
+use super::evidence::{self, Atom, Baseline, Refusal, Shape};
+use super::extra::{Extra, extras};
+use super::fit::{self, Fit, NoFit};
+use super::frame::Frame;
+use super::noise::{self, Claimed};
+use super::omitted::{self, Omitted};
+use super::run::{Estimated, Failure, baseline, estimates, question};
+use super::separation::{self, Contender, Known};
+use super::typical::{self, Unified};
+
+/// What an experiment can see and tell apart. Sizes of effects are the largest shifts of the output.
+#[derive(Debug)]
+pub struct Outlook {
+    /// All candidates, in the order of the catalogue.
+    pub cells: Vec<Cell>,
+    /// The noise that was assumed.
+    pub noise: Claimed,
+    /// Whether the case claims no noise: then one row has the standard uncertainty one.
+    pub relative: bool,
+    /// Parameters on whose value slopes depend and of which nothing is known: they were taken as one.
+    pub assumed: Vec<String>,
+    /// Rows, and means of rows.
+    pub observations: usize,
+    /// The parameters with the standard uncertainties to expect.
+    pub unknowns: Vec<Estimated>,
+    /// What can be seen of each candidate that can be seen at all.
+    pub effects: Vec<Prospect>,
+    /// Candidates that are one in this experiment, two or more in each class.
+    pub classes: Vec<Vec<usize>>,
+    /// What effects cost that may be there and are not in the model, the dearest first.
+    pub omitted: Vec<Omitted>,
+    /// Further measurements, the most useful first.
+    pub extras: Vec<Promise>,
+    /// Pairs of candidates that this experiment hardly tells apart.
+    pub pairs: Vec<(usize, usize)>,
+}
+
+/// What can be seen of a candidate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prospect {
+    /// Index of the candidate.
+    pub cell: usize,
+    /// Index of the variant that stands for it: that of average visibility.
+    pub variation: usize,
+    /// Share that the parameters do not absorb, 0 … 1.
+    pub visibility: f64,
+    /// Smallest size that is detected as good as always (λ = 6).
+    pub detectable: f64,
+    /// Candidate that resembles it most, with the cosine of the angle between the two.
+    pub rival: Option<(usize, f64)>,
+    /// Smallest size that is told from that rival as good as always (κ = 5); `None` where no size is.
+    pub separable: Option<f64>,
+    /// The largest size that would not surprise.
+    pub typical: Option<f64>,
+}
+
+/// What a further measurement gives.
+#[derive(Debug, Clone)]
+pub struct Promise {
+    /// The measurement.
+    pub extra: Extra,
+    /// Pairs, by their places in [`Outlook::pairs`], that are told apart with it.
+    pub resolved: Vec<usize>,
+    /// Invisible candidates, by their places in [`Outlook::cells`], that are visible with it.
+    pub revealed: Vec<usize>,
+}
+
+/// Told apart as good as always.
+const SEPARATED: f64 = 5.0;
+/// Strength of the effects for which further measurements are judged.
+const STRENGTH: f64 = 8.0;
+/// More than a trace of an effect shows.
+const VISIBLE: f64 = 0.01;
+
+/// Examines the design of a case. Recorded outputs serve only for the size of parameters and noise where
+/// the case states neither.
+///
+/// # Errors
+/// When the model has no finite value or its parameters are not determined, or the work was stopped.
+pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Outlook, Failure> {
+    let frame = Frame::new(case);
+    let (fit, claimed, assumed) = assumed(&frame)?;
+    let fit = Fit {
+        residuals: DVector::zeros(frame.observations()),
+        ..fit
+    };
+    let ground = Ground::new(&frame, &fit);
+    let cells = catalogue::cells(&ground);
+    let baseline = baseline(&frame, &fit, &claimed)?;
+    let (candidates, atoms, places) = question(&ground, &cells, &claimed, &baseline);
+    let (atoms, places, unified) = named(&cells, atoms, places);
+    step(progress, 0.1)?;
+    let found = evidence::visibility(&baseline, &candidates, &atoms)?;
+    let effects = prospects(&ground, &cells, (&atoms, &places, &unified), &found);
+    let unknowns = estimates(&frame, &fit, &claimed, 1.0);
+    let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
+    let omitted = omitted::lines(&ground, &cells, &baseline, None, &[], &u);
+    step(progress, 0.4)?;
+    let pairs = pairs(&effects);
+    let known = Known {
+        case,
+        frame: &frame,
+        fit: &fit,
+        claimed: &claimed,
+    };
+    let contenders = Contenders {
+        sets: pairs
+            .iter()
+            .map(|pair| contenders(&ground, &cells, &baseline, &effects, *pair))
+            .collect(),
+        hidden: omitted.iter().filter(|line| line.is_invisible()).collect(),
+    };
+    let mut promises = Vec::new();
+    let all = extras(case);
+    for (at, extra) in all.iter().enumerate() {
+        promises.extend(contenders.promise(&known, &cells, extra));
+        step(progress, 0.4 + 0.6 * (at + 1) as f64 / all.len() as f64)?;
+    }
+    let worth = |promise: &Promise| {
+        (promise.resolved.len() + promise.revealed.len()) as f64 / promise.extra.cost
+    };
+    promises.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
+    Ok(Outlook {
+        relative: claimed.origin == noise::Origin::Estimated && claimed.dof.is_infinite(),
+        noise: claimed,
+        assumed,
+        observations: frame.observations(),
+        unknowns,
+        effects,
+        classes: classes(&cells, &places, &found.classes),
+        omitted,
+        extras: promises,
+        pairs,
+        cells,
+    })
+}
+
+fn step(progress: &dyn Fn(f64) -> ControlFlow<()>, share: f64) -> Result<(), Failure> {
+    match progress(share) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(Failure::Refused(Refusal::Cancelled)),
+    }
+}
+
+/// The model at the values that the case states; where it does not state all, at those that fit the
+/// outputs; where these are not recorded, at one.
+fn assumed(frame: &Frame<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> {
+    let open: Vec<String> = frame
+        .unknowns
+        .iter()
+        .filter(|unknown| unknown.start.is_none() && unknown.prior.is_none())
+        .map(|unknown| unknown.name.clone())
+        .collect();
+    let recorded = frame.case.responses.iter().all(|r| match r.observed {
+        Observed::Column(column) => frame.case.columns[column].numbers().is_some(),
+        Observed::Constant(_) => true,
+    });
+    if recorded && let Ok((fit, claimed)) = noise::settle(frame) {
+        let known = Claimed {
+            dof: f64::INFINITY,
+            ..claimed
+        };
+        return Ok((fit, known, Vec::new()));
+    }
+    let values = frame.unknowns.iter().map(|unknown| {
+        let known = unknown.start.or(unknown.prior.map(|(value, _)| value));
+        known.unwrap_or(1.0)
+    });
+    let values = DVector::from_iterator(frame.unknowns.len(), values);
+    let fit = fit::at(frame, values);
+    if !fit.jacobian.iter().all(|x| x.is_finite()) {
+        return Err(Failure::Fit(NoFit::NoStart));
+    }
+    let claimed = noise::planned(frame, &fit);
+    Ok((fit, claimed, open))
+}
+
+type Places = Vec<(usize, usize)>;
+
+/// Named atoms of free size, in units of their largest shift.
+fn named(cells: &[Cell], atoms: Vec<Atom>, places: Places) -> (Vec<Atom>, Places, Vec<Unified>) {
+    let mut kept = (Vec::new(), Vec::new(), Vec::new());
+    for (mut atom, place) in atoms.into_iter().zip(places) {
+        let Shape::Columns(columns) = &atom.shape else {
+            continue;
+        };
+        if cells[place.0].effect.exact.is_some() {
+            continue;
+        }
+        if let Some(unified) = typical::unified(columns.clone()) {
+            atom.shape = Shape::Columns(unified.columns.clone());
+            kept.0.push(atom);
+            kept.1.push(place);
+            kept.2.push(unified);
+        }
+    }
+    kept
+}
+
+/// One prospect for each candidate that has a visible variant.
+fn prospects(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    (atoms, places, unified): (&[Atom], &[(usize, usize)], &[Unified]),
+    found: &evidence::Plan,
+) -> Vec<Prospect> {
+    let scales = typical::full_scales(ground);
+    let mut prospects = Vec::new();
+    for (cell, of) in cells.iter().enumerate() {
+        let mut own: Vec<(&evidence::Seen, f64)> = found
+            .seen
+            .iter()
+            .filter(|seen| atoms[seen.atom].candidate == cell)
+            .filter_map(|seen| Some((seen, seen.detectable?)))
+            .filter(|(seen, _)| seen.visibility > 1e-4)
+            .collect();
+        own.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((seen, detectable)) = own.get(own.len().saturating_sub(1) / 2) else {
+            continue;
+        };
+        let pair = found.pairs.iter().find(|pair| pair.atom == seen.atom);
+        let variation = places[seen.atom].1;
+        prospects.push(Prospect {
+            cell,
+            variation,
+            visibility: seen.visibility,
+            detectable: *detectable,
+            rival: pair.map(|pair| (atoms[pair.rival].candidate, pair.cosine)),
+            separable: pair.and_then(|pair| pair.separable),
+            typical: typical::shift(
+                ground,
+                of,
+                &of.variants[variation],
+                &unified[seen.atom],
+                &scales,
+            ),
+        });
+    }
+    prospects
+}
+
+/// Candidates that share a class, each class once.
+fn classes(cells: &[Cell], places: &[(usize, usize)], atoms: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let mut classes: Vec<Vec<usize>> = Vec::new();
+    for class in atoms {
+        let mut of: Vec<usize> = class.iter().map(|atom| places[*atom].0).collect();
+        // A single row or a jump is an alias of much in few rows.
+        of.retain(|cell| cells[*cell].effect.family != "data");
+        of.sort_unstable();
+        of.dedup();
+        if of.len() > 1 && !classes.contains(&of) {
+            classes.push(of);
+        }
+    }
+    let whole = classes.clone();
+    classes.retain(|class| {
+        !whole
+            .iter()
+            .any(|other| other.len() > class.len() && class.iter().all(|cell| other.contains(cell)))
+    });
+    classes
+}
+
+/// Pairs that effects of a usual strength are not told apart in, even by twice as many rows.
+fn pairs(effects: &[Prospect]) -> Vec<(usize, usize)> {
+    let mut pairs = Vec::new();
+    for effect in effects {
+        let Some((rival, cosine)) = effect.rival else {
+            continue;
+        };
+        let kappa = STRENGTH * (1.0 - cosine * cosine).max(0.0).sqrt();
+        let pair = (effect.cell.min(rival), effect.cell.max(rival));
+        let known = effects.iter().any(|other| other.cell == rival);
+        if kappa < SEPARATED / std::f64::consts::SQRT_2 && known && !pairs.contains(&pair) {
+            pairs.push(pair);
+        }
+    }
+    pairs
+}
+
+/// Both of a pair, with sizes that have the same strength in the experiment as it is.
+fn contenders(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    baseline: &Baseline,
+    effects: &[Prospect],
+    (a, b): (usize, usize),
+) -> Vec<Contender> {
+    let of = |cell: usize| {
+        let effect = effects.iter().find(|effect| effect.cell == cell)?;
+        let variation = &cells[cell].variants[effect.variation];
+        let columns = variation.columns(ground);
+        let count = columns.ncols();
+        let sum = baseline.project(&columns).column_sum().norm();
+        let size = if sum > 0.0 { STRENGTH / sum } else { 0.0 };
+        Some(Contender::new(
+            &cells[cell],
+            variation,
+            DVector::from_element(count, size),
+        ))
+    };
+    [a, b].into_iter().filter_map(of).collect()
+}
+
+/// What further measurements are asked for.
+struct Contenders<'o> {
+    sets: Vec<Vec<Contender>>,
+    hidden: Vec<&'o Omitted>,
+}
+
+impl Contenders<'_> {
+    fn promise(&self, known: &Known<'_>, cells: &[Cell], extra: &Extra) -> Option<Promise> {
+        let asked: Vec<Contender> = self
+            .hidden
+            .iter()
+            .map(|line| {
+                let variation = &cells[line.cell].variants[line.variation];
+                let size = DVector::from_element(variation.terms.len(), 1.0);
+                Contender::new(&cells[line.cell], variation, size)
+            })
+            .collect();
+        let design = separation::design(known, extra, &self.sets, &asked)?;
+        let apart = |worth: &Option<evidence::Worth>| {
+            worth.as_ref().is_some_and(|worth| worth.kappa >= SEPARATED)
+        };
+        let resolved = design.worths.iter().enumerate();
+        let revealed = design.visibilities.iter().zip(&self.hidden);
+        Some(Promise {
+            extra: extra.clone(),
+            resolved: resolved
+                .filter(|(_, w)| apart(w))
+                .map(|(at, _)| at)
+                .collect(),
+            revealed: revealed
+                .filter(|(share, _)| share.is_some_and(|share| share > VISIBLE))
+                .map(|(_, line)| line.cell)
+                .collect(),
+        })
+    }
+}

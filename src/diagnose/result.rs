@@ -1,0 +1,254 @@
+//! The parameters as the measurands of a budget: their fit, and a line for each effect that may be there
+//! unseen and for each choice between explanations.
+//!
+//! Each line is one error that moves all parameters: uniform between −1 and 1, in units of the usual size of
+//! the effect, times what it does to each parameter as far as the recording leaves it open.
+
+use std::fmt::Write;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::case::Case;
+use super::frame::{Frame, UnknownKind};
+use super::omitted::Omitted;
+use super::run::{Diagnosis, Estimated};
+use super::{confirm, fit};
+use crate::budget::writing::{key, quoted};
+use crate::quantity::Unit;
+
+/// Lines that are smaller than this part of every parameter's u are left out.
+const MATTERS: f64 = 0.01;
+
+/// The budget file of the parameters of a diagnosed case, with the adopted physics in the model if there
+/// is any.
+pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
+    let declared = diagnosis.unknowns.as_slice();
+    let (model, estimates, all, dof) = match &diagnosis.adopted {
+        Some(adopted) => {
+            let all: Vec<Estimated> = [&adopted.unknowns[..], &adopted.coefficients].concat();
+            (
+                &adopted.extended.case,
+                &adopted.unknowns[..],
+                all,
+                adopted.quality.dof,
+            )
+        }
+        None => (case, declared, declared.to_vec(), diagnosis.before.dof),
+    };
+    let frame = Frame::new(model);
+    let results = results(&frame, estimates);
+    let dof = if diagnosis.noise.is_estimated() {
+        dof
+    } else {
+        diagnosis.noise.dof
+    };
+    let mut text = head(case);
+    let lines = lines(diagnosis, estimates);
+    for result in &results {
+        measurand(&mut text, result, &lines);
+    }
+    for result in &results {
+        input(&mut text, result, dof);
+    }
+    for line in &lines {
+        let _ = write!(
+            text,
+            "\n[input.{}]\ndescription = {}\nvalue = 0\nhalf_width = 1\n",
+            line.name,
+            quoted(&line.description)
+        );
+    }
+    text + &correlations(&frame, diagnosis, &all, &results)
+}
+
+/// A parameter that is reported.
+struct ResultOf<'r> {
+    /// Its name in formulas.
+    name: String,
+    /// Its place among the estimates.
+    place: usize,
+    unit: Unit,
+    estimate: &'r Estimated,
+}
+
+fn results<'r>(frame: &Frame<'_>, estimates: &'r [Estimated]) -> Vec<ResultOf<'r>> {
+    let of = estimates
+        .iter()
+        .enumerate()
+        .filter_map(|(place, estimate)| {
+            let unknown = frame.unknowns.iter().find(|u| u.name == estimate.name)?;
+            let UnknownKind::Parameter { parameter, .. } = unknown.kind else {
+                return None;
+            };
+            Some(ResultOf {
+                name: identifier(&estimate.name),
+                place,
+                unit: frame.case.parameters[parameter].unit.clone(),
+                estimate,
+            })
+        });
+    of.collect()
+}
+
+/// A name that formulas accept: `offset[run 1]` becomes `offset_run_1`.
+fn identifier(name: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() { c } else { '_' };
+    let text: String = name.chars().map(plain).collect();
+    text.trim_end_matches('_').to_owned()
+}
+
+fn head(case: &Case) -> String {
+    let mut text = String::from(
+        "# Written by `gumption diagnose`: the parameters, with what may be there unseen.\n",
+    );
+    let _ = writeln!(text, "title = {}", quoted(&case.title));
+    if let Some(reference) = &case.reference {
+        let _ = writeln!(text, "reference = {}", quoted(reference));
+    }
+    if !case.own_units.is_empty() {
+        text += "\n[unit]\n";
+        for (name, definition) in &case.own_units {
+            let _ = writeln!(text, "{} = {}", key(name), quoted(definition));
+        }
+    }
+    text
+}
+
+/// One line of the budget.
+struct Line {
+    name: String,
+    description: String,
+    /// What an error of one does to each estimate, in its unit.
+    slopes: Vec<f64>,
+}
+
+fn lines(diagnosis: &Diagnosis, estimates: &[Estimated]) -> Vec<Line> {
+    let u: Vec<f64> = estimates.iter().map(|estimate| estimate.u).collect();
+    let matters = |costs: &[f64]| costs.iter().zip(&u).any(|(cost, u)| *cost > MATTERS * u);
+    let unseen = diagnosis.omitted.iter();
+    let unseen = unseen.filter(|line| line.shift.is_some() && matters(&line.after.u));
+    let mut lines: Vec<Line> = unseen
+        .enumerate()
+        .map(|(at, line)| of_effect(diagnosis, line, at + 1))
+        .collect();
+    for (at, choice) in diagnosis
+        .choices
+        .iter()
+        .enumerate()
+        .filter(|(_, u)| matters(u))
+    {
+        lines.push(Line {
+            name: format!("choice_{}", at + 1),
+            description: "which of several explanations is right".to_owned(),
+            slopes: choice.iter().map(|u| u * 3.0_f64.sqrt()).collect(),
+        });
+    }
+    lines
+}
+
+fn of_effect(diagnosis: &Diagnosis, line: &Omitted, number: usize) -> Line {
+    let cell = &diagnosis.cells[line.cell];
+    let name = cell.words.fill(&cell.effect.name.en);
+    let label = &cell.variants[line.variation].label;
+    let variant = if label.is_empty() {
+        String::new()
+    } else {
+        format!(" ({label})")
+    };
+    let slopes = line.after.gain.iter().zip(&line.after.u);
+    Line {
+        name: format!("unseen_{number}"),
+        description: format!("{name}{variant}, in units of its usual size"),
+        slopes: slopes
+            .map(|(gain, u)| gain.signum() * u * 3.0_f64.sqrt())
+            .collect(),
+    }
+}
+
+fn measurand(text: &mut String, result: &ResultOf<'_>, lines: &[Line]) {
+    let name = &result.name;
+    let mut model = format!("{name}_fitted");
+    let mut constants = String::new();
+    for line in lines {
+        let slope = line.slopes.get(result.place).copied().unwrap_or(0.0);
+        // What rounding leaves of a symmetric design is no effect.
+        if !slope.is_finite() || slope.abs() <= 1e-6 * result.estimate.u {
+            continue;
+        }
+        let constant = format!("{name}_by_{}", line.name);
+        let _ = write!(model, " + {constant} * {}", line.name);
+        let _ = write!(
+            constants,
+            "\n[constant.{constant}]\nvalue = {slope:?}\n{}",
+            unit_line(&result.unit.difference())
+        );
+    }
+    let _ = write!(
+        text,
+        "\n[measurand.{}]\nmodel = {}\n{}{constants}",
+        key(name),
+        quoted(&model),
+        unit_line(&result.unit)
+    );
+}
+
+fn input(text: &mut String, result: &ResultOf<'_>, dof: f64) {
+    let name = format!("{}_fitted", result.name);
+    let estimate = result.estimate;
+    let _ = write!(
+        text,
+        "\n[input.{}]\ndescription = \"fit to the recording\"\nvalue = {:?}\nu = {:?}\n{}",
+        key(&name),
+        estimate.value,
+        estimate.u,
+        unit_line(&result.unit)
+    );
+    if dof.is_finite() && dof > 2.0 {
+        let _ = writeln!(text, "dof = {dof:?}\ndistribution = \"normal\"");
+    }
+}
+
+fn unit_line(unit: &Unit) -> String {
+    if unit.is_one() {
+        String::new()
+    } else {
+        format!("unit = {}\n", quoted(&unit.symbol))
+    }
+}
+
+/// Correlations of the fitted parameters.
+fn correlations(
+    frame: &Frame<'_>,
+    diagnosis: &Diagnosis,
+    all: &[Estimated],
+    results: &[ResultOf<'_>],
+) -> String {
+    let place = |name: &str| frame.unknowns.iter().position(|u| u.name == name);
+    let mut values = DVector::zeros(frame.unknowns.len());
+    for estimate in all {
+        if let Some(at) = place(&estimate.name) {
+            values[at] = estimate.value;
+        }
+    }
+    let fit = fit::at(frame, values);
+    let covariance: DMatrix<f64> = confirm::covariance(frame, &fit, &diagnosis.noise);
+    let mut text = String::new();
+    for (at, a) in results.iter().enumerate() {
+        for b in &results[at + 1..] {
+            let (Some(i), Some(j)) = (place(&a.estimate.name), place(&b.estimate.name)) else {
+                continue;
+            };
+            let r = covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+            if r.is_finite() && r.abs() > 1e-9 {
+                let _ = write!(
+                    text,
+                    "\n[[correlation]]\nbetween = [{}, {}]\nr = {:?}\n",
+                    quoted(&format!("{}_fitted", a.name)),
+                    quoted(&format!("{}_fitted", b.name)),
+                    r.clamp(-1.0, 1.0)
+                );
+            }
+        }
+    }
+    text
+}

@@ -1,0 +1,185 @@
+//! Sizes that would not surprise: how far an effect of the catalogue usually shifts the output at most.
+//!
+//! An effect that a recording cannot show costs uncertainty all the same. Its size is taken as uniformly
+//! distributed between −a and a (JCGM 100, 4.3.7), a being the upper end of what the catalogue calls usual,
+//! or what the case states below `[diagnosis] typical`.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::case::{Case, Observed};
+use super::catalogue::{Cell, Ground, Node, Variation};
+use crate::quantity::UnitTable;
+
+/// What usual sizes of an effect refer to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Usual {
+    /// The largest shift of the output as a share of full scale.
+    Share(f64),
+    /// The same for each kelvin of the column that the effect follows.
+    PerKelvin(f64),
+    /// The same for each square kelvin.
+    PerSquareKelvin(f64),
+    /// The coefficient, as an angle in rad or a length in m, whichever the disturbed column is.
+    Geometric {
+        /// In rad.
+        angle: f64,
+        /// In m.
+        length: f64,
+    },
+}
+
+/// The upper ends of the sizes that `effects.toml` calls usual, for effects of which it knows any.
+const USUAL: &[(&str, Usual)] = &[
+    ("quadratic", Usual::Share(1e-3)),
+    ("cubic", Usual::Share(1e-3)),
+    ("asymmetry", Usual::Share(1e-3)),
+    ("zero-step", Usual::Share(1e-3)),
+    ("cross-square", Usual::Share(3e-5)),
+    ("cross-product", Usual::Share(2e-5)),
+    ("cross-sensitivity", Usual::Share(1e-2)),
+    ("cross-axis", Usual::Share(2e-2)),
+    ("axis-quadratic", Usual::Share(2e-3)),
+    ("axis-cubic", Usual::Share(1e-3)),
+    ("axis-asymmetry", Usual::Share(1e-3)),
+    ("tempco-bias", Usual::PerKelvin(1e-4)),
+    ("tempco-scale", Usual::PerKelvin(5e-4)),
+    ("tempco-quadratic", Usual::PerSquareKelvin(1e-6)),
+    ("lag", Usual::Share(1e-3)),
+    ("hysteresis", Usual::Share(1e-3)),
+    ("season", Usual::Share(1e-5)),
+    (
+        "play",
+        Usual::Geometric {
+            angle: 2e-5,
+            length: 5e-5,
+        },
+    ),
+    (
+        "eccentricity",
+        Usual::Geometric {
+            angle: 2e-5,
+            length: 5e-5,
+        },
+    ),
+];
+
+/// Columns of a variation in units in which each shifts the output by one unit at most.
+pub struct Unified {
+    /// Observations × coefficients.
+    pub columns: DMatrix<f64>,
+    /// What a coefficient of one shifts an observation by at most.
+    pub peaks: Vec<f64>,
+}
+
+/// The columns of a variation; nothing where one is not finite or does nothing.
+pub fn unified(columns: DMatrix<f64>) -> Option<Unified> {
+    let peaks: Vec<f64> = columns.column_iter().map(|column| column.amax()).collect();
+    if peaks.is_empty() || !peaks.iter().all(|peak| peak.is_finite() && *peak > 0.0) {
+        return None;
+    }
+    let mut columns = columns;
+    for (mut column, peak) in columns.column_iter_mut().zip(&peaks) {
+        column /= *peak;
+    }
+    Some(Unified { columns, peaks })
+}
+
+/// Full scale of each observation: what the case states for the output, else the largest value of the
+/// model, for points on a scale of temperature its range.
+pub fn full_scales(ground: &Ground<'_>) -> DVector<f64> {
+    let case = ground.case();
+    ground.frame.observed_column(|response| {
+        let stated = match case.responses[response].observed {
+            Observed::Column(column) => case.columns[column].full_scale,
+            Observed::Constant(_) => None,
+        };
+        let values = &ground.fit.linear.values[response];
+        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let own = if case.responses[response].unit.is_point() {
+            most - least
+        } else {
+            most.abs().max(least.abs())
+        };
+        vec![stated.unwrap_or(own); case.rows]
+    })
+}
+
+/// The largest shift of the output that would not surprise; nothing where nothing is known.
+pub fn shift(
+    ground: &Ground<'_>,
+    cell: &Cell,
+    variation: &Variation,
+    unified: &Unified,
+    full_scales: &DVector<f64>,
+) -> Option<f64> {
+    let case = ground.case();
+    // A shift by one unit at most, as a share of full scale.
+    let share = (0..unified.columns.nrows())
+        .filter(|row| full_scales[*row] > 0.0)
+        .map(|row| unified.columns.row(row).amax() / full_scales[row])
+        .fold(0.0, f64::max);
+    let of_share = |wanted: f64| (share > 0.0).then(|| wanted / share);
+    let mut stated = case.settings.typical.iter();
+    if let Some((_, wanted)) = stated.find(|(id, _)| *id == cell.effect.id) {
+        return of_share(*wanted);
+    }
+    if let Some(own) = cell.typical {
+        return unified.peaks.first().map(|peak| own.abs() * peak);
+    }
+    let (_, usual) = USUAL.iter().find(|(id, _)| *id == cell.effect.id)?;
+    match usual {
+        Usual::Share(wanted) => of_share(*wanted),
+        Usual::PerKelvin(wanted) => of_share(wanted * excursion(case, &cell.words.x)?),
+        Usual::PerSquareKelvin(wanted) => {
+            of_share(wanted * excursion(case, &cell.words.x)?.powi(2))
+        }
+        Usual::Geometric { angle, length } => {
+            let Node::Column(column) = variation.terms.first()?.node else {
+                return None;
+            };
+            let unit = case.columns[column].unit.difference();
+            let units = UnitTable::default();
+            let [rad, metre] = ["rad", "m"].map(|text| units.parse(text).ok());
+            let size = if case.columns[column].unit.is_one() {
+                *angle
+            } else if let Some(conversion) = metre?.conversion_to(&unit) {
+                conversion.apply(*length)
+            } else {
+                rad?.conversion_to(&unit)?.apply(*angle)
+            };
+            unified.peaks.first().map(|peak| size * peak)
+        }
+    }
+}
+
+/// Half the range of a temperature in K.
+fn excursion(case: &Case, column: &str) -> Option<f64> {
+    let column = &case.columns[case.column(column)?];
+    let numbers = column.numbers()?;
+    let kelvin = UnitTable::default().parse("K").ok()?;
+    let factor = column.unit.difference().conversion_to(&kelvin)?.apply(1.0);
+    let (least, most) = super::catalogue::modifiers::range(numbers);
+    Some(0.5 * (most - least) * factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::catalogue::effects;
+
+    #[test]
+    fn sizes_belong_to_effects_of_the_catalogue() {
+        for (id, _) in USUAL {
+            assert!(effects().iter().any(|effect| effect.id == *id), "{id}");
+        }
+    }
+
+    #[test]
+    fn columns_are_unified_by_their_largest_value() {
+        let unified = unified(DMatrix::from_column_slice(2, 1, &[1.0, -4.0])).unwrap();
+        assert_eq!(unified.peaks, [4.0]);
+        assert_eq!(unified.columns[(1, 0)], -1.0);
+        assert!(super::unified(DMatrix::zeros(2, 1)).is_none());
+    }
+}

@@ -1,0 +1,265 @@
+//! Levenberg–Marquardt in the manner of MINPACK (Moré 1978), finished by Gauss–Newton steps.
+//!
+//! A minimum is recognised by the relative offset (Bates & Watts 1981): the part of the residuals
+//! that a change of the parameters could take up, against the part that it could not. Near a
+//! minimum the plain Gauss–Newton step is a better judge than χ², which is flat there and only
+//! tells half the digits; so the last steps are made without asking χ².
+
+mod model;
+mod search;
+
+use nalgebra::DMatrix;
+
+use crate::least_squares::derivatives::{Block, Derivatives, blocks_of, derivatives};
+use crate::least_squares::factor::{Qr, dot, square};
+use crate::least_squares::problem::{Problem, Scale};
+use crate::least_squares::solution::{Failure, Solution};
+use crate::least_squares::whiten::Whitener;
+
+use search::Search;
+
+/// Residuals of unit variance, as a function of the parameters.
+pub(super) trait Residuals {
+    /// At these parameters; None where the response is not finite. `near` is an earlier result
+    /// from which to continue where something is iterated inside.
+    fn at(&self, parameters: &[f64], near: Option<&Linear>) -> Option<Linear>;
+}
+
+/// Residuals, and how they follow the parameters.
+#[derive(Clone)]
+pub(super) struct Linear {
+    /// Observed minus response, of unit variance.
+    pub(super) residuals: Vec<f64>,
+    /// Columns of the Jacobian of the response, of the same weight.
+    pub(super) jacobian: Vec<Vec<f64>>,
+    /// Errors of the predictors; empty where these are exact.
+    pub(super) shifts: Vec<f64>,
+    /// The observations, of the same weight.
+    pub(super) observed: Vec<f64>,
+    /// A constant response of one, of the same weight.
+    pub(super) ones: Vec<f64>,
+}
+
+impl Linear {
+    /// Puts together what independent blocks of points give.
+    pub(super) fn join(parameters: usize) -> Linear {
+        Linear {
+            residuals: Vec::new(),
+            jacobian: vec![Vec::new(); parameters],
+            shifts: Vec::new(),
+            observed: Vec::new(),
+            ones: Vec::new(),
+        }
+    }
+
+    /// 1 − χ²/χ²₀ with χ²₀ of the best constant.
+    pub(super) fn r_squared(&self) -> f64 {
+        let mean = dot(&self.ones, &self.observed) / square(&self.ones);
+        let deviations: Vec<f64> = self
+            .observed
+            .iter()
+            .zip(&self.ones)
+            .map(|(y, one)| y - mean * one)
+            .collect();
+        1.0 - square(&self.residuals) / square(&deviations)
+    }
+}
+
+/// Where the search ended.
+pub(super) struct Minimum {
+    pub(super) parameters: Vec<f64>,
+    pub(super) linear: Linear,
+    pub(super) iterations: usize,
+}
+
+/// Why it did not end in a minimum.
+pub(super) enum Stuck {
+    /// The response is not finite at the start.
+    Start,
+    /// The parameters there cannot be told apart.
+    Flat { parameters: Vec<usize> },
+    /// No progress, or no end.
+    Lost {
+        iterations: usize,
+        parameters: Vec<f64>,
+    },
+}
+
+/// Trust regions to begin with, in units of the scaled start: MINPACK's own, then shy ones for
+/// starts from which a long step leads onto a plain.
+const FIRST_REGIONS: [f64; 4] = [100.0, 1.0, 0.1, 0.01];
+
+/// Columns of the Jacobian that agree to this fraction make the problem flat.
+const FLAT: f64 = 1e-14;
+
+/// The minimum that the start leads to.
+pub(super) fn minimise(residuals: &dyn Residuals, start: &[f64]) -> Result<Minimum, Stuck> {
+    let first = residuals.at(start, None).ok_or(Stuck::Start)?;
+    let mut reason = None;
+    for region in FIRST_REGIONS {
+        match Search::new(residuals, start, &first, region).run() {
+            Ok(minimum) => return Ok(minimum),
+            Err(stuck) => {
+                reason.get_or_insert(stuck);
+            }
+        }
+    }
+    Err(reason.unwrap_or(Stuck::Start))
+}
+
+/// Estimates, covariance and derivatives of a checked problem with exact predictors.
+pub(super) fn solve(problem: &Problem) -> Result<Solution, Failure> {
+    let residuals = ExactPredictors {
+        problem,
+        whitener: Whitener::new(&problem.errors.y)?,
+    };
+    let start = problem.start.as_deref().ok_or(Failure::NoStart)?;
+    let minimum = minimise(&residuals, start).map_err(|stuck| stuck.failure(problem, start))?;
+    minimum.solution(problem, &blocks_of(problem))
+}
+
+impl Stuck {
+    /// In terms of the problem.
+    pub(super) fn failure(self, problem: &Problem, start: &[f64]) -> Failure {
+        match self {
+            Stuck::Start => Failure::Undefined {
+                point: first_undefined(problem, start),
+            },
+            Stuck::Flat { parameters } => Failure::Indistinct { parameters },
+            Stuck::Lost {
+                iterations,
+                parameters,
+            } => Failure::NoConvergence {
+                iterations,
+                parameters,
+            },
+        }
+    }
+}
+
+/// The first point at which the response is not finite.
+fn first_undefined(problem: &Problem, parameters: &[f64]) -> usize {
+    let (mut by_parameter, mut by_predictor) =
+        (vec![0.0; parameters.len()], vec![0.0; problem.x.ncols()]);
+    let undefined = |point: &usize| {
+        let x: Vec<f64> = problem.x.row(*point).iter().copied().collect();
+        let f = problem
+            .response
+            .at(&x, parameters, &mut by_parameter, &mut by_predictor);
+        !f.is_finite() || by_parameter.iter().any(|slope| !slope.is_finite())
+    };
+    (0..problem.points()).find(undefined).unwrap_or(0)
+}
+
+impl Minimum {
+    /// All that follows from a minimum.
+    pub(super) fn solution(self, problem: &Problem, blocks: &[Block]) -> Result<Solution, Failure> {
+        let Minimum {
+            parameters,
+            linear,
+            iterations,
+        } = self;
+        let qr = Qr::new(linear.jacobian.clone(), FLAT);
+        let chi_squared = square(&linear.residuals);
+        let dof = problem.points() - parameters.len();
+        let variance = if dof == 0 {
+            f64::NAN
+        } else {
+            chi_squared / dof as f64
+        };
+        let normal = qr.inverse_normal();
+        let adjusted_x = adjusted(problem, &linear.shifts);
+        let Some(Derivatives { by_y, by_x }) =
+            derivatives(problem, blocks, &parameters, &adjusted_x, &normal)
+        else {
+            return Err(Failure::NoConvergence {
+                iterations,
+                parameters,
+            });
+        };
+        let (mut by_parameter, mut by_predictor) =
+            (vec![0.0; parameters.len()], vec![0.0; problem.x.ncols()]);
+        let fitted: Vec<f64> = (0..problem.points())
+            .map(|point| {
+                let x: Vec<f64> = adjusted_x.row(point).iter().copied().collect();
+                problem
+                    .response
+                    .at(&x, &parameters, &mut by_parameter, &mut by_predictor)
+            })
+            .collect();
+        Ok(Solution {
+            covariance: match problem.errors.scale {
+                Scale::Stated => normal,
+                Scale::Residuals => normal * variance,
+            },
+            dof,
+            chi_squared,
+            residual_sd: variance.sqrt(),
+            r_squared: linear.r_squared(),
+            residuals: problem.y.iter().zip(&fitted).map(|(y, f)| y - f).collect(),
+            fitted,
+            adjusted_x,
+            by_y,
+            by_x,
+            condition: qr.condition(),
+            iterations,
+            parameters,
+        })
+    }
+}
+
+/// Observed predictors without their errors.
+fn adjusted(problem: &Problem, shifts: &[f64]) -> DMatrix<f64> {
+    if shifts.is_empty() {
+        return problem.x.clone();
+    }
+    let (n, m) = problem.x.shape();
+    DMatrix::from_fn(n, m, |point, predictor| {
+        problem.x[(point, predictor)] - shifts[predictor * n + point]
+    })
+}
+
+/// Residuals of a problem with exact predictors.
+pub(super) struct ExactPredictors<'a> {
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) whitener: Whitener<f64>,
+}
+
+impl Residuals for ExactPredictors<'_> {
+    fn at(&self, parameters: &[f64], _near: Option<&Linear>) -> Option<Linear> {
+        let problem = self.problem;
+        let (n, m) = (problem.points(), problem.x.ncols());
+        let mut linear = Linear::join(parameters.len());
+        let mut by_parameter = vec![0.0; parameters.len()];
+        let mut by_predictor = vec![0.0; m];
+        let mut x = vec![0.0; m];
+        for point in 0..n {
+            for (cell, observed) in x.iter_mut().zip(problem.x.row(point).iter()) {
+                *cell = *observed;
+            }
+            let f = problem
+                .response
+                .at(&x, parameters, &mut by_parameter, &mut by_predictor);
+            if !f.is_finite() || by_parameter.iter().any(|slope| !slope.is_finite()) {
+                return None;
+            }
+            linear.residuals.push(problem.y[point] - f);
+            for (column, slope) in linear.jacobian.iter_mut().zip(&by_parameter) {
+                column.push(*slope);
+            }
+        }
+        linear.observed = problem.y.iter().copied().collect();
+        linear.ones = vec![1.0; n];
+        let Linear {
+            residuals,
+            jacobian,
+            observed,
+            ones,
+            ..
+        } = &mut linear;
+        for column in jacobian.iter_mut().chain([residuals, observed, ones]) {
+            self.whitener.whiten(column);
+        }
+        Some(linear)
+    }
+}

@@ -1,0 +1,261 @@
+//! Syntax tree → graph: names, shapes and units of expressions.
+
+mod names;
+mod operators;
+mod vectors;
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use crate::fault::Fault;
+use crate::model::faults;
+use crate::model::graph::{Builder, Id, Label};
+use crate::model::operation::{binary_row, unary};
+use crate::model::printer;
+use crate::model::syntax::{Expr, Name, Node, Span};
+use crate::model::{Place, Symbol, functions};
+use crate::quantity::{Unit, UnitTable};
+
+/// Expressions and calls inside one another, with user functions written out.
+const MAX_DEPTH: usize = 160;
+/// Operations and expressions visited, with vectors and user functions written out.
+const MAX_WORK: usize = 3_000_000;
+
+/// What an expression gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Value {
+    /// One operation for a scalar, one per element for a vector.
+    pub elements: Vec<Id>,
+    pub vector: bool,
+    pub kind: Kind,
+    /// A literal 0, which fits any unit.
+    pub zero: bool,
+    /// Made of numbers without units only.
+    pub literal: bool,
+}
+
+/// What kind of thing a value is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kind {
+    Truth,
+    Quantity(Unit),
+}
+
+/// A user's function.
+#[derive(Debug)]
+pub struct UserFunction {
+    pub name: Name,
+    pub parameters: Vec<Name>,
+    pub body: Expr,
+    pub place: Place,
+}
+
+/// What a name stands for.
+#[derive(Debug, Clone)]
+pub enum Binding {
+    Value(Value),
+    Function(Rc<UserFunction>),
+    /// Its definition has a fault, which was reported; what uses it is not reported again.
+    Faulty,
+}
+
+/// The state of the check.
+pub struct Lowering<'r> {
+    pub builder: Builder,
+    pub symbols: &'r [Symbol],
+    /// Place of each symbol by its name.
+    places: HashMap<&'r str, usize>,
+    pub units: &'r UnitTable,
+    /// Inputs, constants and what the statements so far define.
+    pub scope: HashMap<String, Binding>,
+    /// Parameters of the function being written out, and unknowns of `solve`.
+    pub locals: Vec<HashMap<String, Value>>,
+    /// The text being read.
+    pub place: Place,
+    pub faults: Vec<(Place, Fault)>,
+    /// Where the outermost function call stands that is being written out.
+    pub call: Option<(Place, Span, String)>,
+    /// Names that later statements of the text define.
+    pub later: Vec<String>,
+    depth: usize,
+    work: usize,
+    exhausted: bool,
+}
+
+impl<'r> Lowering<'r> {
+    pub fn new(symbols: &'r [Symbol], units: &'r UnitTable) -> Self {
+        let mut places = HashMap::with_capacity(symbols.len());
+        for (place, symbol) in symbols.iter().enumerate() {
+            places.entry(symbol.name.as_str()).or_insert(place);
+        }
+        Lowering {
+            builder: Builder::default(),
+            symbols,
+            places,
+            units,
+            scope: HashMap::new(),
+            locals: vec![HashMap::new()],
+            place: Place::Shared,
+            faults: Vec::new(),
+            call: None,
+            later: Vec::new(),
+            depth: 0,
+            work: 0,
+            exhausted: false,
+        }
+    }
+
+    pub fn symbol(&self, name: &str) -> Option<&'r Symbol> {
+        self.place_of(name).map(|place| &self.symbols[place])
+    }
+
+    /// Which of the symbols has this name.
+    pub fn place_of(&self, name: &str) -> Option<usize> {
+        self.places.get(name).copied()
+    }
+
+    /// Notes a fault. One inside a user's function is shown at the call that leads to it.
+    pub fn report(&mut self, fault: Fault) {
+        let (place, fault) = match &self.call {
+            None => (self.place, fault),
+            Some((place, span, name)) => {
+                let inner = Fault {
+                    span: span.clone(),
+                    related: Vec::new(),
+                    ..fault.clone()
+                };
+                let inner = if *place == self.place {
+                    inner.related(fault.span, fault.label)
+                } else {
+                    inner
+                };
+                let message = format!("in `{name}`: {}", fault.message);
+                (
+                    *place,
+                    Fault {
+                        message,
+                        label: "with these arguments".to_string(),
+                        ..inner
+                    },
+                )
+            }
+        };
+        if !self.faults.contains(&(place, fault.clone())) {
+            self.faults.push((place, fault));
+        }
+    }
+
+    /// Counts work; false, with a fault, when there is too much of it.
+    pub fn spend(&mut self, work: usize, span: &Span) -> bool {
+        self.work = self.work.saturating_add(work);
+        if self.work <= MAX_WORK {
+            return true;
+        }
+        if !self.exhausted {
+            self.exhausted = true;
+            self.report(
+                Fault::new(
+                    faults::TOO_LARGE,
+                    span.clone(),
+                    format!("written out, the model has more than {MAX_WORK} operations"),
+                )
+                .label("the limit is passed here")
+                .help("shorten the vectors, or give names to quantities that functions compute again and again"),
+            );
+        }
+        false
+    }
+
+    /// The value of an expression; `None` when it has a fault, which is then reported.
+    pub fn value(&mut self, e: &Expr) -> Option<Value> {
+        if !self.spend(1, &e.span) {
+            return None;
+        }
+        self.depth += 1;
+        let value = if self.depth > MAX_DEPTH {
+            self.report(
+                Fault::new(
+                    faults::TOO_DEEP,
+                    e.span.clone(),
+                    "with the functions written out, the formula is nested too deep",
+                )
+                .label("too deep")
+                .help("give the inner parts names of their own"),
+            );
+            None
+        } else {
+            self.node(e)
+        };
+        self.depth -= 1;
+        value
+    }
+
+    fn node(&mut self, e: &Expr) -> Option<Value> {
+        match &e.node {
+            Node::Number { value, unit, .. } => self.literal(*value, unit.as_ref()),
+            Node::Unit(unit) => self.stray_unit(e, unit),
+            Node::Name(name) => self.name(name, &e.span),
+            Node::Chain { first, rest } => self.chain(e, first, rest),
+            Node::Power { base, exponent } => self.power(e, base, exponent),
+            Node::Minus(inner) => self.negative(inner),
+            Node::Not(inner) => self.negation(inner),
+            Node::Call { name, arguments } => functions::call(self, e, name, arguments),
+            Node::Vector(items) => self.vector(e, items),
+            Node::Index { vector, index } => self.index(vector, index),
+            Node::If { condition, yes, no } => self.choice(e, condition, yes, no),
+        }
+    }
+
+    /// Notes how the user wrote the operations of a value, for hints about poles and kinks.
+    pub fn watch(&mut self, value: &Value, call: &Expr, argument: &Expr) {
+        let label = self.written(call, argument);
+        self.mark(value, &label);
+    }
+
+    /// How the user wrote a call.
+    pub fn written(&self, call: &Expr, argument: &Expr) -> Label {
+        // What a user's function does is shown where it is called.
+        let (place, span) = match &self.call {
+            Some((place, span, _)) => (*place, span.clone()),
+            None => (self.place, call.span.clone()),
+        };
+        Label {
+            call: printer::expression(call).into(),
+            argument: printer::expression(argument).into(),
+            place,
+            span,
+        }
+    }
+
+    /// Gives the operations of a value a label.
+    pub fn mark(&mut self, value: &Value, label: &Label) {
+        for id in &value.elements {
+            self.builder.label(*id, label);
+        }
+    }
+}
+
+impl Value {
+    /// The i-th element, or the scalar.
+    pub fn at(&self, i: usize) -> Id {
+        if self.vector {
+            self.elements[i]
+        } else {
+            self.elements[0]
+        }
+    }
+}
+
+impl Builder {
+    /// A function of the table by name.
+    pub fn call_unary(&mut self, name: &str, a: Id) -> Id {
+        let row = unary(name).expect("the name comes from the table");
+        self.unary(row, a)
+    }
+
+    /// A function of two arguments of the table by name.
+    pub fn call_binary(&mut self, name: &str, a: Id, b: Id) -> Id {
+        let row = binary_row(name).expect("the name comes from the table");
+        self.binary(row, a, b)
+    }
+}

@@ -1,0 +1,143 @@
+//! What stands alone: numbers, units, names.
+
+use super::{Binding, Lowering, Value};
+use crate::fault::{Fault, nearest};
+use crate::model::catalogue;
+use crate::model::faults;
+use crate::model::syntax::{Expr, Span, UnitText};
+use crate::quantity::Unit;
+
+impl Lowering<'_> {
+    pub(super) fn literal(&mut self, value: f64, unit: Option<&UnitText>) -> Option<Value> {
+        let parsed = match unit {
+            Some(text) => self.unit(text)?,
+            None => Unit::one(),
+        };
+        let id = self.builder.constant(value);
+        let bare = unit.is_none();
+        Some(Value {
+            zero: bare && value == 0.0,
+            literal: bare,
+            ..Value::scalar(id, parsed)
+        })
+    }
+
+    /// Reads a unit text.
+    pub fn unit(&mut self, text: &UnitText) -> Option<Unit> {
+        match self.units.parse(&text.text) {
+            Ok(unit) => Some(unit),
+            Err(error) => {
+                let start = text.span.start;
+                self.report(Fault::from(error).moved(|s| s.start + start..s.end + start));
+                None
+            }
+        }
+    }
+
+    pub(super) fn stray_unit(&mut self, e: &Expr, unit: &UnitText) -> Option<Value> {
+        self.report(
+            Fault::new(
+                faults::UNIT_TEXT,
+                e.span.clone(),
+                "a unit must stand right after a number",
+            )
+            .label("no number before this unit")
+            .help(format!("write `1 '{}'`", unit.text)),
+        );
+        None
+    }
+
+    pub(super) fn name(&mut self, name: &str, span: &Span) -> Option<Value> {
+        if let Some(value) = self.locals.last().and_then(|frame| frame.get(name)) {
+            return Some(value.clone());
+        }
+        match self.scope.get(name) {
+            Some(Binding::Value(value)) => {
+                let value = value.clone();
+                self.spend(value.elements.len() - 1, span).then_some(value)
+            }
+            Some(Binding::Faulty) => None,
+            Some(Binding::Function(function)) => {
+                let list: Vec<&str> = function
+                    .parameters
+                    .iter()
+                    .map(|p| p.text.as_str())
+                    .collect();
+                let signature = format!("{name}({})", list.join(", "));
+                self.function_as_value(name, &signature, span);
+                None
+            }
+            None if catalogue::is_pi(name) => {
+                let id = self.builder.constant(std::f64::consts::PI);
+                Some(Value {
+                    literal: true,
+                    ..Value::scalar(id, Unit::one())
+                })
+            }
+            None => {
+                self.unknown_name(name, span);
+                None
+            }
+        }
+    }
+
+    fn function_as_value(&mut self, name: &str, signature: &str, span: &Span) {
+        self.report(
+            Fault::new(
+                faults::FUNCTION_AS_VALUE,
+                span.clone(),
+                format!("`{name}` is a function and needs arguments"),
+            )
+            .label("no arguments")
+            .help(format!("write `{signature}`")),
+        );
+    }
+
+    /// Reports a name that stands for nothing.
+    pub fn unknown_name(&mut self, name: &str, span: &Span) {
+        if let Some(info) = catalogue::find(name) {
+            let signature = info.signature;
+            self.function_as_value(name, signature, span);
+            return;
+        }
+        if self.later.iter().any(|n| n == name) {
+            self.report(
+                Fault::new(faults::USED_BEFORE, span.clone(), format!("`{name}` is used before it is defined"))
+                    .label("not defined yet")
+                    .help(format!(
+                        "move the definition of `{name}` above this line; if `{name}` depends on itself, use `solve(equation, {name}, start)`"
+                    )),
+            );
+            return;
+        }
+        let mut known: Vec<&str> = self
+            .scope
+            .keys()
+            .map(String::as_str)
+            .chain(["pi"])
+            .collect();
+        known.extend(
+            self.locals
+                .last()
+                .into_iter()
+                .flat_map(|frame| frame.keys().map(String::as_str)),
+        );
+        known.sort_unstable();
+        let help = match nearest(name, known) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if name == "e" => "write `exp(1)` for the base of natural logarithms".to_string(),
+            None => format!(
+                "state it as `[input.{name}]` or `[constant.{name}]`, or define `{name} = …` above"
+            ),
+        };
+        self.report(
+            Fault::new(
+                faults::UNKNOWN_NAME,
+                span.clone(),
+                format!("`{name}` is not known"),
+            )
+            .label("no input, constant or quantity of this name")
+            .help(help),
+        );
+    }
+}

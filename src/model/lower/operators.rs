@@ -1,0 +1,204 @@
+//! Operators, element by element.
+
+use super::{Kind, Lowering, Value};
+use crate::fault::Fault;
+use crate::model::faults;
+use crate::model::graph::{Builder, Id};
+use crate::model::printer;
+use crate::model::syntax::{Expr, Infix, Span};
+use crate::model::units::Operand;
+
+impl Lowering<'_> {
+    pub(super) fn power(&mut self, whole: &Expr, base: &Expr, exponent: &Expr) -> Option<Value> {
+        let (x, y) = (self.value(base), self.value(exponent));
+        let (x, y) = (x?, y?);
+        let out = self.powered(
+            Operand {
+                value: &x,
+                expr: base,
+            },
+            Operand {
+                value: &y,
+                expr: exponent,
+            },
+            whole.span.clone(),
+        )?;
+        self.watch(&out, whole, base);
+        Some(Value {
+            literal: x.literal && y.literal,
+            zero: false,
+            ..out
+        })
+    }
+
+    pub(super) fn negative(&mut self, inner: &Expr) -> Option<Value> {
+        let x = self.value(inner)?;
+        self.difference(Operand {
+            value: &x,
+            expr: inner,
+        })?;
+        let elements = x.elements.iter().map(|id| self.builder.neg(*id)).collect();
+        Some(Value { elements, ..x })
+    }
+
+    pub(super) fn negation(&mut self, inner: &Expr) -> Option<Value> {
+        let x = self.value(inner)?;
+        self.truth(&x, inner)?;
+        let builder = &mut self.builder;
+        let elements = x.elements.iter();
+        let elements = elements.map(|id| builder.call_unary("not", *id)).collect();
+        Some(Value { elements, ..x })
+    }
+
+    pub(super) fn chain(
+        &mut self,
+        whole: &Expr,
+        first: &Expr,
+        rest: &[(Infix, Expr)],
+    ) -> Option<Value> {
+        let mut left = self.value(first);
+        for (infix, operand) in rest {
+            let right = self.value(operand);
+            // Messages show the first operand for all that stands left: in a sum it has the unit of the
+            // whole, in a product only the first can be a point temperature.
+            left = match (left, right) {
+                (Some(a), Some(b)) => self.infix(
+                    *infix,
+                    Operand {
+                        value: &a,
+                        expr: first,
+                    },
+                    Operand {
+                        value: &b,
+                        expr: operand,
+                    },
+                ),
+                _ => None,
+            };
+            if let Some(value) = &left
+                && *infix == Infix::Div
+            {
+                let quotient = value.clone();
+                self.watch(&quotient, operand, operand);
+            }
+        }
+        if let Some(value) = &left
+            && rest.iter().any(|(infix, _)| infix.compares())
+        {
+            let value = value.clone();
+            self.watch(&value, whole, whole);
+        }
+        left
+    }
+
+    fn infix(&mut self, infix: Infix, left: Operand<'_>, right: Operand<'_>) -> Option<Value> {
+        let span = left.expr.span.start..right.expr.span.end;
+        let literal = left.value.literal && right.value.literal;
+        self.same_length(left, right)?;
+        let value = match infix {
+            Infix::Add | Infix::Sub => {
+                let joined = self.sum(left, infix, right)?;
+                let unit = joined.unit;
+                self.apply(infix.symbol(), &joined.left, &joined.right, span)?
+                    .with_kind(Kind::Quantity(unit))
+            }
+            Infix::Mul | Infix::Div => {
+                let (a, b) = (self.difference(left), self.difference(right));
+                let (a, b) = (a?, b?);
+                let unit = if infix == Infix::Mul {
+                    a.product(&b)
+                } else {
+                    a.quotient(&b)
+                };
+                self.apply(infix.symbol(), left.value, right.value, span)?
+                    .with_kind(Kind::Quantity(unit))
+            }
+            Infix::And | Infix::Or => {
+                let (a, b) = (
+                    self.truth(left.value, left.expr),
+                    self.truth(right.value, right.expr),
+                );
+                a?;
+                b?;
+                self.apply(infix.symbol(), left.value, right.value, span)?
+                    .with_kind(Kind::Truth)
+            }
+            Infix::Power => self.powered(left, right, span)?,
+            _ => {
+                let joined = self.join(left, right, "compared")?;
+                self.apply(infix.symbol(), &joined.left, &joined.right, span)?
+                    .with_kind(Kind::Truth)
+            }
+        };
+        Some(Value {
+            literal,
+            zero: false,
+            ..value
+        })
+    }
+
+    fn apply(&mut self, name: &'static str, a: &Value, b: &Value, span: Span) -> Option<Value> {
+        self.elementwise(a, b, span, |builder, x, y| builder.call_binary(name, x, y))
+    }
+
+    /// Reports operands that are vectors of different lengths, by name.
+    fn same_length(&mut self, left: Operand<'_>, right: Operand<'_>) -> Option<()> {
+        let (a, b) = (left.value.elements.len(), right.value.elements.len());
+        if a == b || !left.value.vector || !right.value.vector {
+            return Some(());
+        }
+        let (x, y) = (
+            printer::expression(left.expr),
+            printer::expression(right.expr),
+        );
+        self.report(
+            Fault::new(
+                faults::LENGTHS,
+                right.expr.span.clone(),
+                format!("`{x}` has {a} elements, `{y}` has {b}"),
+            )
+            .label(format!("{b} elements"))
+            .related(left.expr.span.clone(), format!("{a} elements"))
+            .help("vectors are combined element by element and need equal lengths"),
+        );
+        None
+    }
+
+    /// Element by element, a scalar going with every element of a vector.
+    pub fn elementwise(
+        &mut self,
+        a: &Value,
+        b: &Value,
+        span: Span,
+        mut combine: impl FnMut(&mut Builder, Id, Id) -> Id,
+    ) -> Option<Value> {
+        let len = self.common_length(&[a, b], &span)?;
+        let elements = (0..len)
+            .map(|i| combine(&mut self.builder, a.at(i), b.at(i)))
+            .collect();
+        Some(Value {
+            elements,
+            vector: a.vector || b.vector,
+            ..a.clone()
+        })
+    }
+
+    /// The length that scalars and vectors have together.
+    pub fn common_length(&mut self, values: &[&Value], span: &Span) -> Option<usize> {
+        let mut vectors = values.iter().filter(|v| v.vector).map(|v| v.elements.len());
+        let len = vectors.next().unwrap_or(1);
+        if let Some(other) = vectors.find(|n| *n != len) {
+            self.report(
+                Fault::new(
+                    faults::LENGTHS,
+                    span.clone(),
+                    format!("a vector of {len} elements meets one of {other}"),
+                )
+                .label(format!("lengths {len} and {other}"))
+                .help("vectors are combined element by element and need equal lengths"),
+            );
+            return None;
+        }
+        self.spend(len, span).then_some(len)
+    }
+}

@@ -1,0 +1,100 @@
+//! Tokens → syntax tree, by precedence climbing. After a fault it goes on with the next statement.
+
+mod cursor;
+mod operands;
+mod operators;
+mod statements;
+
+use crate::fault::{Code, Fault};
+use crate::model::faults;
+use crate::model::lexer::{Kind, Token, tokens};
+use crate::model::syntax::{Span, Statement};
+
+type Parsed<T> = Result<T, Box<Fault>>;
+
+/// What was read of a text.
+#[derive(Default)]
+pub struct Reading {
+    pub statements: Vec<Statement>,
+    /// Names defined by statements that have a fault.
+    pub faulty: Vec<String>,
+}
+
+/// Bytes of a formula: room for a sum over ten thousand inputs.
+const LONGEST: usize = 200_000;
+
+/// The statements of a text; faults go to `faults`. `is_unit` tells whether a
+/// name would do as a unit, for better help.
+pub fn parse(text: &str, is_unit: &dyn Fn(&str) -> bool, faults: &mut Vec<Fault>) -> Reading {
+    if text.len() > LONGEST {
+        faults.push(too_long(text));
+        return Reading::default();
+    }
+    let tokens = tokens(text, faults);
+    let mut parser = Parser {
+        text,
+        tokens,
+        at: 0,
+        open: Vec::new(),
+        depth: 0,
+        begin: 0,
+        assigned: false,
+        is_unit,
+    };
+    let mut reading = Reading::default();
+    while parser.tokens[parser.at].kind != Kind::Eof {
+        if parser.tokens[parser.at].kind == Kind::End {
+            parser.at += 1;
+            continue;
+        }
+        let start = parser.tokens[parser.at].kind.clone();
+        match parser.statement() {
+            Ok(statement) => reading.statements.push(statement),
+            Err(fault) => {
+                faults.push(*fault);
+                if let (true, Kind::Name(name)) = (parser.assigned, start) {
+                    reading.faulty.push(name);
+                }
+                parser.recover();
+            }
+        }
+    }
+    reading
+}
+
+struct Parser<'a> {
+    text: &'a str,
+    tokens: Vec<Token>,
+    at: usize,
+    /// Brackets not closed yet.
+    open: Vec<(&'static str, Span)>,
+    depth: usize,
+    /// Where the statement begins.
+    begin: usize,
+    /// Whether the statement already has its `=`.
+    assigned: bool,
+    is_unit: &'a dyn Fn(&str) -> bool,
+}
+
+fn too_long(text: &str) -> Fault {
+    let start = 0..text.chars().next().map_or(0, char::len_utf8);
+    let message = format!("the formula has {} characters", text.chars().count());
+    Fault::new(faults::TOO_LARGE, start, message)
+        .label(format!("expected {LONGEST} at most"))
+        .help("put the values into a vector input (`values = [...]`) and write sum(x), mean(x) …")
+}
+
+fn fault(code: Code, span: Span, message: impl Into<String>) -> Box<Fault> {
+    Box::new(Fault::new(code, span, message))
+}
+
+/// Builder methods through the box.
+trait MapBox {
+    fn map(self, change: impl FnOnce(Fault) -> Fault) -> Self;
+}
+
+impl MapBox for Box<Fault> {
+    fn map(self, change: impl FnOnce(Fault) -> Fault) -> Self {
+        Box::new(change(*self))
+    }
+}

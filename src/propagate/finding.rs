@@ -1,0 +1,126 @@
+//! What the reader must know before using the numbers.
+
+use super::monte_carlo::MissingMoments;
+use crate::budget::LackOfFit;
+use crate::model::Notice;
+
+/// Something the reader must know before using the numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// Index of the measurand it concerns; `None` = the whole budget.
+    pub measurand: Option<usize>,
+    /// What it is.
+    pub kind: FindingKind,
+}
+
+/// The kinds of findings; the report has a sentence in each language for every one.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FindingKind {
+    /// c = 0 (or next to it) while u(x) > 0 and the input does act beyond first order.
+    VanishingSensitivity {
+        /// Names of all inputs concerned.
+        inputs: Vec<String>,
+        /// Their part of ½ ΣΣ f_ij u(x_i, x_j).
+        shift: f64,
+        /// What their second derivatives alone add to u(y), in quadrature.
+        u_effect: f64,
+        /// Whether that is seen at two digits of u(y), or second order cannot tell.
+        matters: bool,
+    },
+    /// Second-order terms change u or the estimate at the digits reported.
+    SecondOrderMatters {
+        /// ½ ΣΣ f_ij u(x_i, x_j).
+        shift: f64,
+        /// u(y), first order.
+        u_first: f64,
+        /// u(y) with second-order terms.
+        u_second: f64,
+    },
+    /// Clause 8: GUM is not validated at the digits reported. The statement uses Monte Carlo, unless it
+    /// claims no coverage probability (see [`MeasurandResult::basis`]).
+    NotValidated,
+    /// Clause 8: the ends of the Monte Carlo interval scatter too much for a verdict at the digits
+    /// reported. The statement uses the GUM result, which nothing refutes.
+    Undecided {
+        /// About how many trials would do.
+        trials: u64,
+    },
+    /// No Monte Carlo was run and first order is doubtful.
+    NeedsMonteCarlo,
+    /// Mean or standard deviation do not exist or do not converge; quantiles are given.
+    MomentsMissing {
+        /// Why.
+        reason: MissingMoments,
+    },
+    /// Some trials gave no finite value.
+    FailedTrials {
+        /// How many.
+        failed: u64,
+        /// Of how many.
+        trials: u64,
+    },
+    /// The adaptive procedure stopped at its maximum.
+    NotConverged {
+        /// Trials that were run.
+        trials: u64,
+    },
+    /// ν_eff refused.
+    FreedomRefused {
+        /// Names of the components.
+        members: Vec<String>,
+        /// What is used in place of ν_eff.
+        lower_bound: f64,
+    },
+    /// ν_eff is small (< 10): k is large and uncertain.
+    FewDegreesOfFreedom {
+        /// ν_eff.
+        dof: f64,
+    },
+    /// The model has a kink or a step at the estimates (abs, min, max, if, round …).
+    Irregular {
+        /// The operation.
+        what: Notice,
+    },
+    /// The divisor or the argument of a function is within a few u of a pole or of its domain's end.
+    NearSingular {
+        /// The operation.
+        what: Notice,
+    },
+    /// The distribution of a phase reaches the jump between -π and π.
+    PhaseWraps {
+        /// The operation.
+        what: Notice,
+    },
+    /// A rounding step is larger than the standard uncertainty of what is rounded, and Monte Carlo was
+    /// not run.
+    CoarseStep {
+        /// The operation.
+        what: Notice,
+    },
+    /// The argument of a table lies beyond its ends.
+    Extrapolated {
+        /// The operation.
+        what: Notice,
+    },
+    /// The data contradict the curve of a fit.
+    LackOfFit {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// The residuals of a fit are smaller than the stated uncertainties of its data let expect.
+    ResidualsTooSmall {
+        /// Name of the fit.
+        fit: String,
+        /// The test.
+        test: LackOfFit,
+    },
+    /// A fit passes through all its points, so that its residuals tell no uncertainty.
+    ExactFit {
+        /// Name of the fit.
+        fit: String,
+    },
+    /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
+    Asymmetric,
+}

@@ -74,6 +74,7 @@ impl Finding {
     /// [`message`](Self::message) in Chinese.
     pub fn message_zh(&self) -> String {
         let column = self.column.as_deref().unwrap_or_default();
+        let column = column.replace("\", \"", "”、“");
         let (count, line) = (self.count, self.line);
         let lines = if count == 1 {
             format!("第 {line} 行")

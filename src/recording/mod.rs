@@ -7,7 +7,7 @@
 //! | `sheet` | CSV text as rows of fields, with their places |
 //! | `heading` | names and units in the first line |
 //! | `field` | numbers and times in the rows below |
-//! | `reader` | the columns that a procedure asks for |
+//! | `reader`, `column_unit` | the columns that a procedure asks for; their units |
 //! | `checks` | missing values, times that go backwards, saturation, labels … |
 //! | `words` | what is said of that, in both languages |
 //! | `segment` | dwells: stretches that belong together; settling |
@@ -51,6 +51,7 @@
 mod allan;
 mod average;
 mod checks;
+mod column_unit;
 pub mod faults;
 mod field;
 mod heading;

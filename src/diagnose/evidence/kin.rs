@@ -62,9 +62,11 @@ pub(super) fn listed(
     for (candidate, mut variants) in shares {
         variants.sort_by(|a, b| b.0.total_cmp(&a.0));
         let (best, block) = variants[0];
-        // A candidate at the same place with more coefficients is the same, more general.
-        let general = question.candidates[candidate].place == *place
-            && space.blocks[block].basis.ncols() > own.basis.ncols();
+        // A candidate at the same place with more coefficients is the same, more general; one with many
+        // more, such as a value of its own for each level, holds anything.
+        let (more, few) = (space.blocks[block].basis.ncols(), own.basis.ncols());
+        let same = question.candidates[candidate].place == *place;
+        let general = (same && more > few) || more > few + 1;
         let alias = best > ALIAS && !general;
         let mixes = !question.candidates[candidate].repeats && variants.len() > 1;
         if alias || (mixes && kin(space, rest, &variants, estimate)) {
@@ -177,7 +179,7 @@ mod tests {
 
     use super::super::baseline::{Baseline, Prior};
     use super::super::examine::examine;
-    use super::super::findings::{Examination, State};
+    use super::super::findings::{Examination, Slot, State};
     use super::super::noise::{Covariance, Noise};
     use super::super::question::{Atom, Candidate, Place, Settings, Shape};
     use super::*;
@@ -210,7 +212,7 @@ mod tests {
     }
 
     /// A constant is fitted; relaxations of one time constant and other courses are on offer.
-    fn asked(effect: DVector<f64>, stream: u64) -> (Examination, Vec<String>) {
+    fn with<T>(effect: DVector<f64>, stream: u64, answer: impl Fn(&Question) -> T) -> T {
         let named = [
             (
                 "relaxation",
@@ -249,21 +251,23 @@ mod tests {
         let ones = DMatrix::from_element(ROWS, 1, 1.0);
         let residuals = effect + errors(stream);
         let baseline = Baseline::new(&ones, &residuals, &noise, &Prior::none(1)).unwrap();
-        let question = Question {
+        answer(&Question {
             baseline: &baseline,
             candidates: &candidates,
             atoms: &atoms,
             settings: Settings::default(),
-        };
-        let found = examine(&question, &|_| ControlFlow::Continue(())).unwrap();
-        let mut names: Vec<String> = found
-            .slots
-            .iter()
-            .filter(|slot| slot.state == State::Identified)
-            .map(|slot| candidates[slot.named[0].candidate].name.clone())
-            .collect();
-        names.sort();
-        (found, names)
+        })
+    }
+
+    /// What is found, and the unique names.
+    fn asked(effect: DVector<f64>, stream: u64) -> (Examination, Vec<String>) {
+        with(effect, stream, |question| {
+            let found = examine(question, &|_| ControlFlow::Continue(())).unwrap();
+            let unique = found.slots.iter().filter(|s| s.state == State::Identified);
+            let name = |slot: &Slot| question.candidates[slot.named[0].candidate].name.clone();
+            let names = unique.map(name).collect();
+            (found, names)
+        })
     }
 
     #[test]
@@ -277,11 +281,22 @@ mod tests {
     }
 
     #[test]
-    fn two_effects_are_two_names() {
-        for stream in 0..6 {
-            let (_, names) = asked(relaxation(15.0) * 40.0 + wave() * 3.0, stream);
-            assert_eq!(names, ["relaxation", "wave"], "{stream}");
-        }
+    fn a_second_effect_is_no_shape_of_the_first() {
+        let effect = relaxation(15.0) * 20.0 + wave() * 4.0;
+        with(effect, 1, |question| {
+            let space = Space::new(question).unwrap();
+            let block = |name: &str| {
+                let named = |b: &Block| question.candidates[b.candidate].name == name;
+                let fit = |b: &Block| b.basis.tr_mul(&space.z).norm();
+                (0..space.blocks.len())
+                    .filter(|b| named(&space.blocks[*b]))
+                    .max_by(|a, b| fit(&space.blocks[*a]).total_cmp(&fit(&space.blocks[*b])))
+                    .unwrap()
+            };
+            let (first, wave, other) = (block("relaxation"), block("wave"), block("inverse"));
+            assert!(shapes(&space, question, &[first, wave]).is_empty());
+            assert_eq!(shapes(&space, question, &[first, wave, other]), [other]);
+        });
     }
 
     #[test]

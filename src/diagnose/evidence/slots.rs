@@ -18,7 +18,7 @@ use super::space::{Frame, Space};
 const CREDIBLE: f64 = 0.95;
 /// A slot in which generics have this probability has no name.
 const NAMELESS: f64 = 0.3;
-/// Generics that are listed at most.
+/// Generics, and tentative names, that are listed at most.
 const LISTED: usize = 3;
 
 /// One member of the set that explains the recording.
@@ -71,10 +71,16 @@ pub(super) fn slot(
         Member::Named(_) if list.len() == 1 => State::Identified,
         Member::Named(_) => State::Ambiguous,
     };
+    // What has no name has a few tentative ones, which tell what it resembles.
+    let most = match state {
+        State::Unexplained => LISTED,
+        State::Identified | State::Ambiguous => list.len(),
+    };
     Slot {
         state,
         named: list
             .into_iter()
+            .take(most)
             .map(|ranked| alternative(space, question, &rest, ranked, 1.0 - generic_share))
             .collect(),
         generic: ranking(space, &scores, Kind::Generic, all)

@@ -5,52 +5,11 @@ mod common;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::Value;
 
 use common::Noise;
-
-fn folder(name: &str) -> PathBuf {
-    let folder =
-        std::env::temp_dir().join(format!("gumption-diagnosis-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
-fn gumption(folder: &Path, arguments: &[&str]) -> (bool, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
-        .current_dir(folder)
-        .args(arguments)
-        .env("NO_COLOR", "1")
-        .env("COLUMNS", "100")
-        .output()
-        .expect("the program runs");
-    let text = if output.status.success() {
-        output.stdout
-    } else {
-        output.stderr
-    };
-    (
-        output.status.success(),
-        String::from_utf8_lossy(&text).into_owned(),
-    )
-}
-
-fn diagnosed(folder: &Path, case: &str) -> Value {
-    std::fs::write(folder.join("case.toml"), case).expect("written");
-    let (good, text) = gumption(folder, &["diagnose", "case.toml", "--json"]);
-    assert!(good, "{case}\n{text}");
-    serde_json::from_str(&text).expect("JSON")
-}
-
-/// Identifiers of everything that a diagnosis names.
-fn named(diagnosis: &Value) -> Vec<String> {
-    let effects = diagnosis["effects"].as_array().into_iter().flatten();
-    let of = effects.flat_map(|effect| effect["named"].as_array().into_iter().flatten());
-    of.filter_map(|one| one["id"].as_str().map(str::to_owned))
-        .collect()
-}
+use common::cases::{diagnosed, folder, gumption, named};
 
 /// Two series of a load cell; `curvature` in mV/kN².
 fn load_cell(curvature: f64, seed: u64) -> String {

@@ -12,7 +12,7 @@ use crate::report::number::{NONE, aligned, freedom, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
 use super::open;
-use super::words::{name, name_of_atom, noise, probability, verdict};
+use super::words::{name, name_of_atom, noise, p_is, probability, verdict};
 
 /// Cells of the scan that are shown.
 const PLACES: usize = 5;
@@ -54,7 +54,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
     };
     let differences = as_differences(case, language);
     let alarm = diagnosis.examination.levels.first();
-    let p = alarm.map_or(NONE.to_owned(), |level| probability(level.p));
+    let p = alarm.map_or(NONE.to_owned(), |level| p_is(level.p));
     vec![
         (
             language.pick("Declared model", "声明的模型").into(),
@@ -72,12 +72,12 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
             language.pick("Test for a mismatch", "不一致检验").into(),
             language.pick(
                 format!(
-                    "p = {p} over all {} explanations together (alarm below {})",
+                    "{p} over all {} explanations together (alarm below {})",
                     diagnosis.cells.len(),
                     significant(case.settings.alpha, 2)
                 ),
                 format!(
-                    "p = {p}（同时考虑全部 {} 种解释；低于 {} 报警）",
+                    "{p}（同时考虑全部 {} 种解释；低于 {} 报警）",
                     diagnosis.cells.len(),
                     significant(case.settings.alpha, 2)
                 ),
@@ -411,8 +411,8 @@ fn badly_predicted(case: &Case, diagnosis: &Diagnosis, language: Language) -> Op
     let known = !diagnosis.noise.is_estimated();
     (known && p < case.settings.alpha).then(|| {
         Block::Paragraph(language.pick(
-            format!("{} is predicted worse than the noise allows (p = {}): its conditions show something that those of the recording do not. Diagnose it too.", held.file, probability(p)),
-            format!("对 {} 的预测误差超出噪声（p = {}）：其条件显示出本记录未显示的影响，请对其也进行诊断。", held.file, probability(p)),
+            format!("{} is predicted worse than the noise allows ({}): its conditions show something that those of the recording do not. Diagnose it too.", held.file, p_is(p)),
+            format!("对 {} 的预测误差超出噪声（{}）：其条件显示出本记录未显示的影响，请对其也进行诊断。", held.file, p_is(p)),
         ))
     })
 }
@@ -435,8 +435,8 @@ fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
     };
     let agreement = adopted.confirmation.agreement.map_or(String::new(), |p| {
         language.pick(
-            format!("; they agree with p = {}", probability(p)),
-            format!("；一致性 p = {}", probability(p)),
+            format!("; they agree with {}", p_is(p)),
+            format!("；一致性 {}", p_is(p)),
         )
     });
     vec![Block::Paragraph(language.pick(

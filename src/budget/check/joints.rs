@@ -8,15 +8,13 @@ use super::Checker;
 use super::correlations::{Side, Statement};
 use super::draft::{Draft, Kind, Location, show};
 use super::groups::negative_eigenvalue;
-use super::register::Register;
+use super::register::{Register, no_such_input};
 use super::type_a::{mean_and_squares, student};
-use crate::budget::faults::{
-    CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS, UNKNOWN_NAME,
-};
+use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS};
 use crate::budget::table::Stated;
 use crate::budget::tables::{FileTable, JointTable};
 use crate::budget::{Evaluation, Group, Owner, TScale};
-use crate::fault::{Fault, nearest};
+use crate::fault::Fault;
 
 pub(super) type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
 
@@ -122,7 +120,9 @@ impl Checker<'_> {
                 Some(found) => places.extend(found),
                 None => {
                     complete = false;
-                    self.faults.push(no_such_input(name, register));
+                    let entries = register.entries.iter();
+                    let known: Vec<&str> = entries.map(|entry| entry.name.as_str()).collect();
+                    self.faults.push(no_such_input(name, &known));
                 }
             }
         }
@@ -468,17 +468,4 @@ fn places_of(name: &Stated<String>, register: &Register) -> Option<Vec<(usize, S
     let mut inputs = register.inputs.iter();
     let element = inputs.position(|input| input.name == name.value)?;
     Some(vec![(element, name.clone())])
-}
-
-fn no_such_input(name: &Stated<String>, register: &Register) -> Fault {
-    let entries = register.entries.iter();
-    let known: Vec<&str> = entries.map(|entry| entry.name.as_str()).collect();
-    let help = match nearest(&name.value, known.iter().copied()) {
-        Some(near) => format!("did you mean \"{near}\"?"),
-        None => format!("inputs: {}", known.join(", ")),
-    };
-    let message = format!("there is no input \"{}\"", name.value);
-    Fault::new(UNKNOWN_NAME, name.span.clone(), message)
-        .label("not declared")
-        .help(help)
 }

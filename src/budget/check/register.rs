@@ -5,8 +5,11 @@ use std::ops::Range;
 
 use super::draft::{Draft, Kind};
 use super::results::{Formula, Taken};
+use crate::budget::faults::UNKNOWN_NAME;
+use crate::budget::table::Stated;
 use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
 use crate::distribution::Distribution;
+use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 
 /// One `[input.X]`.
@@ -225,4 +228,16 @@ pub(super) fn t_dof(distribution: &Distribution) -> Option<f64> {
         Distribution::StudentT { dof, .. } => Some(*dof),
         _ => None,
     }
+}
+
+/// A name that is none of the inputs.
+pub(super) fn no_such_input(name: &Stated<String>, known: &[&str]) -> Fault {
+    let help = match nearest(&name.value, known.iter().copied()) {
+        Some(near) => format!("did you mean \"{near}\"?"),
+        None => format!("inputs: {}", known.join(", ")),
+    };
+    let message = format!("there is no input \"{}\"", name.value);
+    Fault::new(UNKNOWN_NAME, name.span.clone(), message)
+        .label("not declared")
+        .help(help)
 }

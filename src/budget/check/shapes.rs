@@ -12,11 +12,61 @@ use crate::fault::Fault;
 use crate::special::student_t_two_sided_quantile;
 
 /// Width of a shape before its parameters are known.
+#[derive(Clone, Copy)]
 pub(super) enum Width {
     /// Standard uncertainty.
     U(f64),
     /// Half-width.
     Half(f64),
+}
+
+/// A width from the file, whose shape is still to be found.
+struct Unshaped<'a> {
+    table: &'a ComponentTable,
+    width: Width,
+    /// How the width came about.
+    how: &'a str,
+    context: &'a Context<'a>,
+}
+
+/// The bells.
+#[derive(Clone, Copy, PartialEq)]
+enum Bell {
+    /// Normal whatever ν is, because the file says so.
+    Normal,
+    /// t, because the file says so.
+    StudentT,
+    /// Nothing is said: t for finite ν, else normal.
+    Either,
+}
+
+impl Unshaped<'_> {
+    /// A symmetric distribution with the variance a²/`divisor`.
+    fn symmetric(&self, divisor: f64, make: impl Fn(f64) -> Distribution) -> Core {
+        let how = self.how;
+        match self.width {
+            Width::Half(a) => Core::new(
+                make(a),
+                a / divisor.sqrt(),
+                format!("a/√{}, {how}", show(divisor)),
+            ),
+            Width::U(u) => Core::new(make(u * divisor.sqrt()), u, how),
+        }
+    }
+
+    /// Where the shape is stated.
+    fn place(&self) -> Range<usize> {
+        let stated = self.table.distribution.as_ref();
+        stated.map_or(self.context.place.clone(), |stated| stated.span.clone())
+    }
+
+    /// A parameter of the shape is missing.
+    fn lacks(&self, key: &str, meaning: &str) -> Fault {
+        let message = format!("the distribution of {} needs `{key}`", self.context.owner);
+        Fault::new(MISSING_KEY, self.place(), message)
+            .label(format!("`{key}` is missing"))
+            .help(format!("add `{key}`: {meaning}"))
+    }
 }
 
 impl Checker<'_> {
@@ -39,25 +89,31 @@ impl Checker<'_> {
         let shape = stated.unwrap_or(default);
         self.shape_keys(table, shape);
         let dof = self.dof(table)?;
+        let unshaped = Unshaped {
+            table,
+            width,
+            how: &how,
+            context,
+        };
         let mut core = match shape {
-            Shape::Normal | Shape::StudentT => {
-                self.bell(table, width, shape, stated.is_some(), dof, &how, context)
-            }
-            Shape::Uniform => Some(symmetric(width, 3.0, &how, |a| Distribution::Uniform {
+            Shape::Normal if stated.is_some() => self.bell(&unshaped, Bell::Normal, dof),
+            Shape::Normal => self.bell(&unshaped, Bell::Either, dof),
+            Shape::StudentT => self.bell(&unshaped, Bell::StudentT, dof),
+            Shape::Uniform => Some(unshaped.symmetric(3.0, |a| Distribution::Uniform {
                 lower: -a,
                 upper: a,
             })),
-            Shape::Triangular => Some(symmetric(width, 6.0, &how, |a| Distribution::Triangular {
+            Shape::Triangular => Some(unshaped.symmetric(6.0, |a| Distribution::Triangular {
                 lower: -a,
                 mode: 0.0,
                 upper: a,
             })),
-            Shape::Arcsine => Some(symmetric(width, 2.0, &how, |a| Distribution::Arcsine {
+            Shape::Arcsine => Some(unshaped.symmetric(2.0, |a| Distribution::Arcsine {
                 lower: -a,
                 upper: a,
             })),
-            Shape::Trapezoidal => self.trapezoid(table, width, &how, context),
-            Shape::CurvilinearTrapezoid => self.curvilinear(table, width, &how, context),
+            Shape::Trapezoidal => self.trapezoid(&unshaped),
+            Shape::CurvilinearTrapezoid => self.curvilinear(&unshaped),
         }?;
         core.dof = dof;
         Some(core)
@@ -115,46 +171,26 @@ impl Checker<'_> {
     }
 
     /// Normal or t: from u, or from a half-width with its coverage probability.
-    #[allow(clippy::too_many_arguments)]
-    fn bell(
-        &mut self,
-        table: &ComponentTable,
-        width: Width,
-        shape: Shape,
-        stated: bool,
-        dof: f64,
-        how: &str,
-        context: &Context<'_>,
-    ) -> Option<Core> {
-        if shape == Shape::StudentT && dof.is_infinite() {
+    fn bell(&mut self, unshaped: &Unshaped<'_>, bell: Bell, dof: f64) -> Option<Core> {
+        let owner = unshaped.context.owner;
+        if bell == Bell::StudentT && dof.is_infinite() {
+            let message = format!("the t distribution of {owner} has no degrees of freedom");
             return self.refuse(
-                Fault::new(
-                    DOF,
-                    shape_place(table, context),
-                    format!(
-                        "the t distribution of {} has no degrees of freedom",
-                        context.owner
-                    ),
-                )
-                .label("`dof` is missing")
-                .help("add `dof`, or write distribution = \"normal\""),
+                Fault::new(DOF, unshaped.place(), message)
+                    .label("`dof` is missing")
+                    .help("add `dof`, or write distribution = \"normal\""),
             );
         }
-        let (u, how) = match width {
-            Width::U(u) => (u, how.to_string()),
+        let (u, how) = match unshaped.width {
+            Width::U(u) => (u, unshaped.how.to_string()),
             Width::Half(a) => {
-                let Some(p) = &table.p else {
+                let Some(p) = &unshaped.table.p else {
+                    let message =
+                        format!("the normal half-width of {owner} has no coverage probability");
                     return self.refuse(
-                        Fault::new(
-                            NO_COVERAGE_FACTOR,
-                            shape_place(table, context),
-                            format!(
-                                "the normal half-width of {} has no coverage probability",
-                                context.owner
-                            ),
-                        )
-                        .label("`p` is missing")
-                        .help("add `p`, for example p = 0.95; a normal distribution has no limits"),
+                        Fault::new(NO_COVERAGE_FACTOR, unshaped.place(), message)
+                            .label("`p` is missing")
+                            .help("add `p`, for example p = 0.95; a normal distribution has no limits"),
                     );
                 };
                 let p = self.probability(p)?;
@@ -162,11 +198,9 @@ impl Checker<'_> {
                 (a / k, format!("a/k = {}/{} (p = {p})", show(a), show(k)))
             }
         };
-        // A stated normal distribution stays normal; without a statement finite ν means t.
-        let distribution = if shape == Shape::Normal && stated {
-            Distribution::Normal { mean: 0.0, sd: u }
-        } else {
-            self.t_or_normal(u, dof, &context.place)?
+        let distribution = match bell {
+            Bell::Normal => Distribution::Normal { mean: 0.0, sd: u },
+            Bell::StudentT | Bell::Either => self.t_or_normal(u, dof, &unshaped.context.place)?,
         };
         Some(Core {
             dof,
@@ -174,20 +208,10 @@ impl Checker<'_> {
         })
     }
 
-    fn trapezoid(
-        &mut self,
-        table: &ComponentTable,
-        width: Width,
-        how: &str,
-        context: &Context<'_>,
-    ) -> Option<Core> {
-        let Some(beta) = &table.beta else {
-            return self.refuse(missing_parameter(
-                shape_place(table, context),
-                "beta",
-                "top width / base width, from 0 to 1",
-                context,
-            ));
+    fn trapezoid(&mut self, unshaped: &Unshaped<'_>) -> Option<Core> {
+        let Some(beta) = &unshaped.table.beta else {
+            let meaning = "top width / base width, from 0 to 1";
+            return self.refuse(unshaped.lacks("beta", meaning));
         };
         if !(0.0..=1.0).contains(&beta.value) {
             return self.refuse(
@@ -202,34 +226,24 @@ impl Checker<'_> {
         }
         // Variance a²(1 + β²)/6, JCGM 101 6.4.4.4.
         let beta = beta.value;
-        Some(symmetric(width, 6.0 / (1.0 + beta * beta), how, |a| {
-            Distribution::Trapezoidal {
+        Some(
+            unshaped.symmetric(6.0 / (1.0 + beta * beta), |a| Distribution::Trapezoidal {
                 lower: -a,
                 upper: a,
                 beta,
-            }
-        }))
+            }),
+        )
     }
 
-    fn curvilinear(
-        &mut self,
-        table: &ComponentTable,
-        width: Width,
-        how: &str,
-        context: &Context<'_>,
-    ) -> Option<Core> {
-        let Some(d) = &table.d else {
-            return self.refuse(missing_parameter(
-                shape_place(table, context),
-                "d",
-                "the half-width of the doubt about each limit",
-                context,
-            ));
+    fn curvilinear(&mut self, unshaped: &Unshaped<'_>) -> Option<Core> {
+        let Some(d) = &unshaped.table.d else {
+            let meaning = "the half-width of the doubt about each limit";
+            return self.refuse(unshaped.lacks("d", meaning));
         };
         let place = d.span.clone();
-        let d = self.positive_deviation(d, "d", context, false)?;
+        let d = self.positive_deviation(d, "d", unshaped.context, false)?;
         // Variance a²/3 + d²/9, JCGM 101 6.4.3.4.
-        let (a, u) = match width {
+        let (a, u) = match unshaped.width {
             Width::Half(a) => (a, (a * a / 3.0 + d * d / 9.0).sqrt()),
             Width::U(u) => ((3.0 * (u * u - d * d / 9.0)).max(0.0).sqrt(), u),
         };
@@ -251,7 +265,7 @@ impl Checker<'_> {
         Some(Core::new(
             distribution,
             u,
-            format!("√(a²/3 + d²/9), {how}, d = {}", show(d)),
+            format!("√(a²/3 + d²/9), {}, d = {}", unshaped.how, show(d)),
         ))
     }
 }
@@ -263,39 +277,4 @@ pub(super) fn default_shape(table: &ComponentTable) -> Shape {
     } else {
         Shape::Uniform
     }
-}
-
-/// A symmetric distribution with the variance a²/`divisor`.
-fn symmetric(width: Width, divisor: f64, how: &str, make: impl Fn(f64) -> Distribution) -> Core {
-    match width {
-        Width::Half(a) => Core::new(
-            make(a),
-            a / divisor.sqrt(),
-            format!("a/√{}, {how}", show(divisor)),
-        ),
-        Width::U(u) => Core::new(make(u * divisor.sqrt()), u, how),
-    }
-}
-
-/// Where the shape is stated.
-fn shape_place(table: &ComponentTable, context: &Context<'_>) -> Range<usize> {
-    table
-        .distribution
-        .as_ref()
-        .map_or(context.place.clone(), |stated| stated.span.clone())
-}
-
-fn missing_parameter(
-    place: Range<usize>,
-    key: &str,
-    meaning: &str,
-    context: &Context<'_>,
-) -> Fault {
-    Fault::new(
-        MISSING_KEY,
-        place,
-        format!("the distribution of {} needs `{key}`", context.owner),
-    )
-    .label(format!("`{key}` is missing"))
-    .help(format!("add `{key}`: {meaning}"))
 }

@@ -1,0 +1,179 @@
+//! `[conformity]`: tolerance, decision rule, knowledge of the process.
+
+mod process;
+mod rule;
+
+use std::ops::Range;
+
+use crate::budget::check::register::{Register, no_such_input};
+use crate::budget::check::{Checker, entries};
+use crate::budget::faults::{CLAIM, NAME_TWICE, TOLERANCE};
+use crate::budget::table::Stated;
+use crate::budget::tables::{ConformityTable, FileTable};
+use crate::budget::values::Amount;
+use crate::budget::{Conformity, Interval};
+use crate::fault::Fault;
+use crate::quantity::Unit;
+
+/// A name from the file and the unit in which amounts are understood.
+struct Subject<'a> {
+    name: &'a str,
+    unit: &'a Unit,
+}
+
+impl Checker<'_> {
+    /// Reads `[conformity]`.
+    pub(in crate::budget::check) fn conformity(
+        &mut self,
+        file: &FileTable,
+        register: &Register,
+    ) -> Vec<Conformity> {
+        let stated = file.conformity.as_ref().map_or(&[][..], |all| &all.value.0);
+        let mut found: Vec<Conformity> = Vec::new();
+        for one in stated {
+            let Some(conformity) = self.assessment(one, file, register) else {
+                continue;
+            };
+            if found.iter().any(|other| other.name == conformity.name) {
+                self.faults.push(
+                    Fault::new(
+                        NAME_TWICE,
+                        one.span.clone(),
+                        format!("two conformity assessments are called {}", conformity.name),
+                    )
+                    .label("second one")
+                    .help("give each a name of its own: name = \"…\""),
+                );
+            }
+            let names = Conformity::FIGURES.map(|figure| format!("{}.{figure}", conformity.name));
+            self.awaited_figures.extend(names);
+            found.push(conformity);
+        }
+        found
+    }
+
+    fn assessment(
+        &mut self,
+        stated: &Stated<ConformityTable>,
+        file: &FileTable,
+        register: &Register,
+    ) -> Option<Conformity> {
+        let table = &stated.value;
+        let measurand = self.decided(&table.measurand, &stated.span, file, "conformity");
+        let carrier = match &table.carrier {
+            Some(carrier) => self.carrier(carrier, register).map(Some),
+            None => Some(lone(register)),
+        };
+        let measurand = measurand?;
+        let (name, entry) = entries(&file.measurand).get(measurand)?;
+        let unit = self.unit(&entry.value.unit)?;
+        let subject = Subject { name, unit: &unit };
+        let tolerance = self.tolerance(stated, &subject);
+        let rule = self.rule(stated, &subject, tolerance);
+        let process = match (&table.process, tolerance) {
+            (Some(process), Some(tolerance)) => self.process(process, tolerance).map(Some),
+            (Some(_), None) => None,
+            (None, _) => Some(None),
+        };
+        Some(Conformity {
+            name: table
+                .name
+                .as_ref()
+                .map_or_else(|| name.clone(), |text| text.value.clone()),
+            measurand,
+            tolerance: tolerance?,
+            rule: rule?,
+            process: process?,
+            carrier: carrier?,
+            planning: table.planning.as_ref().is_some_and(|word| word.value),
+        })
+    }
+
+    fn tolerance(
+        &mut self,
+        stated: &Stated<ConformityTable>,
+        subject: &Subject<'_>,
+    ) -> Option<Interval> {
+        let table = &stated.value;
+        let mut limit = |amount: &Option<Stated<Amount>>, missing: f64| match amount {
+            Some(amount) => self.quantity(amount, subject.unit, subject.name),
+            None => Some(missing),
+        };
+        let lower = limit(&table.lower, f64::NEG_INFINITY);
+        let upper = limit(&table.upper, f64::INFINITY);
+        let (lower, upper) = (lower?, upper?);
+        match (&table.lower, &table.upper) {
+            (None, None) if table.refused => None,
+            (None, None) => self.refuse(
+                Fault::new(
+                    TOLERANCE,
+                    stated.span.clone(),
+                    format!("{} has no tolerance limit", subject.name),
+                )
+                .label("`lower` and `upper` are missing")
+                .help("state the permissible values: `lower`, `upper`, or both"),
+            ),
+            (Some(first), Some(second)) if lower >= upper => self.refuse(
+                Fault::new(
+                    TOLERANCE,
+                    second.span.clone(),
+                    format!(
+                        "the tolerance limits of {} are {lower} and {upper}",
+                        subject.name
+                    ),
+                )
+                .label("must be above the lower limit")
+                .related(first.span.clone(), "lower limit"),
+            ),
+            _ => Some(Interval { lower, upper }),
+        }
+    }
+
+    /// An input by name that moves with the measurand.
+    pub(in crate::budget::check) fn carrier(
+        &mut self,
+        stated: &Stated<String>,
+        register: &Register,
+    ) -> Option<usize> {
+        let names = || register.inputs.iter().map(|input| input.name.as_str());
+        if let Some(index) = names().position(|name| name == stated.value) {
+            return Some(index);
+        }
+        self.refuse(no_such_input(stated, &names().collect::<Vec<_>>()))
+    }
+
+    /// The measurand that a decision is about.
+    pub(in crate::budget::check) fn decided(
+        &mut self,
+        stated: &Option<Stated<String>>,
+        place: &Range<usize>,
+        file: &FileTable,
+        table: &str,
+    ) -> Option<usize> {
+        if stated.is_none() && entries(&file.measurand).len() > 1 {
+            let names: Vec<&str> = entries(&file.measurand)
+                .iter()
+                .map(|(name, _)| name.as_str())
+                .collect();
+            return self.refuse(
+                Fault::new(
+                    CLAIM,
+                    place.clone(),
+                    format!("[{table}] does not say which measurand it is about"),
+                )
+                .label("`measurand` is missing")
+                .help(format!(
+                    "add measurand = \"{}\" (of {})",
+                    names[0],
+                    names.join(", ")
+                )),
+            );
+        }
+        self.claimed(stated, place)
+    }
+}
+
+/// The only input, which then carries the measurand.
+fn lone(register: &Register) -> Option<usize> {
+    (register.inputs.len() == 1).then_some(0)
+}

@@ -1,0 +1,301 @@
+//! The decision rule, from whichever keys state it.
+
+use std::ops::Range;
+
+use super::Subject;
+use crate::budget::check::Checker;
+use crate::budget::faults::{DECISION_RULE, LIMITS, NOT_POSITIVE, TOLERANCE, TWO_WAYS};
+use crate::budget::table::Stated;
+use crate::budget::tables::{ConformityTable, RuleWord};
+use crate::budget::values::Amount;
+use crate::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY, Interval};
+use crate::fault::Fault;
+
+const BAND_AND_PROBABILITY: &str = "a guard band beside a probability";
+
+/// A guard band, and the place of its key.
+struct Band {
+    guard: Guard,
+    key: Range<usize>,
+}
+
+/// Probabilities and the guard band, as far as they are stated.
+struct Guards {
+    /// Probability of conformance.
+    inner: Option<Guard>,
+    /// Probability of non-conformance.
+    outer: Option<Guard>,
+    band: Option<Band>,
+}
+
+impl Guards {
+    fn are_probable(&self) -> bool {
+        self.inner.is_some() || self.outer.is_some()
+    }
+
+    /// The rule that a word names; none where it is complete without what else is stated.
+    fn rule(&self, word: RuleWord) -> Option<DecisionRule> {
+        let whole = Guard::Expanded(1.0);
+        let band = self.band.as_ref().map(|band| band.guard);
+        let guard = |stated: Option<Guard>| stated.or(band).unwrap_or(whole);
+        let bare = !self.are_probable() && band.is_none();
+        let (rule, fits) = match word {
+            RuleWord::GuardedAcceptance => (
+                DecisionRule::GuardedAcceptance(guard(self.inner)),
+                self.outer.is_none(),
+            ),
+            RuleWord::GuardedRejection => (
+                DecisionRule::GuardedRejection(guard(self.outer)),
+                self.inner.is_none(),
+            ),
+            RuleWord::NonBinary => (
+                DecisionRule::NonBinary {
+                    inner: guard(self.inner),
+                    outer: guard(self.outer),
+                },
+                self.inner.is_some() == self.outer.is_some(),
+            ),
+            RuleWord::Simple => (DecisionRule::Simple, bare),
+            RuleWord::IlacG8 => (DecisionRule::GuardedAcceptance(whole), bare),
+            RuleWord::Iso14253 => (
+                DecisionRule::NonBinary {
+                    inner: Guard::Probability(ISO_14253_PROBABILITY),
+                    outer: Guard::Probability(ISO_14253_PROBABILITY),
+                },
+                bare,
+            ),
+            RuleWord::Jjf1094 => (DecisionRule::Jjf1094, bare),
+        };
+        fits.then_some(rule)
+    }
+}
+
+impl Checker<'_> {
+    /// The decision rule, from whichever keys state it.
+    pub(super) fn rule(
+        &mut self,
+        stated: &Stated<ConformityTable>,
+        subject: &Subject<'_>,
+        tolerance: Option<Interval>,
+    ) -> Option<DecisionRule> {
+        let table = &stated.value;
+        if let Some(limits) = &table.acceptance {
+            self.alone(table, "acceptance")?;
+            return self.stated_acceptance(limits, subject, tolerance?);
+        }
+        let inner = self.stated_probability(&table.conformance_probability);
+        let outer = self.stated_probability(&table.nonconformance_probability);
+        let band = self.band(table, subject);
+        let guards = Guards {
+            inner: inner?,
+            outer: outer?,
+            band: band?,
+        };
+        let Some(word) = &table.rule else {
+            return self.rule_of_guards(stated, &guards);
+        };
+        if let (true, Some(band)) = (guards.are_probable(), &guards.band) {
+            return self.clash(&band.key, BAND_AND_PROBABILITY);
+        }
+        let extra = table
+            .conformance_probability
+            .as_ref()
+            .or(table.nonconformance_probability.as_ref())
+            .map(|stated| stated.key.clone())
+            .or(guards.band.as_ref().map(|band| band.key.clone()));
+        let Some(rule) = guards.rule(word.value) else {
+            let key = extra.unwrap_or(word.key.clone());
+            let what = format!("rule = \"{}\" is complete without it", word.value.word());
+            return self.clash(&key, &what);
+        };
+        if rule == DecisionRule::Jjf1094 && tolerance.is_some_and(|t| t.width().is_none()) {
+            return self.refuse(
+                Fault::new(
+                    DECISION_RULE,
+                    word.span.clone(),
+                    format!(
+                        "{} has one tolerance limit, JJF 1094 a maximum permissible error",
+                        subject.name
+                    ),
+                )
+                .label("needs `lower` and `upper`")
+                .help("with one limit write for example rule = \"non-binary\""),
+            );
+        }
+        Some(rule)
+    }
+
+    /// The rule where no word names one.
+    fn rule_of_guards(
+        &mut self,
+        stated: &Stated<ConformityTable>,
+        guards: &Guards,
+    ) -> Option<DecisionRule> {
+        match (guards.inner, guards.outer, &guards.band) {
+            (Some(inner), Some(outer), None) => Some(DecisionRule::NonBinary { inner, outer }),
+            (Some(inner), None, None) => Some(DecisionRule::GuardedAcceptance(inner)),
+            (None, Some(outer), None) => Some(DecisionRule::GuardedRejection(outer)),
+            (None, None, None) if stated.value.refused => None,
+            (None, None, _) => self.refuse(no_rule(stated)),
+            (_, _, Some(band)) => self.clash(&band.key, BAND_AND_PROBABILITY),
+        }
+    }
+
+    fn clash<T>(&mut self, key: &Range<usize>, what: &str) -> Option<T> {
+        self.refuse(
+            Fault::new(DECISION_RULE, key.clone(), format!("the decision rule is stated twice: {what}"))
+                .label("leave this out, or the other one")
+                .help("a guard band goes with \"guarded-acceptance\", \"guarded-rejection\" and \"non-binary\"; probabilities stand in its place"),
+        )
+    }
+
+    /// Nothing else may state the rule beside the acceptance limits.
+    fn alone(&mut self, table: &ConformityTable, key: &str) -> Option<()> {
+        const RULES: [&str; 5] = [
+            "rule",
+            "guard_band",
+            "guard_band_factor",
+            "conformance_probability",
+            "nonconformance_probability",
+        ];
+        let other = table
+            .present
+            .iter()
+            .find(|(present, _)| RULES.contains(present));
+        match other {
+            None => Some(()),
+            Some((name, span)) => {
+                let what = format!("`{name}` beside `{key}`");
+                let span = span.clone();
+                self.clash(&span, &what)
+            }
+        }
+    }
+
+    /// A probability that decides: better than tossing a coin.
+    fn stated_probability(&mut self, stated: &Option<Stated<f64>>) -> Option<Option<Guard>> {
+        let Some(stated) = stated else {
+            return Some(None);
+        };
+        let p = self.probability(stated)?;
+        if p >= 0.5 {
+            return Some(Some(Guard::Probability(p)));
+        }
+        self.refuse(
+            Fault::new(
+                DECISION_RULE,
+                stated.span.clone(),
+                format!("a decision that is right with probability {p}"),
+            )
+            .label("expected at least 0.5")
+            .help("state the probability of a right decision, such as 0.95"),
+        )
+    }
+
+    /// The guard band, if there is one.
+    fn band(&mut self, table: &ConformityTable, subject: &Subject<'_>) -> Option<Option<Band>> {
+        if let (Some(amount), Some(factor)) = (&table.guard_band, &table.guard_band_factor) {
+            return self.refuse(
+                Fault::new(
+                    TWO_WAYS,
+                    factor.key.clone(),
+                    "the guard band is stated in two ways",
+                )
+                .label("as a multiple of U here")
+                .related(amount.key.clone(), "as an amount here")
+                .help("leave out one"),
+            );
+        }
+        if let Some(factor) = &table.guard_band_factor {
+            let r = self.positive(factor, "guard_band_factor")?;
+            return Some(Some(Band {
+                guard: Guard::Expanded(r),
+                key: factor.key.clone(),
+            }));
+        }
+        let Some(amount) = &table.guard_band else {
+            return Some(None);
+        };
+        if amount.value.number <= 0.0 {
+            return self.refuse(
+                Fault::new(NOT_POSITIVE, amount.span.clone(), "the guard band is not positive")
+                    .label("must be greater than zero")
+                    .help("the rule says on which side of the tolerance limits it lies; without a guard band write rule = \"simple\""),
+            );
+        }
+        let w = self.quantity(amount, &subject.unit.difference(), subject.name)?;
+        Some(Some(Band {
+            guard: Guard::Amount(w),
+            key: amount.key.clone(),
+        }))
+    }
+
+    fn stated_acceptance(
+        &mut self,
+        stated: &Stated<Vec<Stated<Amount>>>,
+        subject: &Subject<'_>,
+        tolerance: Interval,
+    ) -> Option<DecisionRule> {
+        let limits: Vec<Option<f64>> = stated
+            .value
+            .iter()
+            .map(|limit| self.quantity(limit, subject.unit, subject.name))
+            .collect();
+        let limits: Vec<f64> = limits.into_iter().collect::<Option<_>>()?;
+        let interval = match (
+            limits.as_slice(),
+            tolerance.lower.is_finite(),
+            tolerance.upper.is_finite(),
+        ) {
+            ([lower, upper], true, true) => Interval {
+                lower: *lower,
+                upper: *upper,
+            },
+            ([lower], true, false) => Interval {
+                lower: *lower,
+                upper: f64::INFINITY,
+            },
+            ([upper], false, true) => Interval {
+                lower: f64::NEG_INFINITY,
+                upper: *upper,
+            },
+            _ => {
+                return self.refuse(
+                    Fault::new(
+                        TOLERANCE,
+                        stated.span.clone(),
+                        format!("{} acceptance limits", limits.len()),
+                    )
+                    .label("expected one for every tolerance limit"),
+                );
+            }
+        };
+        if interval.lower >= interval.upper {
+            return self.refuse(
+                Fault::new(
+                    LIMITS,
+                    stated.span.clone(),
+                    "the acceptance interval is empty",
+                )
+                .label("expected [lower, upper]"),
+            );
+        }
+        Some(DecisionRule::Stated(interval))
+    }
+}
+
+fn no_rule(stated: &Stated<ConformityTable>) -> Fault {
+    let (place, message) = match stated
+        .value
+        .guard_band
+        .as_ref()
+        .map(|amount| &amount.key)
+        .or(stated.value.guard_band_factor.as_ref().map(|r| &r.key))
+    {
+        Some(key) => (key.clone(), "a guard band without a decision rule"),
+        None => (stated.span.clone(), "the decision rule is missing"),
+    };
+    Fault::new(DECISION_RULE, place, message)
+        .label("`rule` is missing")
+        .help("add `rule`: \"simple\", \"guarded-acceptance\", \"guarded-rejection\", \"non-binary\", \"ILAC-G8\", \"ISO 14253-1\" or \"JJF 1094\"; or `conformance_probability`")
+}

@@ -1,0 +1,260 @@
+//! Building a graph: equal operations become one, operations on constants their value.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::{Graph, Id, Implicit, Label, Op, Table};
+use crate::model::operation::{Binary, Unary, binary_row, unary};
+
+/// Builds a graph.
+#[derive(Debug, Default)]
+pub struct Builder {
+    graph: Graph,
+    known: HashMap<Op, Id>,
+    unknowns: u32,
+}
+
+impl Builder {
+    /// The constant that an operation was folded to.
+    pub fn constant_at(&self, id: Id) -> Option<f64> {
+        self.graph.constant(id)
+    }
+
+    pub fn constant(&mut self, value: f64) -> Id {
+        self.push(Op::Constant(value.to_bits()))
+    }
+
+    pub fn input(&mut self, place: usize) -> Id {
+        self.push(Op::Input(place as u32))
+    }
+
+    /// A new unknown.
+    pub fn unknown(&mut self) -> Id {
+        self.unknowns += 1;
+        self.push(Op::Unknown(self.unknowns))
+    }
+
+    pub fn unary(&mut self, row: &'static Unary, a: Id) -> Id {
+        if let Some(value) = self.constant_at(a) {
+            return self.constant((row.scalar)(value));
+        }
+        match (row.name, self.graph.ops[a as usize]) {
+            ("-", Op::Unary(inner, b)) if inner.name == "-" => b,
+            _ => self.push(Op::Unary(row, a)),
+        }
+    }
+
+    pub fn binary(&mut self, row: &'static Binary, a: Id, b: Id) -> Id {
+        let (left, right) = (self.constant_at(a), self.constant_at(b));
+        match (row.name, left, right) {
+            (_, Some(x), Some(y)) => self.constant((row.scalar)(x, y)),
+            ("+", Some(0.0), _) => b,
+            ("+" | "-", _, Some(0.0)) => a,
+            ("-", Some(0.0), _) => self.neg(b),
+            ("*", Some(1.0), _) => b,
+            ("*" | "/", _, Some(1.0)) => a,
+            ("*", Some(-1.0), _) => self.neg(b),
+            ("*" | "/", _, Some(-1.0)) => self.neg(a),
+            ("*", _, _) if a == b => self.unary(row_of("^2"), a),
+            // A sum or product is the same in either order; so are its bits.
+            ("+" | "*", _, _) => self.push(Op::Binary(row, a.min(b), a.max(b))),
+            ("^", _, Some(exponent)) => self.power(a, exponent),
+            _ => self.push(Op::Binary(row, a, b)),
+        }
+    }
+
+    /// a^exponent.
+    pub fn power(&mut self, a: Id, exponent: f64) -> Id {
+        if let Some(value) = self.constant_at(a) {
+            return self.constant(libm::pow(value, exponent));
+        }
+        if exponent == 0.0 {
+            self.constant(1.0)
+        } else if exponent == 1.0 {
+            a
+        } else if exponent == 2.0 {
+            self.unary(row_of("^2"), a)
+        } else if exponent == 0.5 {
+            self.unary(row_of("sqrt"), a)
+        } else if exponent == -1.0 {
+            let one = self.constant(1.0);
+            self.div(one, a)
+        } else {
+            self.push(Op::Power(a, exponent.to_bits()))
+        }
+    }
+
+    pub fn select(&mut self, condition: Id, yes: Id, no: Id) -> Id {
+        match self.constant_at(condition) {
+            Some(0.0) => no,
+            Some(_) => yes,
+            None if yes == no => yes,
+            None => self.push(Op::Select(condition, yes, no)),
+        }
+    }
+
+    pub fn neg(&mut self, a: Id) -> Id {
+        self.unary(row_of("-"), a)
+    }
+
+    pub fn add(&mut self, a: Id, b: Id) -> Id {
+        self.binary(row_of2("+"), a, b)
+    }
+
+    pub fn sub(&mut self, a: Id, b: Id) -> Id {
+        self.binary(row_of2("-"), a, b)
+    }
+
+    pub fn mul(&mut self, a: Id, b: Id) -> Id {
+        self.binary(row_of2("*"), a, b)
+    }
+
+    pub fn div(&mut self, a: Id, b: Id) -> Id {
+        self.binary(row_of2("/"), a, b)
+    }
+
+    /// a·factor, by the operation that rounds once: a/1000 rather than a·0.001.
+    pub fn scale(&mut self, a: Id, factor: f64) -> Id {
+        let inverse = 1.0 / factor;
+        if factor.fract() != 0.0 && inverse.fract() == 0.0 {
+            let divisor = self.constant(inverse);
+            self.div(a, divisor)
+        } else {
+            let factor = self.constant(factor);
+            self.mul(a, factor)
+        }
+    }
+
+    /// The root of residual = 0; `None` if the residual does not contain the unknown.
+    pub fn solve(&mut self, unknown: Id, residual: Id, start: Id) -> Option<Id> {
+        let graph = &self.graph;
+        let needed = graph.needed(&[residual]);
+        let mut moves = vec![false; graph.ops.len()];
+        moves[unknown as usize] = true;
+        for (i, op) in graph.ops.iter().enumerate() {
+            graph.operands(*op, |a| moves[i] = moves[i] || moves[a as usize]);
+        }
+        if !moves[residual as usize] {
+            return None;
+        }
+        // What does not depend on the unknown is computed once, outside; it becomes a parameter.
+        let mut body = Graph {
+            ops: vec![Op::Input(0)],
+            ..Graph::default()
+        };
+        let mut replaced = HashMap::from([(unknown, 0)]);
+        let mut parameters = Vec::new();
+        for (_, op) in graph
+            .ops
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| needed[*i] && moves[*i])
+        {
+            graph.operands(*op, |a| {
+                if moves[a as usize] || replaced.contains_key(&a) {
+                    return;
+                }
+                replaced.insert(a, body.ops.len() as Id);
+                match graph.ops[a as usize] {
+                    Op::Constant(bits) => body.ops.push(Op::Constant(bits)),
+                    _ => {
+                        parameters.push(a);
+                        body.ops.push(Op::Input(parameters.len() as u32));
+                    }
+                }
+            });
+        }
+        let keep: Vec<bool> = (0..graph.ops.len())
+            .map(|i| needed[i] && moves[i] && i != unknown as usize)
+            .collect();
+        let (mut body, replaced) = graph.copied(&keep, replaced, body);
+        body.outputs = vec![replaced[&residual]];
+        self.graph.implicit.push(Implicit {
+            start,
+            parameters,
+            residual: Arc::new(body),
+        });
+        let place = self.graph.implicit.len() as u32 - 1;
+        Some(self.push(Op::Solve(place)))
+    }
+
+    /// Takes over one output of another graph, whose inputs stand at `places`; what it has in common
+    /// with this graph is shared. Labels get the place that `relabel` gives them.
+    pub fn embed(
+        &mut self,
+        other: &Graph,
+        output: Id,
+        places: &[usize],
+        relabel: impl Fn(&Label) -> Label,
+    ) -> Id {
+        let needed = other.needed(&[output]);
+        let mut moved: HashMap<Id, Id> = HashMap::new();
+        for (i, op) in other.ops.iter().enumerate().filter(|(i, _)| needed[*i]) {
+            let at = |id: Id| moved[&id];
+            let op = match *op {
+                Op::Input(place) => Op::Input(places[place as usize] as u32),
+                Op::Constant(_) => *op,
+                Op::Unknown(_) => {
+                    self.unknowns += 1;
+                    Op::Unknown(self.unknowns)
+                }
+                Op::Unary(row, a) => Op::Unary(row, at(a)),
+                Op::Binary(row, a, b) if matches!(row.name, "+" | "*") => {
+                    Op::Binary(row, at(a).min(at(b)), at(a).max(at(b)))
+                }
+                Op::Binary(row, a, b) => Op::Binary(row, at(a), at(b)),
+                Op::Power(a, c) => Op::Power(at(a), c),
+                Op::Select(c, a, b) => Op::Select(at(c), at(a), at(b)),
+                Op::Solve(n) => {
+                    let equation = &other.implicit[n as usize];
+                    self.graph.implicit.push(Implicit {
+                        start: at(equation.start),
+                        parameters: equation.parameters.iter().map(|p| at(*p)).collect(),
+                        residual: Arc::clone(&equation.residual),
+                    });
+                    Op::Solve(self.graph.implicit.len() as u32 - 1)
+                }
+            };
+            let id = self.push(op);
+            if let Some(label) = other.labels.get(&(i as Id)) {
+                self.label(id, &relabel(label));
+            }
+            moved.insert(i as Id, id);
+        }
+        moved[&output]
+    }
+
+    /// Notes how the user wrote an operation.
+    pub fn label(&mut self, id: Id, label: &Label) {
+        self.graph.labels.entry(id).or_insert_with(|| label.clone());
+    }
+
+    /// Notes a table.
+    pub fn table(&mut self, table: Table) {
+        self.graph.tables.push(table);
+    }
+
+    /// The finished graph, without what the outputs do not need.
+    pub fn finish(self, outputs: &[Id]) -> Graph {
+        let keep = self.graph.needed(outputs);
+        let (mut graph, replaced) = self.graph.copied(&keep, HashMap::new(), Graph::default());
+        graph.outputs = outputs.iter().map(|id| replaced[id]).collect();
+        graph
+    }
+
+    fn push(&mut self, op: Op) -> Id {
+        let Builder { graph, known, .. } = self;
+        *known.entry(op).or_insert_with(|| {
+            graph.ops.push(op);
+            graph.ops.len() as Id - 1
+        })
+    }
+}
+
+fn row_of(name: &str) -> &'static Unary {
+    unary(name).expect("operators are in the table")
+}
+
+fn row_of2(name: &str) -> &'static Binary {
+    binary_row(name).expect("operators are in the table")
+}

@@ -1,0 +1,110 @@
+//! Values and derivatives of a graph: forwards with jets, backwards with adjoints.
+
+use super::{Graph, Id, Op};
+use crate::model::implicit;
+use crate::model::jet::Jet;
+use crate::model::operation;
+
+impl Graph {
+    /// Every operation's value at `inputs`.
+    pub fn evaluate<const N: usize>(&self, inputs: &[Jet<N>]) -> Vec<Jet<N>> {
+        let mut values = Vec::with_capacity(self.ops.len());
+        self.evaluate_into(inputs, &mut values);
+        values
+    }
+
+    /// As [`evaluate`](Self::evaluate), into a vector that is used again and again.
+    pub fn evaluate_into<const N: usize>(&self, inputs: &[Jet<N>], values: &mut Vec<Jet<N>>) {
+        values.clear();
+        for op in &self.ops {
+            let at = |id: Id| values[id as usize];
+            let value = match *op {
+                Op::Input(place) => inputs[place as usize],
+                Op::Constant(bits) => Jet::constant(f64::from_bits(bits)),
+                Op::Unknown(_) => Jet::constant(f64::NAN),
+                Op::Unary(row, a) => row.value(at(a)),
+                Op::Binary(row, a, b) => row.value(at(a), at(b)),
+                Op::Power(a, c) => power_value(at(a), f64::from_bits(c)),
+                Op::Select(c, a, b) => at(if at(c).value() != 0.0 { a } else { b }),
+                Op::Solve(n) => {
+                    let equation = &self.implicit[n as usize];
+                    let parameters: Vec<Jet<N>> =
+                        equation.parameters.iter().map(|p| at(*p)).collect();
+                    implicit::root(&equation.residual, at(equation.start).value(), &parameters)
+                }
+            };
+            values.push(value);
+        }
+    }
+
+    /// Derivatives of one operation with respect to all operations up to it, by one pass backward.
+    pub fn adjoints<const N: usize>(&self, values: &[Jet<N>], of: Id) -> Vec<Jet<N>> {
+        let zero = Jet::constant(0.0);
+        let mut adjoints = vec![zero; of as usize + 1];
+        adjoints[of as usize] = Jet::constant(1.0);
+        for i in (0..=of as usize).rev() {
+            let bar = adjoints[i];
+            if bar.is_zero() {
+                continue;
+            }
+            let at = |id: Id| values[id as usize];
+            let mut pass = |id: Id, slope: Jet<N>| {
+                // Where the slope is infinite but nothing moves, nothing is passed on.
+                if !slope.is_zero() {
+                    adjoints[id as usize] = adjoints[id as usize] + bar * slope;
+                }
+            };
+            match self.ops[i] {
+                Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => {}
+                Op::Unary(row, a) => pass(a, row.slope(at(a))),
+                Op::Binary(row, a, b) => {
+                    let (da, db) = row.slopes(at(a), at(b));
+                    pass(a, da);
+                    pass(b, db);
+                }
+                Op::Power(a, c) => {
+                    let derivatives = operation::power(at(a).value(), f64::from_bits(c));
+                    pass(a, at(a).compose(&derivatives[1..]));
+                }
+                Op::Select(c, a, b) => {
+                    let chosen = if at(c).value() != 0.0 { a } else { b };
+                    pass(chosen, Jet::constant(1.0));
+                }
+                Op::Solve(n) => {
+                    let equation = &self.implicit[n as usize];
+                    let parameters: Vec<Jet<N>> =
+                        equation.parameters.iter().map(|p| at(*p)).collect();
+                    let slopes = implicit::slopes(&equation.residual, values[i], &parameters);
+                    for (parameter, slope) in equation.parameters.iter().zip(slopes) {
+                        pass(*parameter, slope);
+                    }
+                }
+            }
+        }
+        adjoints
+    }
+
+    /// Derivatives of one operation with respect to the inputs.
+    pub fn gradient<const N: usize>(
+        &self,
+        values: &[Jet<N>],
+        of: Id,
+        inputs: usize,
+    ) -> Vec<Jet<N>> {
+        let adjoints = self.adjoints(values, of);
+        let mut gradient = vec![Jet::constant(0.0); inputs];
+        for (op, adjoint) in self.ops.iter().zip(adjoints) {
+            if let Op::Input(place) = op {
+                gradient[*place as usize] = adjoint;
+            }
+        }
+        gradient
+    }
+}
+
+fn power_value<const N: usize>(x: Jet<N>, c: f64) -> Jet<N> {
+    if N == 1 {
+        return Jet::constant(libm::pow(x.value(), c));
+    }
+    x.compose(&operation::power(x.value(), c))
+}

@@ -1,0 +1,181 @@
+//! The program in static single assignment form, and its builder.
+//!
+//! Every operation refers to earlier ones, so one pass forward evaluates and one pass backward
+//! differentiates. Equal operations are shared, constants are folded, and trivial algebra is done
+//! while the graph is built.
+
+mod builder;
+mod evaluate;
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::model::Place;
+use crate::model::operation::{Binary, Unary};
+use crate::model::syntax::Span;
+
+pub use builder::Builder;
+
+/// Place of an operation in its graph.
+pub type Id = u32;
+
+/// One operation. Constants are held as bits so that operations can be compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// An element of the input vector.
+    Input(u32),
+    Constant(u64),
+    /// The unknown of the n-th `solve`; only while the graph is built.
+    Unknown(u32),
+    Unary(&'static Unary, Id),
+    Binary(&'static Binary, Id, Id),
+    /// A power with a constant exponent.
+    Power(Id, u64),
+    /// Condition, value if it holds, value if not.
+    Select(Id, Id, Id),
+    /// The root of the n-th implicit equation of the graph.
+    Solve(u32),
+}
+
+/// An implicit equation F(y, p) = 0, to be solved for y.
+#[derive(Debug, Clone)]
+pub struct Implicit {
+    pub start: Id,
+    pub parameters: Vec<Id>,
+    /// F, whose inputs are y and then the parameters, and whose only output is the residual.
+    pub residual: Arc<Graph>,
+}
+
+/// How the user wrote an operation, for hints.
+#[derive(Debug, Clone)]
+pub struct Label {
+    /// `ln(x - a)`
+    pub call: Arc<str>,
+    /// `x - a`: the argument or divisor.
+    pub argument: Arc<str>,
+    /// Where the call (the divisor, of a quotient) stands.
+    pub place: Place,
+    pub span: Span,
+}
+
+/// A table whose points are joined by straight lines, for hints.
+#[derive(Debug, Clone)]
+pub struct Table {
+    pub result: Id,
+    pub x: Id,
+    /// Where the lines meet, and both ends; in rising order.
+    pub knots: Vec<f64>,
+    /// `interpolate(t, ts, ys)`
+    pub call: Arc<str>,
+    /// `t`
+    pub argument: Arc<str>,
+}
+
+/// A program.
+#[derive(Debug, Clone, Default)]
+pub struct Graph {
+    pub ops: Vec<Op>,
+    pub implicit: Vec<Implicit>,
+    pub outputs: Vec<Id>,
+    pub labels: HashMap<Id, Label>,
+    pub tables: Vec<Table>,
+}
+
+impl Graph {
+    /// Calls `visit` with every operand of an operation.
+    pub fn operands(&self, op: Op, mut visit: impl FnMut(Id)) {
+        match op {
+            Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => {}
+            Op::Unary(_, a) | Op::Power(a, _) => visit(a),
+            Op::Binary(_, a, b) => {
+                visit(a);
+                visit(b);
+            }
+            Op::Select(c, a, b) => {
+                visit(c);
+                visit(a);
+                visit(b);
+            }
+            Op::Solve(n) => {
+                let equation = &self.implicit[n as usize];
+                visit(equation.start);
+                equation.parameters.iter().for_each(|p| visit(*p));
+            }
+        }
+    }
+
+    /// The constant that an operation is, if it is one.
+    pub fn constant(&self, id: Id) -> Option<f64> {
+        match self.ops[id as usize] {
+            Op::Constant(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// Which operations the given ones need.
+    fn needed(&self, outputs: &[Id]) -> Vec<bool> {
+        let mut needed = vec![false; self.ops.len()];
+        for id in outputs {
+            needed[*id as usize] = true;
+        }
+        for (i, op) in self.ops.iter().enumerate().rev() {
+            if needed[i] {
+                self.operands(*op, |a| needed[a as usize] = true);
+            }
+        }
+        needed
+    }
+
+    /// The places of the inputs that an operation depends on.
+    pub fn inputs_of(&self, id: Id) -> impl Iterator<Item = usize> {
+        let needed = self.needed(&[id]);
+        let ops = self.ops.iter().zip(needed).filter(|(_, needed)| *needed);
+        ops.filter_map(|(op, _)| match op {
+            Op::Input(place) => Some(*place as usize),
+            _ => None,
+        })
+    }
+
+    /// Copies the operations marked `keep`; `replaced` says what stands for those that are not kept.
+    fn copied(
+        &self,
+        keep: &[bool],
+        mut replaced: HashMap<Id, Id>,
+        mut out: Graph,
+    ) -> (Graph, HashMap<Id, Id>) {
+        for (i, op) in self.ops.iter().enumerate().filter(|(i, _)| keep[*i]) {
+            let at = |id: Id| replaced[&id];
+            let moved = match *op {
+                Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => *op,
+                Op::Unary(row, a) => Op::Unary(row, at(a)),
+                Op::Binary(row, a, b) => Op::Binary(row, at(a), at(b)),
+                Op::Power(a, c) => Op::Power(at(a), c),
+                Op::Select(c, a, b) => Op::Select(at(c), at(a), at(b)),
+                Op::Solve(n) => {
+                    let equation = &self.implicit[n as usize];
+                    out.implicit.push(Implicit {
+                        start: at(equation.start),
+                        parameters: equation.parameters.iter().map(|p| at(*p)).collect(),
+                        residual: Arc::clone(&equation.residual),
+                    });
+                    Op::Solve(out.implicit.len() as u32 - 1)
+                }
+            };
+            let id = out.ops.len() as Id;
+            out.ops.push(moved);
+            if let Some(label) = self.labels.get(&(i as Id)) {
+                out.labels.insert(id, label.clone());
+            }
+            replaced.insert(i as Id, id);
+        }
+        let moved = |table: &Table| {
+            Some(Table {
+                result: *replaced.get(&table.result)?,
+                x: *replaced.get(&table.x)?,
+                ..table.clone()
+            })
+        };
+        out.tables.extend(self.tables.iter().filter_map(moved));
+        (out, replaced)
+    }
+}

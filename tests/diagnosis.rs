@@ -187,7 +187,7 @@ fn every_case_of_the_documentation_is_diagnosed() {
     let budgets = blocks("");
     std::fs::write(folder.join("certificate.toml"), &budgets[0]).expect("written");
     let cases = blocks(" case");
-    assert!(cases.len() > 10);
+    assert!(cases.len() >= 10);
     for case in cases {
         diagnosed(&folder, &case);
     }

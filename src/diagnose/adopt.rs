@@ -34,7 +34,7 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
     let mut case = ground.case().clone();
     let mut additions: Vec<Addition> = Vec::new();
     let mut equations: Vec<Extending> = (0..case.responses.len())
-        .map(|response| Extending::of(&case.equations.text(response)))
+        .map(|response| Extending::of(case.equations.text(response)))
         .collect();
     let parameters = case.parameters.len();
     let mut columns = Vec::new();

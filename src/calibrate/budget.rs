@@ -6,8 +6,9 @@
 
 use std::fmt::Write;
 
-use super::calibration::Calibration;
+use super::calibration::{Calibration, Coefficient};
 use super::causes::{Cause, Origin};
+use super::components::lower_factor;
 use super::experiment::{Doubt, Experiment, Scope};
 use crate::budget::writing::{key, quoted};
 use crate::distribution::Distribution;
@@ -32,7 +33,7 @@ pub fn budget(experiment: &Experiment, found: &Calibration, coefficients: &[usiz
         .filter(|(_, cause)| {
             coefficients
                 .iter()
-                .any(|index| cause.contribution(*index) > 0.0)
+                .any(|index| matters(cause.contribution(*index), &figures.coefficients[*index]))
         })
         .flat_map(|(number, cause)| {
             InputOfCause::of(experiment, found, cause, number, &coefficients)
@@ -121,6 +122,9 @@ struct InputOfCause {
     text: String,
 }
 
+/// A coefficient of a budget: its place in the calibration, and the coefficient itself.
+type Place<'f> = (usize, &'f Coefficient);
+
 impl InputOfCause {
     /// The input of a cause; scatter that is not one error for all coefficients has one for each
     /// coefficient, tied to the others by its covariance.
@@ -131,15 +135,31 @@ impl InputOfCause {
         number: usize,
         coefficients: &[usize],
     ) -> Vec<InputOfCause> {
-        let doubt = doubt_of(experiment, cause);
+        let of_place = |index: &usize| (*index, &found.figures.coefficients[*index]);
+        let places: Vec<Place<'_>> = coefficients.iter().map(of_place).collect();
         let name = name_of(cause, number);
-        match (doubt, cause.effects.ncols()) {
-            (Some(doubt), 1) => vec![single(found, cause, doubt, &name, coefficients)],
-            (Some(doubt), count) if count <= LONGEST && doubt.dof.is_infinite() => {
-                vec![vector(found, cause, doubt, &name, coefficients)]
+        let count = cause.effects.ncols();
+        match doubt_of(experiment, cause) {
+            Some(doubt) if count == 1 || (count <= LONGEST && doubt.dof.is_infinite()) => {
+                vec![stated(cause, doubt, &name, &places)]
             }
-            _ => independent(found, cause, &name, coefficients),
+            _ => independent(cause, &name, &places),
         }
+    }
+
+    /// Adds what errors of the name `errors` do to a coefficient, per unit of each of them.
+    fn act(&mut self, (index, one): Place<'_>, slopes: &[f64], errors: &str, unit: &Unit) {
+        let name = format!("{}_by_{errors}", one.name);
+        let (values, term) = match slopes {
+            [slope] => (format!("value = {slope:?}"), format!("{name} * {errors}")),
+            slopes => (
+                format!("values = {slopes:?}"),
+                format!("dot({name}, {errors})"),
+            ),
+        };
+        let unit = unit_line(unit);
+        let _ = write!(self.text, "\n[constant.{}]\n{values}\n{unit}", key(&name));
+        self.terms.push((index, term));
     }
 }
 
@@ -153,147 +173,75 @@ fn doubt_of<'e>(experiment: &'e Experiment, cause: &Cause) -> Option<&'e Doubt> 
         .find(|doubt| doubt.name == *name && doubt.u > 0.0)
 }
 
-/// One error that acts on all coefficients.
-fn single(
-    found: &Calibration,
-    cause: &Cause,
-    doubt: &Doubt,
-    name: &str,
-    coefficients: &[usize],
-) -> InputOfCause {
-    let mut text = String::new();
-    let mut terms = Vec::new();
-    for index in coefficients {
-        let effect = cause.effects[(*index, 0)];
-        if effect == 0.0 {
+/// One error that acts on all coefficients, or the independent errors of the points.
+fn stated(cause: &Cause, doubt: &Doubt, name: &str, places: &[Place<'_>]) -> InputOfCause {
+    let mut input = InputOfCause {
+        terms: Vec::new(),
+        text: String::new(),
+    };
+    for (index, one) in places {
+        if !matters(cause.contribution(*index), one) {
             continue;
         }
-        let one = &found.figures.coefficients[*index];
-        let slope = format!("{}_by_{name}", one.name);
-        let unit = unit_line(&quotient(&one.unit, &doubt.unit));
-        let _ = write!(
-            text,
-            "\n[constant.{}]\nvalue = {:?}\n{unit}",
-            key(&slope),
-            effect / doubt.u
+        let effects = cause.effects.row(*index);
+        let slopes: Vec<f64> = effects.iter().map(|effect| effect / doubt.u).collect();
+        input.act(
+            (*index, one),
+            &slopes,
+            name,
+            &quotient(&one.unit, &doubt.unit),
         );
-        terms.push((*index, format!("{slope} * {name}")));
     }
-    let unit = unit_line(&doubt.unit);
-    let width = width(&doubt.distribution, doubt.u, doubt.dof);
-    let _ = write!(text, "\n[input.{}]\nvalue = 0\n{unit}{width}", key(name));
-    InputOfCause { terms, text }
-}
-
-/// Independent errors of the points.
-fn vector(
-    found: &Calibration,
-    cause: &Cause,
-    doubt: &Doubt,
-    name: &str,
-    coefficients: &[usize],
-) -> InputOfCause {
-    let mut text = String::new();
-    let mut terms = Vec::new();
-    for index in coefficients {
-        if cause.contribution(*index) == 0.0 {
-            continue;
-        }
-        let one = &found.figures.coefficients[*index];
-        let slope = format!("{}_by_{name}", one.name);
-        let values: Vec<String> = cause
-            .effects
-            .row(*index)
-            .iter()
-            .map(|effect| format!("{:?}", effect / doubt.u))
-            .collect();
-        let unit = unit_line(&quotient(&one.unit, &doubt.unit));
-        let _ = write!(
-            text,
-            "\n[constant.{}]\nvalues = [{}]\n{unit}",
-            key(&slope),
-            values.join(", ")
-        );
-        terms.push((*index, format!("dot({slope}, {name})")));
-    }
-    let zeros = vec!["0"; cause.effects.ncols()].join(", ");
+    let estimate = match cause.effects.ncols() {
+        1 => "value = 0".to_owned(),
+        count => format!("values = [{}]", vec!["0"; count].join(", ")),
+    };
     let unit = unit_line(&doubt.unit);
     let width = width(&doubt.distribution, doubt.u, doubt.dof);
     let _ = write!(
-        text,
-        "\n[input.{}]\nvalues = [{zeros}]\n{unit}{width}",
+        input.text,
+        "\n[input.{}]\n{estimate}\n{unit}{width}",
         key(name)
     );
-    InputOfCause { terms, text }
+    input
 }
 
 /// Many errors, summed up: independent normal variables, of which each coefficient takes its part by the
 /// Cholesky factor of the covariance matrix that the cause makes.
-fn independent(
-    found: &Calibration,
-    cause: &Cause,
-    name: &str,
-    coefficients: &[usize],
-) -> Vec<InputOfCause> {
-    let rows = cause.effects.select_rows(coefficients);
-    let covariance = &rows * rows.transpose();
-    let factor = lower_factor(&covariance);
+fn independent(cause: &Cause, name: &str, places: &[Place<'_>]) -> Vec<InputOfCause> {
+    let indices: Vec<usize> = places.iter().map(|(index, _)| *index).collect();
+    let rows = cause.effects.select_rows(&indices);
+    let factor = lower_factor(&(&rows * rows.transpose()));
     let mut inputs = Vec::new();
-    for column in 0..coefficients.len() {
-        let entries: Vec<(usize, f64)> = (0..coefficients.len())
-            .map(|row| (coefficients[row], factor[(row, column)]))
-            .filter(|(_, entry)| *entry != 0.0)
-            .collect();
-        if entries.is_empty() {
+    for (column, (own, _)) in places.iter().enumerate() {
+        let name = match places.len() {
+            1 => name.to_owned(),
+            _ => format!("{name}_{}", column + 1),
+        };
+        let mut input = InputOfCause {
+            terms: Vec::new(),
+            text: String::new(),
+        };
+        for (row, (index, one)) in places.iter().enumerate() {
+            let entry = factor[(row, column)];
+            if matters(entry, one) {
+                input.act((*index, one), &[entry], &name, &one.unit);
+            }
+        }
+        if input.terms.is_empty() {
             continue;
         }
-        let name = if coefficients.len() == 1 {
-            name.to_owned()
-        } else {
-            format!("{name}_{}", column + 1)
-        };
-        let mut text = String::new();
-        let mut terms = Vec::new();
-        for (index, entry) in entries {
-            let one = &found.figures.coefficients[index];
-            let part = format!("{}_by_{name}", one.name);
-            let unit = unit_line(&one.unit);
-            let _ = write!(
-                text,
-                "\n[constant.{}]\nvalue = {entry:?}\n{unit}",
-                key(&part)
-            );
-            terms.push((index, format!("{part} * {name}")));
-        }
-        let dof = cause.contribution_dof(coefficients[column]);
         let normal = Distribution::Normal { mean: 0.0, sd: 1.0 };
-        let width = width(&normal, 1.0, dof);
-        let _ = write!(text, "\n[input.{}]\nvalue = 0\n{width}", key(&name));
-        inputs.push(InputOfCause { terms, text });
+        let width = width(&normal, 1.0, cause.contribution_dof(*own));
+        let _ = write!(input.text, "\n[input.{}]\nvalue = 0\n{width}", key(&name));
+        inputs.push(input);
     }
     inputs
 }
 
-/// Cholesky factor of a matrix that may be singular.
-fn lower_factor(matrix: &nalgebra::DMatrix<f64>) -> nalgebra::DMatrix<f64> {
-    let n = matrix.nrows();
-    let mut factor = nalgebra::DMatrix::<f64>::zeros(n, n);
-    for column in 0..n {
-        let own: f64 = (0..column).map(|k| factor[(column, k)].powi(2)).sum();
-        let rest = matrix[(column, column)] - own;
-        if rest <= 1e-12 * matrix[(column, column)] {
-            continue;
-        }
-        let pivot = rest.sqrt();
-        factor[(column, column)] = pivot;
-        for row in column + 1..n {
-            let sum: f64 = (0..column)
-                .map(|k| factor[(row, k)] * factor[(column, k)])
-                .sum();
-            factor[(row, column)] = (matrix[(row, column)] - sum) / pivot;
-        }
-    }
-    factor
+/// Contributions to a coefficient that are more than rounding errors.
+fn matters(contribution: f64, one: &Coefficient) -> bool {
+    contribution.abs() > 1e-12 * one.u
 }
 
 /// The keys that state how wide an error is spread.
@@ -310,8 +258,8 @@ fn width(distribution: &Distribution, u: f64, dof: f64) -> String {
             half_width(0.5 * (upper - lower), "distribution = \"arcsine\"\n")
         }
         _ if dof.is_infinite() => format!("u = {u:?}\n"),
-        // A t distribution of so few degrees of freedom has no standard deviation for Monte Carlo.
-        _ if dof <= 2.0 => format!("u = {u:?}\ndof = {dof:?}\ndistribution = \"normal\"\n"),
+        // The standard deviation of trials of a t distribution of so few degrees of freedom does not converge.
+        _ if dof <= 4.0 => format!("u = {u:?}\ndof = {dof:?}\ndistribution = \"normal\"\n"),
         _ => format!("u = {u:?}\ndof = {dof:?}\n"),
     }
 }
@@ -344,11 +292,11 @@ fn name_of(cause: &Cause, number: usize) -> String {
         Origin::Prior { parameter } => ("knowledge_of_", parameter),
     };
     let name = name.strip_prefix("e_").unwrap_or(name);
-    let letters = name
-        .chars()
-        .map(|c| if c.is_alphanumeric() { c } else { '_' });
-    let name: String = letters.collect();
-    let name = name.trim_matches('_');
+    let words: Vec<&str> = name
+        .split(|c: char| !c.is_alphanumeric())
+        .filter(|word| !word.is_empty())
+        .collect();
+    let name = words.join("_");
     if name.is_empty() {
         format!("{prefix}{number}")
     } else {

@@ -6,6 +6,7 @@ use super::causes::{Cause, causes};
 use super::experiment::{Experiment, Scatter, Weights, Words};
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
+use super::limits::{Limit, limits};
 use super::scatter::{ResponseScatter, Scatters, weights};
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
@@ -33,9 +34,13 @@ pub struct Calibration {
     pub identifiability: Identifiability,
     /// What each omitted effect would shift.
     pub aliases: Vec<Alias>,
-    /// Two points whose readings look exchanged: with them in each other's place the residuals would be a
+    /// Two points, or two labels, whose readings look exchanged: with them in each other's place the residuals would be a
     /// tenth or less.
-    pub swapped: Option<[String; 2]>,
+    pub swapped: Option<[Words; 2]>,
+    /// Values at which readings stay that should differ.
+    pub limits: Vec<Limit>,
+    /// Whether the equations are linear in the parameters.
+    pub linear: bool,
     /// Steps of the search; 0 for linear equations.
     pub iterations: usize,
     /// The calibrations of the parts, where the file wants them one by one.
@@ -78,7 +83,7 @@ pub struct Coefficient {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Residual {
     /// The point.
-    pub point: String,
+    pub point: Words,
     /// The response.
     pub response: String,
     /// What was read.
@@ -150,9 +155,10 @@ fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
     let causes = causes(&stack, &gain, &scatters, &u);
     let jacobian = stack.jacobian(&solution.parameters, &u);
     let swapped = swapped(&stack, &solution, &gain, &scatters);
-    let name = |point: usize| experiment.points.names[point].clone();
     Ok(Calibration {
-        swapped: swapped.map(|pair| pair.map(name)),
+        swapped,
+        limits: limits(&stack, &solution),
+        linear: stack.is_linear(),
         figures: figures(experiment, &solution.parameters, causes),
         readings: stack.readings(),
         left_out: stack.left_out,

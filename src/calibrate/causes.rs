@@ -66,6 +66,20 @@ impl Cause {
         (self.effects.ncols() == 1).then(|| self.effects[(coefficient, 0)])
     }
 
+    /// Both as one cause.
+    fn beside(self, other: Cause) -> Cause {
+        let columns: Vec<_> = self
+            .effects
+            .column_iter()
+            .chain(other.effects.column_iter())
+            .collect();
+        let effects = match columns.as_slice() {
+            [] => self.effects.clone(),
+            columns => DMatrix::from_columns(columns),
+        };
+        Cause { effects, ..self }
+    }
+
     /// Degrees of freedom of its contribution to a coefficient (Welch–Satterthwaite).
     pub fn contribution_dof(&self, coefficient: usize) -> f64 {
         if let [dof] = self.dof.as_slice() {
@@ -89,12 +103,15 @@ pub(super) fn causes(stack: &Stack<'_>, gain: &Gain, scatters: &Scatters, u: &[f
             all.extend(prior(stack, gain, index, *parameter));
         }
     }
+    // The independent parts of correlated errors bear one name, and are one cause.
+    let doubts = &stack.experiment.doubts;
     all.extend(
-        stack
-            .experiment
-            .doubts
-            .iter()
-            .map(|doubt| stated(stack, gain, doubt)),
+        doubts
+            .chunk_by(|a, b| a.name == b.name)
+            .filter_map(|parts| {
+                let causes = parts.iter().map(|doubt| stated(stack, gain, doubt));
+                causes.reduce(Cause::beside)
+            }),
     );
     all.retain(|cause| cause.effects.iter().any(|effect| *effect != 0.0));
     all

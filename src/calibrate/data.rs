@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use super::define::{Definer, Purpose, entries};
-use super::dwells::Dwelling;
+use super::dwells::{Dwelling, DwellsBy};
 use super::faults::{KEY, NO_DATA, RECORDING, UNKNOWN_SYMBOL};
 use super::names::Names;
 use super::points::Points;
@@ -17,7 +17,7 @@ use crate::budget::{Files, Rejection};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 use crate::recording::{
-    Checks, Finding, Heading, Recording, Request, Settling, Severity, check, headings,
+    Checks, Finding, Heading, Problem, Recording, Request, Settling, Severity, check, headings,
 };
 
 /// The points; `None` after faults of the calibration file.
@@ -30,16 +30,26 @@ pub(super) fn points(
     let table = &definer.source.table;
     let recording = table.recording.as_ref();
     let file = recording.and_then(|recording| recording.value.file.as_ref());
-    match (file, &table.schedule, purpose) {
-        (_, Some(_), Purpose::Plan) => Ok(scheduled(definer, names)),
-        (Some(file), _, _) => recorded(definer, names, file, folder, purpose),
+    let points = match (file, &table.schedule, purpose) {
+        (_, Some(_), Purpose::Plan) => scheduled(definer, names),
+        (Some(file), _, _) => recorded(definer, names, file, folder, purpose)?,
         (None, _, _) => {
             if !table.refused && !recording.is_some_and(|recording| recording.value.refused) {
                 definer.faults.push(no_data(purpose));
             }
-            Ok(None)
+            None
         }
-    }
+    };
+    let together = recording.and_then(|stated| stated.value.together.as_ref());
+    let Some((points, together)) = points.as_ref().zip(together) else {
+        return Ok(points);
+    };
+    let columns: Vec<&str> = texts(&together.value);
+    Ok(Some(points.together(&columns)))
+}
+
+fn texts(list: &[Stated<String>]) -> Vec<&str> {
+    list.iter().map(|stated| stated.value.as_str()).collect()
 }
 
 fn no_data(purpose: Purpose) -> Fault {
@@ -69,12 +79,18 @@ pub(super) fn label_columns(definer: &Definer<'_>) -> Vec<String> {
             add(&by.value);
         }
     }
+    for (_, entry) in entries(&table.source) {
+        if let Some(by) = &entry.value.by {
+            add(&by.value);
+        }
+    }
     if let Some(separately) = &table.separately {
         add(&separately.value);
     }
     let recording = table.recording.as_ref();
     let dwells = recording.and_then(|stated| stated.value.dwells.as_ref());
-    for column in dwells.iter().flat_map(|list| &list.value) {
+    let together = recording.and_then(|stated| stated.value.together.as_ref());
+    for column in dwells.iter().chain(&together).flat_map(|list| &list.value) {
         add(&column.value);
     }
     for (name, entry) in entries(&table.column) {
@@ -249,9 +265,8 @@ fn averaged(
     if refused {
         return None;
     }
-    let tells_dwells = table.dwells.is_some() || table.steps.is_some();
-    let averages = table.averages.as_ref().map(|stated| stated.value);
-    let samples = averages.map_or(tells_dwells, |averages| !averages);
+    let tells_dwells = table.tells_dwells();
+    let samples = table.holds_samples();
     let mut points = if purpose == Purpose::Plan || !samples {
         Points::of_rows(recording)
     } else {
@@ -263,11 +278,11 @@ fn averaged(
             definer.faults.push(
                 Fault::new(KEY, place, "samples are averaged in dwells, and nothing tells the dwells apart")
                     .label("samples")
-                    .help("name the columns of labels that do, dwells = [\"position\"], or the stimulus, steps = \"omega\""),
+                    .help("name the columns of labels that do, dwells = [\"position\"], or the stimulus, steps = \"omega\"; or write still = 50 for stretches at rest of 50 rows and more"),
             );
             return None;
         }
-        let dwelling = dwelling(definer, recording, table)?;
+        let dwelling = dwelling(definer, names, recording, table)?;
         let (points, lost) = Points::of_dwells(recording, &dwelling);
         for dwell in &lost {
             let name = match &dwell.label {
@@ -286,12 +301,13 @@ fn averaged(
         }
         points
     };
-    points.findings = findings;
+    points.findings.splice(..0, findings);
     Some(points)
 }
 
 fn dwelling(
     definer: &mut Definer<'_>,
+    names: &Names,
     recording: &Recording,
     table: &RecordingTable,
 ) -> Option<Dwelling> {
@@ -309,14 +325,7 @@ fn dwelling(
     let dwell = in_time(&table.dwell)?;
     let fewest = table.fewest.as_ref().map_or(2, |stated| stated.value);
     Some(Dwelling {
-        labels: table
-            .dwells
-            .iter()
-            .flat_map(|list| &list.value)
-            .map(|stated| stated.value.clone())
-            .collect(),
-        stimulus: table.steps.as_ref().map(|stated| stated.value.clone()),
-        tolerance: table.tolerance.as_ref().map(|stated| stated.value),
+        by: dwells_by(names, table),
         time,
         settling: Settling {
             settle,
@@ -326,6 +335,40 @@ fn dwelling(
     })
 }
 
+/// Labels before steps, and these before rest.
+fn dwells_by(names: &Names, table: &RecordingTable) -> DwellsBy {
+    match (&table.dwells, &table.steps, &table.still) {
+        (None, Some(stimulus), _) => DwellsBy::Steps {
+            stimulus: stimulus.value.clone(),
+            tolerance: table.tolerance.as_ref().map(|stated| stated.value),
+        },
+        (None, None, Some(rows)) => DwellsBy::Rest {
+            outputs: names.columns.iter().map(|(role, _)| role.clone()).collect(),
+            rows: usize::try_from(rows.value).unwrap_or(usize::MAX),
+        },
+        (labels, ..) => {
+            let labels = labels.iter().flat_map(|list| texts(&list.value));
+            DwellsBy::Labels(labels.map(str::to_owned).collect())
+        }
+    }
+}
+
+impl RecordingTable {
+    /// Whether something tells dwells apart.
+    fn tells_dwells(&self) -> bool {
+        self.dwells.is_some() || self.steps.is_some() || self.still.is_some()
+    }
+
+    /// Whether its rows are samples.
+    fn holds_samples(&self) -> bool {
+        let averages = self.averages.as_ref().map(|stated| stated.value);
+        averages.map_or(self.tells_dwells(), |averages| !averages)
+    }
+}
+
+/// More rows than these are hardly averages that somebody has forgotten to call so.
+const MANY: usize = 100;
+
 /// What is doubtful in the recording.
 fn findings(
     definer: &Definer<'_>,
@@ -333,7 +376,7 @@ fn findings(
     recording: &Recording,
     table: &RecordingTable,
 ) -> Vec<Finding> {
-    let outputs: Vec<&str> = names.responses.iter().map(String::as_str).collect();
+    let mut outputs: Vec<&str> = names.responses.iter().map(String::as_str).collect();
     let ranges: Vec<(&str, [f64; 2])> = entries(&table.ranges)
         .iter()
         .filter_map(|(role, range)| match range.value.as_slice() {
@@ -344,30 +387,34 @@ fn findings(
     let positions = definer.source.table.positions.as_ref();
     let expected: Vec<&str> = positions.map_or_else(Vec::new, |stated| expected(&stated.value));
     let column = positions.and_then(|stated| stated.value.column.as_ref());
-    let averages = table.averages.as_ref().map(|stated| stated.value);
-    let samples = averages.map_or(table.dwells.is_some() || table.steps.is_some(), |a| !a);
+    let samples = table.holds_samples();
+    if !samples {
+        // Averages may be equal; only a stated range tells their limit.
+        outputs.retain(|output| ranges.iter().any(|(role, _)| role == output));
+    }
+    let dwells = table.dwells.as_ref().filter(|_| samples);
     let mut findings = check(
         recording,
         &Checks {
             time: table.time.as_ref().map(|stated| stated.value.as_str()),
-            outputs: if samples { &outputs } else { &[] },
+            outputs: &outputs,
             ranges: &ranges,
+            dwells: &dwells.map_or_else(Vec::new, |list| texts(&list.value)),
             expected: column.map(|column| (column.value.as_str(), expected.as_slice())),
             fewest: 1,
         },
     );
     let optional = positions.map_or_else(HashSet::new, |stated| optional(&stated.value));
     findings.retain(|finding| match &finding.problem {
-        crate::recording::Problem::LabelUnknown { label, .. } => !optional.contains(label.as_str()),
+        Problem::LabelUnknown { label, .. } => !optional.contains(label.as_str()),
         _ => true,
     });
-    if !samples {
-        // Rows that are averages repeat positions, and equal averages are no saturation.
-        findings.retain(|finding| {
-            !matches!(
-                finding.problem,
-                crate::recording::Problem::LabelAgain { .. }
-            )
+    if !samples && table.averages.is_none() && recording.rows() > MANY {
+        findings.push(Finding {
+            problem: Problem::EachRow,
+            column: None,
+            line: 0,
+            count: recording.rows(),
         });
     }
     findings

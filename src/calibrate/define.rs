@@ -14,10 +14,10 @@ use super::points::Points;
 use super::positions;
 use super::source::{self, Source};
 use super::tables::{CalibrationTable, ScatterWord, WeightsWord};
-use crate::budget::Rejection;
 use crate::budget::doubts::text_of;
 use crate::budget::table::Stated;
 use crate::budget::values::{Amount, Named};
+use crate::budget::{Rejection, Remark};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::Fault;
 use crate::model::{Role, Symbol, outline};
@@ -251,7 +251,11 @@ impl Definer<'_> {
             },
             separately: table.separately.as_ref().map(|stated| stated.value.clone()),
             coverage_probability: doubts.coverage_probability,
-            remarks: doubts.remarks,
+            remarks: {
+                let mut remarks = doubts.remarks;
+                remarks.extend(self.unlike(&responses.quantities));
+                remarks
+            },
         })
     }
 
@@ -346,6 +350,26 @@ impl Definer<'_> {
             );
         }
         converted.map(|conversion| conversion.apply(stated.value.number))
+    }
+
+    /// The outputs of a procedure of the library are alike; a remark where their units are not.
+    fn unlike(&self, responses: &[Quantity]) -> Option<Remark> {
+        self.source.procedure.as_ref()?;
+        let first = responses.first()?;
+        let other = responses
+            .iter()
+            .find(|other| other.unit.dimension != first.unit.dimension)?;
+        let (a, b) = (&first.unit.symbol, &other.unit.symbol);
+        Some(Remark {
+            en: format!(
+                "{} is in {a}, {} in {b}: outputs of one triad in units of different dimensions. Check the heads of the columns.",
+                first.name, other.name
+            ),
+            zh: format!(
+                "{} 的单位是 {a}，{} 的单位是 {b}：同一组合各轴输出的单位量纲不同，请核对列标题。",
+                first.name, other.name
+            ),
+        })
     }
 
     /// Parameters and inputs that no equation uses.

@@ -6,17 +6,20 @@
 
 use std::path::Path;
 
+use super::components;
 use super::define::{Definer, entries, words};
-use super::experiment::{Act, Doubt, Input, Prior, Scope, Target};
+use super::experiment::{Doubt, Input, Prior};
 use super::faults::{KEY, STATE_INPUT};
 use super::names::{Kind, Names};
-use super::tables::{KnownTable, ScopeWord};
+use super::tables::{KnownTable, SharedTable};
 use crate::budget::doubts::checked;
 use crate::budget::table::Stated;
-use crate::budget::tables::{ConstantTable, FileTable, InputTable, MeasurandTable};
-use crate::budget::values::{Amount, Named};
-use crate::budget::variants::ConstantEntry;
-use crate::budget::{Budget, Owner, Remark};
+use crate::budget::tables::{
+    ConstantTable, CorrelationTable, FileTable, InputTable, MeasurandTable, SourceTable,
+};
+use crate::budget::values::{Amount, Named, OneOrMany};
+use crate::budget::variants::{ConstantEntry, Sources};
+use crate::budget::{Budget, Remark};
 use crate::equations::Quantity;
 use crate::fault::Fault;
 use crate::model::{Role, Symbol};
@@ -34,18 +37,18 @@ pub(super) struct Doubts {
 }
 
 /// A quantity before its check.
-struct Known<'t> {
-    name: &'t str,
-    entry: &'t Stated<KnownTable>,
+pub(super) struct Known<'t> {
+    pub name: &'t str,
+    pub entry: &'t Stated<KnownTable>,
     unit: Unit,
     /// Its unit in the unit of the readings; 1 for inputs.
-    factor: f64,
-    is_reading: bool,
+    pub factor: f64,
+    pub is_reading: bool,
 }
 
 impl Known<'_> {
     /// Readings and inputs may have the same name; in the budget they may not.
-    fn own_name(&self) -> String {
+    pub fn own_name(&self) -> String {
         match self.is_reading {
             true => format!("{}_reading", self.name),
             false => self.name.to_owned(),
@@ -140,7 +143,7 @@ pub(super) fn of(
         .iter()
         .map(|input| input.name.clone())
         .collect();
-    doubts.doubts = components(&budget, &known, &inputs);
+    doubts.doubts = components::of(definer, &budget, &known, &inputs)?;
     Some(doubts)
 }
 
@@ -371,8 +374,49 @@ fn file(definer: &Definer<'_>, known: &[Known<'_>]) -> FileTable {
         constant: Some(at(named(constants), &nowhere)),
         measurand: Some(at(named(measurands), &nowhere)),
         input: Some(at(named(inputs), &nowhere)),
+        source: Some(at(Sources(named(shared(definer))), &nowhere)),
+        correlation: correlation(definer, known),
         ..FileTable::default()
     }
+}
+
+/// Shared causes as those of a budget.
+fn shared(definer: &Definer<'_>) -> Vec<(String, Stated<SourceTable>)> {
+    let table = |entry: &Stated<SharedTable>| Stated {
+        value: entry.value.source.clone(),
+        span: entry.span.clone(),
+        key: entry.key.clone(),
+    };
+    let stated = entries(&definer.source.table.source).iter();
+    stated
+        .map(|(name, entry)| (name.clone(), table(entry)))
+        .collect()
+}
+
+/// Correlations by the names that inputs and readings have in the budget.
+fn correlation(
+    definer: &Definer<'_>,
+    known: &[Known<'_>],
+) -> Option<Stated<OneOrMany<CorrelationTable>>> {
+    let mut stated = definer.source.table.correlation.clone()?;
+    let names = stated
+        .value
+        .0
+        .iter_mut()
+        .filter_map(|entry| entry.value.between.as_mut())
+        .flat_map(|list| &mut list.value);
+    for name in names {
+        let whole = name.value.split('.').next().unwrap_or_default().to_owned();
+        let of_name = |is_reading: bool| {
+            known
+                .iter()
+                .find(|one| one.name == whole && one.is_reading == is_reading)
+        };
+        if let (None, Some(reading)) = (of_name(false), of_name(true)) {
+            name.value = format!("{}{}", reading.own_name(), &name.value[whole.len()..]);
+        }
+    }
+    Some(stated)
 }
 
 fn measurand(
@@ -437,63 +481,5 @@ fn prior(budget: &Budget, one: &Known<'_>, value: f64) -> Prior {
         value,
         u: variance.sqrt(),
         dof: variance * variance / welch,
-    }
-}
-
-fn components(budget: &Budget, known: &[Known<'_>], inputs: &[String]) -> Vec<Doubt> {
-    let mut doubts = Vec::new();
-    for (index, component) in budget.components.iter().enumerate() {
-        let mut acts = Vec::new();
-        let mut scope = Scope::Common;
-        for one in known {
-            let name = one.own_name();
-            let input = budget.inputs.iter().find(|input| input.name == name);
-            let terms = input.iter().flat_map(|input| &input.terms);
-            for term in terms.filter(|term| term.component == index) {
-                let on = if one.is_reading {
-                    Target::Reading(one.name.to_owned())
-                } else if let Some(place) = inputs.iter().position(|other| other == one.name) {
-                    Target::Input(place)
-                } else {
-                    continue;
-                };
-                if !matches!(component.owner, Owner::Source(_)) {
-                    scope = scope_of(one);
-                }
-                acts.push(Act {
-                    on,
-                    coefficient: term.coefficient * one.factor,
-                });
-            }
-        }
-        if acts.is_empty() {
-            continue;
-        }
-        doubts.push(Doubt {
-            name: component.name.replace("_reading", " (reading)"),
-            acts,
-            scope,
-            u: component.u,
-            dof: component.dof,
-            unit: component.unit.clone(),
-            distribution: component.distribution.clone(),
-            evaluation: component.evaluation,
-            how: component.how.clone(),
-        });
-    }
-    doubts
-}
-
-/// Readings have errors of their own unless the file says otherwise, inputs have one in common.
-fn scope_of(one: &Known<'_>) -> Scope {
-    let table = &one.entry.value;
-    if let Some(by) = &table.by {
-        return Scope::By(by.value.clone());
-    }
-    match table.scope.as_ref().map(|stated| stated.value) {
-        Some(ScopeWord::Common) => Scope::Common,
-        Some(ScopeWord::Each) => Scope::Each,
-        None if one.is_reading => Scope::Each,
-        None => Scope::Common,
     }
 }

@@ -1,20 +1,42 @@
 //! From the samples of a recording to the averages of its dwells.
 
+use super::experiment::Words;
 use super::points::{PointColumn, Points};
 use crate::quantity::Unit;
 use crate::recording::{
-    Average, Cut, Data, Dwell, Labels, Recording, Settling, Steps, by_label, by_steps,
+    Average, Column, Cut, Data, Dwell, Finding, Labels, Problem, Recording, Settling, Steps,
+    Stillness, by_label, by_steps, by_stillness,
 };
+
+/// What tells dwells apart.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DwellsBy {
+    /// Labels in the columns of these roles.
+    Labels(Vec<String>),
+    /// Steps of a stimulus.
+    Steps {
+        /// Its role.
+        stimulus: String,
+        /// How far apart its values in one dwell may be; see [`Steps::tolerance`].
+        tolerance: Option<f64>,
+    },
+    /// The outputs of these roles are at rest.
+    Rest {
+        /// Their roles.
+        outputs: Vec<String>,
+        /// Over so many rows.
+        rows: usize,
+    },
+}
+
+/// How many times its quiet scatter an output may show at rest.
+const QUIET: f64 = 3.0;
 
 /// How dwells are found and cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dwelling {
-    /// Roles of the labels that tell dwells apart; with none, the steps of `stimulus`.
-    pub labels: Vec<String>,
-    /// Role of the column whose steps tell dwells apart.
-    pub stimulus: Option<String>,
-    /// How far apart values of the stimulus in one dwell may be; see [`Steps::tolerance`].
-    pub tolerance: Option<f64>,
+    /// What tells dwells apart.
+    pub by: DwellsBy,
     /// Role of the time.
     pub time: Option<String>,
     /// What is left out at the beginning, what is used, the fewest samples.
@@ -22,6 +44,35 @@ pub struct Dwelling {
 }
 
 impl Dwelling {
+    fn dwells(&self, recording: &Recording) -> Vec<Dwell> {
+        match &self.by {
+            DwellsBy::Labels(roles) => {
+                let labels = roles.iter().filter_map(|role| recording.labels(role));
+                by_label(&labels.collect::<Vec<&Labels>>())
+            }
+            DwellsBy::Steps {
+                stimulus,
+                tolerance,
+            } => by_steps(
+                recording.numbers(stimulus).unwrap_or_default(),
+                &Steps {
+                    fewest: self.shortest(recording),
+                    tolerance: *tolerance,
+                },
+            ),
+            DwellsBy::Rest { outputs, rows } => {
+                let outputs = outputs.iter().filter_map(|role| recording.numbers(role));
+                by_stillness(
+                    &outputs.collect::<Vec<&[f64]>>(),
+                    &Stillness {
+                        window: *rows,
+                        factor: QUIET,
+                    },
+                )
+            }
+        }
+    }
+
     /// Rows of the shortest dwell of which enough are left after settling; shorter rests of a stimulus are on
     /// the way to the next one.
     fn shortest(&self, recording: &Recording) -> usize {
@@ -46,25 +97,7 @@ impl Dwelling {
 impl Points {
     /// The averages of the dwells of a recording, and the dwells of which too few samples are left.
     pub fn of_dwells(recording: &Recording, dwelling: &Dwelling) -> (Points, Vec<Dwell>) {
-        let labels: Vec<&Labels> = dwelling
-            .labels
-            .iter()
-            .filter_map(|role| recording.labels(role))
-            .collect();
-        let stimulus = dwelling
-            .stimulus
-            .as_ref()
-            .and_then(|role| recording.numbers(role));
-        let dwells = match stimulus {
-            Some(stimulus) if labels.is_empty() => by_steps(
-                stimulus,
-                &Steps {
-                    fewest: dwelling.shortest(recording),
-                    tolerance: dwelling.tolerance,
-                },
-            ),
-            _ => by_label(&labels),
-        };
+        let dwells = dwelling.dwells(recording);
         let time = dwelling
             .time
             .as_ref()
@@ -81,6 +114,7 @@ impl Points {
         for column in &recording.columns {
             match &column.data {
                 Data::Numbers(samples) => {
+                    points.findings.extend(spikes(recording, column, &cut.kept));
                     let averages: Vec<Option<Average>> = cut
                         .kept
                         .iter()
@@ -113,11 +147,63 @@ impl Points {
     }
 }
 
-fn name_of(recording: &Recording, dwell: &Dwell) -> String {
+/// So many times the scatter of its dwell is a sample away that is no noise.
+const FAR: f64 = 12.0;
+/// Where a larger part of a dwell is far away, its noise is not what its middle half says.
+const FEW: f64 = 0.01;
+
+/// Samples far from all others of their dwell, by the median of the deviations from its median.
+fn spikes(recording: &Recording, column: &Column, dwells: &[Dwell]) -> Option<Finding> {
+    let samples = recording.numbers(&column.role)?;
+    let mut found: Option<Finding> = None;
+    for dwell in dwells {
+        let own = &samples[dwell.rows.clone()];
+        let usual = median(own.iter().copied())?;
+        let scatter = median(own.iter().map(|x| (x - usual).abs()))? / 0.6745;
+        let far = |x: f64| (x - usual).abs() > FAR * scatter;
+        let rows: Vec<usize> = dwell
+            .rows
+            .clone()
+            .filter(|row| far(samples[*row]))
+            .collect();
+        if scatter == 0.0 || rows.is_empty() || rows.len() as f64 > FEW * own.len() as f64 {
+            continue;
+        }
+        let farthest = rows.iter().copied().max_by(|a, b| {
+            (samples[*a] - usual)
+                .abs()
+                .total_cmp(&(samples[*b] - usual).abs())
+        })?;
+        let finding = found.get_or_insert_with(|| Finding {
+            problem: Problem::Spike {
+                value: samples[farthest],
+                usual,
+            },
+            column: Some(column.header.clone()),
+            line: recording.line(farthest),
+            count: 0,
+        });
+        finding.count += rows.len();
+    }
+    found
+}
+
+/// The median of the numbers that are there.
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.filter(|value| !value.is_nan()).collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+fn name_of(recording: &Recording, dwell: &Dwell) -> Words {
     let first = recording.line(dwell.rows.start);
     let last = recording.line(dwell.rows.end.saturating_sub(1));
+    let (en, zh) = (
+        format!("lines {first}–{last}"),
+        format!("第 {first}–{last} 行"),
+    );
     match &dwell.label {
-        Some(label) => format!("{label} (lines {first}–{last})"),
-        None => format!("lines {first}–{last}"),
+        Some(label) => Words::new(format!("{label} ({en})"), format!("{label}（{zh}）")),
+        None => Words::new(en, zh),
     }
 }

@@ -261,6 +261,11 @@ impl Experiment {
 }
 
 impl Words {
+    /// In both languages.
+    pub fn new(en: String, zh: String) -> Words {
+        Words { en, zh }
+    }
+
     /// The same in both languages.
     pub fn plain(text: &str) -> Words {
         Words {

@@ -9,14 +9,16 @@
 //! | [`procedure`] | the procedures of the library: calibration files themselves |
 //! | `source` | the tables of a file over those of its procedure |
 //! | `define` | from tables to a checked experiment, or all faults |
-//! | `names`, `parameters`, `doubts`, `extras` | what names are; units; inputs; omitted effects and results |
+//! | `names`, `parameters`, `extras` | what names are; units; omitted effects and results |
+//! | `doubts`, `components` | inputs and readings; the errors that make them uncertain |
 //! | `data`, `positions`, `schedule` | where the points come from |
-//! | `points`, `dwells` | the points of an experiment: rows, or averages of dwells |
+//! | `points`, `dwells`, `together` | the points of an experiment: rows, or averages of dwells and of repeated positions |
 //! | `experiment` | the checked experiment |
 //! | `stack` | its readings as a problem of least squares |
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `causes` | what makes the coefficients uncertain |
-//! | `identify`, `swaps` | rank, condition, aliases; readings that look exchanged |
+//! | `identify` | rank, condition, aliases |
+//! | `swaps`, `limits` | readings that look exchanged, or saturated |
 //! | `calibration`, `plan` | the results, after and before measuring |
 //! | `budget` | coefficients as measurands of a budget file |
 //!
@@ -30,6 +32,7 @@
 mod budget;
 mod calibration;
 mod causes;
+mod components;
 mod data;
 mod define;
 mod doubts;
@@ -39,6 +42,7 @@ mod extras;
 pub mod faults;
 mod gain;
 mod identify;
+mod limits;
 mod names;
 mod parameters;
 mod plan;
@@ -53,19 +57,22 @@ mod swaps;
 pub(crate) mod tables;
 #[cfg(test)]
 mod tests;
+mod together;
 mod trouble;
 
 pub use budget::budget;
 pub use calibration::{Calibration, Coefficient, Figures, Residual, calibrate, estimates};
 pub use causes::{Cause, Origin};
 pub use define::{Purpose, load, read};
-pub use dwells::Dwelling;
+pub use dwells::{Dwelling, DwellsBy};
 pub use experiment::{
     Act, Doubt, Experiment, FunctionResult, Heading, Input, Observed, Omitted, Parameter, Prior,
     Scatter, Scope, Target, Weights, Words,
 };
 pub use identify::{Alias, Combination, Identifiability, NearAlias};
+pub use limits::Limit;
 pub use plan::{Plan, plan};
 pub use points::{PointColumn, Points};
 pub use scatter::{ResponseScatter, ScatterTest};
+pub use tables::schema;
 pub use trouble::Trouble;

@@ -1,5 +1,6 @@
 //! The points of an experiment: what was set and what was read, once for each.
 
+use super::experiment::Words;
 use crate::quantity::Unit;
 use crate::recording::{Average, Data, Finding, Labels, Recording};
 
@@ -7,7 +8,7 @@ use crate::recording::{Average, Data, Finding, Labels, Recording};
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Points {
     /// What each point is called in reports: the line of its row, or the label of its dwell.
-    pub names: Vec<String>,
+    pub names: Vec<Words>,
     /// Columns of numbers.
     pub columns: Vec<PointColumn>,
     /// Columns of labels, by name.
@@ -34,7 +35,10 @@ impl Points {
     pub fn of_rows(recording: &Recording) -> Points {
         let mut points = Points {
             names: (0..recording.rows())
-                .map(|row| format!("line {}", recording.line(row)))
+                .map(|row| {
+                    let line = recording.line(row);
+                    Words::new(format!("line {line}"), format!("第 {line} 行"))
+                })
                 .collect(),
             ..Points::default()
         };

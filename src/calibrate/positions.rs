@@ -76,9 +76,12 @@ pub(super) fn add(definer: &mut Definer<'_>, points: &mut Points) -> bool {
             let label = labels.text(row);
             let found = at.value.entries.iter().find(|(name, _)| name == label);
             if found.is_none() {
-                definer
-                    .faults
-                    .push(unknown_position(label, &points.names[row], table, stated));
+                definer.faults.push(unknown_position(
+                    label,
+                    &points.names[row].en,
+                    table,
+                    stated,
+                ));
             }
             found.map(|(_, values)| &values.value)
         })

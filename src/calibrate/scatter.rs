@@ -145,7 +145,7 @@ impl Scatters {
         }
         let ones = vec![1.0; stack.rows.len()];
         let jacobian = stack.jacobian(&solution.parameters, &ones);
-        let known = known_u(stack, true);
+        let (known, stated) = (known_u(stack, true), known_u(stack, false));
         let parameters = experiment.parameters.len();
         let explained = explained(stack, solution, gain, &jacobian);
         let mut responses = Vec::new();
@@ -176,13 +176,22 @@ impl Scatters {
                     parameters,
                 });
             }
-            let explained: f64 = rows
+            let by_stated: f64 = rows
                 .iter()
                 .map(|row| explained[*row] / (u[*row] * u[*row]))
                 .sum();
             let total = sum(u);
-            let own = (total - explained).max(0.0);
+            let own = (total - by_stated).max(0.0);
             let complete = !rows.is_empty() && rows.iter().all(|row| known[*row] > 0.0);
+            // What samples and all stated errors let expect of a residual, as if it were a reading's own.
+            let mut expected = known.clone();
+            for row in &rows {
+                let free = free(*row);
+                if free > 1e-6 {
+                    let sampled = known[*row].powi(2) - stated[*row].powi(2);
+                    expected[*row] = (sampled + explained[*row] / free).sqrt();
+                }
+            }
             responses.push(ResponseScatter {
                 response: quantity.name.clone(),
                 readings: rows.len(),
@@ -193,8 +202,8 @@ impl Scatters {
                 // The difference has the variance of the whole sum.
                 own_dof: dof * (own / total).powi(2),
                 test: (complete && dof > 0.0).then(|| {
-                    let chi_squared = sum(&known);
-                    let expected: f64 = rows.iter().map(|row| known[*row].powi(2)).sum();
+                    let chi_squared = sum(&expected);
+                    let expected: f64 = rows.iter().map(|row| expected[*row].powi(2)).sum();
                     ScatterTest {
                         expected: (expected / rows.len() as f64).sqrt(),
                         chi_squared,

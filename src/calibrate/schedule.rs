@@ -2,6 +2,7 @@
 
 use super::data::label_columns;
 use super::define::{Definer, entries};
+use super::experiment::Words;
 use super::faults::SCHEDULE;
 use super::names::Names;
 use super::points::{PointColumn, Points};
@@ -65,7 +66,9 @@ pub(super) fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Poin
         }
     }
     let count = length.map_or(0, |(count, _)| count);
-    points.names = (1..=count).map(|point| format!("point {point}")).collect();
+    points.names = (1..=count)
+        .map(|point| Words::new(format!("point {point}"), format!("第 {point} 点")))
+        .collect();
     for (role, place) in &names.columns {
         if points.column(role).is_none() {
             definer.faults.push(

@@ -114,6 +114,7 @@ fn merged(own: CalibrationTable, base: CalibrationTable, listed: &Listed) -> Cal
         parameter: entries_over(own.parameter.clone(), parameter),
         input: entries_over(own.input.clone(), input),
         reading: entries_over(own.reading.clone(), base.reading.clone()),
+        source: entries_over(own.source.clone(), base.source.clone()),
         result: entries_over(own.result.clone(), base.result.clone()),
         omitted: entries_over(own.omitted.clone(), base.omitted.clone()),
         positions: over(own.positions.clone(), base.positions.clone()),
@@ -124,15 +125,20 @@ fn merged(own: CalibrationTable, base: CalibrationTable, listed: &Listed) -> Cal
     }
 }
 
-fn over<T: Table>(own: Option<Stated<T>>, base: Option<Stated<T>>) -> Option<Stated<T>> {
+/// What either states, or what both state joined.
+fn both<T>(own: Option<T>, base: Option<T>, join: impl FnOnce(T, T) -> T) -> Option<T> {
     match (own, base) {
-        (Some(own), Some(base)) => Some(Stated {
-            value: own.value.over(base.value),
-            span: own.span,
-            key: own.key,
-        }),
+        (Some(own), Some(base)) => Some(join(own, base)),
         (own, base) => own.or(base),
     }
+}
+
+fn over<T: Table>(own: Option<Stated<T>>, base: Option<Stated<T>>) -> Option<Stated<T>> {
+    both(own, base, |own, base| Stated {
+        value: own.value.over(base.value),
+        span: own.span,
+        key: own.key,
+    })
 }
 
 /// Entries of the procedure first, in its order, each under what the file says of it.
@@ -140,24 +146,19 @@ fn entries_over<T: Table>(
     own: Option<Stated<Named<T>>>,
     base: Option<Stated<Named<T>>>,
 ) -> Option<Stated<Named<T>>> {
-    let (mut own, base) = match (own, base) {
-        (Some(own), Some(base)) => (own, base),
-        (own, base) => return own.or(base),
-    };
-    let mut entries = Vec::new();
-    for (name, below) in base.value.entries {
-        let at = own
-            .value
-            .entries
-            .iter()
-            .position(|(other, _)| *other == name);
-        let above = at.map(|at| own.value.entries.remove(at).1);
-        let both = over(above, Some(below));
-        entries.extend(both.map(|entry| (name, entry)));
-    }
-    entries.append(&mut own.value.entries);
-    own.value.entries = entries;
-    Some(own)
+    both(own, base, |mut own, base| {
+        let mut entries = Vec::new();
+        for (name, below) in base.value.entries {
+            let mut places = own.value.entries.iter();
+            let at = places.position(|(other, _)| *other == name);
+            let above = at.map(|at| own.value.entries.remove(at).1);
+            let entry = over(above, Some(below));
+            entries.extend(entry.map(|entry| (name, entry)));
+        }
+        entries.append(&mut own.value.entries);
+        own.value.entries = entries;
+        own
+    })
 }
 
 /// Entries of both; one of the file replaces that of the procedure as a whole.
@@ -165,16 +166,14 @@ fn named_or<T>(
     own: Option<Stated<Named<T>>>,
     base: Option<Stated<Named<T>>>,
 ) -> Option<Stated<Named<T>>> {
-    let (mut own, base) = match (own, base) {
-        (Some(own), Some(base)) => (own, base),
-        (own, base) => return own.or(base),
-    };
-    for (name, entry) in base.value.entries {
-        if !own.value.entries.iter().any(|(other, _)| *other == name) {
-            own.value.entries.push((name, entry));
+    both(own, base, |mut own, base| {
+        for (name, entry) in base.value.entries {
+            if !own.value.entries.iter().any(|(other, _)| *other == name) {
+                own.value.entries.push((name, entry));
+            }
         }
-    }
-    Some(own)
+        own
+    })
 }
 
 impl Source {

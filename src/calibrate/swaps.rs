@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::experiment::{Experiment, Words};
 use super::gain::Gain;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
@@ -17,13 +18,14 @@ const FACTOR: f64 = 100.0;
 /// Fewer degrees of freedom tell nothing.
 const LEAST_DOF: f64 = 2.0;
 
-/// The two points whose exchange brings the residuals down most, if it brings them down that much.
+/// The two points, or the two labels with all their points, whose exchange brings the residuals down most,
+/// if it brings them down that much.
 pub(super) fn swapped(
     stack: &Stack<'_>,
     solution: &Solution,
     gain: &Gain,
     scatters: &Scatters,
-) -> Option<[usize; 2]> {
+) -> Option<[Words; 2]> {
     let points = stack.experiment.points.len();
     let dof: f64 = scatters.responses.iter().map(|one| one.dof).sum();
     if points > MOST_POINTS || dof < LEAST_DOF {
@@ -37,20 +39,60 @@ pub(super) fn swapped(
     let sum =
         |residuals: &[f64]| -> f64 { residuals.iter().zip(&weight).map(|(r, w)| w * r * r).sum() };
     let before = sum(&solution.residuals);
-    let mut best: Option<([usize; 2], f64)> = None;
-    for first in 0..points {
-        for second in first + 1..points {
-            let Some(after) = exchanged(stack, &solution.residuals, &projector, [first, second])
-            else {
-                continue;
+    let mut best: Option<([Words; 2], f64)> = None;
+    for exchange in exchanges(stack.experiment) {
+        let pairs = &exchange.pairs;
+        let Some(after) = exchanged(stack, &solution.residuals, &projector, pairs) else {
+            continue;
+        };
+        let after = sum(&after);
+        if after < before / FACTOR && best.as_ref().is_none_or(|(_, least)| after < *least) {
+            best = Some((exchange.names, after));
+        }
+    }
+    best.map(|(names, _)| names)
+}
+
+/// Points that may have changed places.
+struct Exchange {
+    names: [Words; 2],
+    pairs: Vec<[usize; 2]>,
+}
+
+/// Any two points; and any two labels of a column that several points have.
+fn exchanges(experiment: &Experiment) -> Vec<Exchange> {
+    let names = &experiment.points.names;
+    let points = names.len();
+    let mut all: Vec<Exchange> = (0..points)
+        .flat_map(|first| (first + 1..points).map(move |second| [first, second]))
+        .map(|pair| Exchange {
+            names: pair.map(|point| names[point].clone()),
+            pairs: vec![pair],
+        })
+        .collect();
+    for (_, labels) in &experiment.points.labels {
+        let of_level = |level: usize| -> Vec<usize> {
+            let has = |point: &usize| {
+                labels
+                    .of_row
+                    .get(*point)
+                    .is_some_and(|own| *own as usize == level)
             };
-            let after = sum(&after);
-            if after < before / FACTOR && best.is_none_or(|(_, least)| after < least) {
-                best = Some(([first, second], after));
+            (0..points).filter(has).collect()
+        };
+        let of_level: Vec<Vec<usize>> = (0..labels.levels.len()).map(of_level).collect();
+        for (first, a) in of_level.iter().enumerate() {
+            for (second, b) in of_level.iter().enumerate().skip(first + 1) {
+                if a.len() > 1 && a.len() == b.len() {
+                    all.push(Exchange {
+                        names: [first, second].map(|level| Words::plain(&labels.levels[level])),
+                        pairs: a.iter().zip(b).map(|(a, b)| [*a, *b]).collect(),
+                    });
+                }
             }
         }
     }
-    best.map(|(pair, _)| pair)
+    all
 }
 
 /// Responses of different units count alike.
@@ -64,13 +106,13 @@ fn weight(row: &Row, scatters: &Scatters) -> f64 {
     }
 }
 
-/// The residuals, to first order, after all readings of two points changed places; nothing where one
+/// The residuals, to first order, after all readings of pairs of points changed places; nothing where one
 /// has a reading that the other lacks.
 fn exchanged(
     stack: &Stack<'_>,
     residuals: &[f64],
     projector: &DMatrix<f64>,
-    pair: [usize; 2],
+    pairs: &[[usize; 2]],
 ) -> Option<Vec<f64>> {
     let rows_of = |wanted: usize| -> Vec<(usize, usize)> {
         let rows = stack.rows.iter().enumerate();
@@ -80,18 +122,21 @@ fn exchanged(
         })
         .collect()
     };
-    let (first, second) = (rows_of(pair[0]), rows_of(pair[1]));
-    let same = first.len() == second.len() && first.iter().zip(&second).all(|(a, b)| a.0 == b.0);
-    if !same || first.is_empty() {
-        return None;
-    }
     let mut after = residuals.to_vec();
-    for ((_, a), (_, b)) in first.into_iter().zip(second) {
-        let difference = stack.observed[b] - stack.observed[a];
-        after[a] += difference;
-        after[b] -= difference;
-        for (row, residual) in after.iter_mut().enumerate() {
-            *residual -= (projector[(row, a)] - projector[(row, b)]) * difference;
+    for pair in pairs {
+        let (first, second) = (rows_of(pair[0]), rows_of(pair[1]));
+        let same =
+            first.len() == second.len() && first.iter().zip(&second).all(|(a, b)| a.0 == b.0);
+        if !same || first.is_empty() {
+            return None;
+        }
+        for ((_, a), (_, b)) in first.into_iter().zip(second) {
+            let difference = stack.observed[b] - stack.observed[a];
+            after[a] += difference;
+            after[b] -= difference;
+            for (row, residual) in after.iter_mut().enumerate() {
+                *residual -= (projector[(row, a)] - projector[(row, b)]) * difference;
+            }
         }
     }
     Some(after)

@@ -1,11 +1,33 @@
 //! Every table of a calibration file, as users and the procedures of the library write it.
 
-use crate::budget::table::{Stated, table, words};
-use crate::budget::tables::{ConventionsTable, InputTable, MonteCarloTable};
-use crate::budget::values::{Amount, Cell, Date, Named};
+use serde_json::{Value, json};
+
+use super::procedure::PROCEDURES;
+use crate::budget::table::{FromToml, Stated, table, words};
+use crate::budget::tables::{
+    ConventionsTable, CorrelationTable, InputTable, MonteCarloTable, SourceTable,
+};
+use crate::budget::values::{Amount, Cell, Date, Named, OneOrMany};
 use crate::budget::variants::ConstantEntry;
 
 type List<T> = Vec<Stated<T>>;
+
+/// JSON Schema (draft-07) of calibration files, for editors.
+pub fn schema() -> Value {
+    let mut schema = CalibrationTable::schema();
+    if let Value::Object(entries) = &mut schema {
+        let draft = "http://json-schema.org/draft-07/schema#";
+        entries.insert("$schema".into(), json!(draft));
+        entries.insert("title".into(), json!("gumption calibration"));
+        if let Some(Value::Object(properties)) = entries.get_mut("properties")
+            && let Some(Value::Object(procedure)) = properties.get_mut("procedure")
+        {
+            let names = PROCEDURES.iter().map(|procedure| procedure.name);
+            procedure.insert("enum".into(), names.collect());
+        }
+    }
+    schema
+}
 
 table! {
     /// A calibration: equations, what is known of references, a recording or a schedule.
@@ -54,6 +76,10 @@ table! {
         input: Named<KnownTable>,
         /// Further errors of the readings of a column, with the keys of a budget's components.
         reading: Named<KnownTable>,
+        /// Causes of uncertainty that several inputs and readings share.
+        source: Named<SharedTable>,
+        /// Correlation coefficients of inputs, readings, sources or single components.
+        correlation: OneOrMany<CorrelationTable>,
         /// Functions of the parameters that are reported besides them.
         result: Named<ResultTable>,
         /// Effects that the equations leave out, to learn what each would shift.
@@ -137,6 +163,17 @@ table! {
 }
 
 table! {
+    /// A cause of uncertainty that several inputs and readings share; its value is zero.
+    SharedTable "[source]" {
+        /// Whether one error acts on all points, or each point has its own.
+        scope: ScopeWord,
+        /// A column of labels: points with the same label share one error.
+        by: String,
+        with source: SourceTable
+    }
+}
+
+table! {
     /// A function of the parameters that is reported besides them.
     ResultTable "[result]" {
         /// The formula.
@@ -187,6 +224,8 @@ table! {
         dwells: List<String>,
         /// The column whose steps tell the dwells apart.
         steps: String,
+        /// Without labels and steps: dwells are stretches at rest, in which no column of the equations scatters more than it does at its quietest, over so many rows.
+        still: u64,
         /// How far apart values of `steps` in one dwell may be, in its unit.
         tolerance: f64,
         /// The part at the beginning of each dwell that is left out.
@@ -195,6 +234,8 @@ table! {
         dwell: Amount,
         /// The fewest samples of a dwell.
         fewest: u64,
+        /// Columns of labels: points with the same labels in all of them are averaged to one.
+        together: List<String>,
         /// Least and greatest value that the instrument of a column can give, in its unit: `U = [-10, 10]`.
         ranges: Named<List<f64>>,
     }

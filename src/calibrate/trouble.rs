@@ -1,5 +1,6 @@
 //! Why an experiment gives no coefficients.
 
+use super::experiment::Words;
 use super::identify::{Combination, combinations};
 use super::stack::Stack;
 use crate::least_squares::Failure;
@@ -43,7 +44,7 @@ pub enum Trouble {
     /// An equation is not defined where the search begins.
     Undefined {
         /// The point.
-        point: String,
+        point: Words,
         /// The response.
         response: String,
     },
@@ -88,7 +89,7 @@ impl Trouble {
                             .name
                             .clone(),
                     ),
-                    _ => (String::new(), String::new()),
+                    _ => (Words::default(), String::new()),
                 };
                 Trouble::Undefined { point, response }
             }

@@ -1,6 +1,6 @@
 //! `gumption schema`: JSON Schema for editors and for readers of what the program writes.
 
-use gumption::{budget, report};
+use gumption::{budget, calibrate, report};
 
 use super::{Outcome, output};
 
@@ -19,6 +19,8 @@ enum Which {
     Evaluation,
     /// What `gumption eval --save` writes
     Result,
+    /// Calibration files, and the files of plans
+    Calibration,
     /// The output of `gumption verify --json`
     Verification,
 }
@@ -28,6 +30,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Budget => budget::schema(),
         Which::Evaluation => report::schema(),
         Which::Result => budget::result_schema(),
+        Which::Calibration => calibrate::schema(),
         Which::Verification => report::verification_schema(),
     };
     output::print(&format!("{schema:#}\n"))

@@ -22,7 +22,7 @@ pub struct Extended {
 pub struct Addition {
     /// Name of the parameter.
     pub parameter: String,
-    /// Name of the column that holds the modifier.
+    /// Name of the column that holds the modifier, the first if there are several.
     pub column: String,
     /// The modifier as a formula.
     pub text: String,
@@ -39,20 +39,18 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
     let parameters = case.parameters.len();
     let mut columns = Vec::new();
     for term in variations.iter().flat_map(|variation| &variation.terms) {
-        let number = additions.len() + 1;
-        let (parameter, column) = (free(&case, "beta", number), free(&case, "effect", number));
+        let column = free(&case, "effect", columns.len() + 1);
+        let shared = additions.last().filter(|_| term.tied);
+        let parameter = match shared {
+            Some(addition) => addition.parameter.clone(),
+            None => free(&case, "beta", additions.len() + 1),
+        };
+        let is_new = shared.is_none();
         for (response, equation) in equations.iter_mut().enumerate() {
             if term.response.is_none_or(|only| only == response) {
                 equation.insert(ground, term, &format!("{parameter}*{column}"));
             }
         }
-        case.parameters.push(Parameter {
-            name: parameter.clone(),
-            unit: unit_of(ground, term),
-            start: None,
-            prior: None,
-            per: None,
-        });
         columns.push(Column {
             name: column.clone(),
             header: column.clone(),
@@ -65,11 +63,20 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
             resolution: None,
             as_difference: false,
         });
-        additions.push(Addition {
-            parameter,
-            column,
-            text: term.text.clone(),
-        });
+        if is_new {
+            case.parameters.push(Parameter {
+                name: parameter.clone(),
+                unit: unit_of(ground, term),
+                start: None,
+                prior: None,
+                per: None,
+            });
+            additions.push(Addition {
+                parameter,
+                column,
+                text: term.text.clone(),
+            });
+        }
     }
     debug_assert_eq!(case.parameters.len(), parameters + additions.len());
     case.columns.extend(columns);

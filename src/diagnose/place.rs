@@ -48,6 +48,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
                     response: (responses > 1).then_some(response),
                     modifier: inside.clone(),
                     text: String::new(),
+                    tied: false,
                 };
                 let name = ground.name(node);
                 let node = if responses > 1 {

@@ -37,7 +37,7 @@ pub enum FindingKind {
         u_second: f64,
     },
     /// Clause 8: GUM is not validated at the digits reported. The statement uses Monte Carlo, unless it
-    /// claims no coverage probability (see [`MeasurandResult::basis`]).
+    /// claims no coverage probability (see [`MeasurandResult::basis`](super::MeasurandResult::basis)).
     NotValidated,
     /// Clause 8: the ends of the Monte Carlo interval scatter too much for a verdict at the digits
     /// reported. The statement uses the GUM result, which nothing refutes.

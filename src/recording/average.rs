@@ -111,6 +111,45 @@ impl Average {
     }
 }
 
+impl Average {
+    /// The unweighted mean of independent averages; `None` of none.
+    ///
+    /// u² = Σ u_i²/N², with the degrees of freedom of Welch and Satterthwaite; `s` is pooled over the
+    /// averages, counts are sums.
+    pub fn of_averages(parts: &[Average]) -> Option<Average> {
+        let (first, rest) = parts.split_first()?;
+        if rest.is_empty() {
+            return Some(*first);
+        }
+        let count = parts.len() as f64;
+        let sum = |of: &dyn Fn(&Average) -> f64| parts.iter().map(of).sum::<f64>();
+        let variance = sum(&|one| one.u * one.u);
+        let fourth = sum(&|one| one.u.powi(4) / one.dof);
+        Some(Average {
+            mean: sum(&|one| one.mean) / count,
+            s: (sum(&|one| one.s * one.s) / count).sqrt(),
+            n: parts.iter().map(|one| one.n).sum(),
+            missing: parts.iter().map(|one| one.missing).sum(),
+            autocorrelation: sum(&|one| one.autocorrelation) / count,
+            effective: sum(&|one| one.effective),
+            u: variance.sqrt() / count,
+            dof: if fourth > 0.0 {
+                variance * variance / fourth
+            } else {
+                sum(&|one| one.dof)
+            },
+            minimum: parts
+                .iter()
+                .map(|one| one.minimum)
+                .fold(f64::INFINITY, f64::min),
+            maximum: parts
+                .iter()
+                .map(|one| one.maximum)
+                .fold(f64::NEG_INFINITY, f64::max),
+        })
+    }
+}
+
 impl Drift {
     /// The straight line through readings against their times. Rows where either is missing do not count.
     ///

@@ -15,6 +15,9 @@ pub struct Checks<'a> {
     /// The least and the greatest value that the instrument of an output can give, in the unit of the
     /// column.
     pub ranges: &'a [(&'a str, [f64; 2])],
+    /// The roles with labels that tell dwells apart: the time may jump between dwells, and dwells come back
+    /// where all of these labels do.
+    pub dwells: &'a [&'a str],
     /// A role with labels, and those that it should have, in any order.
     pub expected: Option<(&'a str, &'a [&'a str])>,
     /// The fewest rows that make sense.
@@ -41,6 +44,17 @@ pub enum Problem {
     Missing,
     /// No number in the whole column.
     Empty,
+    /// Numbers have decimal commas.
+    DecimalComma,
+    /// The unit is gram, which instruments write for the acceleration of free fall too.
+    Gram,
+    /// Samples of a dwell far from all its others.
+    Spike {
+        /// The one that is farthest.
+        value: f64,
+        /// The median of the dwell.
+        usual: f64,
+    },
     /// A field without a label.
     Unlabelled,
     /// The time goes backwards.
@@ -72,15 +86,24 @@ pub enum Problem {
         /// That value.
         value: f64,
     },
+    /// Each of many rows counts as a point, and nothing says that it is an average.
+    EachRow,
     /// There are too few rows.
     TooFew {
         /// How many there should be.
         needed: usize,
     },
-    /// A label comes back after another one.
+    /// A label, or labels that tell dwells apart together, come back after others.
     LabelAgain {
+        /// The label, or the labels.
+        label: String,
+    },
+    /// Points are averaged over a label, and it has more or fewer of them than others.
+    Uneven {
         /// The label.
         label: String,
+        /// How many points most labels have.
+        usual: usize,
     },
     /// An expected label does not occur.
     LabelAbsent {
@@ -116,85 +139,10 @@ impl Finding {
             | Problem::TooFew { .. }
             | Problem::LabelAbsent { .. }
             | Problem::LabelUnknown { .. } => Severity::Error,
-            Problem::LabelAgain { .. } => Severity::Note,
+            // Samples of minutes, taken for points, would give figures in earnest after a long search.
+            Problem::EachRow if self.count > 1000 => Severity::Error,
+            Problem::LabelAgain { .. } | Problem::DecimalComma | Problem::Gram => Severity::Note,
             _ => Severity::Warning,
-        }
-    }
-
-    /// One sentence without a final stop.
-    pub fn message(&self) -> String {
-        let column = self.column.as_deref().unwrap_or_default();
-        let (count, line) = (self.count, self.line);
-        let rows = if count == 1 {
-            "1 row"
-        } else {
-            &format!("{count} rows")
-        };
-        let lines = if count == 1 {
-            format!("line {line}")
-        } else {
-            format!("from line {line} on")
-        };
-        match &self.problem {
-            Problem::Missing => format!("\"{column}\" has no number in {rows}, {lines}"),
-            Problem::Empty => format!("\"{column}\" has no number at all"),
-            Problem::Unlabelled => format!("\"{column}\" has no label in {rows}, {lines}"),
-            Problem::TimeBackwards { from, to } => {
-                format!(
-                    "the time \"{column}\" goes back from {from} to {to} in line {line} (in {rows})"
-                )
-            }
-            Problem::TimeRepeated { time } => {
-                format!("the time \"{column}\" stays at {time} in line {line} (in {rows})")
-            }
-            Problem::TimeGap { longest, usual } => format!(
-                "the time \"{column}\" jumps by up to {longest} where {usual} is usual, first in line {line} (in {rows})"
-            ),
-            Problem::Saturated { limit } => {
-                format!("\"{column}\" is stuck at {limit} in {rows}, {lines}: it looks saturated")
-            }
-            Problem::Constant { value } => format!("\"{column}\" is {value} in all {rows}"),
-            Problem::TooFew { needed } => {
-                format!("the recording has {rows}, at least {needed} are needed")
-            }
-            Problem::LabelAgain { label } => {
-                format!(
-                    "\"{label}\" in \"{column}\" comes back in line {line}: {count} separate stretches"
-                )
-            }
-            Problem::LabelAbsent { label } => format!("\"{column}\" never is \"{label}\""),
-            Problem::LabelUnknown { label, .. } => {
-                format!("\"{column}\" is \"{label}\" in {rows}, {lines}, which is not expected")
-            }
-        }
-    }
-
-    /// What to do about it, in the imperative.
-    pub fn advice(&self) -> String {
-        match &self.problem {
-            Problem::Missing => "these values are left out; find out why they are missing".into(),
-            Problem::Empty => "check that the column was recorded, or leave it out".into(),
-            Problem::Unlabelled => "label these rows, or leave them out: they belong to no dwell".into(),
-            Problem::TimeBackwards { .. } => {
-                "sort the rows, or split the file where the clock was set or a new run begins".into()
-            }
-            Problem::TimeRepeated { .. } => {
-                "check for rows recorded twice, or record the time with more digits".into()
-            }
-            Problem::TimeGap { .. } => "find out whether rows were lost".into(),
-            Problem::Saturated { .. } => {
-                "leave out the rows at the limit, or record again in a larger range: the mean at a limit is biased".into()
-            }
-            Problem::Constant { .. } => {
-                "check that the output is connected; if its noise is below the resolution, state the resolution".into()
-            }
-            Problem::TooFew { .. } => "record longer, or at more points".into(),
-            Problem::LabelAgain { .. } => "each stretch is a dwell of its own; rename it if it is not the same".into(),
-            Problem::LabelAbsent { .. } => "record it, or take it off the list".into(),
-            Problem::LabelUnknown { near, .. } => match near {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => "correct the label, or add it to the list".into(),
-            },
         }
     }
 }
@@ -211,13 +159,15 @@ pub fn check(recording: &Recording, checks: &Checks) -> Vec<Finding> {
             count: recording.rows(),
         });
     }
+    let stretches = Stretches::of(recording, checks.dwells);
     for column in &recording.columns {
         let look = Look { recording, column };
         match &column.data {
             Data::Numbers(values) => {
                 findings.extend(look.missing(values));
+                findings.extend(look.gram(values));
                 if checks.time == Some(column.role.as_str()) {
-                    findings.extend(look.time(values));
+                    findings.extend(look.time(values, &stretches));
                 }
                 if checks.outputs.contains(&column.role.as_str()) {
                     let ranges = checks.ranges.iter();
@@ -228,7 +178,7 @@ pub fn check(recording: &Recording, checks: &Checks) -> Vec<Finding> {
                 }
             }
             Data::Labels(labels) => {
-                findings.extend(look.labels(labels));
+                findings.extend(look.unlabelled(labels));
                 if let Some((_, expected)) =
                     checks.expected.filter(|(role, _)| *role == column.role)
                 {
@@ -237,8 +187,25 @@ pub fn check(recording: &Recording, checks: &Checks) -> Vec<Finding> {
             }
         }
     }
+    findings.extend(stretches.that_come_back(recording));
+    findings.extend(decimal_commas(recording));
     findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity()));
     findings
+}
+
+/// One finding for all columns with decimal commas.
+fn decimal_commas(recording: &Recording) -> Option<Finding> {
+    let columns = recording.columns.iter();
+    let headers: Vec<&str> = columns
+        .filter(|column| column.decimal_comma)
+        .map(|column| column.header.as_str())
+        .collect();
+    (!headers.is_empty()).then(|| Finding {
+        problem: Problem::DecimalComma,
+        column: Some(headers.join("\", \"")),
+        line: recording.line(0),
+        count: recording.rows(),
+    })
 }
 
 /// A column under inspection.
@@ -268,7 +235,13 @@ impl Look<'_> {
         Some(self.finding(problem, first, count))
     }
 
-    fn time(&self, values: &[f64]) -> Vec<Finding> {
+    fn gram(&self, values: &[f64]) -> Option<Finding> {
+        let unit = self.column.unit.as_ref()?;
+        let is_gram = ["g", "mg", "µg"].contains(&unit.symbol.as_str());
+        is_gram.then(|| self.finding(Problem::Gram, 0, values.len()))
+    }
+
+    fn time(&self, values: &[f64], stretches: &Stretches) -> Vec<Finding> {
         let present: Vec<(usize, f64)> = values
             .iter()
             .copied()
@@ -285,10 +258,11 @@ impl Look<'_> {
         let mut intervals: Vec<f64> = steps().map(|(_, from, to)| to - from).collect();
         intervals.sort_by(f64::total_cmp);
         let usual = intervals.get(intervals.len() / 2).copied().unwrap_or(0.0);
-        let longest = intervals.last().copied().unwrap_or(0.0);
         let gaps: Vec<_> = steps()
-            .filter(|(_, from, to)| to - from > 1.5 * usual)
+            .filter(|(row, from, to)| to - from > 1.5 * usual && !stretches.begins_at(*row))
             .collect();
+        let longest = gaps.iter().map(|(_, from, to)| to - from);
+        let longest = longest.fold(0.0, f64::max);
         // Where many intervals are long, the rows are not meant to be equally spaced.
         let rare = gaps.len() * 20 <= intervals.len() && usual > 0.0;
         let gap = Problem::TimeGap { longest, usual };
@@ -343,31 +317,12 @@ impl Look<'_> {
             .collect()
     }
 
-    fn labels(&self, labels: &Labels) -> Vec<Finding> {
-        let mut findings = Vec::new();
+    fn unlabelled(&self, labels: &Labels) -> Option<Finding> {
         let missing = |row: &usize| labels.text(*row).is_empty();
         let rows = labels.of_row.len();
-        if let Some(first) = (0..rows).find(missing) {
-            let count = (0..rows).filter(missing).count();
-            findings.push(self.finding(Problem::Unlabelled, first, count));
-        }
-        // Where each label begins a stretch.
-        let mut begins: HashMap<u32, Vec<usize>> = HashMap::new();
-        for (row, level) in labels.of_row.iter().enumerate() {
-            if row == 0 || labels.of_row[row - 1] != *level {
-                begins.entry(*level).or_default().push(row);
-            }
-        }
-        for (level, label) in (0_u32..).zip(&labels.levels) {
-            if let Some([_, again, ..]) = begins.get(&level).map(Vec::as_slice)
-                && !label.is_empty()
-            {
-                let count = begins[&level].len();
-                let label = label.clone();
-                findings.push(self.finding(Problem::LabelAgain { label }, *again, count));
-            }
-        }
-        findings
+        let first = (0..rows).find(missing)?;
+        let count = (0..rows).filter(missing).count();
+        Some(self.finding(Problem::Unlabelled, first, count))
     }
 
     fn expected(&self, labels: &Labels, expected: &[&str]) -> Vec<Finding> {
@@ -399,6 +354,78 @@ impl Look<'_> {
             Some(self.finding(problem, first, labels.of_row.iter().filter(at).count()))
         });
         absent.chain(unknown).collect()
+    }
+}
+
+/// Stretches of rows with the same labels.
+struct Stretches {
+    /// The headers of the columns.
+    headers: String,
+    /// Where each stretch begins.
+    begins: Vec<usize>,
+    /// The labels of each stretch; empty where one is missing.
+    labels: Vec<String>,
+}
+
+impl Stretches {
+    fn of(recording: &Recording, roles: &[&str]) -> Stretches {
+        let columns: Vec<(&Column, &Labels)> = recording
+            .columns
+            .iter()
+            .filter(|column| roles.contains(&column.role.as_str()))
+            .filter_map(|column| match &column.data {
+                Data::Labels(labels) => Some((column, labels)),
+                Data::Numbers(_) => None,
+            })
+            .collect();
+        let headers: Vec<&str> = columns.iter().map(|(c, _)| c.header.as_str()).collect();
+        let mut stretches = Stretches {
+            headers: headers.join("\", \""),
+            begins: Vec::new(),
+            labels: Vec::new(),
+        };
+        if columns.is_empty() {
+            return stretches;
+        }
+        let level = |row: usize| columns.iter().map(move |(_, labels)| labels.of_row[row]);
+        for row in 0..recording.rows() {
+            if row == 0 || !level(row - 1).eq(level(row)) {
+                let texts: Vec<&str> = columns.iter().map(|(_, l)| l.text(row)).collect();
+                let complete = texts.iter().all(|text| !text.is_empty());
+                let label = texts.join(", ");
+                stretches.begins.push(row);
+                stretches
+                    .labels
+                    .push(if complete { label } else { String::new() });
+            }
+        }
+        stretches
+    }
+
+    fn begins_at(&self, row: usize) -> bool {
+        self.begins.binary_search(&row).is_ok()
+    }
+
+    fn that_come_back(&self, recording: &Recording) -> Vec<Finding> {
+        let mut seen: Vec<(&str, Vec<usize>)> = Vec::new();
+        for (label, row) in self.labels.iter().zip(&self.begins) {
+            match seen.iter_mut().find(|(other, _)| other == label) {
+                Some((_, rows)) => rows.push(*row),
+                None => seen.push((label, vec![*row])),
+            }
+        }
+        let again = |(label, rows): (&str, Vec<usize>)| match rows.as_slice() {
+            [_, again, ..] if !label.is_empty() => Some(Finding {
+                problem: Problem::LabelAgain {
+                    label: label.to_owned(),
+                },
+                column: Some(self.headers.clone()),
+                line: recording.line(*again),
+                count: rows.len(),
+            }),
+            _ => None,
+        };
+        seen.into_iter().filter_map(again).collect()
     }
 }
 

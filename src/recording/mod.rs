@@ -6,8 +6,10 @@
 //! | [`faults`] | codes of what is refused |
 //! | `sheet` | CSV text as rows of fields, with their places |
 //! | `heading` | names and units in the first line |
-//! | `reader` | the columns that a procedure asks for |
+//! | `field` | numbers and times in the rows below |
+//! | `reader`, `column_unit` | the columns that a procedure asks for; their units |
 //! | `checks` | missing values, times that go backwards, saturation, labels … |
+//! | `words` | what is said of that, in both languages |
 //! | `segment` | dwells: stretches that belong together; settling |
 //! | `average` | mean of a dwell with its standard uncertainty; drift |
 //! | `allan` | Allan deviation, overlapping, with confidence intervals |
@@ -49,7 +51,9 @@
 mod allan;
 mod average;
 mod checks;
+mod column_unit;
 pub mod faults;
+mod field;
 mod heading;
 mod noise;
 mod power_law;
@@ -58,6 +62,7 @@ mod segment;
 mod sheet;
 #[cfg(test)]
 mod tests;
+mod words;
 
 pub use allan::{Allan, AllanPoint, Unsuitable, regular_interval};
 pub use average::{Average, Drift, TooFew};
@@ -93,6 +98,8 @@ pub struct Column {
     pub name: String,
     /// Its unit; `None` where nothing states one, and for labels.
     pub unit: Option<Unit>,
+    /// Whether its numbers were written with decimal commas.
+    pub decimal_comma: bool,
     /// What it holds, row by row.
     pub data: Data,
 }

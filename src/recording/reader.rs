@@ -5,15 +5,15 @@ use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::Path;
 
-use super::faults::{
-    NO_COLUMN, NO_UNIT, NOT_A_NUMBER, NOT_UTF8, SAME_NAME, UNIT, UNIT_CLASH, UNREADABLE,
-};
+use super::column_unit::unit_of;
+use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, SAME_NAME, UNIT_CLASH, UNREADABLE};
+use super::field::{Field, Instant, mend};
 use super::heading::Heading;
 use super::sheet::{Row, SHOWN, Sheet};
 use super::{Column, Data, Labels, Recording};
 use crate::fault::{Fault, Rejection, nearest};
 use crate::files::Files;
-use crate::quantity::{Unit, UnitTable, hint_for_clash};
+use crate::quantity::{Unit, UnitTable};
 
 /// A column that is asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,7 +126,7 @@ impl Recording {
             // The faults of rows come with the second reading.
             let _ = sheet.visit(|row| {
                 for i in &undecided {
-                    match number(row.field(drafts[*i].place)) {
+                    match Field::read(row.field(drafts[*i].place), &sheet).and_then(Field::number) {
                         Some(value) => numeric[*i] |= !value.is_nan(),
                         None => texts[*i] = true,
                     }
@@ -150,7 +150,10 @@ impl Recording {
             }
         });
         faults.extend(visited.err().unwrap_or_default());
-        faults.extend(drafts.iter_mut().flat_map(Draft::take_faults));
+        for draft in &mut drafts {
+            draft.settle_clock(units.parse("s").ok());
+            faults.extend(draft.take_faults());
+        }
         if !faults.is_empty() {
             return Err(reject(faults));
         }
@@ -245,6 +248,18 @@ struct Draft<'a> {
     levels: HashMap<String, u32>,
     faults: Vec<Fault>,
     refused: usize,
+    style: Style,
+}
+
+/// How the numbers of a column are written so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Style {
+    Unknown,
+    Whole,
+    Point,
+    Comma,
+    /// As times, with the first of them.
+    Clock(Instant),
 }
 
 impl<'a> Draft<'a> {
@@ -266,6 +281,7 @@ impl<'a> Draft<'a> {
             levels: HashMap::new(),
             faults: Vec::new(),
             refused: 0,
+            style: Style::Unknown,
         })
     }
 
@@ -296,7 +312,8 @@ impl<'a> Draft<'a> {
             self.labels.of_row.push(level);
             return;
         }
-        if let Some(number) = number(field) {
+        let read = Field::read(field, sheet);
+        if let Some(number) = read.and_then(|read| self.number(read)) {
             self.numbers.push(number);
             return;
         }
@@ -304,12 +321,56 @@ impl<'a> Draft<'a> {
         if self.faults.len() < SHOWN {
             let (line, column) = (row.line, &self.heading.text);
             let message = format!("line {line}, column \"{column}\": \"{field}\" is not a number");
+            let help = match read {
+                Some(_) => "write all numbers of a column alike: all with a decimal point, all with a decimal comma, or all as times".to_owned(),
+                None => mend(field),
+            };
             self.faults.push(
                 Fault::new(NOT_A_NUMBER, sheet.place(row, self.place), message)
                     .label("expected a number")
                     .related(self.span.clone(), "the column")
-                    .help(mend(field)),
+                    .help(help),
             );
+        }
+    }
+
+    /// The number of a field, if it is written as those before it are. Times count from the first one.
+    fn number(&mut self, field: Field) -> Option<f64> {
+        self.style = match (self.style, field) {
+            (_, Field::Whole(value)) if value.is_nan() => return Some(value),
+            (Style::Unknown, Field::Whole(_)) => Style::Whole,
+            (style @ (Style::Whole | Style::Point | Style::Comma), Field::Whole(_)) => style,
+            (Style::Unknown | Style::Whole | Style::Point, Field::Point(_)) => Style::Point,
+            (Style::Unknown | Style::Whole | Style::Comma, Field::Comma(_)) => Style::Comma,
+            (Style::Unknown, Field::Clock(first)) => Style::Clock(first),
+            (style @ Style::Clock(_), Field::Clock(_)) => style,
+            _ => return None,
+        };
+        match (field, self.style) {
+            (Field::Clock(instant), Style::Clock(first)) => Some(instant.since(first)),
+            (field, _) => field.number(),
+        }
+    }
+
+    /// Times of the calendar are in seconds.
+    fn settle_clock(&mut self, second: Option<Unit>) {
+        if !matches!(self.style, Style::Clock(_)) {
+            return;
+        }
+        match &self.unit {
+            None => self.unit = second,
+            Some(unit) if Some(unit) == second.as_ref() => {}
+            Some(unit) => {
+                let (text, unit) = (&self.heading.text, &unit.symbol);
+                let message =
+                    format!("column \"{text}\" is in {unit}, and holds times of the calendar");
+                let help = "leave the unit out: such times count in seconds from the first one";
+                self.faults.push(
+                    Fault::new(UNIT_CLASH, self.span.clone(), message)
+                        .label(format!("in {unit}"))
+                        .help(help),
+                );
+            }
         }
     }
 
@@ -327,6 +388,7 @@ impl<'a> Draft<'a> {
             header: self.heading.text.clone(),
             name: self.heading.name.clone(),
             unit: self.unit,
+            decimal_comma: self.style == Style::Comma,
             data: match self.content {
                 Content::Labels => Data::Labels(self.labels),
                 _ => Data::Numbers(self.numbers),
@@ -383,130 +445,4 @@ fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Box<
             ))
         }
     }
-}
-
-fn unit_of(
-    heading: &Heading,
-    request: &Request,
-    span: &Range<usize>,
-) -> Result<Option<Unit>, Box<Fault>> {
-    let fault = |code, message: String| Fault::new(code, span.clone(), message);
-    let text = &heading.text;
-    let unit = match (&heading.unit, &request.unit) {
-        (Ok(None), stated) => stated.clone(),
-        (Ok(Some(unit)), None) => Some(unit.clone()),
-        (Ok(Some(unit)), Some(stated)) if same(unit, stated) => Some(stated.clone()),
-        (Ok(Some(unit)), Some(stated)) => {
-            let (unit, stated) = (&unit.symbol, &stated.symbol);
-            let message =
-                format!("column \"{text}\" is said to be in {stated}, its header says {unit}");
-            return Err(Box::new(
-                fault(UNIT_CLASH, message)
-                    .label(format!("in {unit}"))
-                    .help("state the unit once; leave it out where the header has it"),
-            ));
-        }
-        (Err(_), Some(stated)) => Some(stated.clone()),
-        (Err(error), None) => {
-            let at = span.start + error.span.start..span.start + error.span.end;
-            let mut fault = Fault::new(UNIT, at, format!("column \"{text}\": {}", error.message))
-                .label("no unit");
-            fault.help = error.help.clone();
-            return Err(Box::new(fault));
-        }
-    };
-    let Some(like) = &request.like else {
-        return Ok(unit);
-    };
-    match &unit {
-        None if like.is_one() => Ok(unit),
-        None => {
-            let (role, symbol) = (&request.role, &like.symbol);
-            let message = format!("column \"{text}\" ({role}) has no unit");
-            Err(Box::new(
-                fault(NO_UNIT, message)
-                    .label(format!("a unit such as {symbol} is missing"))
-                    .help(format!(
-                        "write `{text} [{symbol}]`, or state the unit where the column is named"
-                    )),
-            ))
-        }
-        Some(found) if found.dimension == like.dimension => Ok(unit),
-        Some(found) => {
-            let (role, symbol) = (&request.role, &found.symbol);
-            let message = format!(
-                "column \"{text}\" ({role}) is in {symbol}, which is no unit like {}",
-                like.symbol
-            );
-            let hint = hint_for_clash(like, found)
-                .unwrap_or_else(|| "check which column has this role, and its unit".to_owned());
-            Err(Box::new(
-                fault(UNIT_CLASH, message)
-                    .label(format!("in {symbol}"))
-                    .help(hint),
-            ))
-        }
-    }
-}
-
-fn same(a: &Unit, b: &Unit) -> bool {
-    a.conversion_to(b)
-        .is_some_and(|conversion| conversion.is_identity())
-}
-
-/// What instruments write for a range that was exceeded (SCPI), and for no number.
-const OVERLOAD: f64 = 9.9e37;
-
-/// The number in a field: NaN where one is missing, nothing where the text is no number.
-fn number(field: &str) -> Option<f64> {
-    const MISSING: &[&str] = &[
-        "",
-        "-",
-        "--",
-        "nan",
-        "na",
-        "n/a",
-        "#n/a",
-        "null",
-        "none",
-        "inf",
-        "+inf",
-        "-inf",
-        "infinity",
-        "-infinity",
-    ];
-    let plain =
-        |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b'e' | b'E');
-    if !field.is_empty()
-        && field.bytes().all(plain)
-        && let Ok(value) = field.parse::<f64>()
-    {
-        return match value.abs() < OVERLOAD {
-            true => Some(value),
-            false => Some(f64::NAN),
-        };
-    }
-    let missing = MISSING.iter().any(|text| field.eq_ignore_ascii_case(text));
-    missing.then_some(f64::NAN)
-}
-
-/// How a field becomes a number.
-fn mend(field: &str) -> String {
-    let like = |replaced: &str| replaced.parse::<f64>().is_ok();
-    let point = field.replace(',', ".");
-    let minus = field.replace('−', "-");
-    if field.contains(',') && like(&point) {
-        return format!("write {point}, with a decimal point");
-    }
-    if field.contains('−') && like(&minus) {
-        return format!("write {minus}, with the hyphen as minus");
-    }
-    if field.len() >= 8 && field.matches([':', '-', '/']).count() >= 2 {
-        return "state times as numbers, for example seconds since the start".to_owned();
-    }
-    if field.starts_with(|c: char| c.is_ascii_digit()) {
-        return "write the number alone; its unit belongs into the first line".to_owned();
-    }
-    "leave the field empty if the value is missing; units belong into the first line: name [unit]"
-        .to_owned()
 }

@@ -71,6 +71,11 @@ impl<'a> Sheet<'a> {
         &self.header
     }
 
+    /// Whether a comma in a field can be a decimal sign: where it separates no columns.
+    pub(super) fn has_decimal_commas(&self) -> bool {
+        self.separator != b','
+    }
+
     /// The place of a field of a row in the text, without white space around it; the end of the row
     /// for a field that it lacks.
     pub fn place(&self, row: &Row, column: usize) -> Range<usize> {

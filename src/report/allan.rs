@@ -90,7 +90,7 @@ fn blocks(report: &AllanReport<'_>) -> Vec<Block> {
     let mut blocks = vec![
         Block::Title(l.pick(
             format!("Allan deviation of {}", report.title),
-            format!("{} 的 Allan 偏差", report.title),
+            format!("{} 的 阿伦偏差", report.title),
         )),
         Block::Paragraph(data(report)),
         Block::Section(l.pick("Noises", "噪声").into()),
@@ -200,8 +200,8 @@ fn unit_of(report: &AllanReport<'_>, law: PowerLaw) -> String {
 
 fn quality(l: Language, noises: &Noises) -> String {
     let limits = l.pick(
-        "Where the recording does not show a noise, “<” says below what it is with 95 % probability.",
-        "记录中不显示的噪声以“<”给出 95 % 概率的上限。",
+        "Where the recording does not show a noise, “<” says below what it is with about 95 % probability: the limit is approximate, since Allan variances of few degrees of freedom are not normal.",
+        "记录中不显示的噪声以“<”给出约 95 % 概率的上限；自由度小的阿伦方差不服从正态分布，该上限为近似值。",
     );
     let p = significant(noises.p_value, 2);
     match noises.p_value < DOUBTFUL {

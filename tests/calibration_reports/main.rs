@@ -10,6 +10,7 @@
 mod common;
 
 mod annex_a;
+mod gimbals;
 mod page;
 mod recordings;
 mod tumble;

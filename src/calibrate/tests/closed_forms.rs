@@ -1,6 +1,6 @@
 //! Coefficients and uncertainties that can be written down.
 
-use super::super::{Origin, calibrate, plan};
+use super::super::{Origin, Scope, calibrate, plan};
 use super::{experiment, near, planned};
 
 /// A line through readings: `U = K*omega*(1 + e_rate) + b`.
@@ -346,4 +346,84 @@ fn written_budgets_give_the_same_uncertainty_by_both_methods() {
             assert!((joint.correlation[(0, 1)] - r).abs() < 1e-9);
         }
     }
+}
+
+/// Two inputs with one shared source, of sensitivities 1 and 2, are one error that acts with both.
+#[test]
+fn a_shared_source_is_one_error() {
+    let shared = RATE.replace("b\"]", "b*(1 + e_off)\"]").replace(
+        "u = 1e-4\n",
+        "source = \"dvm\"\n[input.e_off]\nsource = \"dvm\"\nsensitivity = 2\n[source.dvm]\nu = 1e-4\n",
+    );
+    let one = RATE.replace("b\"]", "b*(1 + 2*e_rate)\"]");
+    let figures = |toml: &str| {
+        calibrate(&experiment(toml, RATES))
+            .expect("coefficients")
+            .figures
+    };
+    let (shared, one) = (figures(&shared), figures(&one));
+    for (a, b) in shared.covariance.iter().zip(one.covariance.iter()) {
+        near(*a, *b, 1e-12);
+    }
+    let dvm = Origin::Stated {
+        name: "dvm".to_owned(),
+        scope: Scope::Common,
+    };
+    assert!(shared.causes.iter().any(|cause| cause.origin == dvm));
+}
+
+/// Readings of two responses whose errors correlate in every point: cov(K, L) = r·u(U)·u(V)/Σω².
+#[test]
+fn correlated_readings_correlate_the_coefficients() {
+    let toml = r#"
+equations = ["U = K*omega + b", "V = L*omega + c"]
+scatter = "stated"
+[parameter]
+K = {}
+b = {}
+L = {}
+c = {}
+[reading.U]
+u = 0.02
+[reading.V]
+half_width = 0.03
+[[correlation]]
+between = ["U", "V"]
+r = 0.6
+[recording]
+file = "run.csv"
+"#;
+    let csv = "omega [deg/s],U [mV],V [mV]\n-2,1,2\n-1,1,2\n0,1,2\n1,1,2\n2,1,2\n";
+    let found = calibrate(&experiment(toml, csv))
+        .expect("coefficients")
+        .figures;
+    let (u, v) = (0.02, 0.03 / 3.0_f64.sqrt());
+    near(found.covariance[(0, 0)], u * u / 10.0, 1e-12);
+    near(found.covariance[(2, 2)], v * v / 10.0, 1e-12);
+    near(found.covariance[(0, 2)], 0.6 * u * v / 10.0, 1e-12);
+    near(found.covariance[(1, 3)], 0.6 * u * v / 5.0, 1e-12);
+    assert_eq!(found.causes.len(), 1);
+}
+
+/// One error common to all rates and one that differs from day to day, correlated by −1 or +1.
+#[test]
+fn correlated_inputs_add_or_cancel() {
+    let toml = |r: f64| {
+        RATE.replace("(1 + e_rate)", "(1 + e_rate + e_more)").replace(
+            "u = 1e-4\n",
+            &format!("u = 1e-4\n[input.e_more]\nu = 3e-4\n[[correlation]]\nbetween = [\"e_rate\", \"e_more\"]\nr = {r}\n"),
+        )
+    };
+    let of_errors = |r: f64| {
+        let found = calibrate(&experiment(&toml(r), RATES)).expect("coefficients");
+        let stated = found
+            .figures
+            .causes
+            .iter()
+            .find(|cause| matches!(cause.origin, Origin::Stated { .. }));
+        stated.expect("a cause").contribution(0) / found.figures.coefficients[0].value
+    };
+    near(of_errors(1.0), 4e-4, 1e-9);
+    near(of_errors(-0.999_999_999), 2e-4, 1e-6);
+    near(of_errors(0.5), (1e-8_f64 + 9e-8 + 3e-8).sqrt(), 1e-12);
 }

@@ -1,6 +1,6 @@
 //! What is wrong is said, and where.
 
-use super::super::{Purpose, Trouble, calibrate};
+use super::super::{Purpose, Trouble, Words, calibrate};
 use super::{experiment, rejected};
 
 const RATE: &str = r#"
@@ -181,7 +181,7 @@ fn exchanged_labels_are_found() {
     let found = calibrate(&experiment(POSITIONS, &bad)).expect("figures");
     assert_eq!(
         found.swapped,
-        Some(["line 2".to_owned(), "line 3".to_owned()])
+        Some([2, 3].map(|line| Words::new(format!("line {line}"), format!("第 {line} 行"))))
     );
 }
 
@@ -208,5 +208,124 @@ fn saturated_samples_are_warned_of() {
             .any(|f| f.message().contains("saturated")),
         "{:?}",
         experiment.points.findings
+    );
+}
+
+#[test]
+fn correlated_errors_must_act_on_the_same_points() {
+    let toml = RATE.replace("b\"]", "b + e\"]")
+        + "[input.e]\nunit = \"mV\"\nu = 1\n[reading.U]\nu = 1\n[[correlation]]\nbetween = [\"e\", \"U\"]\nr = 0.5\n";
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
+    says(
+        &toml,
+        csv,
+        &["acts on other points", "the same `scope` or `by`"],
+    );
+    let common = toml.replace("[reading.U]\n", "[reading.U]\nscope = \"common\"\n");
+    assert!(rejected(&common, csv, Purpose::Calibrate).is_ok());
+    let unknown = toml.replace("\"U\"]", "\"W\"]");
+    says(&unknown, csv, &["W"]);
+}
+
+#[test]
+fn a_partly_known_parameter_shares_no_error() {
+    let toml = RATE.replace("b\"]", "b + e\"]")
+        + "[input.b]\nunit = \"mV\"\nsource = \"dvm\"\n[input.e]\nunit = \"mV\"\nsource = \"dvm\"\n[source.dvm]\nunit = \"mV\"\nu = 0.1\n";
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
+    says(&toml, csv, &["what is known of it shares an error"]);
+}
+
+/// Two rates at which the output stays at its limit.
+#[test]
+fn averages_at_a_limit_are_told() {
+    let csv = "omega [deg/s],U [mV]\n-200,-2000\n-100,-1000.2\n0,0.3\n100,1000.1\n200,2000.2\n300,2500\n400,2500\n";
+    let found = calibrate(&experiment(RATE, csv)).expect("coefficients");
+    let [limit] = found.limits.as_slice() else {
+        panic!("one limit: {:?}", found.limits);
+    };
+    assert_eq!((limit.value, limit.points.len()), (2500.0, 2));
+    let good = csv
+        .replace("300,2500", "300,3000.3")
+        .replace("400,2500", "400,4000.2");
+    assert_eq!(
+        calibrate(&experiment(RATE, &good))
+            .expect("coefficients")
+            .limits,
+        []
+    );
+    // Equal readings of equal points are no limit.
+    let again = "omega [deg/s],U [mV]\n-1,-2\n-1,-2\n0,0.01\n0,-0.01\n1,2\n1,2\n1,2\n";
+    assert_eq!(
+        calibrate(&experiment(RATE, again))
+            .expect("coefficients")
+            .limits,
+        []
+    );
+}
+
+/// Six positions, each twice, half a turn apart: the averages do not see what the turn cancels.
+#[test]
+fn positions_are_averaged_together() {
+    let toml = POSITIONS.replace("file =", "together = [\"position\"]\nfile =");
+    let csv = "position,turned,U [mV]\nup,no,1.5\nup,yes,0.5\ndown,no,-1.3\ndown,yes,-0.7\nlevel,no,0.5\nlevel,yes,-0.5\n";
+    let found = calibrate(&experiment(&toml, csv)).expect("coefficients");
+    assert_eq!(found.readings, 3);
+    assert!(found.responses[0].rms < 1e-12, "{}", found.responses[0].rms);
+    let lost = csv.replace("down,yes,-0.7\n", "");
+    let experiment = experiment(&toml, &lost);
+    let [finding] = experiment.points.findings.as_slice() else {
+        panic!("{:?}", experiment.points.findings);
+    };
+    assert!(
+        finding.message().contains("\"down\" has 1 points"),
+        "{}",
+        finding.message()
+    );
+}
+
+/// Labels exchanged throughout, in all their points.
+#[test]
+fn labels_exchanged_throughout_are_found() {
+    let good = "position,turned,U [mV]\nup,no,1.001\nup,yes,0.999\ndown,no,-0.999\ndown,yes,-1.001\nlevel,no,0.002\nlevel,yes,-0.001\n";
+    let swapped = good
+        .replace("up", "x")
+        .replace("level", "up")
+        .replace('x', "level");
+    let of = |csv: &str| {
+        calibrate(&experiment(POSITIONS, csv))
+            .expect("coefficients")
+            .swapped
+    };
+    assert_eq!(of(good), None);
+    let labels = of(&swapped).expect("exchanged labels");
+    assert!(
+        labels.contains(&Words::plain("up")) && labels.contains(&Words::plain("level")),
+        "{labels:?}"
+    );
+}
+
+/// A sample that is no reading, in a dwell of many.
+#[test]
+fn spikes_are_told_at_their_line() {
+    let mut csv = "position,U [mV]\n".to_owned();
+    for (label, level) in [("up", 1.0), ("down", -1.0), ("level", 0.0)] {
+        for i in 0..200 {
+            let noise = 0.01 * f64::from(i * 7919 % 101) / 101.0;
+            csv += &format!("{label},{}\n", level + noise);
+        }
+    }
+    let toml = POSITIONS.replace("file =", "dwells = [\"position\"]\nfile =");
+    assert!(experiment(&toml, &csv).points.findings.is_empty());
+    let mut lines: Vec<&str> = csv.lines().collect();
+    lines[250] = "down,3";
+    let hurt = experiment(&toml, &lines.join("\n"));
+    let [spike] = hurt.points.findings.as_slice() else {
+        panic!("{:?}", hurt.points.findings);
+    };
+    assert_eq!((spike.line, spike.count), (251, 1));
+    assert!(
+        spike.message().contains("is 3 where its dwell"),
+        "{}",
+        spike.message()
     );
 }

@@ -9,6 +9,7 @@ const NO_CHECKS: Checks = Checks {
     time: None,
     outputs: &[],
     ranges: &[],
+    dwells: &[],
     expected: None,
     fewest: 0,
 };
@@ -198,6 +199,7 @@ fn told(recording: &Recording, checks: &Checks) -> Vec<Finding> {
     let findings = check(recording, checks);
     for finding in &findings {
         assert!(!finding.message().is_empty() && !finding.advice().is_empty());
+        assert!(!finding.message_zh().is_ascii() && !finding.advice_zh().is_ascii());
     }
     findings
 }
@@ -278,6 +280,7 @@ fn constants_labels_and_length() {
     let recording = all("x,p\n3,up\n3,down\n3,up\n3,\n3,donw\n");
     let checks = Checks {
         outputs: &["x"],
+        dwells: &["p"],
         expected: Some(("p", &["up", "down", "left"])),
         fewest: 6,
         ..NO_CHECKS
@@ -303,4 +306,94 @@ fn constants_labels_and_length() {
         assert!(problems.contains(&problem), "{problem:?} in {problems:?}");
     }
     assert_eq!(problems.len(), 6);
+}
+
+#[test]
+fn time_may_jump_between_dwells_and_labels_come_back_together() {
+    let mut text = "t,p,q\n".to_owned();
+    for (dwell, labels) in ["up,no", "up,yes", "down,no", "down,yes", "up,no"]
+        .iter()
+        .enumerate()
+    {
+        for sample in 0..10 {
+            // One sample of the third dwell is lost.
+            if (dwell, sample) != (2, 5) {
+                text += &format!("{},{labels}\n", 100 * dwell + sample);
+            }
+        }
+    }
+    let recording = all(&text);
+    let checks = Checks {
+        time: Some("t"),
+        dwells: &["p", "q"],
+        ..NO_CHECKS
+    };
+    let findings = told(&recording, &checks);
+    assert_eq!(findings.len(), 2, "{findings:?}");
+    let gap = Problem::TimeGap {
+        longest: 2.0,
+        usual: 1.0,
+    };
+    assert_eq!((&findings[0].problem, findings[0].line), (&gap, 27));
+    let again = Problem::LabelAgain {
+        label: "up, no".into(),
+    };
+    assert_eq!((&findings[1].problem, findings[1].line), (&again, 41));
+}
+
+#[test]
+fn decimal_commas_and_times_as_instruments_write_them() {
+    let recording = all(
+        "time;U [mV];n\r\n2026-03-01 09:00:00,0;1,5;1\r\n2026-03-01 09:00:00,5;-2;2\r\n2026-03-01 09:00:02,0;;3\r\n",
+    );
+    assert_eq!(
+        recording.labels("time").map(|labels| labels.levels.len()),
+        Some(3)
+    );
+    let text =
+        "time;U [mV]\n2026-03-01T09:00:00;1,5\n2026-03-01T09:00:00.5;-2\n2026-03-01T09:00:02Z;\n";
+    let requests = [Request::numbers("t", "time"), Request::numbers("U", "U")];
+    let read = |text: &str| Recording::read("t.csv", text, &requests, &UnitTable::default());
+    let recording = read(text).expect("a recording");
+    assert_eq!(recording.numbers("t"), Some([0.0, 0.5, 2.0].as_slice()));
+    let unit = recording.column("t").and_then(|column| column.unit.clone());
+    assert_eq!(unit.map(|unit| unit.symbol), Some("s".to_owned()));
+    assert_eq!(
+        recording.numbers("U").map(|u| [u[0], u[1]]),
+        Some([1.5, -2.0])
+    );
+    let findings = check(&recording, &NO_CHECKS);
+    assert!(
+        findings
+            .iter()
+            .any(|finding| finding.problem == Problem::DecimalComma)
+    );
+    // One column is written in one way.
+    for wrong in [
+        "1,5\n1.5",
+        "1.5\n1,5",
+        "3\n09:00:01",
+        "09:00:01\n3",
+        "1,234,567\n1",
+    ] {
+        let text = format!("time\tU\n{}\n", wrong.replace('\n', "\t1\n") + "\t1");
+        let only = [Request::numbers("t", "time")];
+        let read = Recording::read("t.csv", &text, &only, &UnitTable::default());
+        let rejection = read.expect_err(wrong);
+        assert_eq!(rejection.faults[0].code, NOT_A_NUMBER, "{wrong}");
+    }
+    let in_hours = text.replace("time", "time [h]");
+    assert_eq!(
+        read(&in_hours).expect_err("hours").faults[0].code,
+        UNIT_CLASH
+    );
+}
+
+#[test]
+fn g_in_a_header_is_free_fall_where_that_is_stated() {
+    let request = [Request::numbers("a", "a").in_unit(unit("gn"))];
+    let read = Recording::read("t.csv", "a [g]\n1\n", &request, &UnitTable::default());
+    let read = read.expect("a recording");
+    let symbol = read.column("a").and_then(|column| column.unit.clone());
+    assert_eq!(symbol.map(|unit| unit.symbol), Some("gn".to_owned()));
 }

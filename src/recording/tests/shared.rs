@@ -102,6 +102,7 @@ fn every_file_is_read_and_sound() {
             time: Some("time"),
             outputs: &[],
             ranges: &[],
+            dwells: &[],
             expected: None,
             fewest: 4,
         };
@@ -136,6 +137,7 @@ fn outputs_of_the_recordings_are_not_saturated() {
             time: None,
             outputs,
             ranges: &[],
+            dwells: &[],
             expected: None,
             fewest: 0,
         };

@@ -6,7 +6,8 @@ use super::super::number::{percent, significant};
 use super::super::symbol;
 use super::sections::said;
 use super::trouble::{changes, in_words};
-use crate::calibrate::{Alias, Combination, Experiment, Figures, Identifiability, Plan};
+use crate::calibrate::{Alias, Combination, Experiment, Figures, Identifiability, Omitted, Plan};
+use crate::quantity::Unit;
 
 pub(super) fn schedule(plan: &Plan, l: Language) -> Vec<Block> {
     vec![Block::Paragraph(l.pick(
@@ -71,121 +72,24 @@ pub(super) fn aliases(
     if aliases.is_empty() {
         return Vec::new();
     }
-    let names: Vec<String> = experiment
-        .parameters
-        .iter()
-        .map(|one| (one.name.clone(), symbol(&one.unit)))
-        .chain(
-            experiment
-                .results
-                .iter()
-                .map(|one| (one.name.clone(), symbol(&one.unit))),
-        )
-        .map(|(name, unit)| {
-            if unit.is_empty() {
-                name
-            } else {
-                format!("{name} / {unit}")
-            }
+    let parameters = experiment.parameters.iter().map(|p| (&p.name, &p.unit));
+    let results = experiment.results.iter().map(|r| (&r.name, &r.unit));
+    let coefficients: Vec<Reported> = parameters
+        .chain(results)
+        .enumerate()
+        .map(|(index, (name, unit))| Reported {
+            name,
+            unit: in_unit(unit),
+            u: figures.map_or(f64::NAN, |figures| figures.coefficients[index].u),
         })
         .collect();
-    let mut items = Vec::new();
-    for alias in aliases {
-        let Some(omitted) = experiment.omitted.iter().find(|one| one.name == alias.name) else {
-            continue;
-        };
-        let size = omitted.typical.unwrap_or(1.0);
-        let unit = symbol(&omitted.unit);
-        let unit = if unit.is_empty() {
-            unit
-        } else {
-            format!(" {unit}")
-        };
-        let amount = format!("{} = {}{unit}", alias.name, significant(size, 3));
-        let physics = omitted
-            .description
-            .as_ref()
-            .map(|words| said(words, l))
-            .unwrap_or_default();
-        let physics = if physics.is_empty() {
-            format!(" [{}]", omitted.term)
-        } else {
-            l.pick(
-                format!(" ({physics}) [{}]", omitted.term),
-                format!("（{physics}）[{}]", omitted.term),
-            )
-        };
-        if !alias.acts {
-            items.push(l.pick(
-                format!(
-                    "{}{physics}: acts on no reading of this schedule.",
-                    alias.name
-                ),
-                format!("{}{physics}：在本安排中不影响任何读数。", alias.name),
-            ));
-            continue;
-        }
-        let largest = alias.shifts.iter().enumerate().map(|(index, shift)| {
-            let u = figures.map_or(0.0, |figures| figures.coefficients[index].u);
-            (
-                index,
-                shift * size,
-                if u > 0.0 {
-                    (shift * size / u).abs()
-                } else {
-                    f64::NAN
-                },
-            )
-        });
-        let shifts: Vec<String> = largest
-            .filter(|(index, ..)| is_felt(alias, *index))
-            .map(|(index, shift, ratio)| {
-                let (name, unit) = names[index]
-                    .split_once(" / ")
-                    .unwrap_or((&names[index], ""));
-                let unit = if unit.is_empty() {
-                    String::new()
-                } else {
-                    format!(" {unit}")
-                };
-                let sign = if shift < 0.0 { '−' } else { '+' };
-                let times = if ratio.is_nan() {
-                    String::new()
-                } else {
-                    l.pick(
-                        format!(" ({} u)", significant(ratio, 2)),
-                        format!("（{} u）", significant(ratio, 2)),
-                    )
-                };
-                format!("{name} {sign} {}{unit}{times}", significant(shift.abs(), 3))
-            })
-            .collect();
-        let hidden = match alias.visible {
-            0.0 => l.pick(
-                "the residuals show nothing of it".to_owned(),
-                "残差完全不显示".to_owned(),
-            ),
-            share => l.pick(
-                format!("the residuals show {} % of it", percent(share)),
-                format!("残差显示其 {} %", percent(share)),
-            ),
-        };
-        let shifts = if shifts.is_empty() {
-            l.pick(
-                "shifts no coefficient".to_owned(),
-                "不使系数偏移".to_owned(),
-            )
-        } else {
-            l.pick(
-                format!("shifts {}", shifts.join(", ")),
-                format!("使 {}", shifts.join("，")),
-            )
-        };
-        items.push(l.pick(
-            format!("{amount}{physics} {shifts}; {hidden}."),
-            format!("{amount}{physics} {shifts}；{hidden}。"),
-        ));
-    }
+    let items = aliases.iter().filter_map(|alias| {
+        let omitted = experiment
+            .omitted
+            .iter()
+            .find(|one| one.name == alias.name)?;
+        Some(sentence(omitted, alias, &coefficients, l))
+    });
     vec![
         Block::Section(
             l.pick(
@@ -194,8 +98,140 @@ pub(super) fn aliases(
             )
             .to_owned(),
         ),
-        Block::List(items),
+        Block::List(items.collect()),
     ]
+}
+
+/// A coefficient with its standard uncertainty, if it is known.
+struct Reported<'a> {
+    name: &'a str,
+    /// Its unit behind a number.
+    unit: String,
+    u: f64,
+}
+
+/// A unit behind a number.
+fn in_unit(unit: &Unit) -> String {
+    match symbol(unit) {
+        none if none.is_empty() => none,
+        unit => format!(" {unit}"),
+    }
+}
+
+/// An omitted effect and what it would do: at its usual size, or per unit where none is stated.
+fn sentence(
+    omitted: &Omitted,
+    alias: &Alias,
+    coefficients: &[Reported<'_>],
+    l: Language,
+) -> String {
+    let name = &alias.name;
+    let physics = omitted.description.as_ref().map(|words| said(words, l));
+    let physics = match physics.filter(|physics| !physics.is_empty()) {
+        None => format!(" [{}]", omitted.term),
+        Some(physics) => l.pick(
+            format!(" ({physics}) [{}]", omitted.term),
+            format!("（{physics}）[{}]", omitted.term),
+        ),
+    };
+    if !alias.acts {
+        return l.pick(
+            format!("{name}{physics}: acts on no reading of this schedule."),
+            format!("{name}{physics}：在本安排中不影响任何读数。"),
+        );
+    }
+    let visible = match alias.visible {
+        0.0 => l.pick(
+            "the residuals show nothing of it".to_owned(),
+            "残差完全不显示".to_owned(),
+        ),
+        share => l.pick(
+            format!("the residuals show {} % of it", percent(share)),
+            format!("残差显示其 {} %", percent(share)),
+        ),
+    };
+    let unit = in_unit(&omitted.unit);
+    match omitted.typical {
+        Some(size) => {
+            let amount = format!("{name} = {}{unit}", significant(size, 3));
+            let shifts = shifts(alias, size, coefficients, l);
+            l.pick(
+                format!("{amount}{physics} {shifts}; {visible}."),
+                format!("{amount}{physics} {shifts}；{visible}。"),
+            )
+        }
+        None => {
+            let unknown: Vec<Reported<'_>> = coefficients
+                .iter()
+                .map(|one| Reported {
+                    name: one.name,
+                    unit: one.unit.clone(),
+                    u: f64::NAN,
+                })
+                .collect();
+            let shifts = shifts(alias, 1.0, &unknown, l);
+            l.pick(
+                format!("{name}{physics}: each 1{unit} {shifts}; {visible}. Its usual size is not stated; [omitted.{name}] typical = … tells the shifts in multiples of u."),
+                format!("{name}{physics}：每 1{unit} {shifts}；{visible}。未给出其典型值；写 [omitted.{name}] typical = … 可得以 u 为单位的偏移。"),
+            )
+        }
+    }
+}
+
+/// Shifts of less than this part of the largest, both in multiples of u, are not listed one by one.
+const SLIGHT: f64 = 0.01;
+
+/// What an effect of this size does to each coefficient.
+fn shifts(alias: &Alias, size: f64, coefficients: &[Reported<'_>], l: Language) -> String {
+    let shifted: Vec<(&Reported<'_>, f64, f64)> = coefficients
+        .iter()
+        .zip(&alias.shifts)
+        .enumerate()
+        .filter(|(index, _)| is_felt(alias, *index))
+        .map(|(_, (one, shift))| {
+            let times = (shift * size / one.u).abs();
+            (
+                one,
+                shift * size,
+                if one.u > 0.0 { times } else { f64::NAN },
+            )
+        })
+        .collect();
+    if shifted.is_empty() {
+        return l.pick("shifts no coefficient", "不使系数偏移").to_owned();
+    }
+    let largest = shifted.iter().map(|one| one.2).fold(0.0, f64::max);
+    let is_slight = |times: f64| times < SLIGHT * largest;
+    let listed: Vec<String> = shifted
+        .iter()
+        .filter(|(.., times)| !is_slight(*times))
+        .map(|(one, shift, times)| {
+            let sign = if *shift < 0.0 { '−' } else { '+' };
+            let times = match times.is_nan() {
+                true => String::new(),
+                false => {
+                    let times = significant(*times, 2);
+                    l.pick(format!(" ({times} u)"), format!("（{times} u）"))
+                }
+            };
+            let size = significant(shift.abs(), 3);
+            format!("{} {sign} {size}{}{times}", one.name, one.unit)
+        })
+        .collect();
+    let rest = match listed.len() < shifted.len() {
+        true => {
+            let bound = significant(SLIGHT * largest, 1);
+            l.pick(
+                format!(", and the others by less than {bound} u"),
+                format!("，其余系数偏移小于 {bound} u"),
+            )
+        }
+        false => String::new(),
+    };
+    l.pick(
+        format!("shifts {}{rest}", listed.join(", ")),
+        format!("使 {}{rest}", listed.join("，")),
+    )
 }
 
 /// Shifts that are no rounding noise of the largest one.

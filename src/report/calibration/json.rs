@@ -27,7 +27,14 @@ pub fn calibration_json(experiment: &Experiment, found: &Calibration, l: Languag
     value["kind"] = json!("calibration");
     value["readings"] = json!(found.readings);
     value["left_out"] = json!(found.left_out);
-    value["swapped"] = json!(found.swapped);
+    let swapped = found.swapped.as_ref();
+    value["swapped"] = json!(swapped.map(|pair| pair.each_ref().map(|point| said(point, l))));
+    value["limits"] = found
+        .limits
+        .iter()
+        .map(|limit| json!({ "response": limit.response, "value": limit.value, "points": limit.points.iter().map(|point| said(point, l)).collect::<Vec<_>>() }))
+        .collect();
+    value["linear"] = json!(found.linear);
     value["iterations"] = json!(found.iterations);
     value["scatter"] = json!(match found.scatter {
         Scatter::Residuals => "residuals",
@@ -58,7 +65,7 @@ pub fn calibration_json(experiment: &Experiment, found: &Calibration, l: Languag
         .iter()
         .map(|one| {
             json!({
-                "point": one.point,
+                "point": said(&one.point, l),
                 "response": one.response,
                 "observed": one.observed,
                 "fitted": one.fitted,
@@ -76,7 +83,7 @@ pub fn calibration_json(experiment: &Experiment, found: &Calibration, l: Languag
         .points
         .findings
         .iter()
-        .map(|finding| json!({ "message": finding.message(), "advice": finding.advice(), "line": finding.line, "count": finding.count }))
+        .map(|finding| json!({ "message": l.pick(finding.message(), finding.message_zh()), "advice": l.pick(finding.advice(), finding.advice_zh()), "line": finding.line, "count": finding.count }))
         .collect();
     value
 }

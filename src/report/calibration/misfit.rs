@@ -5,8 +5,10 @@ use super::super::language::{Language, Word};
 use super::super::number::{NONE, aligned, freedom, significant};
 use super::super::symbol;
 use super::super::table::{ColumnKind, Table};
-use super::sections::{DIGITS, shown_u};
-use crate::calibrate::{Calibration, Experiment, Residual, ResponseScatter, Scatter, ScatterTest};
+use super::sections::{DIGITS, said, shown_u};
+use crate::calibrate::{
+    Calibration, Experiment, Limit, Residual, ResponseScatter, Scatter, ScatterTest, Words,
+};
 
 /// More residuals than these are not listed.
 const RESIDUALS: usize = 12;
@@ -65,7 +67,7 @@ pub(super) fn residuals(experiment: &Experiment, found: &Calibration, l: Languag
             .map_or(f64::NAN, |r| if r.rms > 0.0 { r.rms } else { f64::NAN });
         let residual = one.observed - one.fitted;
         table.push(vec![
-            one.point.as_str().into(),
+            said(&one.point, l).into(),
             one.response.as_str().into(),
             aligned(one.observed, s, DIGITS).into(),
             aligned(one.fitted, s, DIGITS).into(),
@@ -143,6 +145,20 @@ fn misfit(one: &ResponseScatter, way: Scatter, sampled: bool, l: Language) -> Op
     }
 }
 
+fn in_list(points: &[Words], l: Language) -> String {
+    let points: Vec<String> = points.iter().map(|point| said(point, l)).collect();
+    points.join(l.pick(", ", "、"))
+}
+
+fn at_limit(limit: &Limit, l: Language) -> String {
+    let (response, points) = (&limit.response, in_list(&limit.points, l));
+    let value = significant(limit.value, 6);
+    l.pick(
+        format!("{response} is {value} in {points}, although its equation differs there: the instrument looks saturated, and these points bend the coefficients. Leave them out, or measure in a larger range."),
+        format!("{response} 在 {points} 均为 {value}，而方程值不同：仪器疑似饱和，这些点会使系数失真。请剔除这些点或换大量程测量。"),
+    )
+}
+
 /// What a reader must know.
 pub(super) fn remarks(
     experiment: &Experiment,
@@ -152,7 +168,10 @@ pub(super) fn remarks(
 ) -> Vec<Block> {
     let mut items: Vec<String> = Vec::new();
     for finding in &experiment.points.findings {
-        items.push(format!("{}; {}.", finding.message(), finding.advice()));
+        items.push(l.pick(
+            format!("{}; {}.", finding.message(), finding.advice()),
+            format!("{}；{}。", finding.message_zh(), finding.advice_zh()),
+        ));
     }
     if let Some(found) = found {
         if found.left_out > 0 {
@@ -164,11 +183,19 @@ pub(super) fn remarks(
                 format!("有 {} 个读数因缺值而未使用。", found.left_out),
             ));
         }
-        if let Some([first, second]) = &found.swapped {
+        if let Some(pair) = &found.swapped {
+            let [first, second] = pair.each_ref().map(|point| said(point, l));
             items.push(l.pick(
                 format!("The readings of {first} and {second} look exchanged: with each in the other's place the residuals would be less than a tenth of what they are. Check their labels before using these figures."),
                 format!("{first} 与 {second} 的读数疑似互换：交换后残差不到现在的十分之一。使用结果前请核对其标签。"),
             ));
+        }
+        items.extend(found.limits.iter().map(|limit| at_limit(limit, l)));
+        if !found.linear {
+            items.push(l.pick(
+                "The equations are not linear in the parameters: uncertainties and written budgets are of first order in the errors.",
+                "方程对参数非线性：不确定度以及写出的预算取误差的一阶近似。",
+            ).to_owned());
         }
         let columns = &experiment.points.columns;
         let sampled = columns.iter().any(|column| !column.averages.is_empty());

@@ -65,7 +65,6 @@ pub(super) fn equations(experiment: &Experiment, l: Language) -> Vec<Block> {
 pub(super) fn coefficients(experiment: &Experiment, figures: &Figures, l: Language) -> Vec<Block> {
     let p = probability(experiment.coverage_probability);
     let expanded = format!("U ({p})");
-    let described = l.pick("what it is", "含义");
     let mut table = Table::new([
         (l.pick("coefficient", "系数"), ColumnKind::Names),
         (l.word(Word::Estimate), ColumnKind::Numbers),
@@ -75,7 +74,7 @@ pub(super) fn coefficients(experiment: &Experiment, figures: &Figures, l: Langua
         ("k", ColumnKind::Numbers),
         (&expanded, ColumnKind::Numbers),
         (l.pick("significant?", "显著性"), ColumnKind::Names),
-        (described, ColumnKind::Wrapped),
+        (l.pick("what it is", "含义"), ColumnKind::Wrapped),
     ]);
     for one in &figures.coefficients {
         let expanded = one.k * one.u;
@@ -88,11 +87,7 @@ pub(super) fn coefficients(experiment: &Experiment, figures: &Figures, l: Langua
             significant(one.k, 3).into(),
             shown_u(expanded).into(),
             significance(one, l).into(),
-            one.description
-                .as_ref()
-                .map(|words| said(words, l))
-                .unwrap_or_default()
-                .into(),
+            described(one, l).into(),
         ]);
     }
     vec![
@@ -103,6 +98,12 @@ pub(super) fn coefficients(experiment: &Experiment, figures: &Figures, l: Langua
             "显著性：系数真值为零时得到如此偏离的概率 p（双侧 t 检验）。",
         ).to_owned()),
     ]
+}
+
+/// What a coefficient is, if anybody says so.
+fn described(one: &Coefficient, l: Language) -> String {
+    let words = one.description.as_ref();
+    words.map(|words| said(words, l)).unwrap_or_default()
 }
 
 /// What a schedule lets expect.
@@ -123,11 +124,7 @@ pub(super) fn predictions(figures: &Figures, l: Language) -> Vec<Block> {
             significant(one.value, 6).into(),
             shown_u(one.u).into(),
             symbol(&one.unit).into(),
-            one.description
-                .as_ref()
-                .map(|words| said(words, l))
-                .unwrap_or_default()
-                .into(),
+            described(one, l).into(),
         ]);
     }
     vec![
@@ -260,13 +257,21 @@ pub(super) fn correlations(figures: &Figures, l: Language) -> Vec<Block> {
         .iter()
         .map(|one| one.name.as_str())
         .collect();
-    let mut table = matrix(l, &names, &correlation(figures), "");
+    let r = correlation(figures);
+    let heading = Block::Section(l.word(Word::Correlation).to_owned());
+    let is_zero =
+        |(place, r): (usize, &f64)| place / names.len() == place % names.len() || r.abs() < 0.005;
+    if r.iter().enumerate().all(is_zero) {
+        let none = l.pick(
+            "All are 0.00; --json has the covariances.",
+            "均为 0.00；协方差见 --json。",
+        );
+        return vec![heading, Block::Paragraph(none.to_owned())];
+    }
+    let mut table = matrix(l, &names, &r, "");
     // The section says it.
     table.columns[0].head = String::new();
-    vec![
-        Block::Section(l.word(Word::Correlation).to_owned()),
-        Block::Table(table),
-    ]
+    vec![heading, Block::Table(table)]
 }
 
 /// Correlation coefficients from a covariance matrix.

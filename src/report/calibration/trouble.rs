@@ -44,8 +44,8 @@ pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
             )
         }
         Trouble::Undefined { point, response } => l.pick(
-            format!("The equation of {response} has no value in {point}: check the start values, and the columns for zeros and signs."),
-            format!("{response} 的方程在 {point} 处无定义：请检查初值以及各列中的零值和符号。"),
+            format!("The equation of {response} has no value in {}: check the start values, and the columns for zeros and signs.", point.en),
+            format!("{response} 的方程在 {} 处无定义：请检查初值以及各列中的零值和符号。", point.zh),
         ),
         Trouble::NoConvergence { iterations } => l.pick(
             format!("The search found no minimum in {iterations} steps: begin nearer to the solution, or check that each parameter matters."),

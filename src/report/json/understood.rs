@@ -1,5 +1,7 @@
 //! The budget as it was understood: heading, conventions, inputs and their components.
 
+use serde_json::Value;
+
 use super::{Number, matrix, number, numbers};
 use crate::budget::chain::TakenResult;
 use crate::budget::{
@@ -9,7 +11,6 @@ use crate::budget::{
 use crate::quantity::Rounding;
 use crate::report::analyses;
 use crate::report::schema::record;
-use serde_json::Value;
 
 record! {
     /// Heading of the file.

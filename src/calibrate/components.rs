@@ -1,0 +1,264 @@
+//! From the components of the checked inputs to errors that act on the points.
+
+use nalgebra::DMatrix;
+
+use super::define::{Definer, entries};
+use super::doubts::Known;
+use super::experiment::{Act, Doubt, Scope, Target};
+use super::faults::KEY;
+use super::tables::ScopeWord;
+use crate::budget::table::Stated;
+use crate::budget::{Budget, Evaluation, Group, Owner};
+use crate::distribution::Distribution;
+use crate::fault::Fault;
+use crate::quantity::Unit;
+
+/// Every component as an error, correlated ones as sums of independent errors; `inputs` are the names of
+/// the inputs that the equations see.
+pub(super) fn of(
+    definer: &mut Definer<'_>,
+    budget: &Budget,
+    known: &[Known<'_>],
+    inputs: &[String],
+) -> Option<Vec<Doubt>> {
+    let before = definer.faults.len();
+    let found: Vec<Found> = (0..budget.components.len())
+        .map(|index| Found::of(definer, budget, known, inputs, index))
+        .collect();
+    let is_correlated = |index: usize| {
+        let mut groups = budget.groups.iter();
+        groups.any(|group| group.members.contains(&index))
+    };
+    for (index, one) in found.iter().enumerate() {
+        if let Some(prior) = &one.prior
+            && (is_correlated(index) || !one.acts.is_empty())
+        {
+            definer.faults.push(shared_by_prior(prior));
+        }
+    }
+    let mut doubts: Vec<Doubt> = found
+        .iter()
+        .enumerate()
+        .filter(|(index, one)| !one.acts.is_empty() && !is_correlated(*index))
+        .map(|(index, one)| one.doubt(budget, index))
+        .collect();
+    for group in &budget.groups {
+        match factored(budget, group, &found) {
+            Some(parts) => doubts.extend(parts),
+            None => definer.faults.push(scopes_differ(definer, budget, group)),
+        }
+    }
+    (definer.faults.len() == before).then_some(doubts)
+}
+
+/// What a component acts on.
+struct Found {
+    acts: Vec<Act>,
+    scope: Scope,
+    /// The place and the name of a partly known parameter that it makes uncertain.
+    prior: Option<Stated<String>>,
+}
+
+impl Found {
+    fn of(
+        definer: &Definer<'_>,
+        budget: &Budget,
+        known: &[Known<'_>],
+        inputs: &[String],
+        index: usize,
+    ) -> Found {
+        let component = &budget.components[index];
+        let mut found = Found {
+            acts: Vec::new(),
+            scope: match &component.owner {
+                Owner::Source(name) => scope_of_source(definer, name),
+                Owner::Input(_) => Scope::Common,
+            },
+            prior: None,
+        };
+        for one in known {
+            let name = one.own_name();
+            let input = budget.inputs.iter().find(|input| input.name == name);
+            let terms = input.iter().flat_map(|input| &input.terms);
+            for term in terms.filter(|term| term.component == index) {
+                let on = if one.is_reading {
+                    Target::Reading(one.name.to_owned())
+                } else if let Some(place) = inputs.iter().position(|other| other == one.name) {
+                    Target::Input(place)
+                } else {
+                    found.prior = Some(Stated {
+                        value: one.name.to_owned(),
+                        span: one.entry.key.clone(),
+                        key: one.entry.key.clone(),
+                    });
+                    continue;
+                };
+                if !matches!(component.owner, Owner::Source(_)) {
+                    found.scope = scope_of(one);
+                }
+                found.acts.push(Act {
+                    on,
+                    coefficient: term.coefficient * one.factor,
+                });
+            }
+        }
+        found
+    }
+
+    fn doubt(&self, budget: &Budget, index: usize) -> Doubt {
+        let component = &budget.components[index];
+        Doubt {
+            name: shown(&component.name),
+            acts: self.acts.clone(),
+            scope: self.scope.clone(),
+            u: component.u,
+            dof: component.dof,
+            unit: component.unit.clone(),
+            distribution: component.distribution.clone(),
+            evaluation: component.evaluation,
+            how: component.how.clone(),
+        }
+    }
+}
+
+/// The name of a component in reports.
+fn shown(name: &str) -> String {
+    name.replace("_reading", " (reading)")
+}
+
+/// Correlated errors as sums of independent normal ones, by the Cholesky factor of their correlation
+/// matrix. Together they are one cause, of one name. `None` where one error of one member acts on other
+/// points than one of another.
+fn factored(budget: &Budget, group: &Group, found: &[Found]) -> Option<Vec<Doubt>> {
+    let members: Vec<usize> = (0..group.members.len())
+        .filter(|place| !found[group.members[*place]].acts.is_empty())
+        .collect();
+    let component = |place: usize| &budget.components[group.members[place]];
+    let scope = &found[group.members[*members.first()?]].scope;
+    let mut scopes = members.iter().map(|p| &found[group.members[*p]].scope);
+    if !scopes.all(|other| other == scope) {
+        return None;
+    }
+    let r = DMatrix::from_fn(members.len(), members.len(), |i, j| {
+        group.correlation[(members[i], members[j])]
+    });
+    let factor = lower_factor(&r);
+    let names: Vec<String> = members.iter().map(|p| shown(&component(*p).name)).collect();
+    let dofs = members.iter().map(|place| component(*place).dof);
+    let part = |column: usize| Doubt {
+        name: names.join(" & "),
+        acts: members
+            .iter()
+            .enumerate()
+            .filter(|(row, _)| factor[(*row, column)] != 0.0)
+            .flat_map(|(row, place)| {
+                let share = factor[(row, column)] * component(*place).u;
+                let acts = &found[group.members[*place]].acts;
+                acts.iter().map(move |act| Act {
+                    on: act.on.clone(),
+                    coefficient: act.coefficient * share,
+                })
+            })
+            .collect(),
+        scope: scope.clone(),
+        u: 1.0,
+        dof: group
+            .dof
+            .unwrap_or_else(|| dofs.clone().fold(f64::INFINITY, f64::min)),
+        unit: Unit::one(),
+        distribution: Distribution::Normal { mean: 0.0, sd: 1.0 },
+        evaluation: match members
+            .iter()
+            .all(|place| component(*place).evaluation == Evaluation::TypeA)
+        {
+            true => Evaluation::TypeA,
+            false => Evaluation::TypeB,
+        },
+        how: "r".to_owned(),
+    };
+    let parts = (0..members.len()).map(part);
+    Some(parts.filter(|part| !part.acts.is_empty()).collect())
+}
+
+/// Cholesky factor of a matrix that may be singular.
+pub(super) fn lower_factor(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let n = matrix.nrows();
+    let mut factor = DMatrix::<f64>::zeros(n, n);
+    for column in 0..n {
+        let own: f64 = (0..column).map(|k| factor[(column, k)].powi(2)).sum();
+        let rest = matrix[(column, column)] - own;
+        if rest <= 1e-12 * matrix[(column, column)] {
+            continue;
+        }
+        let pivot = rest.sqrt();
+        factor[(column, column)] = pivot;
+        for row in column + 1..n {
+            let sum: f64 = (0..column)
+                .map(|k| factor[(row, k)] * factor[(column, k)])
+                .sum();
+            factor[(row, column)] = (matrix[(row, column)] - sum) / pivot;
+        }
+    }
+    factor
+}
+
+fn scope_of_source(definer: &Definer<'_>, name: &str) -> Scope {
+    let mut sources = entries(&definer.source.table.source).iter();
+    let Some((_, entry)) = sources.find(|(other, _)| other == name) else {
+        return Scope::Common;
+    };
+    stated_scope(entry.value.by.as_ref(), entry.value.scope.as_ref()).unwrap_or(Scope::Common)
+}
+
+/// Readings have errors of their own unless the file says otherwise, inputs have one in common.
+fn scope_of(one: &Known<'_>) -> Scope {
+    let table = &one.entry.value;
+    let unstated = if one.is_reading {
+        Scope::Each
+    } else {
+        Scope::Common
+    };
+    stated_scope(table.by.as_ref(), table.scope.as_ref()).unwrap_or(unstated)
+}
+
+fn stated_scope(by: Option<&Stated<String>>, scope: Option<&Stated<ScopeWord>>) -> Option<Scope> {
+    by.map(|by| Scope::By(by.value.clone()))
+        .or_else(|| match scope.map(|stated| stated.value)? {
+            ScopeWord::Common => Some(Scope::Common),
+            ScopeWord::Each => Some(Scope::Each),
+        })
+}
+
+fn shared_by_prior(prior: &Stated<String>) -> Fault {
+    let name = &prior.value;
+    Fault::new(
+        KEY,
+        prior.span.clone(),
+        format!("{name} is estimated, and what is known of it shares an error with other inputs or readings"),
+    )
+    .label("listed as a parameter too")
+    .help(format!("state what is known of {name} by an uncertainty of its own, or do not list it as [parameter.{name}]"))
+}
+
+fn scopes_differ(definer: &Definer<'_>, budget: &Budget, group: &Group) -> Fault {
+    let stated = definer.source.table.correlation.as_ref();
+    let place = stated.map_or(0..0, |stated| {
+        let first = stated.value.0.first();
+        first.map_or(stated.key.clone(), |entry| entry.span.clone())
+    });
+    let names: Vec<String> = group
+        .members
+        .iter()
+        .map(|index| shown(&budget.components[*index].name))
+        .collect();
+    Fault::new(
+        KEY,
+        place,
+        format!(
+            "{} are correlated, but one error of one acts on other points than one of another",
+            names.join(", ")
+        ),
+    )
+    .label("their scopes differ")
+    .help("give them the same `scope` or `by`; readings have an error for each point, inputs one in common, unless stated")
+}

@@ -1,0 +1,87 @@
+//! Points that a procedure averages: readings of the same position, half a turn apart.
+
+use super::experiment::Words;
+use super::points::{PointColumn, Points};
+use crate::recording::{Average, Finding, Labels, Problem};
+
+impl Points {
+    /// Points with the same labels in all of these columns averaged to one, in the order of their first
+    /// ones; columns that are not there are passed over, and without any the points stay as they are.
+    ///
+    /// A value that is missing in one point is missing in the average: what the others would cancel
+    /// remains without it.
+    #[must_use]
+    pub fn together(&self, columns: &[&str]) -> Points {
+        let labels: Vec<&Labels> = columns
+            .iter()
+            .filter_map(|column| self.labels(column))
+            .collect();
+        if labels.is_empty() {
+            return self.clone();
+        }
+        let mut groups: Vec<(Vec<&str>, Vec<usize>)> = Vec::new();
+        for row in 0..self.len() {
+            let own: Vec<&str> = labels.iter().map(|labels| labels.text(row)).collect();
+            match groups.iter_mut().find(|(other, _)| *other == own) {
+                Some((_, rows)) => rows.push(row),
+                None => groups.push((own, vec![row])),
+            }
+        }
+        let first: Vec<usize> = groups.iter().map(|(_, rows)| rows[0]).collect();
+        let mut points = self.select(&first);
+        points.names = groups
+            .iter()
+            .map(|(labels, rows)| match rows.as_slice() {
+                [row] => self.names[*row].clone(),
+                rows => Words::plain(&format!("{} ({} ×)", labels.join(", "), rows.len())),
+            })
+            .collect();
+        for (column, own) in points.columns.iter_mut().zip(&self.columns) {
+            let rows = groups.iter().map(|(_, rows)| rows);
+            *column = own.averaged(rows);
+        }
+        points.findings.extend(uneven(&groups, columns));
+        points
+    }
+}
+
+/// Labels with more or fewer points than most.
+fn uneven(groups: &[(Vec<&str>, Vec<usize>)], columns: &[&str]) -> Vec<Finding> {
+    let mut counts: Vec<usize> = groups.iter().map(|(_, rows)| rows.len()).collect();
+    counts.sort_unstable();
+    let usual = counts[counts.len() / 2];
+    let odd = groups.iter().filter(|(_, rows)| rows.len() != usual);
+    odd.map(|(labels, rows)| Finding {
+        problem: Problem::Uneven {
+            label: labels.join(", "),
+            usual,
+        },
+        column: Some(columns.join(", ")),
+        line: 0,
+        count: rows.len(),
+    })
+    .collect()
+}
+
+impl PointColumn {
+    fn averaged<'r>(&self, groups: impl Iterator<Item = &'r Vec<usize>>) -> PointColumn {
+        let mut column = PointColumn {
+            name: self.name.clone(),
+            unit: self.unit.clone(),
+            values: Vec::new(),
+            averages: Vec::new(),
+        };
+        for rows in groups {
+            let sum: f64 = rows.iter().map(|row| self.values[*row]).sum();
+            column.values.push(sum / rows.len() as f64);
+            let parts: Option<Vec<Average>> = rows
+                .iter()
+                .map(|row| self.averages.get(*row).copied())
+                .collect();
+            column
+                .averages
+                .extend(parts.and_then(|parts| Average::of_averages(&parts)));
+        }
+        column
+    }
+}

@@ -1,0 +1,91 @@
+//! The unit that the header of a column and its asker agree on.
+
+use std::ops::Range;
+
+use super::faults::{NO_UNIT, UNIT, UNIT_CLASH};
+use super::heading::Heading;
+use super::reader::Request;
+use crate::fault::Fault;
+use crate::quantity::{Unit, hint_for_clash};
+
+/// The unit of a column of numbers, of which the header and the asker must not say different things.
+///
+/// # Errors
+/// They do, or the unit is not known, missing, or of another dimension than the one that is needed.
+pub(super) fn unit_of(
+    heading: &Heading,
+    request: &Request,
+    span: &Range<usize>,
+) -> Result<Option<Unit>, Box<Fault>> {
+    let fault = |code, message: String| Fault::new(code, span.clone(), message);
+    let text = &heading.text;
+    let unit = match (&heading.unit, &request.unit) {
+        (Ok(None), stated) => stated.clone(),
+        (Ok(Some(unit)), None) => Some(unit.clone()),
+        (Ok(Some(unit)), Some(stated)) if same(unit, stated) => Some(stated.clone()),
+        (Ok(Some(unit)), Some(stated)) if is_free_fall(unit, stated) => Some(stated.clone()),
+        (Ok(Some(unit)), Some(stated)) => {
+            let (unit, stated) = (&unit.symbol, &stated.symbol);
+            let message =
+                format!("column \"{text}\" is said to be in {stated}, its header says {unit}");
+            return Err(Box::new(
+                fault(UNIT_CLASH, message)
+                    .label(format!("in {unit}"))
+                    .help("state the unit once; leave it out where the header has it"),
+            ));
+        }
+        (Err(_), Some(stated)) => Some(stated.clone()),
+        (Err(error), None) => {
+            let at = span.start + error.span.start..span.start + error.span.end;
+            let mut fault = Fault::new(UNIT, at, format!("column \"{text}\": {}", error.message))
+                .label("no unit");
+            fault.help = error.help.clone();
+            return Err(Box::new(fault));
+        }
+    };
+    let Some(like) = &request.like else {
+        return Ok(unit);
+    };
+    match &unit {
+        None if like.is_one() => Ok(unit),
+        None => {
+            let (role, symbol) = (&request.role, &like.symbol);
+            let message = format!("column \"{text}\" ({role}) has no unit");
+            Err(Box::new(
+                fault(NO_UNIT, message)
+                    .label(format!("a unit such as {symbol} is missing"))
+                    .help(format!(
+                        "write `{text} [{symbol}]`, or state the unit where the column is named"
+                    )),
+            ))
+        }
+        Some(found) if found.dimension == like.dimension => Ok(unit),
+        Some(found) => {
+            let (role, symbol) = (&request.role, &found.symbol);
+            let message = format!(
+                "column \"{text}\" ({role}) is in {symbol}, which is no unit like {}",
+                like.symbol
+            );
+            let hint = hint_for_clash(like, found)
+                .unwrap_or_else(|| "check which column has this role, and its unit".to_owned());
+            Err(Box::new(
+                fault(UNIT_CLASH, message)
+                    .label(format!("in {symbol}"))
+                    .help(hint),
+            ))
+        }
+    }
+}
+
+/// Whether a header writes g for the acceleration of free fall that the asker states as gn.
+fn is_free_fall(header: &Unit, stated: &Unit) -> bool {
+    matches!(
+        (header.symbol.as_str(), stated.symbol.as_str()),
+        ("g", "gn") | ("mg", "mgn") | ("µg", "µgn")
+    )
+}
+
+fn same(a: &Unit, b: &Unit) -> bool {
+    a.conversion_to(b)
+        .is_some_and(|conversion| conversion.is_identity())
+}

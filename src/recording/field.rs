@@ -1,0 +1,244 @@
+//! Numbers and times in the fields of a recording.
+
+use super::sheet::Sheet;
+
+/// What a field of a column of numbers holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Field {
+    /// A number without a decimal sign; NaN where one is missing.
+    Whole(f64),
+    /// A number with a decimal point.
+    Point(f64),
+    /// A number with a decimal comma.
+    Comma(f64),
+    /// A time of the calendar or of the day.
+    Clock(Instant),
+}
+
+/// Seconds since midnight of 1 January 1970, or since midnight for a time of the day: whole ones and the
+/// rest, so that a microsecond is not lost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Instant {
+    whole: i64,
+    rest: f64,
+}
+
+impl Instant {
+    /// Seconds from another instant to this one.
+    pub fn since(self, other: Instant) -> f64 {
+        (self.whole - other.whole) as f64 + (self.rest - other.rest)
+    }
+}
+
+/// What instruments write for a range that was exceeded (SCPI), and for no number.
+const OVERLOAD: f64 = 9.9e37;
+
+const MISSING: &[&str] = &[
+    "",
+    "-",
+    "--",
+    "nan",
+    "na",
+    "n/a",
+    "#n/a",
+    "null",
+    "none",
+    "inf",
+    "+inf",
+    "-inf",
+    "infinity",
+    "-infinity",
+];
+
+impl Field {
+    /// Reads a field; nothing where it holds neither number nor time. A comma is a decimal sign where it
+    /// does not separate columns.
+    pub fn read(text: &str, sheet: &Sheet) -> Option<Field> {
+        if let Some(value) = plain(text) {
+            return Some(match text.contains('.') && !value.is_nan() {
+                true => Field::Point(value),
+                false => Field::Whole(value),
+            });
+        }
+        if MISSING.iter().any(|word| text.eq_ignore_ascii_case(word)) {
+            return Some(Field::Whole(f64::NAN));
+        }
+        if sheet.has_decimal_commas()
+            && text.matches(',').count() == 1
+            && !text.contains('.')
+            && let Some(value) = plain(&text.replace(',', "."))
+        {
+            return Some(Field::Comma(value));
+        }
+        instant(text).map(Field::Clock)
+    }
+
+    /// The number; NaN for one that is missing, nothing for a time.
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Field::Whole(value) | Field::Point(value) | Field::Comma(value) => Some(value),
+            Field::Clock(_) => None,
+        }
+    }
+}
+
+fn plain(text: &str) -> Option<f64> {
+    let is_plain =
+        |byte: u8| byte.is_ascii_digit() || matches!(byte, b'+' | b'-' | b'.' | b'e' | b'E');
+    if text.is_empty() || !text.bytes().all(is_plain) {
+        return None;
+    }
+    let value: f64 = text.parse().ok()?;
+    Some(if value.abs() < OVERLOAD {
+        value
+    } else {
+        f64::NAN
+    })
+}
+
+/// A time as ISO 8601 has it: `2026-03-01T09:00:01.25+08:00`, also with a blank for the T, with slashes or
+/// without zone; or a time of the day alone, `09:00:01.25`.
+fn instant(text: &str) -> Option<Instant> {
+    let (date, clock) = match text.split_once(['T', ' ']) {
+        Some((date, clock)) => (Some(date), clock.trim_start()),
+        None => (None, text),
+    };
+    let days = date.map_or(Some(0), days)?;
+    let (clock, offset) = zone(clock)?;
+    let mut parts = clock.split(':');
+    let hours = digits(parts.next()?, 2, 23)?;
+    let minutes = digits(parts.next()?, 2, 59)?;
+    let (seconds, rest) = match parts.next() {
+        None => (0, 0.0),
+        Some(seconds) => {
+            let (whole, fraction) = seconds.split_once(['.', ',']).unwrap_or((seconds, ""));
+            if !fraction.bytes().all(|byte| byte.is_ascii_digit()) {
+                return None;
+            }
+            let rest: f64 = format!("0.{fraction}0").parse().ok()?;
+            (digits(whole, 2, 60)?, rest)
+        }
+    };
+    if parts.next().is_some() {
+        return None;
+    }
+    let of_day = 3600 * hours + 60 * minutes + seconds;
+    Some(Instant {
+        whole: 86_400 * days + of_day - offset,
+        rest,
+    })
+}
+
+/// A number of so many digits (or, for 2, one), not larger than this.
+fn digits(text: &str, count: usize, largest: i64) -> Option<i64> {
+    let fits = text.len() == count || (count == 2 && text.len() == 1);
+    let all = text.bytes().all(|byte| byte.is_ascii_digit());
+    let value: i64 = if fits && all {
+        text.parse().ok()?
+    } else {
+        return None;
+    };
+    (value <= largest).then_some(value)
+}
+
+/// Days from 1 January 1970 to a date of the Gregorian calendar.
+fn days(date: &str) -> Option<i64> {
+    let mut parts = date.split(['-', '/']);
+    let year = digits(parts.next()?, 4, 9999)?;
+    let month = digits(parts.next()?, 2, 12)?;
+    let day = digits(parts.next()?, 2, 31)?;
+    if parts.next().is_some() || month == 0 || day == 0 {
+        return None;
+    }
+    // Years that begin in March have their leap day at the end.
+    let year = if month <= 2 { year - 1 } else { year };
+    let months = (month + 9) % 12;
+    let of_year = (153 * months + 2) / 5 + day - 1;
+    let leap_days = year / 4 - year / 100 + year / 400;
+    Some(365 * year + leap_days + of_year - 719_468)
+}
+
+/// The clock without its zone, and how many seconds the zone is ahead of UTC.
+fn zone(clock: &str) -> Option<(&str, i64)> {
+    if let Some(clock) = clock.strip_suffix(['Z', 'z']) {
+        return Some((clock, 0));
+    }
+    let Some(at) = clock.rfind(['+', '-']) else {
+        return Some((clock, 0));
+    };
+    let (sign, offset) = (&clock[at..=at], &clock[at + 1..]);
+    let (hours, minutes) = match offset.split_once(':') {
+        Some(parts) => parts,
+        None if offset.len() == 4 && offset.is_ascii() => offset.split_at(2),
+        None => (offset, "00"),
+    };
+    let ahead = 3600 * digits(hours, 2, 14)? + 60 * digits(minutes, 2, 59)?;
+    Some((&clock[..at], if sign == "-" { -ahead } else { ahead }))
+}
+
+/// How a field becomes a number.
+pub(super) fn mend(field: &str) -> String {
+    let like = |replaced: &str| replaced.parse::<f64>().is_ok();
+    let point = field.replace(',', ".");
+    let minus = field.replace('−', "-");
+    if field.contains(',') && like(&point) {
+        return format!("write {point}, with a decimal point");
+    }
+    if field.contains('−') && like(&minus) {
+        return format!("write {minus}, with the hyphen as minus");
+    }
+    if field.len() >= 8 && field.matches([':', '-', '/']).count() >= 2 {
+        return "write times as 2026-03-01T09:00:01.25, as 09:00:01.25, or as seconds since the start"
+            .to_owned();
+    }
+    if field.starts_with(|c: char| c.is_ascii_digit()) {
+        return "write the number alone; its unit belongs into the first line".to_owned();
+    }
+    "leave the field empty if the value is missing; units belong into the first line: name [unit]"
+        .to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seconds(text: &str) -> Option<f64> {
+        let zero = Instant {
+            whole: 0,
+            rest: 0.0,
+        };
+        instant(text).map(|instant| instant.since(zero))
+    }
+
+    #[test]
+    fn instants_count_from_1970() {
+        assert_eq!(seconds("1970-01-01T00:00:00Z"), Some(0.0));
+        assert_eq!(seconds("2000-03-01 00:00"), Some(951_868_800.0));
+        assert_eq!(seconds("2026/03/01 09:00:01.25"), Some(1_772_355_601.25));
+        assert_eq!(
+            seconds("2026-03-01T09:00:01.25+08:00"),
+            Some(1_772_326_801.25)
+        );
+        assert_eq!(seconds("2026-03-01T09:00:01-0330"), Some(1_772_368_201.0));
+        assert_eq!(seconds("9:00:01.5"), Some(32_401.5));
+        for wrong in [
+            "2026-13-01T00:00",
+            "09-00",
+            "2026-03-01",
+            "9",
+            "25:00",
+            "10:00:61",
+            "1:2:3:4",
+            "a:b",
+        ] {
+            assert_eq!(seconds(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_microsecond_is_not_lost() {
+        let at = |text: &str| instant(text).expect("a time");
+        let difference = at("2026-03-01T09:00:01.000001").since(at("2026-03-01T08:59:59.999999"));
+        assert!((difference - 1.000_002).abs() < 1e-12, "{difference}");
+    }
+}

@@ -178,7 +178,9 @@ fn a_line_with_two_reflections_ripples_along_the_frequency() {
 fn a_list_that_slipped_by_a_line_is_no_physics() {
     let mut noise = Noise(19);
     let mut rows = "load [N],U [mV]\n".to_owned();
-    let load = |row: i32| f64::from((row * 37).rem_euclid(50));
+    let load = |row: i32| {
+        50.0 + 40.0 * libm::sin(0.35 * f64::from(row)) + 8.0 * libm::sin(1.3 * f64::from(row))
+    };
     for row in 0..50 {
         let _ = writeln!(
             rows,

@@ -195,12 +195,13 @@ fn along(ground: &Ground<'_>) -> String {
 }
 
 fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
-    let laws: [(&str, &str, fn(f64) -> f64); 3] = [
+    type Power = (&'static str, &'static str, fn(f64) -> f64);
+    let laws: [Power; 3] = [
         ("quadratic", "signal^2", |s| s * s),
         ("cubic", "signal^3", |s| s * s * s),
         ("asymmetry", "abs(signal)", f64::abs),
     ];
-    let one = |(id, text, law): (&str, &'static str, fn(f64) -> f64)| {
+    let one = |(id, text, law): Power| {
         let law = move |input: &Input| vec![(map(&input.own, law), text.to_owned())];
         cell(ground, inputs, id, vec![Shaped::plain("", law)])
     };

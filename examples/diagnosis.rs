@@ -7,7 +7,8 @@
 //!
 //! `--each N` cases of every scenario and `--nulls N` cases without any effect; `--threads N`;
 //! `--only TEXT` keeps scenarios whose name contains the text; `--resume` keeps what the file holds
-//! already; `--tables` only draws the tables anew.
+//! already; `--tables` only draws the tables anew; `--first-seed N` takes other cases, to develop with;
+//! `--alone` leaves out the methods to compare with; `--show` prints every answer.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -18,7 +19,9 @@ use std::time::Instant;
 
 use gumption::challenge::SealedCase;
 use gumption::challenge::grade::{self, Answer, Name};
-use gumption::challenge::study::{EACH, NULLS, Record, Trial, read, report, trials, write};
+use gumption::challenge::study::{
+    EACH, FIRST_SEED, NULLS, Record, Trial, read, report, trials, write,
+};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Opinion, diagnose, opinions};
 use gumption::report::{Language, diagnosis_failure, diagnosis_json};
@@ -31,6 +34,9 @@ struct Options {
     out: PathBuf,
     resume: bool,
     tables: bool,
+    first_seed: u64,
+    alone: bool,
+    show: bool,
 }
 
 fn options() -> Result<Options, String> {
@@ -42,6 +48,9 @@ fn options() -> Result<Options, String> {
         out: PathBuf::from("reports"),
         resume: false,
         tables: false,
+        first_seed: FIRST_SEED,
+        alone: false,
+        show: false,
     };
     let mut arguments = std::env::args().skip(1);
     while let Some(name) = arguments.next() {
@@ -57,6 +66,9 @@ fn options() -> Result<Options, String> {
             "--only" => options.only = value()?,
             "--out" => options.out = value()?.into(),
             "--resume" => options.resume = true,
+            "--first-seed" => options.first_seed = number(value()?)? as u64,
+            "--alone" => options.alone = true,
+            "--show" => options.show = true,
             "--tables" => options.tables = true,
             other => return Err(format!("`{other}` is not known")),
         }
@@ -96,7 +108,7 @@ const OFTEN: usize = 50;
 
 impl<'a> Study<'a> {
     fn new(options: &'a Options) -> Study<'a> {
-        let trials: Vec<Trial> = trials(options.each, options.nulls)
+        let trials: Vec<Trial> = trials(options.first_seed, options.each, options.nulls)
             .into_iter()
             .filter(|trial| trial.scenario.name().contains(&options.only))
             .collect();
@@ -147,7 +159,7 @@ impl<'a> Study<'a> {
             if self.done.lock().is_ok_and(|done| done.contains_key(&at)) {
                 continue;
             }
-            let record = one(trial, &folder);
+            let record = one(trial, &folder, self.options);
             let count = self.done.lock().map_or(0, |mut done| {
                 done.insert(at, record);
                 done.len()
@@ -184,10 +196,13 @@ impl<'a> Study<'a> {
     }
 }
 
-fn one(trial: &Trial, folder: &Path) -> Record {
+fn one(trial: &Trial, folder: &Path, options: &Options) -> Record {
     let sealed = trial.case();
-    match answer(trial, &sealed, folder) {
+    match answer(trial, &sealed, folder, options.alone) {
         Ok((answer, opinions)) => {
+            if options.show {
+                eprintln!("{}", shown(trial, &answer));
+            }
             let mut record = Record::of(trial, &grade::grade(&sealed.truth, &answer), &answer);
             record.rivals = opinions
                 .iter()
@@ -212,6 +227,7 @@ fn answer(
     trial: &Trial,
     sealed: &SealedCase,
     folder: &Path,
+    alone: bool,
 ) -> Result<(Answer, Vec<Opinion>), String> {
     trial
         .write(sealed, folder)
@@ -223,7 +239,35 @@ fn answer(
     let diagnosis = diagnose(&case, &|_| ControlFlow::Continue(())).map_err(failed)?;
     let answer = serde_json::from_value(diagnosis_json(&case, &diagnosis, Language::English))
         .map_err(|error| error.to_string())?;
-    Ok((answer, opinions(&case).map_err(failed)?))
+    let others = if alone {
+        Vec::new()
+    } else {
+        opinions(&case).map_err(failed)?
+    };
+    Ok((answer, others))
+}
+
+/// An answer in one line.
+fn shown(trial: &Trial, answer: &Answer) -> String {
+    let mut line = format!(
+        "{} {} {}: {}",
+        trial.scenario.name(),
+        trial.seed,
+        trial.ablation.word(),
+        answer.verdict
+    );
+    for effect in &answer.effects {
+        let names = effect.named.iter().map(|name| {
+            let variant = name.variants.first().map_or("", |one| one.label.as_str());
+            format!(
+                "{} {} [{variant}] {:.3}",
+                name.id, name.along, name.probability
+            )
+        });
+        let names: Vec<String> = names.collect();
+        line += &format!("; {:?}: {}", effect.state, names.join(" | "));
+    }
+    line
 }
 
 /// A rival's names against the truth.

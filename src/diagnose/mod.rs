@@ -29,6 +29,7 @@ mod fit;
 mod frame;
 mod held_out;
 mod improved;
+mod local;
 mod noise;
 mod omitted;
 mod place;

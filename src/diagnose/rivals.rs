@@ -66,10 +66,9 @@ struct Step {
 impl<'a> Path<'a> {
     fn new(question: &'a Question<'a>) -> Path<'a> {
         let visible = |(index, columns): (usize, &DMatrix<f64>)| {
-            let basis = orthonormal(
-                question.baseline.project(columns),
-                columns_scale(question, columns),
-            );
+            let seen = question.baseline.project(columns);
+            let scale = columns_scale(question, columns, &seen);
+            let basis = orthonormal(seen, scale);
             (basis.ncols() > 0).then_some((index, basis))
         };
         Path {
@@ -132,23 +131,16 @@ impl<'a> Path<'a> {
 }
 
 /// Length that columns of an atom have before the parameters absorb a part: that of the longest.
-fn columns_scale(question: &Question, columns: &DMatrix<f64>) -> f64 {
-    columns
-        .column_iter()
-        .map(|column| {
-            let column = column.into_owned();
-            let seen = question.baseline.visibility(&column);
-            let left = question
-                .baseline
-                .project(&DMatrix::from_columns(&[column]))
-                .norm();
-            if seen > DEPENDENT {
-                left / seen.sqrt()
-            } else {
-                0.0
-            }
-        })
-        .fold(0.0, f64::max)
+fn columns_scale(question: &Question, columns: &DMatrix<f64>, seen: &DMatrix<f64>) -> f64 {
+    let shares = question.baseline.visibilities(columns);
+    let whole = seen.column_iter().zip(shares).map(|(seen, share)| {
+        if share > DEPENDENT {
+            seen.norm() / share.sqrt()
+        } else {
+            0.0
+        }
+    });
+    whole.fold(0.0, f64::max)
 }
 
 /// Orthonormal directions of the columns; those with little left are dropped.

@@ -14,6 +14,7 @@ use super::evidence::{
 use super::fit::{Fit, NoFit};
 use super::frame::Frame;
 use super::held_out::{self, HeldOutQuality};
+use super::local;
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::place;
@@ -199,11 +200,18 @@ pub fn diagnose(
             }
         }
     }
+    let nameless = local::nameless(&ground, &cells, &places, &examination);
+    examination.demote(&nameless);
     let located = if examination.verdict == Verdict::None {
         Vec::new()
     } else {
         let mut levels = place::cells(&ground);
-        levels.retain(|cell| white.visibility(&cell.column) > TRACE);
+        let columns: Vec<DVector<f64>> = levels.iter().map(|cell| cell.column.clone()).collect();
+        if !columns.is_empty() {
+            let shares = white.visibilities(&DMatrix::from_columns(&columns));
+            let mut shares = shares.into_iter();
+            levels.retain(|_| shares.next().is_some_and(|share| share > TRACE));
+        }
         let found = evidence::locate(&baseline, &levels, &settings)?;
         found
             .into_iter()
@@ -325,22 +333,24 @@ pub(super) fn question(
             family: cell.effect.family.clone(),
             place: cell.place.clone(),
             typical: cell.typical,
-            repeats: matches!(cell.effect.id.as_str(), "outlier" | "step" | "odd-level"),
+            repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
         });
         let before = atoms.len();
-        for (number, variation) in cell.variants.iter().enumerate() {
-            let columns = variation.columns(ground);
-            if let Some(shape) =
-                shape(columns, variation, claimed).filter(|shape| shows(baseline, shape))
-            {
-                atoms.push(Atom {
-                    candidate: index,
-                    variant: variation.label.clone(),
-                    shape,
-                    share: 1.0,
-                });
-                places.push((index, number));
-            }
+        let shapes: Vec<(usize, Shape)> = (cell.variants.iter().enumerate())
+            .filter_map(|(number, variation)| {
+                let columns = variation.columns(ground);
+                Some((number, shape(columns, variation, claimed)?))
+            })
+            .collect();
+        let shown = showing(baseline, shapes.iter().map(|(_, shape)| shape));
+        for ((number, shape), _) in shapes.into_iter().zip(shown).filter(|(_, shown)| *shown) {
+            atoms.push(Atom {
+                candidate: index,
+                variant: cell.variants[number].label.clone(),
+                shape,
+                share: 1.0,
+            });
+            places.push((index, number));
         }
         let share = 1.0 / (atoms.len() - before).max(1) as f64;
         for atom in &mut atoms[before..] {
@@ -350,17 +360,33 @@ pub(super) fn question(
     (candidates, atoms, places)
 }
 
-/// Whether more than a trace of an effect is left beside the parameters. Less is what the curvature of
-/// the model makes of an exact alias; it would take sizes that are out of the question. What has no
-/// visible part at all is kept: it is listed as invisible.
-fn shows(baseline: &Baseline, shape: &Shape) -> bool {
+/// Of which effects more than a trace is left beside the parameters. Less is what the curvature of the
+/// model makes of an exact alias; it would take sizes that are out of the question. What has no visible
+/// part at all is kept: it is listed as invisible.
+fn showing<'s>(baseline: &Baseline, shapes: impl Iterator<Item = &'s Shape>) -> Vec<bool> {
     const NOTHING: f64 = 1e-6;
-    let Shape::Columns(columns) = shape else {
-        return true;
+    let shapes: Vec<&Shape> = shapes.collect();
+    let columns: Vec<_> = (shapes.iter())
+        .filter_map(|shape| match shape {
+            Shape::Columns(columns) => Some(columns),
+            Shape::Smooth { .. } | Shape::Scatter => None,
+        })
+        .flat_map(|columns| columns.column_iter())
+        .collect();
+    if columns.is_empty() {
+        return vec![true; shapes.len()];
+    }
+    let mut shares = baseline
+        .visibilities(&DMatrix::from_columns(&columns))
+        .into_iter();
+    let shown = |shape: &&Shape| match shape {
+        Shape::Columns(columns) => {
+            let most = (shares.by_ref().take(columns.ncols())).fold(0.0, f64::max);
+            !(NOTHING..TRACE).contains(&most)
+        }
+        Shape::Smooth { .. } | Shape::Scatter => true,
     };
-    let share = |column: usize| baseline.visibility(&columns.column(column).into_owned());
-    let most = (0..columns.ncols()).map(share).fold(0.0, f64::max);
-    !(NOTHING..TRACE).contains(&most)
+    shapes.iter().map(shown).collect()
 }
 
 /// Nothing for a variation that is not finite or does nothing.
@@ -400,13 +426,28 @@ fn adopted_fit(
     if variations.is_empty() {
         return None;
     }
-    let extended = adopt::extended(ground, &variations)?;
+    let mut extended = adopt::extended(ground, &variations)?;
+    if let Some(fit) = refit(ground, &extended, fitted, claimed) {
+        return Some((extended, fit));
+    }
+    // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
+    // parameter's.
+    let counts: Vec<usize> = variations.iter().map(|v| v.coefficients()).collect();
+    adopt::scattered(&mut extended, &counts, &fitted.coefficients);
+    let fit = refit(ground, &extended, fitted, claimed)?;
+    Some((extended, fit))
+}
+
+fn refit(
+    ground: &Ground<'_>,
+    extended: &adopt::Extended,
+    fitted: &evidence::Fitted,
+    claimed: &Claimed,
+) -> Option<Fit> {
     let frame = Frame::new(&extended.case);
     let start = adopt::start(ground, &frame, &fitted.coefficients);
-    let fit = super::fit::from(&frame, &claimed.u, start)
-        .or_else(|_| super::fit::fit(&frame, &claimed.u))
-        .ok()?;
-    Some((extended, fit))
+    let fit = super::fit::from(&frame, &claimed.u, start);
+    fit.or_else(|_| super::fit::fit(&frame, &claimed.u)).ok()
 }
 
 /// The model with the named effects, and how well it does.

@@ -19,4 +19,4 @@ mod trial;
 pub use rate::Rate;
 pub use record::{Outcome, Record, read, write};
 pub use report::report;
-pub use trial::{Ablation, EACH, NULLS, Trial, trials};
+pub use trial::{Ablation, EACH, FIRST_SEED, NULLS, Trial, trials};

@@ -54,7 +54,7 @@ pub struct Trial {
 
 /// The seeds of the study begin here. A batch of seeds is used once: whoever changes the diagnosis after
 /// having looked at its results moves on to seeds that nobody has seen.
-const FIRST_SEED: u64 = 72_000_000;
+pub const FIRST_SEED: u64 = 72_000_000;
 
 /// How many cases of every scenario the study has: enough for 600 with an effect.
 pub const EACH: usize = 9;
@@ -65,7 +65,7 @@ pub const NULLS: usize = 1000;
 /// All trials of a study: every scenario `each` times, half with stated noise and half with noise from
 /// a recording at rest; `nulls` cases without any effect; and the ablations, `each` / 3 of every single
 /// effect. A trial does not depend on how many there are.
-pub fn trials(each: usize, nulls: usize) -> Vec<Trial> {
+pub fn trials(first_seed: u64, each: usize, nulls: usize) -> Vec<Trial> {
     let all = Scenario::all();
     let mut trials = Vec::new();
     for (number, scenario) in all.iter().enumerate() {
@@ -73,7 +73,7 @@ pub fn trials(each: usize, nulls: usize) -> Vec<Trial> {
             continue;
         }
         for k in 0..each {
-            let whole = trial(number, k, *scenario, Ablation::Whole);
+            let whole = trial(first_seed, number, k, *scenario, Ablation::Whole);
             trials.push(whole);
             let covariates = scenario.class == Class::Single
                 && scenario
@@ -102,7 +102,7 @@ pub fn trials(each: usize, nulls: usize) -> Vec<Trial> {
         .collect();
     for k in 0..nulls {
         let (number, scenario) = quiet[turn(k, quiet.len())];
-        trials.push(trial(number, k, scenario, Ablation::Whole));
+        trials.push(trial(first_seed, number, k, scenario, Ablation::Whole));
     }
     trials
 }
@@ -116,14 +116,14 @@ fn turn(k: usize, rigs: usize) -> usize {
     }
 }
 
-fn trial(number: usize, k: usize, scenario: Scenario, ablation: Ablation) -> Trial {
+fn trial(first: u64, number: usize, k: usize, scenario: Scenario, ablation: Ablation) -> Trial {
     let noise = if (number + k / 10 + k).is_multiple_of(2) {
         NoiseKnowledge::Stated
     } else {
         NoiseKnowledge::AtRest
     };
     Trial {
-        seed: FIRST_SEED + 10_000 * number as u64 + k as u64,
+        seed: first + 10_000 * number as u64 + k as u64,
         scenario,
         noise,
         ablation,
@@ -231,7 +231,7 @@ mod tests {
 
     #[test]
     fn a_study_is_as_large_as_it_should_be_and_no_case_comes_twice() {
-        let trials = trials(EACH, NULLS);
+        let trials = trials(FIRST_SEED, EACH, NULLS);
         let whole: Vec<&Trial> = trials
             .iter()
             .filter(|t| t.ablation == Ablation::Whole)
@@ -256,7 +256,7 @@ mod tests {
             .into_iter()
             .find(|s| s.name() == "remount+supply")
             .unwrap();
-        let whole = trial(3, 1, scenario, Ablation::Whole);
+        let whole = trial(FIRST_SEED, 3, 1, scenario, Ablation::Whole);
         let foreign = Trial {
             ablation: Ablation::ForeignConditions,
             ..whole

@@ -1,10 +1,9 @@
-//! Harmonics of angles: errors of the angle itself, and what repeats with each turn; second-order terms of
-//! a sensor that is turned.
+//! Harmonics of angles: errors of the angle itself, and what repeats with each turn; play of what sets it.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{map, map2, range};
+use super::modifiers::{map, range};
 use super::response::{on_node, words};
 use super::{Cell, Modifier, Term, Variants, Variation, effect};
 use crate::diagnose::case::Role;
@@ -16,27 +15,61 @@ const HIGHEST: u32 = 4;
 
 /// Cells of the angles.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let angles = ground.case().with_role(Role::Angle);
-    let angles: Vec<usize> = angles
-        .filter(|c| ground.case().columns[*c].numbers().is_some_and(varies))
-        .collect();
-    angles
+    angles(ground)
         .into_iter()
         .flat_map(|column| of_angle(ground, column))
         .collect()
 }
 
+/// Columns of angles that vary.
+pub(super) fn angles(ground: &Ground<'_>) -> Vec<usize> {
+    let angles = ground.case().with_role(Role::Angle);
+    angles
+        .filter(|c| ground.case().columns[*c].numbers().is_some_and(varies))
+        .collect()
+}
+
 fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
-    let name = &ground.case().columns[column].name;
+    let name = ground.label(column);
+    let variants = harmonics(ground, column);
+    // Harmonics are independent of one another: each is a candidate of its own.
+    let each = |id: &str, node: Node| -> Vec<Cell> {
+        let one = |variant: &(String, Vec<Modifier>)| {
+            let mut words = words(ground, name);
+            words.p = ground.name(node);
+            on_node(ground, id, words, name, node, vec![variant.clone()])
+        };
+        variants.iter().map(one).collect()
+    };
+    let mut cells = Vec::new();
+    // Several outputs that an angle turns into one another have powers of their inputs for harmonics.
+    if !ground.in_model(column) || ground.case().responses.len() == 1 {
+        cells.extend(each("periodic", Node::Output));
+    }
+    if !ground.in_model(column) {
+        if ground.has_signal() {
+            cells.extend(each("periodic-scale", Node::Gain));
+        }
+        return cells;
+    }
+    cells.extend(each("eccentricity", Node::Column(column)));
+    cells.extend(play(ground, column));
+    cells
+}
+
+/// Sine and cosine of the multiples of an angle that its positions can tell apart.
+fn harmonics(ground: &Ground<'_>, column: usize) -> Variants {
+    let name = ground.label(column);
     let phi = radians(ground, column);
     let (least, most) = range(&phi);
-    let harmonics: Vec<u32> = (1..=HIGHEST)
-        .filter(|k| f64::from(*k) * (most - least) > PI)
-        .collect();
-    let variants: Variants = harmonics
-        .iter()
+    let positions = positions(&phi);
+    // A wave shows by half of it, and by two positions.
+    let shows =
+        |k: &u32| f64::from(*k) * (most - least) > 0.9 * PI && 2 * (*k as usize) <= positions;
+    (1..=HIGHEST)
+        .filter(shows)
         .map(|k| {
-            let times = f64::from(*k);
+            let times = f64::from(k);
             let pair = vec![
                 (
                     map(&phi, |phi| libm::sin(times * phi)),
@@ -49,26 +82,23 @@ fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             ];
             (format!("{k} per turn"), pair)
         })
+        .collect()
+}
+
+/// Different places on the circle, to a ten-thousandth of a turn.
+fn positions(phi: &[f64]) -> usize {
+    let mut places: Vec<i64> = phi
+        .iter()
+        .map(|phi| (phi / TAU * 1e4).round() as i64 % 10_000)
+        .map(|place| place.rem_euclid(10_000))
         .collect();
-    // Harmonics are independent of one another: each is a candidate of its own.
-    let each = |id: &str, node: Node| -> Vec<Cell> {
-        let one = |variant: &(String, Vec<Modifier>)| {
-            let words = words(ground, name);
-            on_node(ground, id, words, name, node, vec![variant.clone()])
-        };
-        variants.iter().map(one).collect()
-    };
-    let mut cells = each("periodic", Node::Output);
-    if !ground.in_model(column) {
-        return cells;
-    }
-    cells.extend(each("eccentricity", Node::Column(column)));
-    cells.extend(second_order(ground, column));
-    cells
+    places.sort_unstable();
+    places.dedup();
+    places.len()
 }
 
 /// The angle in radians; a number without a unit is one.
-fn radians(ground: &Ground<'_>, column: usize) -> Vec<f64> {
+pub(super) fn radians(ground: &Ground<'_>, column: usize) -> Vec<f64> {
     let numbers = ground.numbers(column);
     let unit = &ground.case().columns[column].unit;
     let conversion = UnitTable::default()
@@ -81,58 +111,80 @@ fn radians(ground: &Ground<'_>, column: usize) -> Vec<f64> {
     }
 }
 
-/// Powers of the signal, and of its slope by the angle, which is the quantity along the other axis.
-fn second_order(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
-    let name = &ground.case().columns[column].name;
-    type Law = fn(f64, f64) -> f64;
-    let laws: [(&str, &str, Law); 6] = [
-        ("quadratic", "signal^2", |s, _| s * s),
-        ("cubic", "signal^3", |s, _| s * s * s),
-        ("asymmetry", "abs(signal)", |s, _| s.abs()),
-        ("zero-step", "sign(signal)", |s, _| {
-            if s.abs() < 1e-9 { 0.0 } else { s.signum() }
-        }),
-        ("cross-product", "signal*across", |s, q| s * q),
-        ("cross-square", "across^2", |_, q| q * q),
-    ];
-    let build = |(id, text, law): (&str, &str, Law)| {
-        let terms: Vec<Term> = (0..ground.case().responses.len())
-            .map(|response| {
-                let signal = ground.signal(response);
-                let across = ground.slope(Node::Column(column), response);
-                let size = signal
-                    .iter()
-                    .fold(0.0_f64, |most, s| most.max(s.abs()))
-                    .max(f64::MIN_POSITIVE);
-                let tallest = across
-                    .iter()
-                    .fold(0.0_f64, |most, q| most.max(q.abs()))
-                    .max(f64::MIN_POSITIVE);
-                Term {
-                    node: Node::Output,
-                    response: Some(response),
-                    // In units of the largest signal, so that the size is a part of the range.
-                    modifier: map2(signal, &across, |s, q| law(s / size, q / tallest)),
-                    text: text.to_owned(),
-                }
-            })
-            .collect();
-        let variants = vec![Variation::of("", terms)];
-        let mut words = words(ground, name);
-        if !matches!(id, "cross-product" | "cross-square") {
-            words.x = format!("model({name})");
-        }
-        Cell {
-            effect: effect(id),
-            words,
-            place: Place {
-                node: ground.name(Node::Output),
-                along: name.clone(),
-            },
-            variants,
-            typical: None,
-            description: None,
-        }
+/// Play of a worm or gear that is far smaller than the steps: the side from which an angle was reached.
+fn play(ground: &Ground<'_>, column: usize) -> Option<Cell> {
+    let name = ground.label(column);
+    let side = approach(ground, column);
+    if !varies(&side) {
+        return None;
+    }
+    let modifier = map(&side, |side| -side / 2.0);
+    let term = Term::new(
+        Node::Column(column),
+        modifier,
+        format!("-direction({name})/2"),
+    );
+    Some(Cell {
+        effect: effect("play"),
+        words: words(ground, name),
+        place: Place {
+            node: name.to_owned(),
+            along: name.to_owned(),
+        },
+        variants: vec![Variation::one("", term)],
+        typical: None,
+        description: None,
+    })
+}
+
+/// The side from which each angle was reached, +1 or −1. Between runs a head goes back behind the first
+/// angle, which no row shows: that one too is reached in the direction in which the run goes on.
+fn approach(ground: &Ground<'_>, column: usize) -> Vec<f64> {
+    let x = ground.numbers(column);
+    let starts = starts(ground);
+    let last = x.len() - 1;
+    let mut side: Vec<f64> = vec![1.0; x.len()];
+    for row in 0..x.len() {
+        let step = match row {
+            row if starts.contains(&row) && row < last => x[row + 1] - x[row],
+            0 => 0.0,
+            row => x[row] - x[row - 1],
+        };
+        side[row] = match step {
+            0.0 if row > 0 => side[row - 1],
+            0.0 => 1.0,
+            step => step.signum(),
+        };
+    }
+    side
+}
+
+/// Rows in which a run begins.
+fn starts(ground: &Ground<'_>) -> Vec<usize> {
+    let run = ground.case().with_role(Role::Run).next();
+    let run = run.and_then(|c| ground.case().columns[c].labels());
+    let begins = |row: &usize| {
+        *row == 0 || run.is_some_and(|labels| labels.of_row[*row] != labels.of_row[row - 1])
     };
-    laws.map(build).into()
+    (0..ground.rows()).filter(begins).collect()
+}
+
+/// The angle that turns in one direction through every run, with the rows in which runs begin.
+pub(super) fn runs_of_turns(ground: &Ground<'_>) -> Option<(usize, Vec<usize>)> {
+    let turning: Vec<usize> = angles(ground)
+        .into_iter()
+        .filter(|c| ground.in_model(*c))
+        .collect();
+    let ([angle], true) = (&turning[..], ground.is_timed()) else {
+        return None;
+    };
+    let x = ground.numbers(*angle);
+    let starts = starts(ground);
+    let ends = starts[1..].iter().copied().chain([x.len()]);
+    let steady = starts.iter().zip(ends).all(|(start, end)| {
+        let steps: Vec<f64> = x[*start..end].windows(2).map(|w| w[1] - w[0]).collect();
+        let one_way = |sign: f64| steps.iter().all(|step| sign * step > 0.0);
+        steps.len() >= 3 && (one_way(1.0) || one_way(-1.0))
+    });
+    (steady && starts.len() > 1).then_some((*angle, starts))
 }

@@ -2,9 +2,9 @@
 //! squared, as a rate, inversely, and together.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{centred, figure, lag, map, map2, mean, range, rate};
-use super::response::{on_node, on_outputs, time_constants, words};
-use super::{Cell, Variants, Words};
+use super::modifiers::{centred, correlation, figure, lag, map, map2, mean, range, rate};
+use super::response::{levels_of, on_node, on_outputs, time_constants, words};
+use super::{Cell, Modifier, Variants, Words};
 use crate::diagnose::case::Role;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
@@ -19,10 +19,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     for column in &conditions {
         cells.extend(of_condition(ground, *column));
     }
-    for column in numeric.iter().filter(|c| positive(ground.numbers(**c))) {
-        if ground.in_model(*column) {
-            continue;
-        }
+    for column in conditions.iter().filter(|c| spreads(ground, **c)) {
         cells.push(reciprocal(ground, *column));
     }
     for (at, x) in conditions.iter().enumerate() {
@@ -46,14 +43,19 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         (_, true) => "cross-sensitivity",
         _ => "sensitivity",
     };
-    let delayed = delayed(ground, &own, &text);
+    let delayed = delayed(ground, column, &own, &text);
+    let linear: Variants = delayed
+        .iter()
+        .cloned()
+        .chain(leading(ground, column, &own, &text))
+        .collect();
     let words = words(ground, &label);
     cells.push(on_outputs(
         ground,
         bias,
         words.clone(),
         &label,
-        delayed.clone(),
+        linear.clone(),
     ));
     let square: Variants = delayed
         .iter()
@@ -65,7 +67,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             )
         })
         .collect();
-    let square = square.into_iter().chain(squares(x, &label)).collect();
+    let square = square.into_iter().chain(squares(ground, column)).collect();
     let second = if temperature {
         "tempco-quadratic"
     } else {
@@ -73,10 +75,10 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     cells.push(on_outputs(ground, second, words.clone(), &label, square));
     for (node, id) in scale_nodes(ground, temperature) {
-        let mut cell = on_node(ground, id, words.clone(), &label, node, delayed.clone());
+        let mut cell = on_node(ground, id, words.clone(), &label, node, linear.clone());
         cell.words.p = ground.name(node);
         cells.push(cell);
-        let squares = squares(x, &label);
+        let squares = squares(ground, column);
         let words = cells[cells.len() - 1].words.clone();
         cells.push(on_node(
             ground,
@@ -103,30 +105,37 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     cells
 }
 
-/// The square alone, and with a linear part; nothing where the numbers are the same up to their sign.
-fn squares(x: &[f64], label: &str) -> Variants {
+/// The square alone, and with a linear part; nothing where the numbers are the same up to their sign, or
+/// vary so little that the square is a line.
+fn squares(ground: &Ground<'_>, column: usize) -> Variants {
+    /// Through so many values a square with a line goes anyhow.
+    const FEW: usize = 3;
+    let (x, label) = (ground.numbers(column), ground.label(column));
     let square = map(x, |x| x * x);
-    if !varies(&square) {
+    let is_line = correlation(&square, x).abs() > 0.995;
+    if !varies(&square) || is_line {
         return Vec::new();
     }
     let text = format!("{label}^2");
     let linear = (x.to_vec(), label.to_owned());
-    vec![
-        (
-            "square alone".to_owned(),
-            vec![(square.clone(), text.clone())],
-        ),
-        (
+    let mut variants = vec![(
+        "square alone".to_owned(),
+        vec![(square.clone(), text.clone())],
+    )];
+    if levels_of(x).len() > FEW {
+        variants.push((
             "with a linear part".to_owned(),
             vec![(square, text), linear],
-        ),
-    ]
+        ));
+    }
+    variants
 }
 
-/// The modifier without a lag, and with each of a series of time constants.
-fn delayed(ground: &Ground<'_>, own: &[f64], text: &str) -> Variants {
+/// The modifier without a lag, and with each of a series of time constants where it has to get through
+/// something first.
+fn delayed(ground: &Ground<'_>, column: usize, own: &[f64], text: &str) -> Variants {
     let mut variants = vec![(String::new(), vec![(own.to_vec(), text.to_owned())])];
-    if ground.is_timed() {
+    if ground.is_timed() && !ground.is_immediate(column) {
         let unit = ground.time_unit();
         for tau in time_constants(ground) {
             let lagged = lag(&ground.clock.values, own, tau);
@@ -138,6 +147,24 @@ fn delayed(ground: &Ground<'_>, own: &[f64], text: &str) -> Variants {
         }
     }
     variants
+}
+
+/// The modifier and its rate of change, each with a size of its own: the sensor follows before or behind
+/// the instrument that shows the condition, by less than a lag can be told.
+fn leading(
+    ground: &Ground<'_>,
+    column: usize,
+    own: &[f64],
+    text: &str,
+) -> Option<(String, Vec<Modifier>)> {
+    let late = ground.is_timed() && !ground.is_immediate(column);
+    late.then(|| {
+        let rate = (rate(&ground.clock.values, own), format!("d{text}/dt"));
+        (
+            "with its rate of change".to_owned(),
+            vec![(own.to_vec(), text.to_owned()), rate],
+        )
+    })
 }
 
 /// Notes the time constant of delayed variants.
@@ -171,9 +198,12 @@ pub(super) fn scale_nodes(ground: &Ground<'_>, temperature: bool) -> Vec<(Node, 
     }
 }
 
-fn positive(x: &[f64]) -> bool {
-    let (least, most) = range(x);
-    least > 0.0 && most > 1.2 * least
+/// Whether a quantity with a true zero varies by so much that its inverse is no line.
+fn spreads(ground: &Ground<'_>, column: usize) -> bool {
+    const FACTOR: f64 = 2.0;
+    let (least, most) = range(ground.numbers(column));
+    let has_zero = ground.case().columns[column].unit.origin.is_none();
+    has_zero && least > 0.0 && most > FACTOR * least
 }
 
 fn reciprocal(ground: &Ground<'_>, column: usize) -> Cell {
@@ -212,19 +242,23 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
         |x, z| x * z,
     );
     let text = format!("({} - mean)*({} - mean)", name(x), name(z));
-    let mut cells = vec![on_outputs(
-        ground,
-        "interaction",
-        pair.clone(),
-        &along,
-        vec![(String::new(), vec![(product, text)])],
-    )];
+    let mut cells = Vec::new();
+    if meet(ground, x, z) {
+        cells.push(on_outputs(
+            ground,
+            "interaction",
+            pair.clone(),
+            &along,
+            vec![(String::new(), vec![(product, text)])],
+        ));
+    }
     let (of_x, of_z) = (ground.numbers(x), ground.numbers(z));
-    if range(of_x).0 > 0.0 && range(of_z).0 > 0.0 && (positive(of_x) || positive(of_z)) {
+    let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));
+    let size = [x, z].iter().any(|c| ground.is_like(*c, "m"));
+    let positive = range(of_x).0 > 0.0 && range(of_z).0 > 0.0;
+    if positive && (gas && size || spreads(ground, x) && spreads(ground, z)) {
         let inverse = map2(of_x, of_z, |x, z| 1.0 / (x * z));
         let text = format!("1/({}*{})", name(x), name(z));
-        let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));
-        let size = [x, z].iter().any(|c| ground.is_like(*c, "m"));
         let id = if gas && size {
             "mean-free-path"
         } else {
@@ -251,6 +285,17 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
         ));
     }
     cells
+}
+
+/// Whether the product of two conditions is likely to mean something: one of them is applied, or both are
+/// of the air.
+fn meet(ground: &Ground<'_>, x: usize, z: usize) -> bool {
+    let applied = |c: usize| ground.case().columns[c].role == Role::Stimulus;
+    let of_air = |c: usize| {
+        let relative = ground.case().columns[c].unit.symbol == "%";
+        ground.is_temperature(c) || ground.is_like(c, "Pa") || relative
+    };
+    applied(x) || applied(z) || of_air(x) && of_air(z)
 }
 
 /// Variants of the same modifiers; for other chapters.

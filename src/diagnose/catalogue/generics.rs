@@ -3,7 +3,9 @@
 
 use std::f64::consts::PI;
 
+use super::angles::angles;
 use super::ground::{Ground, Node};
+use super::levels::{indicator, present};
 use super::modifiers::{map, range};
 use super::response::words;
 use super::{Cell, Term, Variation, effect};
@@ -16,130 +18,164 @@ const LENGTH: f64 = 0.2;
 /// Cosines of a smooth curve.
 const COSINES: usize = 8;
 
-/// One smooth curve for each column and for the time, levels of each factor that has no name, and scatter.
+/// One smooth curve for each column and for the time, levels of what has few values, and scatter.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
     let mut nodes = vec![Node::Output];
     if ground.has_signal() {
         nodes.push(Node::Gain);
     }
-    let mut courses: Vec<(String, Vec<f64>)> = ground
-        .numeric()
+    let turning: Vec<usize> = angles(ground)
         .into_iter()
-        .map(|column| {
-            (
-                ground.case().columns[column].name.clone(),
-                ground.numbers(column).to_vec(),
-            )
-        })
+        .filter(|c| ground.in_model(*c))
         .collect();
-    for column in ground.case().with_role(Role::Angle) {
-        courses.push((
-            ground.case().columns[column].name.clone(),
-            ground.numbers(column).to_vec(),
-        ));
-    }
-    let time = ground.clock.column.map_or_else(
-        || "row".to_owned(),
-        |column| ground.case().columns[column].name.clone(),
-    );
-    courses.push((time, ground.clock.values.clone()));
-    for (name, course) in &courses {
-        let distinct = distinct(course);
-        if distinct < 4 {
-            continue;
-        }
+    for (name, course) in courses(ground) {
         for node in &nodes {
-            cells.push(smooth(ground, *node, name, course, distinct));
+            cells.extend(smooth(ground, *node, &name, &course));
         }
     }
-    for column in &ground.case().columns {
-        let Some(labels) = column.labels() else {
-            continue;
-        };
-        let levels = super::levels::present(labels);
+    for column in ground.numeric() {
+        cells.extend(values(ground, Node::Output, column));
+    }
+    // Smooth errors of an angle are harmonics, which have names.
+    for column in &turning {
+        cells.extend(values(ground, Node::Column(*column), *column));
+    }
+    let on_angles: Vec<Node> = turning.iter().map(|c| Node::Column(*c)).collect();
+    for column in 0..ground.case().columns.len() {
+        let role = ground.case().columns[column].role;
+        // What has a name on offset and scale has none on an angle.
         let named = matches!(
-            column.role,
+            role,
             Role::Run | Role::Factor | Role::Axis | Role::Direction
         );
-        if named || levels.len() < 2 || levels.len() * 2 > ground.frame.blocks.len() {
-            continue;
-        }
-        for node in &nodes {
-            let terms = levels
-                .iter()
-                .map(|level| term(*node, super::levels::indicator(labels, *level)));
-            cells.push(generic(
-                ground,
-                "levels",
-                *node,
-                &column.name,
-                terms.collect(),
-                vec![1.0; levels.len()],
-            ));
+        let unnamed = if named { &[][..] } else { &nodes[..] };
+        for node in unnamed.iter().chain(&on_angles) {
+            cells.extend(labels(ground, *node, column));
         }
     }
     if !matches!(ground.case().noise, NoiseClaim::Estimated) {
-        let mut scatter = generic(
-            ground,
-            "scatter",
-            Node::Output,
-            "row",
-            Vec::new(),
-            Vec::new(),
-        );
+        let mut scatter = generic(ground, "scatter", Node::Output, "row", &[]);
         scatter.place.along = String::new();
         cells.push(scatter);
     }
     cells
 }
 
-fn distinct(x: &[f64]) -> usize {
+/// What a smooth curve may follow.
+fn courses(ground: &Ground<'_>) -> Vec<(String, Vec<f64>)> {
+    let columns = ground.numeric().into_iter().chain(angles(ground));
+    let named = |column| {
+        (
+            ground.label(column).to_owned(),
+            ground.numbers(column).to_vec(),
+        )
+    };
+    let time = ground.clock.column.map_or_else(
+        || "row".to_owned(),
+        |column| ground.label(column).to_owned(),
+    );
+    columns
+        .map(named)
+        .chain([(time, ground.clock.values.clone())])
+        .collect()
+}
+
+fn distinct(x: &[f64]) -> Vec<f64> {
     let mut values = x.to_vec();
     values.sort_by(f64::total_cmp);
     values.dedup();
-    values.len()
+    values
 }
 
-fn term(node: Node, modifier: Vec<f64>) -> Term {
-    Term {
-        node,
-        response: None,
-        modifier,
-        text: String::new(),
-    }
-}
+/// A feature: what it multiplies, and the variance of its coefficient relative to the others.
+type Feature = (Vec<f64>, f64);
 
-fn smooth(ground: &Ground<'_>, node: Node, name: &str, course: &[f64], distinct: usize) -> Cell {
+fn smooth(ground: &Ground<'_>, node: Node, name: &str, course: &[f64]) -> Option<Cell> {
     let (least, most) = range(course);
-    let count = COSINES.min(distinct - 1);
-    let terms = (1..=count).map(|k| {
+    let count = COSINES.min(distinct(course).len() - 1);
+    if count < 3 {
+        return None;
+    }
+    let features = (1..=count).map(|k| {
         let wave = |x: f64| libm::cos(PI * k as f64 * (x - least) / (most - least));
-        term(node, map(course, wave))
-    });
-    // Spectrum of a Gaussian process with a squared exponential kernel on the unit interval.
-    let spectrum = (1..=count).map(|k| {
+        // Spectrum of a Gaussian process with a squared exponential kernel on the unit interval.
         let frequency = PI * k as f64 * LENGTH;
-        libm::exp(-frequency * frequency / 2.0).max(1e-3)
+        let variance = libm::exp(-frequency * frequency / 2.0).max(1e-3);
+        (map(course, wave), variance)
     });
-    generic(
-        ground,
-        "smooth",
-        node,
-        name,
-        terms.collect(),
-        spectrum.collect(),
-    )
+    let features: Vec<Feature> = features.collect();
+    Some(generic(ground, "smooth", node, name, &features))
 }
 
-fn generic(
-    ground: &Ground<'_>,
-    id: &str,
-    node: Node,
-    along: &str,
-    terms: Vec<Term>,
-    spectrum: Vec<f64>,
-) -> Cell {
+/// A value of its own at each value of a column that comes again and again.
+fn values(ground: &Ground<'_>, node: Node, column: usize) -> Option<Cell> {
+    let x = ground.numbers(column);
+    let values = distinct(x);
+    let features: Vec<Feature> = values
+        .iter()
+        .map(|value| (map(x, |x| f64::from(u8::from(x == *value))), 1.0))
+        .collect();
+    let few = values.len() >= 4 && values.len() * 2 <= ground.frame.blocks.len();
+    few.then(|| at_levels(ground, node, ground.label(column), &features))
+}
+
+/// A value of its own at each label.
+fn labels(ground: &Ground<'_>, node: Node, column: usize) -> Option<Cell> {
+    let labels = ground.case().columns[column].labels()?;
+    let levels = present(labels);
+    if levels.len() < 2 || levels.len() * 2 > ground.frame.blocks.len() {
+        return None;
+    }
+    let features: Vec<Feature> = levels
+        .iter()
+        .map(|level| (indicator(labels, *level), 1.0))
+        .collect();
+    let name = ground.label(column);
+    Some(at_levels(ground, node, name, &features))
+}
+
+/// A value of its own at every level, or at a single one.
+fn at_levels(ground: &Ground<'_>, node: Node, name: &str, features: &[Feature]) -> Cell {
+    /// More levels are not looked at one by one.
+    const MOST: usize = 24;
+    let mut cell = generic(ground, "levels", node, name, features);
+    if (3..=MOST).contains(&features.len()) {
+        for feature in features {
+            let single = generic(ground, "levels", node, name, std::slice::from_ref(feature));
+            cell.variants.extend(single.variants);
+        }
+    }
+    cell
+}
+
+/// On one response, and on each of them in its own way; an error of a column reaches all.
+fn generic(ground: &Ground<'_>, id: &str, node: Node, along: &str, features: &[Feature]) -> Cell {
+    let term = |(modifier, _): &Feature| Term::new(node, modifier.clone(), String::new());
+    let variances = features.iter().map(|(_, variance)| *variance);
+    let on = |response: usize| features.iter().map(move |f| term(f).on(response));
+    let responses = &ground.case().responses;
+    let mut variants = Vec::new();
+    let mut add = |label: &str, terms: Vec<Term>, spectrum: Vec<f64>| {
+        variants.push(Variation {
+            spectrum: Some(spectrum),
+            ..Variation::of(label, terms)
+        });
+    };
+    if responses.len() == 1 || matches!(node, Node::Column(_)) || features.is_empty() {
+        add("", features.iter().map(term).collect(), variances.collect());
+    } else {
+        for (index, response) in responses.iter().enumerate() {
+            add(
+                &response.name,
+                on(index).collect(),
+                variances.clone().collect(),
+            );
+        }
+        let terms = (0..responses.len()).flat_map(on).collect();
+        let spectrum = responses.iter().flat_map(|_| variances.clone()).collect();
+        add("", terms, spectrum);
+    }
     let mut words = words(ground, along);
     words.p = ground.name(node);
     Cell {
@@ -149,10 +185,7 @@ fn generic(
             node: ground.name(node),
             along: along.to_owned(),
         },
-        variants: vec![Variation {
-            spectrum: Some(spectrum),
-            ..Variation::of("", terms)
-        }],
+        variants,
         typical: None,
         description: None,
     }

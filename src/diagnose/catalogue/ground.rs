@@ -63,6 +63,16 @@ impl<'f> Ground<'f> {
         &self.signal[response]
     }
 
+    /// The signal of a response in a row, if a column had another value there.
+    pub fn signal_at(&self, response: usize, row: usize, column: usize, value: f64) -> f64 {
+        let case = self.case();
+        let mut symbols = self.frame.symbols(row, &self.fit.unknowns);
+        let there = case.equations.value(response, &symbols);
+        symbols[case.parameters.len() + column] = value;
+        let other = case.equations.value(response, &symbols);
+        self.signal[response][row] + other - there
+    }
+
     /// The slope of a response by a node, row by row.
     pub fn slope(&self, node: Node, response: usize) -> Vec<f64> {
         let slopes = &self.fit.linear.slopes[response];
@@ -90,6 +100,42 @@ impl<'f> Ground<'f> {
                 .map(|(s, m)| s * m)
                 .collect()
         })
+    }
+
+    /// The name of a column.
+    pub fn label(&self, column: usize) -> &str {
+        &self.case().columns[column].name
+    }
+
+    /// Whether a column is what some output takes in, or acts on it as a function of itself: no mere
+    /// factor of other columns.
+    pub fn is_direct(&self, column: usize) -> bool {
+        /// Values this near to one another, as a part of the range, are the same …
+        const NEAR: f64 = 1e-3;
+        /// … and so are slopes, as a part of the largest.
+        const SAME: f64 = 0.05;
+        let x = self.numbers(column);
+        let mut order: Vec<usize> = (0..x.len()).collect();
+        order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
+        let (least, most) = super::modifiers::range(x);
+        let by_itself = |response: usize| {
+            let slope = self.slope(Node::Column(column), response);
+            let size = super::modifiers::largest(&slope);
+            order.windows(2).all(|pair| {
+                let (a, b) = (pair[0], pair[1]);
+                let near = x[b] - x[a] <= NEAR * (most - least);
+                !near || (slope[a] - slope[b]).abs() <= SAME * size
+            })
+        };
+        let responses = 0..self.case().responses.len();
+        responses.clone().all(by_itself) || responses.clone().any(|r| self.takes_in(r, column))
+    }
+
+    /// Whether the signal of a response is that column, but for an offset, a factor and a trace.
+    pub fn takes_in(&self, response: usize, column: usize) -> bool {
+        const TRACE: f64 = 0.01;
+        let alike = super::modifiers::correlation(&self.signal[response], self.numbers(column));
+        alike.abs() > 1.0 - TRACE
     }
 
     /// Its name in reports.
@@ -142,6 +188,25 @@ impl<'f> Ground<'f> {
     /// Whether a column has the dimension of a unit.
     pub fn is_like(&self, column: usize, unit: &str) -> bool {
         like(&self.case().columns[column].unit, unit)
+    }
+
+    /// Whether a condition acts at once: pressure, voltage, vibration, speed, frequency, field. Heat and
+    /// moisture take their time.
+    pub fn is_immediate(&self, column: usize) -> bool {
+        let units = ["Pa", "V", "m/s^2", "m/s", "rad/s", "T"];
+        units.iter().any(|unit| self.is_like(column, unit))
+    }
+
+    /// Whether a column is stated in a unit of angle.
+    pub fn is_angle(&self, column: usize) -> bool {
+        let unit = &self.case().columns[column].unit;
+        let same = |text: &str| {
+            let other = UnitTable::default().parse(text);
+            other.is_ok_and(|other| other.factor == unit.factor && other.symbol == unit.symbol)
+        };
+        ["rad", "mrad", "µrad", "°", "deg", "arcmin", "arcsec"]
+            .into_iter()
+            .any(same)
     }
 
     /// The unit of time as text; `row` where no time was recorded.

@@ -20,12 +20,8 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         }
         match column.role {
             Role::Direction => cells.extend(directions(ground, &column.name, labels, &levels)),
-            Role::Run => {
-                cells.extend(shifts(ground, &column.name, labels, &levels));
-                cells.extend(changes(ground, &column.name, labels, &levels));
-            }
-            Role::Factor | Role::Axis => {
-                cells.extend(shifts(ground, &column.name, labels, &levels))
+            role @ (Role::Run | Role::Factor | Role::Axis) => {
+                cells.extend(shifts(ground, &column.name, labels, &levels, role));
             }
             _ => {}
         }
@@ -54,8 +50,14 @@ fn text(labels: &Labels, level: u32) -> &str {
     labels.levels.get(level as usize).map_or("", String::as_str)
 }
 
-/// Every level has a value of its own; or only one has.
-fn shifts(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> Vec<Cell> {
+/// Every level has a value of its own; or only one has; or all from one on, in the order of the recording.
+fn shifts(
+    ground: &Ground<'_>,
+    name: &str,
+    labels: &Labels,
+    levels: &[u32],
+    role: Role,
+) -> Vec<Cell> {
     let column = |level: u32| {
         (
             indicator(labels, level),
@@ -63,56 +65,36 @@ fn shifts(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> V
         )
     };
     // Differences to the first level: the mean is the model's own.
-    let all: Variants = vec![(
+    let all = (
         String::new(),
         levels[1..].iter().map(|level| column(*level)).collect(),
-    )];
-    let each: Variants = levels
-        .iter()
-        .map(|level| {
-            (
-                format!("{name} {}", text(labels, *level)),
-                vec![column(*level)],
-            )
-        })
-        .collect();
-    let mut cells = Vec::new();
-    for (node, shift, odd) in [
-        (Node::Output, "level-shift", "odd-level"),
-        (Node::Gain, "level-scale", "odd-level-scale"),
-    ] {
-        if node == Node::Gain && !ground.has_signal() {
-            continue;
-        }
-        cells.push(on_node(
-            ground,
-            shift,
-            words(ground, name),
-            name,
-            node,
-            all.clone(),
-        ));
-        // With two levels a shift of one is a shift between both.
-        if levels.len() > 2 {
-            cells.push(on_node(
-                ground,
-                odd,
-                words(ground, name),
-                name,
-                node,
-                each.clone(),
-            ));
-        }
+    );
+    let one = |level: &u32| {
+        let label = format!("{name} {}", text(labels, *level));
+        (label, vec![column(*level)])
+    };
+    let mut variants: Variants = vec![all];
+    // With two levels a shift of one is a shift between both.
+    if levels.len() > 2 {
+        variants.extend(levels.iter().map(one));
     }
-    cells
+    if role == Role::Run && levels.len() > 3 {
+        variants.extend(changes(name, labels, levels));
+    }
+    let nodes = [(Node::Output, "level-shift"), (Node::Gain, "level-scale")];
+    nodes
+        .into_iter()
+        .filter(|(node, _)| *node == Node::Output || ground.has_signal())
+        .map(|(node, id)| {
+            let words = words(ground, name);
+            on_node(ground, id, words, name, node, variants.clone())
+        })
+        .collect()
 }
 
-/// From one level on, in the order of the recording.
-fn changes(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> Vec<Cell> {
-    if levels.len() < 4 {
-        return Vec::new();
-    }
-    let variants: Variants = levels[2..levels.len() - 1]
+/// From one level on, with more than one level on both sides.
+fn changes(name: &str, labels: &Labels, levels: &[u32]) -> Variants {
+    levels[2..levels.len() - 1]
         .iter()
         .map(|first| {
             let modifier = labels
@@ -125,15 +107,7 @@ fn changes(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> 
                 vec![(modifier.collect(), format!("[{name} >= {label}]"))],
             )
         })
-        .collect();
-    vec![on_node(
-        ground,
-        "level-change",
-        words(ground, name),
-        name,
-        Node::Output,
-        variants,
-    )]
+        .collect()
 }
 
 fn directions(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> Vec<Cell> {

@@ -9,18 +9,31 @@
 //! | `effects.toml` | names, prose, formulas of all effects |
 //! | `modifiers` | what a disturbance may follow, computed row by row |
 //! | `ground` | slopes of the nodes, and which columns can be what |
-//! | `response`, `zero`, `conditions`, `time`, `waves`, `levels`, `parameters`, `angles`, `rows` | the cells of the grammar |
+//! | `response`, `limits` | what a stimulus does otherwise than declared |
+//! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
+//! | `implicit` | the same where the model holds a constant against several columns |
+//! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
+//! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
+//! | `heating`, `stem`, `waves`, `readout` | power of the signal, loss along a stem, what repeats, rounding and slips |
+//! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
 //! | `generics` | competitors without a name |
 
 mod angles;
 mod conditions;
+mod fields;
 mod generics;
 mod ground;
+mod heating;
+mod implicit;
+mod inputs;
 mod levels;
+mod limits;
 pub(super) mod modifiers;
 mod parameters;
+mod readout;
 mod response;
 mod rows;
+mod stem;
 mod time;
 mod user;
 mod waves;
@@ -167,7 +180,7 @@ type Modifier = (Vec<f64>, String);
 /// Labels of variants with the modifiers of their terms.
 type Variants = Vec<(String, Vec<Modifier>)>;
 
-/// A disturbance of one node, with one coefficient.
+/// A disturbance of one node.
 #[derive(Debug, Clone)]
 pub struct Term {
     /// The quantity that is disturbed.
@@ -178,6 +191,37 @@ pub struct Term {
     pub modifier: Vec<f64>,
     /// The modifier as a formula.
     pub text: String,
+    /// Whether it has the coefficient of the term before it: one disturbance, which reaches the responses
+    /// in different ways.
+    pub tied: bool,
+}
+
+impl Term {
+    /// A disturbance of all responses alike, with a coefficient of its own.
+    pub fn new(node: Node, modifier: Vec<f64>, text: String) -> Term {
+        Term {
+            node,
+            response: None,
+            modifier,
+            text,
+            tied: false,
+        }
+    }
+
+    /// On one response only.
+    #[must_use]
+    pub fn on(mut self, response: usize) -> Term {
+        self.response = Some(response);
+        self
+    }
+}
+
+/// Gives all terms the coefficient of the first.
+fn tied(mut terms: Vec<Term>) -> Vec<Term> {
+    for term in terms.iter_mut().skip(1) {
+        term.tied = true;
+    }
+    terms
 }
 
 impl Variation {
@@ -207,10 +251,21 @@ impl Variation {
         self
     }
 
+    /// Number of coefficients.
+    pub fn coefficients(&self) -> usize {
+        self.terms.iter().filter(|term| !term.tied).count()
+    }
+
     /// Observations × coefficients: derivatives of the outputs by the coefficients.
     pub fn columns(&self, ground: &Ground<'_>) -> DMatrix<f64> {
-        let columns: Vec<DVector<f64>> =
-            self.terms.iter().map(|term| ground.column(term)).collect();
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        for term in &self.terms {
+            let column = ground.column(term);
+            match columns.last_mut() {
+                Some(last) if term.tied => *last += column,
+                _ => columns.push(column),
+            }
+        }
         if columns.is_empty() {
             return DMatrix::zeros(ground.frame.observations(), 0);
         }
@@ -221,6 +276,8 @@ impl Variation {
 /// All candidates of the catalogue that this case can have, without those that the user excludes.
 pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = response::cells(ground);
+    cells.extend(inputs::cells(ground));
+    cells.extend(fields::cells(ground));
     cells.extend(conditions::cells(ground));
     cells.extend(zero::cells(ground));
     cells.extend(time::cells(ground));
@@ -229,6 +286,9 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells.extend(parameters::cells(ground));
     cells.extend(angles::cells(ground));
     cells.extend(rows::cells(ground));
+    cells.extend(readout::cells(ground));
+    cells.extend(stem::cells(ground));
+    cells.extend(heating::cells(ground));
     cells.extend(user::cells(ground));
     let settings = &ground.frame.case.settings;
     let wanted = |cell: &Cell| {
@@ -240,8 +300,29 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         (chosen || cell.effect.family == "user") && !settings.exclude.iter().any(named)
     };
     cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
+    let mut cells = distinct(cells);
     cells.extend(generics::cells(ground));
     cells
+}
+
+/// Without cells that do the same to every row as one before them: the nonlinearity "in head" and "in mount"
+/// of a model of head + mount.
+fn distinct(cells: Vec<Cell>) -> Vec<Cell> {
+    let terms = |cell: &Cell| -> Vec<(Node, Option<usize>, Vec<f64>)> {
+        let all = cell.variants.iter().flat_map(|variation| &variation.terms);
+        all.map(|term| (term.node, term.response, term.modifier.clone()))
+            .collect()
+    };
+    let mut kept: Vec<Cell> = Vec::new();
+    for cell in cells {
+        let mut alike = kept
+            .iter()
+            .filter(|other| other.effect.id == cell.effect.id);
+        if !alike.any(|other| terms(other) == terms(&cell)) {
+            kept.push(cell);
+        }
+    }
+    kept
 }
 
 #[cfg(test)]

@@ -34,6 +34,38 @@ pub fn lag(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
     out
 }
 
+/// First-order lag of a course that moves from dwell to dwell: each value is taken on at once, and held. It
+/// begins in balance. Where `came` says from which value a row was reached, and how long before, the course
+/// was there since the row before.
+pub fn held_lag(t: &[f64], x: &[f64], came: &[Option<(f64, f64)>], tau: f64) -> Vec<f64> {
+    let mut out: Vec<f64> = Vec::with_capacity(x.len());
+    let towards = |value: f64, before: f64, time: f64| {
+        value + (before - value) * libm::exp(-time.max(0.0) / tau)
+    };
+    for row in 0..x.len() {
+        let before = out.last().copied();
+        let gap = if row == 0 { 0.0 } else { t[row] - t[row - 1] };
+        out.push(match (came.get(row).copied().flatten(), before) {
+            (Some((from, since)), Some(before)) => {
+                towards(x[row], towards(from, before, gap - since), since)
+            }
+            (Some((from, since)), None) => towards(x[row], from, since),
+            (None, Some(before)) if gap >= 0.0 => towards(x[row], before, gap),
+            (None, _) => x[row],
+        });
+    }
+    out
+}
+
+/// First-order lag, as the course moves: steadily, or from dwell to dwell.
+pub fn late(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
+    if creeps(x) {
+        lag(t, x, tau)
+    } else {
+        held_lag(t, x, &[], tau)
+    }
+}
+
 /// Rate of change, by differences over the neighbouring rows.
 pub fn rate(t: &[f64], x: &[f64]) -> Vec<f64> {
     let last = x.len().saturating_sub(1);
@@ -108,6 +140,34 @@ pub fn range(x: &[f64]) -> (f64, f64) {
     (least, most)
 }
 
+/// The usual difference of successive values; 0 where nothing moves.
+pub fn typical_step(x: &[f64]) -> f64 {
+    let steps = x.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let mut steps: Vec<f64> = steps.filter(|step| *step > 0.0).collect();
+    steps.sort_by(f64::total_cmp);
+    steps.get(steps.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Whether a course moves by small steps, so that it has a rate of change; from dwell to dwell it has none.
+pub fn creeps(x: &[f64]) -> bool {
+    const SMALL: f64 = 0.15;
+    let (least, most) = range(x);
+    typical_step(x) < SMALL * (most - least)
+}
+
+/// Coefficient of correlation; 0 where one of both does not vary.
+pub fn correlation(x: &[f64], z: &[f64]) -> f64 {
+    let (x, z) = (centred(x), centred(z));
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let size = libm::sqrt(dot(&x, &x) * dot(&z, &z));
+    if size > 0.0 { dot(&x, &z) / size } else { 0.0 }
+}
+
+/// The largest modulus.
+pub fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0_f64, |most, x| most.max(x.abs()))
+}
+
 /// Element by element.
 pub fn map2(x: &[f64], z: &[f64], f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     x.iter().zip(z).map(|(x, z)| f(*x, *z)).collect()
@@ -127,6 +187,17 @@ mod tests {
         let t: Vec<f64> = (0..400).map(|i| 0.1 * f64::from(i)).collect();
         let lagged = lag(&t, &t, 2.0);
         assert!((lagged[399] - (t[399] - 2.0)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_step_that_is_held_decays() {
+        let lagged = held_lag(&[0.0, 1.0, 3.0], &[0.0, 1.0, 1.0], &[], 2.0);
+        assert!((lagged[1] - (1.0 - libm::exp(-0.5))).abs() < 1e-12);
+        assert!((lagged[2] - (1.0 - libm::exp(-1.5))).abs() < 1e-12);
+        // The first value was reached from 3, one unit of time before.
+        let came = held_lag(&[0.0, 1.0], &[2.0, 2.0], &[Some((3.0, 1.0)), None], 2.0);
+        assert!((came[0] - (2.0 + libm::exp(-0.5))).abs() < 1e-12);
+        assert!((came[1] - (2.0 + libm::exp(-1.0))).abs() < 1e-12);
     }
 
     #[test]

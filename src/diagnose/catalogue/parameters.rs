@@ -3,7 +3,7 @@
 
 use super::ground::{Ground, Node, varies};
 use super::levels::{indicator, present};
-use super::modifiers::{centred, figure, mean};
+use super::modifiers::{centred, figure, largest, mean};
 use super::response::{on_node, words};
 use super::{Cell, Modifier};
 use crate::diagnose::case::Role;
@@ -39,9 +39,11 @@ fn shaping(ground: &Ground<'_>) -> Vec<usize> {
 }
 
 fn proportional(a: &[f64], b: &[f64]) -> bool {
+    /// A signal with a trace of another input still has a scale of its own.
+    const TRACE: f64 = 0.01;
     let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
     let (ab, aa, bb) = (dot(a, b), dot(a, a), dot(b, b));
-    ab * ab >= (1.0 - 1e-6) * aa * bb
+    ab * ab >= (1.0 - TRACE) * aa * bb
 }
 
 fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
@@ -70,7 +72,8 @@ fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
             vec![(centred(&ground.clock.values), text)],
         );
     }
-    for column in &case.columns {
+    let turns = turns_an_angle(ground, node);
+    for column in case.columns.iter().filter(|_| !turns) {
         let Some(labels) = column.labels() else {
             continue;
         };
@@ -91,4 +94,29 @@ fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
         add("parameter-shift", &column.name, shifts.collect());
     }
     cells
+}
+
+/// Whether a parameter does what an error of an angle does, in some mounts or in all: from run to run that
+/// error is a competitor of its own.
+fn turns_an_angle(ground: &Ground<'_>, node: Node) -> bool {
+    /// Where the angle does less than this part of the most it does, nothing can be compared.
+    const LITTLE: f64 = 0.1;
+    let slope = ground.slope(node, 0);
+    let is_of = |angle: usize| {
+        let by_angle = ground.slope(Node::Column(angle), 0);
+        let least = LITTLE * largest(&by_angle);
+        let ratios = slope.iter().zip(&by_angle);
+        let ratios = ratios.filter(|(_, a)| a.abs() > least).map(|(s, a)| s / a);
+        let ratios: Vec<f64> = ratios.collect();
+        let size = largest(&ratios);
+        let mut kinds: Vec<i64> = ratios
+            .iter()
+            .map(|r| (20.0 * r / size).round() as i64)
+            .collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        kinds.len() <= 2
+    };
+    let angles = ground.case().with_role(Role::Angle);
+    angles.filter(|c| ground.in_model(*c)).any(is_of)
 }

@@ -2,14 +2,16 @@
 //! lag, history.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{centred, direction, figure, grid, lag, map, map2, mean, play, range, rate};
+use super::modifiers::{
+    centred, creeps, direction, figure, grid, late, map, map2, mean, play, range, rate,
+    typical_step,
+};
 use super::{Cell, Term, Variants, Variation, Words, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
 /// Cells of the columns that the model uses.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let mut cells = Vec::new();
     let used: Vec<usize> = ground
         .numeric()
         .into_iter()
@@ -17,17 +19,20 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         .collect();
     let implicit = (0..ground.case().responses.len()).all(|r| ground.is_implicit(r));
     if implicit {
-        cells.extend(axes(ground, &used));
-        return cells;
+        return super::implicit::cells(ground, &used);
     }
-    for column in &used {
+    // A factor of a product is not what an axis takes in; it may act on the offset all the same.
+    let (direct, factors): (Vec<usize>, Vec<usize>) =
+        used.iter().partition(|column| ground.is_direct(**column));
+    let mut cells = aside(ground, &factors);
+    for column in &direct {
         cells.extend(powers(ground, *column));
-        cells.extend(limits(ground, *column));
+        cells.extend(super::limits::cells(ground, *column));
         cells.extend(dynamics(ground, *column));
         cells.extend(history(ground, *column));
     }
-    for (at, x) in used.iter().enumerate() {
-        for z in &used[at + 1..] {
+    for (at, x) in direct.iter().enumerate() {
+        for z in &direct[at + 1..] {
             cells.push(interaction(ground, *x, *z));
         }
     }
@@ -63,10 +68,12 @@ pub(super) fn on_node(
                 response,
                 modifier: modifier.clone(),
                 text: text.clone(),
+                tied: false,
             });
             terms.collect::<Vec<Term>>()
         };
-        if responses.len() == 1 {
+        // An error of a column reaches all responses through the model.
+        if responses.len() == 1 || matches!(node, Node::Column(_)) {
             all.push(Variation::of(label, term(None)));
             continue;
         }
@@ -105,8 +112,39 @@ pub(super) fn words(ground: &Ground<'_>, x: &str) -> Words {
     }
 }
 
+/// What factors of products do by themselves: those of one unit are components of one vector, such as
+/// the direction of gravity in a gyroscope.
+fn aside(ground: &Ground<'_>, factors: &[usize]) -> Vec<Cell> {
+    let mut vectors: Vec<Vec<usize>> = Vec::new();
+    let unit = |column: usize| &ground.case().columns[column].unit;
+    // The angle of a mount turns other things; by itself it does nothing.
+    for column in factors.iter().filter(|c| !ground.is_angle(**c)) {
+        match vectors.iter_mut().find(|v| unit(v[0]) == unit(*column)) {
+            Some(vector) => vector.push(*column),
+            None => vectors.push(vec![*column]),
+        }
+    }
+    let of_vector = |vector: &Vec<usize>| {
+        let names: Vec<&str> = vector.iter().map(|c| name(ground, *c)).collect();
+        let names = names.join(", ");
+        let each = vector.iter().map(|column| {
+            let (x, label) = (ground.numbers(*column), name(ground, *column));
+            let text = format!("({label} - {})", figure(mean(x)));
+            (centred(x), text)
+        });
+        let id = match ground.case().columns[vector[0]].role {
+            _ if ground.is_temperature(vector[0]) => "tempco-bias",
+            Role::Stimulus => "cross-sensitivity",
+            _ => "sensitivity",
+        };
+        let variants = vec![(String::new(), each.collect())];
+        on_outputs(ground, id, words(ground, &names), &names, variants)
+    };
+    vectors.iter().map(of_vector).collect()
+}
+
 fn name<'g>(ground: &'g Ground<'_>, column: usize) -> &'g str {
-    &ground.case().columns[column].name
+    ground.label(column)
 }
 
 fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
@@ -145,7 +183,6 @@ fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     );
     if crosses_zero(x) {
         add("asymmetry", map(x, f64::abs), format!("abs({label})"));
-        add("zero-step", map(x, sign), format!("sign({label})"));
     }
     cells
 }
@@ -156,59 +193,8 @@ pub(super) fn crosses_zero(x: &[f64]) -> bool {
     least < 0.0 && most > 0.0 && (-least).min(most) > 0.1 * (-least).max(most)
 }
 
-fn sign(x: f64) -> f64 {
-    if x == 0.0 { 0.0 } else { x.signum() }
-}
-
-fn limits(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
-    let (x, label) = (ground.numbers(column), name(ground, column));
-    let levels = levels_of(x);
-    if levels.len() < 6 {
-        return Vec::new();
-    }
-    let unit = ground.case().columns[column].unit.typeset();
-    let mut cells = Vec::new();
-    if crosses_zero(x) {
-        let most = x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let variants = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| {
-            let limit = share * most;
-            let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * sign(x));
-            let text = format!(
-                "-sign({label})*max(abs({label}) - {limit}, 0)",
-                limit = figure(limit)
-            );
-            let mut variation = Variation::one(
-                format!("above {limit} {unit}", limit = figure(limit)),
-                on_output(modifier, text),
-            );
-            variation = variation.shaped("x₀", limit, &unit);
-            variation
-        });
-        cells.push(plain(ground, "saturation", label, variants.into()));
-    }
-    let (least, most) = range(x);
-    let shares: Vec<f64> = (1..12).map(|step| f64::from(step) / 12.0).collect();
-    let variants = shares.iter().map(|share| {
-        let at = least + share * (most - least);
-        let modifier = map(x, |x| (x - at).max(0.0));
-        let text = format!("max({label} - {at}, 0)", at = figure(at));
-        Variation::one(
-            format!("at {at} {unit}", at = figure(at)),
-            on_output(modifier, text),
-        )
-        .shaped("x₀", at, &unit)
-    });
-    cells.push(plain(ground, "kink", label, variants.collect()));
-    cells
-}
-
 pub(super) fn on_output(modifier: Vec<f64>, text: String) -> Term {
-    Term {
-        node: Node::Output,
-        response: None,
-        modifier,
-        text,
-    }
+    Term::new(Node::Output, modifier, text)
 }
 
 /// A cell on the offset, alike on all responses.
@@ -227,7 +213,7 @@ pub(super) fn plain(ground: &Ground<'_>, id: &str, x: &str, variants: Vec<Variat
 }
 
 /// Different values, ascending.
-fn levels_of(x: &[f64]) -> Vec<f64> {
+pub(super) fn levels_of(x: &[f64]) -> Vec<f64> {
     let mut levels = x.to_vec();
     levels.sort_by(f64::total_cmp);
     levels.dedup();
@@ -255,16 +241,22 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     } else {
         "lag"
     };
-    let variants = time_constants(ground).into_iter().map(|tau| {
-        let modifier = map2(&lag(t, x, tau), x, |lagged, x| lagged - x);
-        let term = Term {
-            node,
-            response: None,
-            modifier,
-            text: format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau)),
-        };
-        Variation::one(format!("τ = {tau} {unit}", tau = figure(tau)), term).shaped("τ", tau, &unit)
+    let scales = time_constants(ground);
+    let lacks = |tau: f64| {
+        let modifier = map2(&late(t, x, tau), x, |late, x| late - x);
+        let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
+        Term::new(node, modifier, text)
+    };
+    let single = scales.iter().map(|tau| {
+        let label = format!("τ = {} {unit}", figure(*tau));
+        Variation::one(label, lacks(*tau)).shaped("τ", *tau, &unit)
     });
+    // Two bodies, one in the other.
+    let double = scales.iter().step_by(2).map(|tau| {
+        let label = format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau));
+        Variation::of(label, vec![lacks(*tau), lacks(4.0 * tau)])
+    });
+    let variants = single.chain(double);
     let lagged = Cell {
         effect: effect(id),
         words: words(ground, label),
@@ -284,16 +276,15 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         }),
         variants: vec![Variation::one(
             "",
-            Term {
-                node,
-                response: None,
-                modifier: rate(t, x),
-                text: format!("d{label}/dt"),
-            },
+            Term::new(node, rate(t, x), format!("d{label}/dt")),
         )],
         ..lagged.clone()
     };
-    vec![lagged, skew]
+    if creeps(x) {
+        vec![lagged, skew]
+    } else {
+        vec![lagged]
+    }
 }
 
 fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
@@ -314,15 +305,14 @@ fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         .filter(|width| *width < 2.0 * step || step == 0.0);
     let variants = widths.map(|width| {
         let modifier = map2(&play(x, width), x, |played, x| (played - x) / width);
-        let term = Term {
-            node: Node::Column(column),
-            response: None,
+        let term = Term::new(
+            Node::Column(column),
             modifier,
-            text: format!(
+            format!(
                 "(play({label}, {width}) - {label})/{width}",
                 width = figure(width)
             ),
-        };
+        );
         Variation::one(format!("gap {width} {unit}", width = figure(width)), term)
     });
     // A gap far below the steps is the direction alone.
@@ -382,16 +372,6 @@ fn repeats(x: &[f64]) -> bool {
         > 0
 }
 
-fn typical_step(x: &[f64]) -> f64 {
-    let mut steps: Vec<f64> = x
-        .windows(2)
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .filter(|step| *step > 0.0)
-        .collect();
-    steps.sort_by(f64::total_cmp);
-    steps.get(steps.len() / 2).copied().unwrap_or(0.0)
-}
-
 fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {
     let modifier = map2(
         &centred(ground.numbers(x)),
@@ -406,86 +386,4 @@ fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {
         ..words(ground, &x)
     };
     on_outputs(ground, "interaction", words, &format!("{x}, {z}"), variants)
-}
-
-/// Models that hold a constant against several columns, such as |a| = g: disturbances of each column.
-fn axes(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
-    let term = |column: usize, modifier: Vec<f64>, text: String| Term {
-        node: Node::Column(column),
-        response: None,
-        modifier,
-        text,
-    };
-    let cell = |id: &str, variants: Vec<Variation>| {
-        let names: Vec<&str> = used.iter().map(|c| name(ground, *c)).collect();
-        let joined = names.join(", ");
-        Cell {
-            effect: effect(id),
-            words: Words {
-                p: joined.clone(),
-                ..words(ground, &joined)
-            },
-            place: Place {
-                node: "axes".into(),
-                along: joined,
-            },
-            variants,
-            typical: None,
-            description: None,
-        }
-    };
-    let mut cells = Vec::new();
-    let mut pairs = Vec::new();
-    for (at, x) in used.iter().enumerate() {
-        for z in &used[at + 1..] {
-            let other = centred(ground.numbers(*z));
-            let text = format!("({} - mean)", name(ground, *z));
-            pairs.push((
-                format!("{} with {}", name(ground, *x), name(ground, *z)),
-                term(*x, other, text),
-            ));
-        }
-    }
-    cells.push(cell("cross-axis", singles_and_all(pairs)));
-    type Law = fn(f64) -> f64;
-    let laws: [(&str, &str, Law); 3] = [
-        ("axis-quadratic", "^2", |x| x * x),
-        ("axis-cubic", "^3", |x| x * x * x),
-        ("axis-asymmetry", " as modulus", f64::abs),
-    ];
-    for (id, sign, law) in laws {
-        let own = used.iter().map(|column| {
-            let centre = mean_of_range(ground.numbers(*column));
-            let modifier = map(ground.numbers(*column), |x| law(x - centre));
-            let label = name(ground, *column);
-            (
-                label.to_owned(),
-                term(
-                    *column,
-                    modifier,
-                    format!("({label} - {centre}){sign}", centre = figure(centre)),
-                ),
-            )
-        });
-        cells.push(cell(id, singles_and_all(own.collect())));
-    }
-    cells
-}
-
-/// The middle of the range, where a sensor that turned through all positions has its zero.
-fn mean_of_range(x: &[f64]) -> f64 {
-    let (least, most) = range(x);
-    (least + most) / 2.0
-}
-
-fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {
-    let all: Vec<Term> = terms.iter().map(|(_, term)| term.clone()).collect();
-    let mut variants: Vec<Variation> = terms
-        .into_iter()
-        .map(|(label, term)| Variation::one(label, term))
-        .collect();
-    if all.len() > 1 {
-        variants.push(Variation::of("all", all));
-    }
-    variants
 }

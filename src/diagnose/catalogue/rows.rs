@@ -2,7 +2,7 @@
 
 use super::ground::{Ground, Node};
 use super::response::{on_output, plain};
-use super::{Cell, Term, Variation, effect};
+use super::{Cell, Term, Variation, effect, tied};
 use crate::diagnose::evidence::Place;
 
 /// Longer recordings are not searched row by row.
@@ -15,9 +15,8 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         return Vec::new();
     }
     let outliers = blocks.iter().map(|rows| {
-        let terms = (0..ground.case().responses.len()).map(|response| Term {
-            response: Some(response),
-            ..on_output(only(ground, rows, 1.0), format!("[{}]", named(rows)))
+        let terms = (0..ground.case().responses.len()).map(|response| {
+            on_output(only(ground, rows, 1.0), format!("[{}]", named(rows))).on(response)
         });
         Variation::of(named(rows), terms.collect())
     });
@@ -56,23 +55,12 @@ fn swapped(ground: &Ground<'_>) -> Cell {
             modifier[row + 1] = -step;
             (response, modifier)
         });
-        // All responses of a row are exchanged together: one coefficient.
-        let terms: Vec<(usize, Vec<f64>)> = terms.collect();
         let label = format!("rows {} and {}", row + 1, row + 2);
-        let text = format!("exchange of {label}");
-        match terms.as_slice() {
-            [(_, modifier)] => Variation::one(label, on_output(modifier.clone(), text)),
-            _ => Variation::of(
-                label,
-                terms
-                    .into_iter()
-                    .map(|(response, modifier)| Term {
-                        response: Some(response),
-                        ..on_output(modifier, text.clone())
-                    })
-                    .collect(),
-            ),
-        }
+        // All responses of a row are exchanged together: one coefficient.
+        let terms = terms.map(|(response, modifier)| {
+            on_output(modifier, format!("exchange of {label}")).on(response)
+        });
+        Variation::of(label.clone(), tied(terms.collect()))
     });
     plain(ground, "swapped", "row", variants.collect())
 }
@@ -91,12 +79,11 @@ fn reversed(ground: &Ground<'_>) -> Cell {
         for level in levels {
             let own = super::levels::indicator(labels, level);
             let label = format!("{} {}", column.name, labels.levels[level as usize]);
-            let term = Term {
-                node: Node::Gain,
-                response: None,
-                modifier: own.iter().map(|x| -2.0 * x).collect(),
-                text: format!("-2*[{label}]"),
-            };
+            let term = Term::new(
+                Node::Gain,
+                own.iter().map(|x| -2.0 * x).collect(),
+                format!("-2*[{label}]"),
+            );
             variants.push(Variation::one(label, term));
         }
     }

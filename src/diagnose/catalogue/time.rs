@@ -55,50 +55,35 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             cells.push(cell);
         }
     };
-    let linear = centred(t);
-    add(
-        ["drift", "drift-scale"],
-        single("", linear.clone(), format!("({along} - mean)")),
-        None,
+    let steady = single("", centred(t), format!("({along} - mean)"));
+    let scales = grid(
+        (span * 3e-3).max(ground.clock.interval()),
+        span / 3.0,
+        2.2,
+        7,
     );
+    let mut drifts = steady;
+    if ground.is_timed() {
+        drifts.extend(curved(ground, &since, &scales));
+    }
+    add(["drift", "drift-scale"], drifts, Some("t₀"));
     add(["step", "step-scale"], steps(ground, &along), None);
     if ground.is_timed() {
-        let both = vec![(
-            String::new(),
-            vec![
-                (linear.clone(), format!("({along} - mean)")),
-                (map(&linear, |t| t * t), format!("({along} - mean)^2")),
-            ],
-        )];
-        add(["curved-drift", ""], both, None);
         let unit = ground.time_unit();
-        let scales = grid(
-            (span * 3e-3).max(ground.clock.interval()),
-            span / 3.0,
-            2.2,
-            7,
-        );
-        let logarithms = scales.iter().map(|scale| {
-            let modifier = map(&since, |t| libm::log1p(t / scale));
-            (
-                format!("t₀ = {scale} {unit}", scale = figure(*scale)),
-                vec![(
-                    modifier,
-                    format!("ln(1 + t/{scale})", scale = figure(*scale)),
-                )],
-            )
+        let decay = |tau: f64| {
+            let modifier = map(&since, |t| libm::exp(-t / tau));
+            (modifier, format!("exp(-t/{})", figure(tau)))
+        };
+        let single = scales.iter().map(|tau| {
+            let label = format!("τ = {} {unit}", figure(*tau));
+            (label, vec![decay(*tau)])
         });
-        add(["ageing", ""], logarithms.collect(), Some("t₀"));
-        let decays: Variants = scales
-            .iter()
-            .map(|tau| {
-                let modifier = map(&since, |t| libm::exp(-t / tau));
-                (
-                    format!("τ = {tau} {unit}", tau = figure(*tau)),
-                    vec![(modifier, format!("exp(-t/{tau})", tau = figure(*tau)))],
-                )
-            })
-            .collect();
+        // A small body warms in a large one.
+        let double = scales.iter().step_by(2).map(|tau| {
+            let label = format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau));
+            (label, vec![decay(*tau), decay(4.0 * tau)])
+        });
+        let decays = single.chain(double).collect();
         add(["warm-up", "warm-up-scale"], decays, Some("τ"));
         for (id, period, least, most) in [
             ("season", 365.2422 * 86_400.0, 0.75, 60.0),
@@ -122,16 +107,45 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells
 }
 
+/// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes
+/// relax, or with its root, as where something diffuses.
+fn curved(ground: &Ground<'_>, since: &[f64], scales: &[f64]) -> Variants {
+    let unit = ground.time_unit();
+    let logarithms = scales.iter().map(|scale| {
+        let shown = figure(*scale);
+        (
+            format!("slowing down, t₀ = {shown} {unit}"),
+            vec![(
+                map(since, |t| libm::log1p(t / scale)),
+                format!("ln(1 + t/{shown})"),
+            )],
+        )
+    });
+    let root = (
+        "with the root of time".to_owned(),
+        vec![(map(since, libm::sqrt), "sqrt(t)".to_owned())],
+    );
+    let linear = centred(since);
+    let bent = (
+        "bent".to_owned(),
+        vec![
+            (linear.clone(), "(t - mean)".to_owned()),
+            (map(&linear, |t| t * t), "(t - mean)^2".to_owned()),
+        ],
+    );
+    logarithms.chain([root, bent]).collect()
+}
+
 /// Notes the continuous parameter that stands in the labels.
 fn shaped(ground: &Ground<'_>, cell: &mut Cell, symbol: &'static str) {
     let unit = ground.time_unit();
     for variation in &mut cell.variants {
-        let number = variation
-            .label
-            .split("= ")
-            .nth(1)
-            .and_then(|rest| rest.split(' ').next());
-        if let Some(value) = number.and_then(|number| number.parse().ok()) {
+        // Two time constants are not one.
+        let single = !variation.label.contains(" and ");
+        let number = variation.label.split("= ").nth(1);
+        let number = number.and_then(|rest| rest.split(' ').next());
+        let value = number.and_then(|number| number.parse().ok());
+        if let Some(value) = value.filter(|_| single) {
             *variation = variation.clone().shaped(symbol, value, &unit);
         }
     }

@@ -36,12 +36,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             },
             variants: vec![Variation::one(
                 "",
-                Term {
-                    node,
-                    response: None,
-                    modifier,
-                    text: format!("({})", candidate.formula),
-                },
+                Term::new(node, modifier, format!("({})", candidate.formula)),
             )],
             typical: candidate.typical,
             description: candidate.description.clone(),

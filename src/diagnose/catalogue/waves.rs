@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::Cell;
 use super::Variants;
 use super::ground::Ground;
-use super::modifiers::{figure, map, range};
+use super::modifiers::{correlation, figure, map, range};
 use super::response::{on_outputs, words};
 use crate::diagnose::case::Role;
 
@@ -47,7 +47,12 @@ fn courses(ground: &Ground<'_>) -> Vec<Course> {
             values: ground.numbers(column).to_vec(),
         })
         .collect();
-    if ground.is_ordered() {
+    // Where a stimulus or an angle went on with the time, a wave is one over that.
+    let goes_on = |column: &usize| {
+        matches!(case.columns[*column].role, Role::Stimulus | Role::Angle)
+            && correlation(ground.numbers(*column), &ground.clock.values).abs() > 0.999
+    };
+    if ground.is_ordered() && !(0..case.columns.len()).any(|column| goes_on(&column)) {
         courses.push(Course {
             name: ground.along_time(),
             unit: ground.time_unit(),

@@ -22,6 +22,9 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = vec![cell(ground, "zero", Node::Output, one(), "1")];
     for (column, data) in ground.case().columns.iter().enumerate() {
         let exact = matches!(data.role, Role::Stimulus | Role::Angle | Role::Time);
+        // A direction or a switch by which the model multiplies has no scale to be wrong.
+        let has_scale = !data.unit.is_one() || ground.is_direct(column);
+        let exact = exact && has_scale;
         let Some(numbers) = data.numbers().filter(|_| exact && ground.in_model(column)) else {
             continue;
         };

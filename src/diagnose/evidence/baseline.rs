@@ -20,7 +20,8 @@ pub struct Prior {
 #[derive(Debug, Clone)]
 pub struct Baseline {
     rows: usize,
-    factor: Factor,
+    /// W = L⁻¹.
+    whitener: Factor,
     /// Factors of the draws of the covariance matrix.
     draws: Vec<Factor>,
     scale_dof: f64,
@@ -65,7 +66,7 @@ impl Baseline {
         let (rows, parameters) = jacobian.shape();
         check_sizes(jacobian, residuals, noise, prior)?;
         check_finite(jacobian, residuals, prior)?;
-        let factor = Factor::of(&noise.covariance)?;
+        let whitener = Factor::of(&noise.covariance)?.inverse()?;
         let draws = noise
             .draws
             .iter()
@@ -78,9 +79,9 @@ impl Baseline {
                 parameters,
             });
         }
-        let whitened = stacked(factor.whiten(jacobian), &prior.jacobian);
+        let whitened = stacked(whitener.times(jacobian), &prior.jacobian);
         let response = stacked(
-            factor.whiten(&DMatrix::from_column_slice(rows, 1, residuals.as_slice())),
+            whitener.times(&DMatrix::from_column_slice(rows, 1, residuals.as_slice())),
             &DMatrix::from_column_slice(prior.residuals.len(), 1, prior.residuals.as_slice()),
         );
         let lengths: Vec<f64> = whitened.column_iter().map(|c| c.norm()).collect();
@@ -98,7 +99,7 @@ impl Baseline {
         let left = response - &absorbed * &explained;
         Ok(Baseline {
             rows,
-            factor,
+            whitener,
             draws,
             scale_dof: noise.scale_dof,
             explained: explained.column(0).into_owned(),
@@ -159,12 +160,19 @@ impl Baseline {
     /// for a column of zeros.
     pub fn visibility(&self, column: &DVector<f64>) -> f64 {
         let column = DMatrix::from_column_slice(column.len(), 1, column.as_slice());
-        let whole = self.whiten(&column).norm_squared();
-        if whole > 0.0 {
-            self.project(&column).norm_squared() / whole
-        } else {
-            0.0
-        }
+        self.visibilities(&column)[0]
+    }
+
+    /// As [`Baseline::visibility`] for every column.
+    pub fn visibilities(&self, columns: &DMatrix<f64>) -> Vec<f64> {
+        let whitened = self.whiten(columns);
+        let along = self.absorbed.tr_mul(&whitened);
+        let seen = &whitened - &self.absorbed * along;
+        let share = |(seen, whole): (f64, f64)| if whole > 0.0 { seen / whole } else { 0.0 };
+        let squares = seen.column_iter().zip(whitened.column_iter());
+        squares
+            .map(|(seen, whole)| share((seen.norm_squared(), whole.norm_squared())))
+            .collect()
     }
 
     /// Change of the fitted parameters per unit of each column's coefficient when it is adopted, p × d:
@@ -177,7 +185,7 @@ impl Baseline {
     pub(super) fn whiten(&self, columns: &DMatrix<f64>) -> DMatrix<f64> {
         let prior_rows = self.left.len() - self.rows;
         stacked(
-            self.factor.whiten(columns),
+            self.whitener.times(columns),
             &DMatrix::zeros(prior_rows, columns.ncols()),
         )
     }
@@ -195,10 +203,10 @@ impl Baseline {
     /// Standard normal columns of n + k rows, given the covariance matrix of draw number `draw` and
     /// whitened with the best estimate.
     pub(super) fn recolor(&self, draw: usize, normals: &DMatrix<f64>) -> DMatrix<f64> {
-        let colored = self.draws[draw].color(&normals.rows(0, self.rows).into_owned());
+        let colored = self.draws[draw].times(&normals.rows(0, self.rows).into_owned());
         let prior_rows = self.left.len() - self.rows;
         stacked(
-            self.factor.whiten(&colored),
+            self.whitener.times(&colored),
             &normals.rows(self.rows, prior_rows).into_owned(),
         )
     }

@@ -70,6 +70,7 @@ pub(super) fn named(d: usize, fit: f64, rss: f64, scale: Scale) -> f64 {
 /// the ladder.
 #[derive(Debug, Clone)]
 pub(super) struct Ladder {
+    eigenvalues: Vec<f64>,
     steps: Vec<Step>,
 }
 
@@ -90,6 +91,7 @@ impl Ladder {
     /// For the eigenvalues eₖ, which sum to about one.
     pub(super) fn new(eigenvalues: &[f64]) -> Ladder {
         Ladder {
+            eigenvalues: eigenvalues.to_vec(),
             steps: SIZES
                 .iter()
                 .map(|s| Step {
@@ -98,6 +100,11 @@ impl Ladder {
                 })
                 .collect(),
         }
+    }
+
+    /// √eₖ.
+    pub(super) fn roots(&self) -> Vec<f64> {
+        self.eigenvalues.iter().map(|e| e.sqrt()).collect()
     }
 
     /// Logarithm of the Bayes factor against none, given the squared components of the residuals along

@@ -3,20 +3,21 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
+use super::beside::{Beside, Rest};
 use super::closed_form::log_sum;
 use super::findings::{Confusion, Slot};
 use super::fit::{Estimate, estimate};
-use super::null::Null;
+use super::null::{Recordings, Simulated};
 use super::question::{Kind, Question};
 use super::search::frame_of;
-use super::space::{Block, Frame, Residual, Space};
+use super::space::{Frame, Residual, Space};
 
-/// Stage of the random numbers, apart from those of other tests.
-const STAGE: u64 = 0x1_0000_0003;
 /// Explanations that are simulated for each slot.
 const TRUTHS: usize = 4;
+/// Standard deviations of the noise by which an explanation is worse than the best to be hopeless.
+const HOPELESS: f64 = 8.0;
 /// Candidates that occur in less than this share of the recordings are not told.
 const RARE: f64 = 0.001;
 
@@ -27,6 +28,7 @@ pub(super) fn confusions(
     question: &Question,
     named: &[usize],
     slots: &[Slot],
+    simulated: &Simulated,
 ) -> Vec<Confusion> {
     let mut found = Vec::new();
     for (place, slot) in slots.iter().enumerate() {
@@ -38,7 +40,7 @@ pub(super) fn confusions(
         };
         let others: Vec<usize> = named.iter().copied().filter(|b| *b != own).collect();
         let rest = frame_of(space, &others);
-        let bench = Bench::new(space, question, &rest);
+        let bench = Bench::new(space, question, &rest, simulated);
         let atoms = slot.named.iter().map(|one| one.variants[0].atom);
         let nearest = slot.named[0].nearest.as_ref().map(|rival| rival.atom);
         let mut truths: Vec<usize> = Vec::new();
@@ -56,63 +58,69 @@ pub(super) fn confusions(
 }
 
 /// All named blocks beside the rest of a set, and errors to add to an effect.
-struct Bench {
-    blocks: Vec<Block>,
-    residual: Residual,
-    /// Errors with parameters and the rest absorbed, one recording per row.
+struct Bench<'a> {
+    space: &'a Space,
+    beside: Beside<'a>,
+    recordings: &'a Recordings,
+    /// Components of the errors along the directions of all blocks, beside the set.
     errors: DMatrix<f64>,
-    offsets: Vec<f64>,
+    residuals: Vec<Residual>,
 }
 
-impl Bench {
-    fn new(space: &Space, question: &Question, rest: &Frame) -> Bench {
-        let chunk = Null::new(question.baseline, question.settings.seed, STAGE).chunk(0);
-        let mut errors = chunk.errors;
-        for basis in [question.baseline.absorbed(), &rest.basis] {
-            errors -= (&errors * basis) * basis.transpose();
-        }
+impl<'a> Bench<'a> {
+    fn new(
+        space: &'a Space,
+        question: &Question,
+        rest: &'a Frame,
+        simulated: &'a Simulated,
+    ) -> Bench<'a> {
+        let recordings = simulated.chunk(0);
+        let beside = Beside::new(space, question, rest);
+        let set = &recordings.errors * &rest.basis;
+        let mut errors = recordings.components.clone();
+        beside.reduce(&mut errors, &set);
         Bench {
-            blocks: space
-                .beside(rest, question)
-                .into_iter()
-                .filter(|block| block.kind() == Kind::Named)
-                .collect(),
-            residual: space.residual(rest),
+            residuals: recordings.residuals(&set, beside.residual),
+            space,
+            beside,
+            recordings,
             errors,
-            offsets: chunk.offsets,
         }
     }
 
     /// The most probable candidates of recordings with an effect, and their shares.
     fn names(&self, truth: &Estimate) -> Vec<(usize, f64)> {
-        let effect = truth.visible.transpose() / truth.sigma;
-        let lanes = self.errors.nrows();
-        let mut recordings = self.errors.clone();
-        for mut row in recordings.row_iter_mut() {
-            row += &effect;
-        }
-        let residuals: Vec<Residual> = (0..lanes)
-            .map(|lane| {
-                let chi_squared = recordings.row(lane).norm_squared();
+        let effect = &truth.visible / truth.sigma;
+        let along = self.space.directions.tr_mul(&effect);
+        let crossed = &self.recordings.errors * &effect;
+        let residuals: Vec<Residual> = (self.residuals.iter().enumerate())
+            .map(|(lane, errors)| {
+                let more = effect.norm_squared() + 2.0 * crossed[lane];
                 Residual {
-                    chi_squared,
-                    rss: chi_squared + self.offsets[lane],
-                    ..self.residual
+                    chi_squared: (errors.chi_squared + more).max(0.0),
+                    rss: (errors.rss + more).max(0.0),
+                    ..*errors
                 }
             })
             .collect();
         let mut scores: BTreeMap<usize, Vec<Vec<f64>>> = BTreeMap::new();
-        for block in &self.blocks {
-            let components = &recordings * &block.basis;
+        for rest in self.near(&along) {
+            let own = self.space.places(rest.block);
+            let mut recordings = self.errors.columns_range(own.clone()).into_owned();
+            for (k, mut column) in recordings.column_iter_mut().enumerate() {
+                column.add_scalar_mut(along[own.start + k]);
+            }
+            let components = self.beside.turned_own(rest, &recordings);
             let lanes = scores
-                .entry(block.candidate)
-                .or_insert_with(|| vec![Vec::new(); lanes]);
+                .entry(self.space.blocks[rest.block].candidate)
+                .or_insert_with(|| vec![Vec::new(); residuals.len()]);
             for (lane, scores) in lanes.iter_mut().enumerate() {
-                let own = components.row(lane);
-                let evidence = block.evidence(own.iter().copied(), &residuals[lane]);
-                scores.push(evidence + block.log_odds);
+                let squares = components.row(lane).norm_squared();
+                let evidence = rest.evidence(std::iter::once(squares), &residuals[lane]);
+                scores.push(evidence + self.beside.log_odds(rest));
             }
         }
+        let lanes = residuals.len();
         let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
         for lane in 0..lanes {
             let best = scores
@@ -130,5 +138,18 @@ impl Bench {
             .collect();
         named.sort_by(|a, b| b.1.total_cmp(&a.1));
         named
+    }
+
+    /// Named blocks that explain the effect nearly as well as the best does: the others are never chosen.
+    fn near(&self, along: &DVector<f64>) -> Vec<&Rest> {
+        let fits: Vec<(f64, &Rest)> = (self.beside.rests.iter())
+            .filter(|rest| rest.kind == Kind::Named)
+            .map(|rest| (self.beside.components(rest, along).norm_squared(), rest))
+            .collect();
+        let best = fits.iter().map(|(fit, _)| *fit).fold(0.0, f64::max);
+        // The difference of two fits has the standard deviation 2κ, κ² being its expectation.
+        let least = best - HOPELESS * HOPELESS;
+        let near = fits.into_iter().filter(|(fit, _)| *fit >= least);
+        near.map(|(_, rest)| rest).collect()
     }
 }

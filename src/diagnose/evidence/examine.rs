@@ -8,7 +8,9 @@ use super::closed_form::Scale;
 use super::confusion::confusions;
 use super::findings::{Examination, Fitted, Invisible, Slot, State, Verdict};
 use super::fit::fitted;
-use super::guard::{leftover, margin, stands};
+use super::guard::{Again, leftover, margin, stands, unlisted};
+use super::kin;
+use super::null::Simulated;
 use super::question::{Question, Refusal, Shape};
 use super::search::{Search, frame_of, search};
 use super::slots::{Member, slot};
@@ -20,6 +22,10 @@ const NAMED_STANDS: f64 = 0.3;
 const CONTESTED: f64 = 0.9;
 /// Less than this probability of what is left beside named effects means that something is left.
 const LEFT: f64 = 0.01;
+/// Beside something without a name, a name holds if its effect is this share of the excess χ² …
+const DOMINANT: f64 = 0.5;
+/// … and nothing without a name in its place has more than this probability.
+const DOUBTFUL: f64 = 0.1;
 /// Named effects beside an unexplained one count if they explain this share of the excess χ².
 const MOST: f64 = 0.8;
 
@@ -36,25 +42,42 @@ pub fn examine(
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Examination, Refusal> {
     let space = Space::new(question)?;
-    let search = search(&space, question, progress)?;
+    let settings = &question.settings;
+    let simulated = Simulated::new(question.baseline, &space, settings.seed, settings.draws);
+    let mut search = search(&space, question, &simulated, progress)?;
+    let again = search
+        .complete
+        .as_ref()
+        .map_or_else(Again::default, |set| Again::of(&space, question, set));
+    search.discount(&again);
     let generic_probability = search.generic_probability();
     let explanation = explanation(&search, generic_probability);
     let (named, generic) = (&explanation.named, explanation.generic);
-    let mut slots = slots(&space, question, named, generic);
-    let margin = margin(&space, named);
-    let leftover = if named.is_empty() || generic.is_some() {
-        1.0
+    let mut slots = slots(&space, question, named, generic, &again);
+    let competitor = if named.is_empty() {
+        None
     } else {
-        leftover(&space, question, named)
+        unlisted(&space)
+    };
+    let margin = (competitor.as_ref()).map_or(f64::INFINITY, |other| margin(&space, named, other));
+    let leftover = match &competitor {
+        Some(other) if generic.is_none() => leftover(&space, named, other, &simulated),
+        _ => 1.0,
     };
     if leftover < LEFT {
         slots.push(nameless());
     }
     let set = frame_of(&space, named);
     let explained = explained(&space, set.fit, set.basis.ncols());
+    let contested = explanation.contested || (!named.is_empty() && !stands(margin, named.len()));
+    let excess = space.z.norm_squared() - space.dof as f64;
+    let open = contested || verdict(&slots, explained) == Verdict::Unexplained;
+    if open {
+        doubt(&mut slots, excess);
+    }
     let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
         Verdict::None
-    } else if explanation.contested || (!named.is_empty() && !stands(margin, named.len())) {
+    } else if contested {
         Verdict::Contested
     } else {
         verdict(&slots, explained)
@@ -62,7 +85,7 @@ pub fn examine(
     Ok(Examination {
         verdict,
         fitted: (!named.is_empty()).then(|| Fitted {
-            confusions: confusions(&space, question, named, &slots),
+            confusions: confusions(&space, question, named, &slots, &simulated),
             ..fitted(&space, question, &set)
         }),
         slots,
@@ -75,6 +98,18 @@ pub fn examine(
         invisible: invisible(&space, question),
         levels: search.levels,
     })
+}
+
+impl Examination {
+    /// Takes the names away from some slots: they become tentative.
+    pub fn demote(&mut self, slots: &[usize]) {
+        for slot in slots {
+            self.slots[*slot].state = State::Unexplained;
+        }
+        if !slots.is_empty() && self.verdict != Verdict::Contested {
+            self.verdict = verdict(&self.slots, self.explained);
+        }
+    }
 }
 
 /// The most probable explanation.
@@ -117,21 +152,54 @@ fn nameless() -> Slot {
     }
 }
 
-fn slots(space: &Space, question: &Question, named: &[usize], generic: Option<usize>) -> Vec<Slot> {
+fn slots(
+    space: &Space,
+    question: &Question,
+    named: &[usize],
+    generic: Option<usize>,
+    again: &Again,
+) -> Vec<Slot> {
     let members = named
         .iter()
         .map(|block| Member::Named(*block))
         .chain(generic.map(Member::Generic));
-    let mut slots: Vec<Slot> = members
-        .map(|member| slot(space, question, named, generic, member))
+    let mut slots: Vec<(Option<usize>, Slot)> = members
+        .map(|member| {
+            let block = match member {
+                Member::Named(block) => Some(block),
+                Member::Generic(_) => None,
+            };
+            (block, slot(space, question, named, generic, member, again))
+        })
         .collect();
     // The strongest effect first, what has no name last.
     let strength = |slot: &Slot| match (slot.state, slot.named.first()) {
         (State::Unexplained, _) | (_, None) => f64::NEG_INFINITY,
         (_, Some(first)) => first.lambda,
     };
-    slots.sort_by(|a, b| strength(b).total_cmp(&strength(a)));
-    slots
+    slots.sort_by(|a, b| strength(&b.1).total_cmp(&strength(&a.1)));
+    let has_name = |(_, slot): &&(Option<usize>, Slot)| slot.state != State::Unexplained;
+    let order: Vec<usize> = (slots.iter().filter(has_name))
+        .filter_map(|(block, _)| *block)
+        .collect();
+    let shapes = kin::shapes(space, question, &order);
+    for (block, slot) in &mut slots {
+        if block.is_some_and(|block| shapes.contains(&block)) {
+            slot.state = State::Unexplained;
+        }
+    }
+    slots.into_iter().map(|(_, slot)| slot).collect()
+}
+
+/// Names are tentative where something without a name may be most of what was found.
+fn doubt(slots: &mut [Slot], excess: f64) {
+    for slot in slots {
+        let strength = slot.named.first().map_or(0.0, |first| first.lambda);
+        let most = strength * strength >= DOMINANT * excess;
+        if !most || slot.generic_share > DOUBTFUL {
+            slot.state = State::Unexplained;
+        }
+    }
 }
 
 /// Share of the excess χ² that named effects with this fit explain; of χ² itself if nothing is known of

@@ -70,7 +70,8 @@ pub struct Slot {
     /// What can be said of it.
     pub state: State,
     /// Candidates that explain it, most probable first: the shortest list that holds the truth with a
-    /// probability of 95 %, if the truth is among the candidates. Empty if none comes near.
+    /// probability of 95 %, if the truth is among the candidates, and all that cannot be told from the
+    /// first. Empty if none comes near.
     pub named: Vec<Alternative>,
     /// Competitors without a name, most probable first; they say where an unexplained effect lives.
     pub generic: Vec<Alternative>,
@@ -96,7 +97,7 @@ pub enum State {
 pub struct Alternative {
     /// Index of the candidate.
     pub candidate: usize,
-    /// Posterior probability: among named candidates for a named one, among all for a generic one.
+    /// Posterior probability among all, those without a name too.
     pub probability: f64,
     /// Its atoms with their shares of the probability, most probable first.
     pub variants: Vec<Variant>,

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::beside::Beside;
 use super::closed_form::Scale;
 use super::findings::{Fitted, Rival};
 use super::question::{Kind, Question, Shape};
@@ -65,16 +66,20 @@ pub(super) fn nearest(
 ) -> Option<Rival> {
     let own = space.blocks[block].candidate;
     let whole = estimate.visible.norm_squared();
-    space
-        .beside(rest, question)
-        .into_iter()
-        .filter(|rival| rival.kind() == Kind::Named && rival.candidate != own)
-        .map(|rival| {
-            let explained = rival.basis.tr_mul(&estimate.visible).norm_squared();
+    let beside = Beside::new(space, question, rest);
+    // Beside the set already, so that nothing has to be taken out.
+    let components = space.directions.tr_mul(&estimate.visible);
+    beside
+        .rests
+        .iter()
+        .map(|rival| (rival, &space.blocks[rival.block]))
+        .filter(|(rival, block)| rival.kind == Kind::Named && block.candidate != own)
+        .map(|(rival, block)| {
+            let explained = beside.components(rival, &components).norm_squared();
             let kappa = (whole - explained).max(0.0).sqrt() / estimate.sigma;
             Rival {
-                atom: rival.atom,
-                candidate: rival.candidate,
+                atom: block.atom,
+                candidate: block.candidate,
                 kappa,
                 alias: kappa < ALIAS * estimate.lambda,
                 resolved: resolved(kappa),

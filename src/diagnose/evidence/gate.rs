@@ -4,17 +4,22 @@
 //! The look-elsewhere effect is inside: every atom, every variant and every generic competitor is
 //! computed for every simulated recording. With a set adopted the test is exact for that set.
 
-use nalgebra::DMatrix;
+use std::collections::BTreeMap;
 
-use super::null::{Chunk, Null, side_by_side};
+use gumption_lanes::LANES;
+
+use super::beside::Beside;
+use super::null::{Recordings, Simulated, side_by_side};
 use super::pairs::Pairs;
-use super::question::Question;
-use super::space::{Block, Frame, Residual, Space};
+use super::question::{Kind, Question};
+use super::space::{Frame, Space};
 
 /// Draws after which a p-value far above the limit is good enough.
 const FIRST_LOOK: usize = 512;
 /// "Far above": this many times α.
 const HOPELESS: f64 = 10.0;
+/// A statistic that exceeds all of the first draws by this logarithm of odds will exceed the others.
+const OUTSTANDING: f64 = 10.0;
 
 /// What the test says.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +37,7 @@ pub(super) fn test(
     question: &Question,
     frame: &Frame,
     pairs: Option<&Pairs>,
+    simulated: &Simulated,
 ) -> Outcome {
     let panel = Panel::new(space, question, frame);
     let (strongest, statistic) = panel.observed(space);
@@ -43,27 +49,26 @@ pub(super) fn test(
             draws: 0,
         };
     };
-    let settings = &question.settings;
+    let alpha = question.settings.alpha;
     let observed = [
         statistic,
         pairs.map_or(f64::NEG_INFINITY, |pairs| pairs.observed(space)),
     ];
-    let null = Null::new(question.baseline, settings.seed, stage(frame));
-    let chunks = settings.draws.div_ceil(gumption_lanes::LANES).max(1);
+    let chunks = simulated.chunks();
     let mut draws: Vec<[f64; 2]> = Vec::new();
-    let first = chunks.min(FIRST_LOOK / gumption_lanes::LANES);
+    let first = chunks.min(FIRST_LOOK / LANES);
     let mut p = 1.0;
     for range in [0..first, first..chunks] {
         let start = range.start;
         draws.extend(
             side_by_side(range.len(), |i| {
-                panel.simulated(&null.chunk(start + i), pairs)
+                panel.simulated(simulated.chunk(start + i), pairs)
             })
             .into_iter()
             .flatten(),
         );
         p = combined(observed, &draws);
-        if p > HOPELESS * settings.alpha {
+        if p > HOPELESS * alpha || (p <= alpha && outstanding(observed, &draws)) {
             break;
         }
     }
@@ -75,12 +80,13 @@ pub(super) fn test(
     }
 }
 
-/// A number for each set, so that the tests of different sets are independent.
-fn stage(frame: &Frame) -> u64 {
-    let hash = frame.blocks.iter().fold(0_u64, |hash, block| {
-        hash.wrapping_mul(1_000_003).wrapping_add(*block as u64 + 1)
-    });
-    hash & 0xffff_ffff
+/// Whether one of the statistics exceeds all draws by far.
+fn outstanding(observed: [f64; 2], draws: &[[f64; 2]]) -> bool {
+    (0..2).any(|which| {
+        let most = draws.iter().map(|draw| draw[which]);
+        let most = most.fold(f64::NEG_INFINITY, f64::max);
+        most.is_finite() && observed[which] > most + OUTSTANDING
+    })
 }
 
 /// Probability that the better placed of the two statistics is placed as well, by ranks among the
@@ -104,78 +110,98 @@ pub(super) fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
 
 /// All blocks that may be left beside a set, side by side.
 struct Panel<'a> {
-    blocks: Vec<Block>,
-    /// Index of each block in the space.
-    indices: Vec<usize>,
-    /// First column of each block in `basis`, and the end.
-    starts: Vec<usize>,
-    basis: DMatrix<f64>,
-    /// What parameters and adopted effects absorb.
-    absorbed: [&'a DMatrix<f64>; 2],
-    residual: Residual,
+    beside: Beside<'a>,
+    frame: &'a Frame,
+    /// Named rests that differ in their directions only: the best of them is the one with the best fit.
+    classes: Vec<Vec<usize>>,
+    generics: Vec<usize>,
 }
 
 impl<'a> Panel<'a> {
-    fn new(space: &Space, question: &'a Question, frame: &'a Frame) -> Panel<'a> {
-        let (mut blocks, mut indices) = (Vec::new(), Vec::new());
-        for (index, block) in space.blocks.iter().enumerate() {
-            if !space.may_join(frame, block, question) {
-                continue;
+    fn new(space: &'a Space, question: &Question, frame: &'a Frame) -> Panel<'a> {
+        let beside = Beside::new(space, question, frame);
+        let mut classes: BTreeMap<(usize, u64), Vec<usize>> = BTreeMap::new();
+        let mut generics = Vec::new();
+        for (index, rest) in beside.rests.iter().enumerate() {
+            match rest.kind {
+                Kind::Generic => generics.push(index),
+                Kind::Named => {
+                    let odds = space.blocks[rest.block].log_odds.to_bits();
+                    let class = classes.entry((rest.directions(), odds));
+                    class.or_default().push(index);
+                }
             }
-            if let Some(block) = block.beside(&frame.basis) {
-                blocks.push(block);
-                indices.push(index);
-            }
-        }
-        let mut starts = vec![0];
-        for block in &blocks {
-            starts.push(starts[starts.len() - 1] + block.basis.ncols());
-        }
-        let mut basis = DMatrix::zeros(space.z.len(), starts[blocks.len()]);
-        for (block, start) in blocks.iter().zip(&starts) {
-            basis
-                .columns_mut(*start, block.basis.ncols())
-                .copy_from(&block.basis);
         }
         Panel {
-            blocks,
-            indices,
-            starts,
-            basis,
-            absorbed: [question.baseline.absorbed(), &frame.basis],
-            residual: space.residual(frame),
+            beside,
+            frame,
+            classes: classes.into_values().collect(),
+            generics,
         }
     }
 
     fn observed(&self, space: &Space) -> (Option<usize>, f64) {
-        let components = self.basis.tr_mul(&space.z);
+        let components = self.beside.observed();
         let mut best = (None, f64::NEG_INFINITY);
-        for (i, block) in self.blocks.iter().enumerate() {
-            let own = &components.as_slice()[self.starts[i]..self.starts[i + 1]];
-            let value = block.evidence(own.iter().copied(), &self.residual) + block.log_odds;
+        for rest in &self.beside.rests {
+            let own = self.beside.components(rest, &components);
+            let squares = own.iter().map(|c| c * c);
+            let evidence = rest.evidence(squares, &self.beside.residual);
+            let value = evidence + space.blocks[rest.block].log_odds;
             if value > best.1 {
-                best = (Some(self.indices[i]), value);
+                best = (Some(rest.block), value);
             }
         }
         best
     }
 
-    fn simulated(&self, chunk: &Chunk, pairs: Option<&Pairs>) -> Vec<[f64; 2]> {
-        let lanes = chunk.errors.nrows();
-        let residuals = chunk.residuals(&self.absorbed, self.residual);
-        let components = &chunk.errors * &self.basis;
+    fn simulated(&self, recordings: &Recordings, pairs: Option<&Pairs>) -> Vec<[f64; 2]> {
+        let lanes = recordings.errors.nrows();
+        let set = &recordings.errors * &self.frame.basis;
+        let residuals = recordings.residuals(&set, self.beside.residual);
+        let mut reduced;
+        let components = if set.ncols() == 0 {
+            &recordings.components
+        } else {
+            reduced = recordings.components.clone();
+            self.beside.reduce(&mut reduced, &set);
+            &reduced
+        };
         let mut out = vec![[f64::NEG_INFINITY; 2]; lanes];
-        for (i, block) in self.blocks.iter().enumerate() {
-            let columns = self.starts[i]..self.starts[i + 1];
+        let mut fits = vec![0.0; lanes];
+        let mut own = vec![0.0; lanes];
+        for class in &self.classes {
+            fits.fill(0.0);
+            for index in class {
+                let rest = &self.beside.rests[*index];
+                own.fill(0.0);
+                self.beside.add_squares(rest, components, &mut own);
+                for (best, fit) in fits.iter_mut().zip(&own) {
+                    *best = f64::max(*best, *fit);
+                }
+            }
+            let rest = &self.beside.rests[class[0]];
+            let odds = self.beside.log_odds(rest);
             for (lane, place) in out.iter_mut().enumerate() {
-                let own = columns.clone().map(|column| components[(lane, column)]);
-                let value = block.evidence(own, &residuals[lane]) + block.log_odds;
+                let squares = std::iter::once(fits[lane]);
+                let value = rest.evidence(squares, &residuals[lane]) + odds;
+                place[0] = place[0].max(value);
+            }
+        }
+        for index in &self.generics {
+            let rest = &self.beside.rests[*index];
+            let turned = self.beside.turned(rest, components);
+            let odds = self.beside.log_odds(rest);
+            for (lane, place) in out.iter_mut().enumerate() {
+                let squares = (0..turned.ncols()).map(|k| turned[(lane, k)] * turned[(lane, k)]);
+                let value = rest.evidence(squares, &residuals[lane]) + odds;
                 place[0] = place[0].max(value);
             }
         }
         if let Some(pairs) = pairs {
             let rss: Vec<f64> = residuals.iter().map(|r| r.rss).collect();
-            for (place, value) in out.iter_mut().zip(pairs.simulated(&chunk.errors, &rss)) {
+            let values = pairs.simulated(&recordings.components, &rss);
+            for (place, value) in out.iter_mut().zip(values) {
                 place[1] = value;
             }
         }

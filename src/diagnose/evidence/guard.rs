@@ -5,18 +5,27 @@
 //! whose covariance matrix is the average of AAᵀ over all named atoms (each of unit length, candidates
 //! alike). A named set has to be better by far than this competitor, alone or with a part of the set.
 
-use nalgebra::DMatrix;
+use std::collections::BTreeSet;
 
+use nalgebra::{DMatrix, DVector};
+
+use super::beside::Beside;
 use super::closed_form::Scale;
+use super::fit::estimate;
 use super::gate::combined;
-use super::null::{Null, side_by_side};
+use super::null::{Simulated, side_by_side};
 use super::question::{Kind, Question};
-use super::space::{Block, Form, Frame, Residual, Space, smooth};
+use super::search::frame_of;
+use super::space::{Block, Form, Frame, Residual, Space, joined, smooth, without};
 
-/// Stage of the random numbers, apart from those of other tests.
-const STAGE: u64 = 0x1_0000_0002;
 /// Simulated recordings behind a probability.
 const DRAWS: usize = 2048;
+/// Share of an effect (squared) that a generic has to hold to be able to say it again.
+const HELD: f64 = 0.9;
+/// Logarithm of the Bayes factor from which on a generic says more than the named effects.
+const MORE: f64 = 1.0;
+/// Logarithm of the odds that a generic loses that says nothing more.
+const DISCOUNT: f64 = 3.0;
 /// Directions of the competitor.
 const DIRECTIONS: usize = 40;
 /// Directions with less than this share of the variance are left out.
@@ -24,30 +33,23 @@ const FAINT: f64 = 1e-4;
 
 /// The competitor that resembles the named atoms; `None` if there are none.
 pub(super) fn unlisted(space: &Space) -> Option<Block> {
-    let named: Vec<&Block> = space
-        .blocks
-        .iter()
+    let most = (space.blocks.iter())
         .filter(|block| block.kind() == Kind::Named)
-        .collect();
-    let count = named.iter().map(|block| block.basis.ncols()).sum();
-    if count == 0 {
-        return None;
-    }
-    let mut columns = DMatrix::zeros(space.z.len(), count);
-    let mut place = 0;
-    let most = named
-        .iter()
-        .map(|b| b.log_odds)
+        .map(|block| block.log_odds)
         .fold(f64::NEG_INFINITY, f64::max);
-    for block in named {
-        let weight = libm::exp(block.log_odds - most) / block.basis.ncols() as f64;
-        for column in block.basis.column_iter() {
-            columns.set_column(place, &(column * weight.sqrt()));
-            place += 1;
+    let mut weights = DVector::zeros(space.directions.ncols());
+    for (index, block) in space.blocks.iter().enumerate() {
+        if block.kind() == Kind::Named {
+            let share = libm::exp(block.log_odds - most) / block.basis.ncols() as f64;
+            let places = space.places(index);
+            weights.rows_mut(places.start, places.len()).fill(share);
         }
     }
-    columns /= columns.norm();
-    let columns = condensed(columns);
+    let whole = weights.sum();
+    if !(whole > 0.0) {
+        return None;
+    }
+    let columns = condensed(&space.directions, &(weights / whole));
     let (ladder, basis) = smooth(columns.clone())?;
     Some(Block {
         atom: usize::MAX,
@@ -60,35 +62,37 @@ pub(super) fn unlisted(space: &Space) -> Option<Block> {
     })
 }
 
-/// Few columns with nearly the same MMᵀ: coordinates of all along the directions in which most of
-/// them lie.
-fn condensed(columns: DMatrix<f64>) -> DMatrix<f64> {
-    let mut left = columns.clone();
-    let mut directions: Vec<usize> = Vec::new();
-    let mut basis = DMatrix::zeros(columns.nrows(), 0);
-    while directions.len() < DIRECTIONS.min(columns.nrows()) {
-        let Some((best, size)) = left
-            .column_iter()
-            .map(|c| c.norm_squared())
-            .enumerate()
-            .max_by(|a, b| a.1.total_cmp(&b.1))
-        else {
-            break;
-        };
+/// Few columns M with nearly MMᵀ = Σ w uuᵀ for unit directions u with weights: coordinates along the
+/// directions in which most of them lie.
+fn condensed(directions: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> {
+    // What is left of the squared length of each column.
+    let mut left = weights.clone();
+    let mut basis = DMatrix::zeros(directions.nrows(), 0);
+    // Components of all columns along the basis, one row each.
+    let mut coordinates: Vec<DVector<f64>> = Vec::new();
+    while coordinates.len() < DIRECTIONS.min(directions.nrows()) {
+        let (best, size) = left.argmax();
         if !(size > FAINT / DIRECTIONS as f64) {
             break;
         }
-        let direction = left.column(best) / size.sqrt();
-        let along = left.tr_mul(&direction);
-        left -= &direction * along.transpose();
-        directions.push(best);
-        let last = basis.ncols();
-        basis = basis.insert_column(last, 0.0);
-        basis.set_column(last, &direction);
+        let column = directions.columns_range(best..best + 1).into_owned();
+        let mut direction = without(&without(&column, &basis), &basis);
+        let length = direction.norm();
+        if !(length > 0.0) {
+            break;
+        }
+        direction /= length;
+        let along = directions.tr_mul(&direction).column(0).into_owned();
+        left.zip_zip_apply(weights, &along, |left, w, a| *left -= w * a * a);
+        left[best] = 0.0;
+        basis = joined(&basis, &direction);
+        coordinates.push(along.zip_map(weights, |a, w| a * w.sqrt()));
     }
-    // M Mᵀ ≈ B (BᵀM)(BᵀM)ᵀ Bᵀ: its root has as many columns as directions.
-    let coordinates = basis.tr_mul(&columns);
-    let root = nalgebra::SymmetricEigen::new(&coordinates * coordinates.transpose());
+    // M Mᵀ ≈ B C Cᵀ Bᵀ: its root has as many columns as directions.
+    let products = DMatrix::from_fn(coordinates.len(), coordinates.len(), |i, j| {
+        coordinates[i].dot(&coordinates[j])
+    });
+    let root = nalgebra::SymmetricEigen::new(products);
     let mut half = root.eigenvectors.clone();
     for (mut column, e) in half.column_iter_mut().zip(root.eigenvalues.iter()) {
         column *= e.max(0.0).sqrt();
@@ -98,10 +102,7 @@ fn condensed(columns: DMatrix<f64>) -> DMatrix<f64> {
 
 /// By how much (logarithm of the odds, without prior odds of the competitor) a named set is better than
 /// the competitor with the best part of the set.
-pub(super) fn margin(space: &Space, named: &[usize]) -> f64 {
-    let Some(competitor) = unlisted(space) else {
-        return f64::INFINITY;
-    };
+pub(super) fn margin(space: &Space, named: &[usize], competitor: &Block) -> f64 {
     let Some(whole) = space.frame(named) else {
         return f64::INFINITY;
     };
@@ -114,7 +115,7 @@ pub(super) fn margin(space: &Space, named: &[usize]) -> f64 {
                 .map(|i| named[i])
                 .collect();
             let frame = space.frame(&part)?;
-            Some(space.score(&frame) + beside(space, &frame, &competitor)?)
+            Some(space.score(&frame) + beside(space, &frame, competitor)?)
         })
         .fold(f64::NEG_INFINITY, f64::max);
     own - rival
@@ -125,8 +126,13 @@ pub(super) fn margin(space: &Space, named: &[usize]) -> f64 {
 ///
 /// The gate looks everywhere and pays for it. These two look at one thing each: directions that the
 /// catalogue cares for, and everything.
-pub(super) fn leftover(space: &Space, question: &Question, named: &[usize]) -> f64 {
-    let (Some(frame), Some(competitor)) = (space.frame(named), unlisted(space)) else {
+pub(super) fn leftover(
+    space: &Space,
+    named: &[usize],
+    competitor: &Block,
+    simulated: &Simulated,
+) -> f64 {
+    let Some(frame) = space.frame(named) else {
         return 1.0;
     };
     let Some(block) = competitor.beside(&frame.basis) else {
@@ -138,12 +144,12 @@ pub(super) fn leftover(space: &Space, question: &Question, named: &[usize]) -> f
         block.evidence(components.iter().copied(), &residual),
         excess(&residual),
     ];
-    let null = Null::new(question.baseline, question.settings.seed, STAGE);
-    let absorbed = [question.baseline.absorbed(), &frame.basis];
-    let draws: Vec<[f64; 2]> = side_by_side(DRAWS / gumption_lanes::LANES, |index| {
-        let chunk = null.chunk(index);
-        let components = &chunk.errors * &block.basis;
-        let residuals = chunk.residuals(&absorbed, residual);
+    let chunks = simulated.chunks().clamp(1, DRAWS / gumption_lanes::LANES);
+    let draws: Vec<[f64; 2]> = side_by_side(chunks, |index| {
+        let recordings = simulated.chunk(index);
+        let components = &recordings.errors * &block.basis;
+        let set = &recordings.errors * &frame.basis;
+        let residuals = recordings.residuals(&set, residual);
         let one = |(lane, residual): (usize, &Residual)| {
             let own = components.row(lane);
             [
@@ -157,6 +163,56 @@ pub(super) fn leftover(space: &Space, question: &Question, named: &[usize]) -> f
     .flatten()
     .collect();
     combined(observed, &draws)
+}
+
+/// Generics that only say again what named effects say: a curve over the supply contains the straight
+/// line, and where the line fits, the line is meant.
+#[derive(Debug, Default)]
+pub(super) struct Again(BTreeSet<usize>);
+
+impl Again {
+    /// Those that hold an effect of a set nearly whole and explain nothing beside the set.
+    pub(super) fn of(space: &Space, question: &Question, named: &[usize]) -> Again {
+        let Some(frame) = space.frame(named) else {
+            return Again::default();
+        };
+        let effects: Vec<DVector<f64>> = named
+            .iter()
+            .map(|block| {
+                let others: Vec<usize> = named.iter().copied().filter(|b| b != block).collect();
+                let rest = frame_of(space, &others);
+                estimate(space, question, &rest, *block).visible
+            })
+            .collect();
+        let beside = Beside::new(space, question, &frame);
+        let observed = beside.observed();
+        let says_more = |generic: usize| {
+            let rest = beside.rests.iter().find(|rest| rest.block == generic);
+            rest.is_some_and(|rest| {
+                let components = beside.components(rest, &observed);
+                let squares = components.iter().map(|c| c * c);
+                rest.evidence(squares, &beside.residual) > MORE
+            })
+        };
+        let generics = space.blocks.iter().enumerate().filter(|(_, block)| {
+            matches!(block.form, Form::Smooth(_))
+                && effects.iter().any(|effect| {
+                    let held = block.basis.tr_mul(effect).norm_squared();
+                    held > HELD * effect.norm_squared()
+                })
+        });
+        let again = generics.map(|(index, _)| index);
+        Again(again.filter(|generic| !says_more(*generic)).collect())
+    }
+
+    /// What is taken from the logarithm of the odds of a block.
+    pub(super) fn discount(&self, block: usize) -> f64 {
+        if self.0.contains(&block) {
+            DISCOUNT
+        } else {
+            0.0
+        }
+    }
 }
 
 /// χ² over what is known of its scale; the same for all if nothing is.

@@ -25,12 +25,14 @@
 //! | `examine` | the examination from end to end |
 //! | `closed_form` | Bayes factors |
 //! | `space` | atoms as directions in the space of z, and sets of them |
+//! | `beside` | all directions beside a set |
 //! | `null` | simulated recordings that the model alone explains |
 //! | `gate` | the test whether an effect is left |
 //! | `pairs` | two effects that mask each other |
 //! | `search` | the set of effects that explains a recording |
 //! | `slots` | which candidates could stand for each effect |
 //! | `fit` | estimates, strength, distance to rivals |
+//! | `kin` | effects that are the shape of another, aliases, mixtures |
 //! | `guard` | effects outside the catalogue that look like what is in it |
 //! | `confusion` | how often names are confused, by simulation |
 //! | `locate` | where the mismatch sits |
@@ -44,6 +46,7 @@
 )]
 
 mod baseline;
+mod beside;
 mod closed_form;
 mod confusion;
 mod examine;
@@ -52,6 +55,7 @@ mod fit;
 mod gate;
 mod generic;
 mod guard;
+mod kin;
 mod locate;
 mod noise;
 mod null;

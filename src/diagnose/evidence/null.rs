@@ -3,12 +3,14 @@
 //! Random numbers are addressed by (seed, stage and chunk, row), so that results do not depend on the
 //! number of threads or on what was drawn before.
 
+use std::sync::OnceLock;
+
 use gumption_lanes::sampler::{gamma_block, normal_block};
 use gumption_lanes::{Block as Lanes, Generator, LANES, level};
 use nalgebra::DMatrix;
 
 use super::baseline::Baseline;
-use super::space::Residual;
+use super::space::{Residual, Space};
 
 /// Simulated recordings of one null distribution.
 #[derive(Debug, Clone, Copy)]
@@ -18,7 +20,7 @@ pub(super) struct Null<'a> {
     stage: u64,
 }
 
-/// 256 simulated recordings.
+/// 256 simulated recordings of the errors.
 pub(super) struct Chunk {
     /// Whitened errors, one recording per row: 256 × N. Not projected.
     pub(super) errors: DMatrix<f64>,
@@ -73,24 +75,75 @@ impl<'a> Null<'a> {
     }
 }
 
-impl Chunk {
-    /// What the residuals of each recording are when two orthonormal bases are absorbed; degrees of
-    /// freedom and scale as those of `like`.
-    pub(super) fn residuals(&self, absorbed: &[&DMatrix<f64>; 2], like: Residual) -> Vec<Residual> {
-        let mut chi_squared = squares(&self.errors);
-        for basis in absorbed {
-            let part = squares(&(&self.errors * *basis));
-            for (whole, part) in chi_squared.iter_mut().zip(part) {
+/// Simulated recordings with their components along the directions of all blocks; each chunk is computed
+/// when it is first needed, and serves all tests of an examination.
+pub(super) struct Simulated<'a> {
+    baseline: &'a Baseline,
+    space: &'a Space,
+    null: Null<'a>,
+    chunks: Vec<OnceLock<Recordings>>,
+}
+
+/// 256 simulated recordings.
+pub(super) struct Recordings {
+    /// Whitened errors, one recording per row; not projected.
+    pub(super) errors: DMatrix<f64>,
+    /// Along the directions of all blocks of the space.
+    pub(super) components: DMatrix<f64>,
+    /// Sums of squares when the parameters are fitted.
+    chi_squared: Vec<f64>,
+    /// What is added to them for knowledge of the scale from elsewhere.
+    pub(super) offsets: Vec<f64>,
+}
+
+impl<'a> Simulated<'a> {
+    /// `draws` recordings, rounded up.
+    pub(super) fn new(baseline: &'a Baseline, space: &'a Space, seed: u64, draws: usize) -> Self {
+        let chunks = draws.div_ceil(LANES).max(1);
+        Simulated {
+            baseline,
+            space,
+            null: Null::new(baseline, seed, 0),
+            chunks: (0..chunks).map(|_| OnceLock::new()).collect(),
+        }
+    }
+
+    /// Number of chunks.
+    pub(super) fn chunks(&self) -> usize {
+        self.chunks.len()
+    }
+
+    pub(super) fn chunk(&self, index: usize) -> &Recordings {
+        self.chunks[index].get_or_init(|| {
+            let chunk = self.null.chunk(index);
+            let mut chi_squared = squares(&chunk.errors);
+            let absorbed = squares(&(&chunk.errors * self.baseline.absorbed()));
+            for (whole, part) in chi_squared.iter_mut().zip(absorbed) {
                 *whole = (*whole - part).max(0.0);
             }
-        }
-        chi_squared
-            .into_iter()
-            .zip(&self.offsets)
-            .map(|(chi_squared, offset)| Residual {
+            Recordings {
+                components: &chunk.errors * &self.space.directions,
+                errors: chunk.errors,
                 chi_squared,
-                rss: chi_squared + offset,
-                ..like
+                offsets: chunk.offsets,
+            }
+        })
+    }
+}
+
+impl Recordings {
+    /// What the residuals of each recording are when a set is absorbed, along whose basis the recordings
+    /// have these components; degrees of freedom and scale as those of `like`.
+    pub(super) fn residuals(&self, set: &DMatrix<f64>, like: Residual) -> Vec<Residual> {
+        let each = self.chi_squared.iter().zip(squares(set));
+        each.zip(&self.offsets)
+            .map(|((whole, part), offset)| {
+                let chi_squared = (whole - part).max(0.0);
+                Residual {
+                    chi_squared,
+                    rss: chi_squared + offset,
+                    ..like
+                }
             })
             .collect()
     }

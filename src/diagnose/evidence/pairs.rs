@@ -15,10 +15,10 @@ const SEEDS: usize = 40;
 
 /// All pairs of one-dimensional named atoms that could mask each other.
 pub(super) struct Pairs {
-    /// N × number of one-dimensional atoms.
-    basis: DMatrix<f64>,
-    /// Index of each in the space.
+    /// Index of each one-dimensional atom in the space.
     blocks: Vec<usize>,
+    /// The place of its direction among those of all blocks.
+    places: Vec<usize>,
     pairs: Vec<Pair>,
     /// N where the scale is estimated.
     total: Option<f64>,
@@ -40,10 +40,8 @@ impl Pairs {
                 block.kind() == Kind::Named && block.basis.ncols() == 1
             })
             .collect();
-        let mut basis = DMatrix::zeros(space.z.len(), blocks.len());
-        for (place, block) in blocks.iter().enumerate() {
-            basis.set_column(place, &space.blocks[*block].basis.column(0));
-        }
+        let places: Vec<usize> = blocks.iter().map(|b| space.places(*b).start).collect();
+        let basis = space.directions.select_columns(&places);
         let gram = basis.transpose() * &basis;
         let mut pairs = Vec::new();
         for second in 0..blocks.len() {
@@ -63,8 +61,8 @@ impl Pairs {
             }
         }
         Pairs {
-            basis,
             blocks,
+            places,
             pairs,
             total: match space.scale {
                 Scale::Known => None,
@@ -96,7 +94,7 @@ impl Pairs {
     }
 
     fn values(&self, space: &Space) -> Vec<f64> {
-        let c = self.basis.tr_mul(&space.z);
+        let c = space.components.select_rows(&self.places);
         let weight = self.weight(space.rss());
         self.pairs
             .iter()
@@ -104,13 +102,16 @@ impl Pairs {
             .collect()
     }
 
-    /// The same for simulated recordings, one per row.
-    pub(super) fn simulated(&self, errors: &DMatrix<f64>, rss: &[f64]) -> Vec<f64> {
-        let components = errors * &self.basis;
-        let mut best = vec![f64::NEG_INFINITY; errors.nrows()];
+    /// The same for simulated recordings, one per row, with their components along the directions of all
+    /// blocks.
+    pub(super) fn simulated(&self, components: &DMatrix<f64>, rss: &[f64]) -> Vec<f64> {
+        let lanes = components.nrows();
+        let mut best = vec![f64::NEG_INFINITY; lanes];
         let weights: Vec<f64> = rss.iter().map(|rss| self.weight(*rss)).collect();
-        let lanes = errors.nrows();
-        let column = |j: usize| &components.as_slice()[j * lanes..(j + 1) * lanes];
+        let column = |atom: usize| {
+            let place = self.places[atom];
+            &components.as_slice()[place * lanes..(place + 1) * lanes]
+        };
         for pair in &self.pairs {
             let inverse = 1.0 / (1.0 - pair.cosine * pair.cosine);
             let cross = -2.0 * pair.cosine;

@@ -3,9 +3,12 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
+use super::beside::Beside;
 use super::closed_form::log_sum;
 use super::findings::Level;
 use super::gate;
+use super::guard::Again;
+use super::null::Simulated;
 use super::pairs::Pairs;
 use super::question::{Kind, Question, Refusal};
 use super::space::{Frame, Space};
@@ -37,6 +40,7 @@ pub(super) struct Search {
 pub(super) fn search(
     space: &Space,
     question: &Question,
+    simulated: &Simulated,
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Search, Refusal> {
     let pairs = Pairs::new(space, question);
@@ -55,7 +59,13 @@ pub(super) fn search(
         let Some(best) = beam.first().and_then(|(_, set)| space.frame(set)) else {
             break;
         };
-        let outcome = gate::test(space, question, &best, (level == 0).then_some(&pairs));
+        let outcome = gate::test(
+            space,
+            question,
+            &best,
+            (level == 0).then_some(&pairs),
+            simulated,
+        );
         let Some(strongest) = outcome.strongest else {
             search.complete = Some(best.blocks);
             break;
@@ -107,22 +117,25 @@ fn extend(
         .take(question.settings.beam)
         .filter_map(|(_, set)| space.frame(set));
     for frame in frames {
-        for (index, block) in space.blocks.iter().enumerate() {
-            if !space.may_join(&frame, block, question) {
+        let beside = Beside::new(space, question, &frame);
+        let observed = beside.observed();
+        for rest in &beside.rests {
+            let Some(score) = beside.score(rest, &observed) else {
+                continue;
+            };
+            if rest.kind == Kind::Generic {
+                visited.push(Visited {
+                    named: frame.blocks.clone(),
+                    generic: Some(rest.block),
+                    score,
+                });
                 continue;
             }
-            if block.kind() == Kind::Generic {
-                if let Some(score) = space.score_with_generic(&frame, index) {
-                    visited.push(Visited {
-                        named: frame.blocks.clone(),
-                        generic: Some(index),
-                        score,
-                    });
-                }
-            } else if let Some(set) = space.extended(&frame, index)
-                && seen.insert(set.blocks.clone())
-            {
-                next.push((space.score(&set), set.blocks));
+            let mut set = frame.blocks.clone();
+            set.push(rest.block);
+            set.sort_unstable();
+            if seen.insert(set.clone()) {
+                next.push((score, set));
             }
         }
     }
@@ -160,6 +173,13 @@ fn add_seeds(
 }
 
 impl Search {
+    /// Takes from the odds of sets with generics what these lose.
+    pub(super) fn discount(&mut self, again: &Again) {
+        for set in &mut self.visited {
+            set.score -= set.generic.map_or(0.0, |generic| again.discount(generic));
+        }
+    }
+
     /// Posterior probability that an effect without a name is there.
     pub(super) fn generic_probability(&self) -> f64 {
         let with = log_sum(

@@ -4,9 +4,12 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::beside::{Beside, Rest};
 use super::closed_form::log_sum;
 use super::findings::{Alternative, Slot, State, Variant};
 use super::fit::{estimate, nearest};
+use super::guard::Again;
+use super::kin;
 use super::question::{Kind, Question};
 use super::search::frame_of;
 use super::space::{Frame, Space};
@@ -15,7 +18,7 @@ use super::space::{Frame, Space};
 const CREDIBLE: f64 = 0.95;
 /// A slot in which generics have this probability has no name.
 const NAMELESS: f64 = 0.3;
-/// Generics that are listed at most.
+/// Generics, and tentative names, that are listed at most.
 const LISTED: usize = 3;
 
 /// One member of the set that explains the recording.
@@ -26,12 +29,15 @@ pub(super) enum Member {
 }
 
 /// The slot of one member of a set (`named` blocks and perhaps a generic beside them).
+///
+/// Generics that only say again what the set says have their odds discounted.
 pub(super) fn slot(
     space: &Space,
     question: &Question,
     named: &[usize],
     generic: Option<usize>,
     member: Member,
+    again: &Again,
 ) -> Slot {
     let (rest, fixed) = match member {
         Member::Named(block) => {
@@ -40,7 +46,10 @@ pub(super) fn slot(
         }
         Member::Generic(_) => (frame_of(space, named), None),
     };
-    let scores = replacements(space, question, &rest, fixed);
+    let mut scores = replacements(space, question, &rest, fixed);
+    for (block, score) in &mut scores {
+        *score -= again.discount(*block);
+    }
     let kind = |block: usize| space.blocks[block].kind();
     let total = |wanted: Kind| {
         log_sum(
@@ -55,18 +64,24 @@ pub(super) fn slot(
     let generic_share = libm::exp(by_generic - all);
     let ranked = ranking(space, &scores, Kind::Named, by_name);
     let family = family(question, &ranked);
-    let list = credible(ranked);
+    let list = listed(space, question, &rest, ranked);
     let state = match member {
         Member::Generic(_) => State::Unexplained,
         Member::Named(_) if generic_share >= NAMELESS => State::Unexplained,
         Member::Named(_) if list.len() == 1 => State::Identified,
         Member::Named(_) => State::Ambiguous,
     };
+    // What has no name has a few tentative ones, which tell what it resembles.
+    let most = match state {
+        State::Unexplained => LISTED,
+        State::Identified | State::Ambiguous => list.len(),
+    };
     Slot {
         state,
         named: list
             .into_iter()
-            .map(|ranked| alternative(space, question, &rest, ranked))
+            .take(most)
+            .map(|ranked| alternative(space, question, &rest, ranked, 1.0 - generic_share))
             .collect(),
         generic: ranking(space, &scores, Kind::Generic, all)
             .into_iter()
@@ -85,24 +100,13 @@ pub(super) fn replacements(
     rest: &Frame,
     generic: Option<usize>,
 ) -> Vec<(usize, f64)> {
-    let mut scores = Vec::new();
-    for (index, block) in space.blocks.iter().enumerate() {
-        if !space.may_join(rest, block, question) {
-            continue;
-        }
-        let score = match (block.kind(), generic) {
-            (Kind::Named, None) => space.extended(rest, index).map(|set| space.score(&set)),
-            (Kind::Named, Some(generic)) => space
-                .extended(rest, index)
-                .and_then(|set| space.score_with_generic(&set, generic)),
-            (Kind::Generic, None) => space.score_with_generic(rest, index),
-            (Kind::Generic, Some(_)) => None,
-        };
-        if let Some(score) = score {
-            scores.push((index, score));
-        }
+    let beside = Beside::new(space, question, rest);
+    if let Some(generic) = generic {
+        return beside.scores_with(generic);
     }
-    scores
+    let observed = beside.observed();
+    let score = |one: &Rest| Some((one.block, beside.score(one, &observed)?));
+    beside.rests.iter().filter_map(score).collect()
 }
 
 /// A candidate with its probability and its blocks.
@@ -147,15 +151,26 @@ fn ranking(space: &Space, scores: &[(usize, f64)], kind: Kind, whole: f64) -> Ve
     ranked
 }
 
-/// The shortest list that holds the truth with the credible probability.
-fn credible(ranked: Vec<Ranked>) -> Vec<Ranked> {
+/// The shortest list that holds the truth with the credible probability, and what cannot be told from
+/// its first.
+fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>) -> Vec<Ranked> {
+    let Some(winner) = ranked.first().map(|first| first.blocks[0].0) else {
+        return ranked;
+    };
+    let kin = kin::listed(
+        space,
+        question,
+        rest,
+        winner,
+        &estimate(space, question, rest, winner),
+    );
     let mut sum = 0.0;
     ranked
         .into_iter()
-        .take_while(|candidate| {
+        .filter(|candidate| {
             let wanted = sum < CREDIBLE;
             sum += candidate.probability;
-            wanted
+            wanted || kin.contains(&candidate.candidate)
         })
         .collect()
 }
@@ -172,13 +187,20 @@ fn family(question: &Question, ranked: &[Ranked]) -> Option<(String, f64)> {
         .map(|(family, probability)| (family.to_string(), probability))
 }
 
-fn alternative(space: &Space, question: &Question, rest: &Frame, ranked: Ranked) -> Alternative {
+/// `named` is the probability that the effect has a name at all.
+fn alternative(
+    space: &Space,
+    question: &Question,
+    rest: &Frame,
+    ranked: Ranked,
+    named: f64,
+) -> Alternative {
     let block = ranked.blocks[0].0;
     let estimate = estimate(space, question, rest, block);
     let nearest = nearest(space, question, rest, block, &estimate);
     Alternative {
         candidate: ranked.candidate,
-        probability: ranked.probability,
+        probability: ranked.probability * named,
         variants: ranked
             .blocks
             .into_iter()

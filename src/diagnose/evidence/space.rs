@@ -12,7 +12,7 @@ const GENERIC_ODDS: f64 = 0.15;
 /// other columns of its atom, is invisible.
 pub(super) const INVISIBLE: f64 = 1e-6;
 /// An atom that lies this near (sine squared) to a set adds nothing that data can support.
-const NEAR: f64 = 0.01;
+pub(super) const NEAR: f64 = 0.01;
 
 /// What a block of directions means.
 #[derive(Debug, Clone)]
@@ -53,6 +53,12 @@ pub(super) struct Space {
     pub(super) dof: usize,
     /// What is added to a sum of squares of residuals for knowledge of the scale from elsewhere: ν₀.
     pub(super) offset: f64,
+    /// Directions of all blocks side by side.
+    pub(super) directions: DMatrix<f64>,
+    /// Place of the first direction of each block, and the end.
+    starts: Vec<usize>,
+    /// Components of z along the directions.
+    pub(super) components: DVector<f64>,
 }
 
 /// A set of named blocks that are adopted together.
@@ -81,6 +87,9 @@ impl Space {
             } else {
                 0.0
             },
+            directions: DMatrix::zeros(0, 0),
+            starts: vec![0],
+            components: DVector::zeros(0),
         };
         for (index, atom) in question.atoms.iter().enumerate() {
             check(baseline, index, atom)?;
@@ -89,7 +98,23 @@ impl Space {
                 None => space.invisible.push(index),
             }
         }
+        for block in &space.blocks {
+            let last = space.starts[space.starts.len() - 1];
+            space.starts.push(last + block.basis.ncols());
+        }
+        let total = space.starts[space.blocks.len()];
+        space.directions = DMatrix::zeros(space.z.len(), total);
+        for (block, start) in space.blocks.iter().zip(&space.starts) {
+            let mut own = space.directions.columns_mut(*start, block.basis.ncols());
+            own.copy_from(&block.basis);
+        }
+        space.components = space.directions.tr_mul(&space.z);
         Ok(space)
+    }
+
+    /// Places of the directions of a block among all.
+    pub(super) fn places(&self, block: usize) -> std::ops::Range<usize> {
+        self.starts[block]..self.starts[block + 1]
     }
 
     /// No effect.
@@ -126,7 +151,7 @@ impl Space {
     }
 
     /// Directions that a set may span at most: where the scale is estimated, one has to be left.
-    fn room(&self) -> usize {
+    pub(super) fn room(&self) -> usize {
         match self.scale {
             Scale::Known => self.dof,
             Scale::Estimated { total } => self.dof.min((total - 1.0).max(0.0) as usize),
@@ -147,32 +172,16 @@ impl Space {
         named(frame.basis.ncols(), frame.fit, self.rss(), self.scale) + prior
     }
 
-    /// As [`Space::score`] for a set with a generic competitor beside it; `None` if the set spans all
-    /// that the competitor can say.
-    pub(super) fn score_with_generic(&self, frame: &Frame, generic: usize) -> Option<f64> {
-        let block = self.blocks[generic].beside(&frame.basis)?;
-        let scale = self.scale.less(frame.basis.ncols());
-        let chi_squared = (self.z.norm_squared() - frame.fit).max(0.0);
-        let components = block.basis.tr_mul(&self.z);
-        let evidence = block.evidence(
-            components.iter().copied(),
-            &Residual {
-                chi_squared,
-                rss: chi_squared + self.offset,
-                dof: self.dof - frame.basis.ncols(),
-                scale,
-            },
-        );
-        Some(self.score(frame) + evidence + block.log_odds)
-    }
-
-    /// Every block that may join a set, beside it.
-    pub(super) fn beside(&self, frame: &Frame, question: &Question) -> Vec<Block> {
-        self.blocks
-            .iter()
-            .filter(|block| self.may_join(frame, block, question))
-            .filter_map(|block| block.beside(&frame.basis))
-            .collect()
+    /// Standard deviation of the noise in whitened units when d directions are fitted that reduce χ² by
+    /// what lies along two bases.
+    pub(super) fn sigma(&self, d: usize, one: &DMatrix<f64>, other: &DMatrix<f64>) -> f64 {
+        match self.scale.less(d) {
+            Scale::Known => 1.0,
+            Scale::Estimated { total } => {
+                let fit = one.tr_mul(&self.z).norm_squared() + other.tr_mul(&self.z).norm_squared();
+                ((self.rss() - fit).max(0.0) / total.max(1.0)).sqrt()
+            }
+        }
     }
 
     /// A candidate is in a set once, unless it is of a kind that repeats.
@@ -358,7 +367,14 @@ fn visible(baseline: &Baseline, columns: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f6
 
 /// Principal directions and eigenvalues of MMᵀ.
 pub(super) fn smooth(columns: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
-    let eigen = SymmetricEigen::new(columns.tr_mul(&columns));
+    let (ladder, turn) = principal(columns.tr_mul(&columns))?;
+    Some((ladder, columns * turn.transpose()))
+}
+
+/// Eigenvalues of MMᵀ from MᵀM, and the matrix that takes Mᵀx to the components of x along the
+/// directions.
+pub(super) fn principal(gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
+    let eigen = SymmetricEigen::new(gram);
     let mut order: Vec<usize> = (0..eigen.eigenvalues.len())
         .filter(|k| eigen.eigenvalues[*k] > 1e-6)
         .collect();
@@ -367,17 +383,17 @@ pub(super) fn smooth(columns: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
         return None;
     }
     let eigenvalues: Vec<f64> = order.iter().map(|k| eigen.eigenvalues[*k]).collect();
-    let mut basis = columns * eigen.eigenvectors.select_columns(&order);
-    for (mut column, e) in basis.column_iter_mut().zip(&eigenvalues) {
-        column /= e.sqrt();
+    let mut turn = eigen.eigenvectors.select_columns(&order).transpose();
+    for (mut row, e) in turn.row_iter_mut().zip(&eigenvalues) {
+        row /= e.sqrt();
     }
-    Some((Ladder::new(&eigenvalues), basis))
+    Some((Ladder::new(&eigenvalues), turn))
 }
 
 /// Orthonormal directions of the columns, the column with the greatest remainder first; columns whose
 /// remainder is less than `tolerance` (squared) of `lengths` are left out. Also says which were kept,
 /// in that order.
-fn orthonormal(
+pub(super) fn orthonormal(
     mut columns: DMatrix<f64>,
     lengths: &[f64],
     tolerance: f64,
@@ -420,7 +436,7 @@ pub(super) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f
     columns - basis * basis.tr_mul(columns)
 }
 
-fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
+pub(super) fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
     let mut out = DMatrix::zeros(right.nrows(), left.ncols() + right.ncols());
     out.columns_mut(0, left.ncols()).copy_from(left);
     out.columns_mut(left.ncols(), right.ncols())

@@ -1,0 +1,252 @@
+//! What stays in the laboratory while the sensor turns: the rotation of the Earth, a magnetic field, and
+//! the axis of a table that leans.
+//!
+//! The case has three columns with the direction of the axis of turning in the sensor (components of a unit
+//! vector, one for each output) and the angle of turning. How a mount is turned about the axis is not
+//! recorded: across the axis a field has two unknown components in each mount.
+
+use super::angles::{angles, radians};
+use super::ground::{Ground, Node, varies};
+use super::modifiers::{largest, map2};
+use super::response::words;
+use super::{Cell, Term, Variation, effect, tied};
+use crate::diagnose::case::Role;
+use crate::diagnose::evidence::Place;
+
+type Vector = [f64; 3];
+
+/// Cells of sensors that turn about directions of their own.
+pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    let Some(directions) = directions(ground) else {
+        return Vec::new();
+    };
+    angles(ground)
+        .into_iter()
+        .filter(|angle| !ground.in_model(*angle))
+        .flat_map(|angle| Turning::new(ground, directions, angle).cells())
+        .collect()
+}
+
+/// Three columns that are a unit vector in every row, for three outputs.
+fn directions(ground: &Ground<'_>) -> Option<[usize; 3]> {
+    if ground.case().responses.len() != 3 {
+        return None;
+    }
+    let candidates: Vec<usize> = ground
+        .numeric()
+        .into_iter()
+        .filter(|c| ground.case().columns[*c].role == Role::Stimulus)
+        .collect();
+    let is_unit = |triple: &[usize]| {
+        (0..ground.rows()).all(|row| {
+            let squares = triple.iter().map(|c| ground.numbers(*c)[row].powi(2));
+            (squares.sum::<f64>() - 1.0).abs() < 1e-3
+        })
+    };
+    let triple = candidates.windows(3).find(|triple| is_unit(triple))?;
+    Some([triple[0], triple[1], triple[2]])
+}
+
+struct Turning<'g> {
+    ground: &'g Ground<'g>,
+    angle: usize,
+    psi: Vec<f64>,
+    /// Direction of the axis in each row.
+    axis: Vec<Vector>,
+    /// Different directions.
+    mounts: Vec<Vector>,
+}
+
+impl<'g> Turning<'g> {
+    fn new(ground: &'g Ground<'_>, directions: [usize; 3], angle: usize) -> Turning<'g> {
+        let axis: Vec<Vector> = (0..ground.rows())
+            .map(|row| directions.map(|c| ground.numbers(c)[row]))
+            .collect();
+        let mut mounts: Vec<Vector> = Vec::new();
+        for direction in &axis {
+            if !mounts.iter().any(|mount| same(mount, direction)) {
+                mounts.push(*direction);
+            }
+        }
+        Turning {
+            ground,
+            angle,
+            psi: radians(ground, angle),
+            axis,
+            mounts,
+        }
+    }
+
+    fn cells(&self) -> Vec<Cell> {
+        /// A field in more mounts than this has too many components.
+        const MOUNTS: usize = 12;
+        if self.mounts.len() > MOUNTS {
+            return Vec::new();
+        }
+        let across = |sense: f64| self.common(sense, |_| 1.0);
+        let both = [("", 1.0), ("angle counted clockwise", -1.0)];
+        let mut fields: Vec<Variation> = both
+            .iter()
+            .map(|(label, sense)| {
+                let mut terms = self.along();
+                terms.extend(across(*sense));
+                Variation::of(*label, terms)
+            })
+            .collect();
+        let responses = &self.ground.case().responses;
+        let each: Vec<Vec<Term>> = (0..responses.len()).map(|a| self.alone(a)).collect();
+        for (response, terms) in responses.iter().zip(&each) {
+            fields.push(Variation::of(response.name.clone(), terms.clone()));
+        }
+        fields.push(Variation::of(
+            "each with a sensitivity of its own",
+            each.concat(),
+        ));
+        let rate = self.rate();
+        let leans = both
+            .iter()
+            .map(|(label, sense)| Variation::of(*label, self.common(*sense, |row| rate[row])));
+        vec![
+            self.cell("laboratory-field", fields),
+            self.cell("axis-wobble", leans.collect()),
+        ]
+    }
+
+    fn cell(&self, id: &str, variants: Vec<Variation>) -> Cell {
+        let name = self.ground.label(self.angle);
+        Cell {
+            effect: effect(id),
+            words: words(self.ground, name),
+            place: Place {
+                node: self.ground.name(Node::Output),
+                along: name.to_owned(),
+            },
+            variants,
+            typical: None,
+            description: None,
+        }
+    }
+
+    /// The signals along the axis of turning: the rate of a gyroscope.
+    fn rate(&self) -> Vec<f64> {
+        let along = |row: usize| {
+            (0..3)
+                .map(|a| self.ground.signal(a)[row] * self.axis[row][a])
+                .sum()
+        };
+        (0..self.ground.rows()).map(along).collect()
+    }
+
+    /// A field across the axis that all outputs sense alike, times something.
+    fn common(&self, sense: f64, times: impl Fn(usize) -> f64) -> Vec<Term> {
+        let name = self.ground.label(self.angle);
+        let mut all = Vec::new();
+        for (number, mount) in self.mounts.iter().enumerate() {
+            let first = perpendicular(mount);
+            let second = cross(mount, &first);
+            for (part, turned) in [("cos", 0.0), ("sin", -std::f64::consts::FRAC_PI_2)] {
+                // Seen from the sensor, what stays in the laboratory turns back.
+                let component = |a: usize, row: usize| {
+                    if !same(&self.axis[row], mount) {
+                        return 0.0;
+                    }
+                    let angle = sense * self.psi[row] + turned;
+                    times(row) * (libm::cos(angle) * first[a] - libm::sin(angle) * second[a])
+                };
+                let text = format!("{part}({name}) across the axis, mount {}", number + 1);
+                all.extend(self.tied(component, &text));
+            }
+        }
+        all
+    }
+
+    /// A field along the axis that all outputs sense alike.
+    fn along(&self) -> Vec<Term> {
+        self.tied(|a, row| self.axis[row][a], "component along the axis")
+    }
+
+    fn tied(&self, component: impl Fn(usize, usize) -> f64, text: &str) -> Vec<Term> {
+        let terms = (0..3).map(|a| {
+            let modifier: Vec<f64> = (0..self.ground.rows())
+                .map(|row| component(a, row))
+                .collect();
+            Term::new(Node::Output, modifier, text.to_owned()).on(a)
+        });
+        tied(
+            terms
+                .filter(|term| largest(&term.modifier) > 1e-9)
+                .collect(),
+        )
+    }
+
+    /// A field that one output senses.
+    fn alone(&self, a: usize) -> Vec<Term> {
+        let name = self.ground.label(self.angle);
+        let mut terms = Vec::new();
+        let own: Vec<f64> = self.axis.iter().map(|axis| axis[a]).collect();
+        if varies(&own) {
+            let text = "component along the axis".to_owned();
+            terms.push(Term::new(Node::Output, own, text).on(a));
+        }
+        for (number, mount) in self.mounts.iter().enumerate() {
+            if mount[a].abs() > 0.99 {
+                continue;
+            }
+            let inside: Vec<f64> = self
+                .axis
+                .iter()
+                .map(|axis| f64::from(u8::from(same(axis, mount))))
+                .collect();
+            for (part, wave) in [("cos", libm::cos as fn(f64) -> f64), ("sin", libm::sin)] {
+                let modifier = map2(&inside, &self.psi, |inside, psi| inside * wave(psi));
+                let text = format!("{part}({name}), mount {}", number + 1);
+                terms.push(Term::new(Node::Output, modifier, text).on(a));
+            }
+        }
+        terms
+    }
+}
+
+fn same(x: &Vector, z: &Vector) -> bool {
+    x.iter().zip(z).all(|(x, z)| (x - z).abs() < 1e-3)
+}
+
+fn cross(x: &Vector, z: &Vector) -> Vector {
+    [
+        x[1] * z[2] - x[2] * z[1],
+        x[2] * z[0] - x[0] * z[2],
+        x[0] * z[1] - x[1] * z[0],
+    ]
+}
+
+/// A unit vector at right angles to another.
+fn perpendicular(axis: &Vector) -> Vector {
+    let mut least = 0;
+    for a in 1..3 {
+        if axis[a].abs() < axis[least].abs() {
+            least = a;
+        }
+    }
+    let mut other = [0.0; 3];
+    other[least] = 1.0;
+    let across = cross(axis, &other);
+    let length = libm::sqrt(across.iter().map(|x| x * x).sum());
+    across.map(|x| x / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_frame_of_a_mount_is_at_right_angles() {
+        for axis in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.48, 0.6, 0.64]] {
+            let first = perpendicular(&axis);
+            let second = cross(&axis, &first);
+            let dot = |x: &Vector, z: &Vector| -> f64 { x.iter().zip(z).map(|(x, z)| x * z).sum() };
+            assert!(dot(&axis, &first).abs() < 1e-12 && dot(&axis, &second).abs() < 1e-12);
+            assert!((dot(&first, &first) - 1.0).abs() < 1e-12);
+            assert!((dot(&second, &second) - 1.0).abs() < 1e-12);
+        }
+    }
+}

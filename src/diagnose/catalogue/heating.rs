@@ -1,0 +1,107 @@
+//! Self-heating: the power of the signal warms what senses it, and warmth needs time.
+
+use super::ground::{Ground, Node, varies};
+use super::modifiers::{figure, grid, lag, largest, map};
+use super::response::words;
+use super::{Cell, Term, Variation, effect};
+use crate::diagnose::case::Role;
+use crate::diagnose::evidence::Place;
+
+/// On the scale, by the power of the signal, as in the resistor through which a current is read; and on the
+/// offset, by the power of a current or voltage that is applied, as in a thermometer.
+pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    if !ground.is_timed() || !ground.has_signal() {
+        return Vec::new();
+    }
+    let mut cells = vec![of_signals(ground)];
+    for column in ground.numeric() {
+        if ["A", "V"].iter().any(|unit| ground.is_like(column, unit))
+            && ground.case().columns[column].role == Role::Stimulus
+        {
+            cells.push(of_column(ground, column));
+        }
+    }
+    cells
+}
+
+fn of_signals(ground: &Ground<'_>) -> Cell {
+    /// A signal that never comes down to this part of its range has a power that is a line.
+    const LOW: f64 = 0.3;
+    let unit = ground.time_unit();
+    let swings = |signal: &[f64]| {
+        let least = signal
+            .iter()
+            .fold(f64::INFINITY, |least, s| least.min(s.abs()));
+        varies(signal) && least < LOW * largest(signal)
+    };
+    let responses: Vec<usize> = (0..ground.case().responses.len())
+        .filter(|response| swings(ground.signal(*response)))
+        .collect();
+    let mut variants = Vec::new();
+    for tau in scales(ground) {
+        let label = format!("τ = {} {unit}", figure(tau));
+        let terms = responses.iter().map(|response| {
+            let (warmth, text) = warmth(ground, ground.signal(*response), "signal", tau);
+            Term::new(Node::Gain, warmth, text).on(*response)
+        });
+        let terms: Vec<Term> = terms.collect();
+        if terms.len() > 1 {
+            for term in &terms {
+                let name = term.response.map(|r| &ground.case().responses[r].name);
+                let label = format!("{}, {label}", name.map_or("", String::as_str));
+                variants.push(Variation::one(label, term.clone()).shaped("τ", tau, &unit));
+            }
+        }
+        if !terms.is_empty() {
+            variants.push(Variation::of(label, terms).shaped("τ", tau, &unit));
+        }
+    }
+    cell(ground, Node::Gain, "signal", variants)
+}
+
+fn of_column(ground: &Ground<'_>, column: usize) -> Cell {
+    let unit = ground.time_unit();
+    let name = ground.label(column);
+    let variants = scales(ground).into_iter().map(|tau| {
+        let (warmth, text) = warmth(ground, ground.numbers(column), name, tau);
+        let label = format!("τ = {} {unit}", figure(tau));
+        Variation::one(label, Term::new(Node::Output, warmth, text)).shaped("τ", tau, &unit)
+    });
+    cell(ground, Node::Output, name, variants.collect())
+}
+
+/// The power of something as a part of the largest, late.
+fn warmth(ground: &Ground<'_>, x: &[f64], name: &str, tau: f64) -> (Vec<f64>, String) {
+    let size = largest(x).max(f64::MIN_POSITIVE);
+    let power = map(x, |x| (x / size) * (x / size));
+    let text = format!("lag({name}^2, {} {})", figure(tau), ground.time_unit());
+    (lag(&ground.clock.values, &power, tau), text)
+}
+
+fn cell(ground: &Ground<'_>, node: Node, along: &str, variants: Vec<Variation>) -> Cell {
+    let mut words = words(ground, along);
+    words.p = ground.name(node);
+    Cell {
+        effect: effect("self-heating"),
+        words,
+        place: Place {
+            node: ground.name(node),
+            along: along.to_owned(),
+        },
+        variants,
+        typical: None,
+        description: None,
+    }
+}
+
+/// What is quicker than the rows follow one another is a power of the signal.
+fn scales(ground: &Ground<'_>) -> Vec<f64> {
+    let span = ground.clock.span();
+    let blocks = ground.frame.blocks.len().max(2) as f64;
+    grid(
+        (span / blocks).max(ground.clock.interval()),
+        span / 5.0,
+        2.5,
+        5,
+    )
+}

@@ -1,0 +1,372 @@
+//! What an axis does to what it takes in, where the model forms that from several columns or from angles:
+//! a gyroscope in some mount on a rate table, an accelerometer that is turned.
+//!
+//! The signal of a response, what its model gives besides constant terms, is the input of its axis in units
+//! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
+
+use super::ground::{Ground, Node, varies};
+use super::modifiers::{
+    correlation, creeps, figure, held_lag, lag, largest, map, map2, play, range, rate,
+};
+use super::response::time_constants;
+use super::{Cell, Modifier, Term, Variation, Words, effect};
+use crate::diagnose::case::Role;
+use crate::diagnose::evidence::Place;
+
+/// Cells of the inputs of all axes; none where a column is the input.
+pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    let inputs = inputs(ground);
+    if inputs.is_empty() {
+        return Vec::new();
+    }
+    let mut cells = powers(ground, &inputs);
+    cells.extend(limits(ground, &inputs));
+    cells.extend(products(ground, &inputs));
+    cells.extend(memory(ground, &inputs));
+    cells.retain(|cell| !cell.variants.is_empty());
+    cells
+}
+
+/// What a response takes in.
+struct Input {
+    response: usize,
+    /// Along its axis, from −1 to 1.
+    own: Vec<f64>,
+    /// Along the other axes, likewise.
+    others: Vec<Modifier>,
+    /// Where a run begins: from which input, and how long before.
+    came: Vec<Option<(f64, f64)>>,
+}
+
+fn inputs(ground: &Ground<'_>) -> Vec<Input> {
+    let case = ground.case();
+    // What goes on with the time is a drift of the source, not an input of an axis.
+    let times = case
+        .with_role(Role::Time)
+        .chain(case.with_role(Role::Order));
+    let columns: Vec<usize> = ground.numeric().into_iter().chain(times).collect();
+    let of_response = |response: usize| {
+        let signal = ground.signal(response);
+        let is_column = columns.iter().any(|c| ground.takes_in(response, *c));
+        let formed = !ground.is_implicit(response) && varies(signal) && !is_column;
+        formed.then(|| Input {
+            response,
+            own: whole(signal),
+            others: others(ground, response),
+            came: came(ground, response),
+        })
+    };
+    (0..case.responses.len()).filter_map(of_response).collect()
+}
+
+/// Where a head turns in one direction through each run, it goes back behind the first angle before the run,
+/// so that this one too is reached like the others; no row shows that.
+fn came(ground: &Ground<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
+    let Some((angle, starts)) = super::angles::runs_of_turns(ground) else {
+        return Vec::new();
+    };
+    let (x, t) = (ground.numbers(angle), &ground.clock.values);
+    let size = largest(ground.signal(response)).max(f64::MIN_POSITIVE);
+    let mut came = vec![None; ground.rows()];
+    for first in starts {
+        let behind = 2.0 * x[first] - x[first + 1];
+        let signal = ground.signal_at(response, first, angle, behind);
+        came[first] = Some((signal / size, t[first + 1] - t[first]));
+    }
+    came
+}
+
+/// As a part of the largest.
+fn whole(x: &[f64]) -> Vec<f64> {
+    let size = largest(x).max(f64::MIN_POSITIVE);
+    map(x, |x| x / size)
+}
+
+/// Inputs of the other axes: where one angle turns the sensor, the slope of the signal by it; else what
+/// the other coefficients of the model multiply.
+fn others(ground: &Ground<'_>, response: usize) -> Vec<Modifier> {
+    let case = ground.case();
+    let angles: Vec<usize> = case
+        .with_role(Role::Angle)
+        .filter(|c| ground.in_model(*c))
+        .collect();
+    if let [angle] = angles[..] {
+        let slope = ground.slope(Node::Column(angle), response);
+        let text = format!("(dsignal/d{})", ground.label(angle));
+        return vec![(whole(&slope), text)];
+    }
+    let signal = ground.signal(response);
+    let is_other = |parameter: &usize| {
+        /// What correlates so far with the signal is the input of the own axis.
+        const OWN: f64 = 0.9;
+        let slope = ground.slope(Node::Parameter(*parameter), response);
+        varies(&slope) && correlation(&slope, signal).abs() < OWN
+    };
+    (0..case.parameters.len())
+        .filter(is_other)
+        .map(|parameter| {
+            let slope = ground.slope(Node::Parameter(parameter), response);
+            let name = ground.name(Node::Parameter(parameter));
+            (whole(&slope), format!("(dsignal/d{name})"))
+        })
+        .collect()
+}
+
+/// A law of one input, in one variant: a modifier for each coefficient.
+type Law<'l> = Box<dyn Fn(&Input) -> Vec<Modifier> + 'l>;
+
+/// A law with its label and the parameter of its shape.
+struct Shaped<'l> {
+    label: String,
+    shape: Option<(&'static str, f64, String)>,
+    law: Law<'l>,
+}
+
+impl<'l> Shaped<'l> {
+    fn plain(label: &str, law: impl Fn(&Input) -> Vec<Modifier> + 'l) -> Shaped<'l> {
+        Shaped {
+            label: label.to_owned(),
+            shape: None,
+            law: Box::new(law),
+        }
+    }
+}
+
+/// A cell whose effect may be on one axis, or on all of them, on each with a size of its own.
+fn cell(ground: &Ground<'_>, inputs: &[Input], id: &str, laws: Vec<Shaped<'_>>) -> Cell {
+    let case = ground.case();
+    let mut variants = Vec::new();
+    for Shaped { label, shape, law } in laws {
+        let terms = |input: &Input| -> Vec<Term> {
+            let modifiers = law(input).into_iter();
+            let moving = modifiers.filter(|(modifier, _)| varies(modifier));
+            moving
+                .map(|(modifier, text)| Term::new(Node::Output, modifier, text).on(input.response))
+                .collect()
+        };
+        let mut add = |scope: &str, terms: Vec<Term>| {
+            if terms.is_empty() {
+                return;
+            }
+            let words = [scope, &label];
+            let label: Vec<&str> = words.into_iter().filter(|w| !w.is_empty()).collect();
+            let variation = Variation::of(label.join(", "), terms);
+            variants.push(match &shape {
+                Some((symbol, value, unit)) => variation.shaped(symbol, *value, unit),
+                None => variation,
+            });
+        };
+        if case.responses.len() > 1 {
+            for input in inputs {
+                add(&case.responses[input.response].name, terms(input));
+            }
+        }
+        if case.responses.len() == 1 || inputs.len() > 1 {
+            add("", inputs.iter().flat_map(terms).collect());
+        }
+    }
+    let names: Vec<&str> = inputs
+        .iter()
+        .map(|input| case.responses[input.response].name.as_str())
+        .collect();
+    Cell {
+        effect: effect(id),
+        words: Words {
+            x: format!("signal({})", names.join(", ")),
+            y: ground.output(),
+            ..Words::default()
+        },
+        place: Place {
+            node: ground.name(Node::Output),
+            along: along(ground),
+        },
+        variants,
+        typical: None,
+        description: None,
+    }
+}
+
+/// The columns that inputs are formed from.
+fn along(ground: &Ground<'_>) -> String {
+    let columns = &ground.case().columns;
+    let forms =
+        |c: &usize| matches!(columns[*c].role, Role::Stimulus | Role::Angle) && ground.in_model(*c);
+    let names: Vec<&str> = (0..columns.len())
+        .filter(forms)
+        .map(|c| ground.label(c))
+        .collect();
+    names.join(", ")
+}
+
+fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
+    type Power = (&'static str, &'static str, fn(f64) -> f64);
+    let laws: [Power; 3] = [
+        ("quadratic", "signal^2", |s| s * s),
+        ("cubic", "signal^3", |s| s * s * s),
+        ("asymmetry", "abs(signal)", f64::abs),
+    ];
+    let one = |(id, text, law): Power| {
+        let law = move |input: &Input| vec![(map(&input.own, law), text.to_owned())];
+        cell(ground, inputs, id, vec![Shaped::plain("", law)])
+    };
+    let mut cells: Vec<Cell> = laws.into_iter().map(one).collect();
+    // Small inputs are other axes' inputs that leak in: they have no sign of their own.
+    let steps = [0.02, 0.1].map(|width: f64| {
+        let law = move |input: &Input| {
+            let modifier = map(&input.own, |s| (s / width).clamp(-1.0, 1.0));
+            vec![(modifier, format!("clamp(signal/{width}, -1, 1)"))]
+        };
+        Shaped::plain(&format!("within {} %", 100.0 * width), law)
+    });
+    cells.push(cell(ground, inputs, "zero-step", steps.into()));
+    cells
+}
+
+/// The end of the range on both sides, and on one.
+fn limits(ground: &Ground<'_>, inputs: &[Input]) -> Option<Cell> {
+    /// Sizes of the input below which its end cannot be seen to bend.
+    const LEVELS: usize = 6;
+    let sizes = inputs.iter().map(|input| levels(&input.own)).max()?;
+    if sizes < LEVELS {
+        return None;
+    }
+    let knees = [0.5, 0.6, 0.7, 0.8, 0.9].map(|knee: f64| Shaped {
+        label: format!("above {knee} of the largest"),
+        shape: Some(("x₀", knee, String::new())),
+        law: Box::new(move |input: &Input| {
+            let modifier = map(&input.own, |s| -(s.abs() - knee).max(0.0) * s.signum());
+            let text = format!("-sign(signal)*max(abs(signal) - {knee}, 0)");
+            vec![(modifier, text)]
+        }),
+    });
+    Some(cell(ground, inputs, "saturation", knees.into()))
+}
+
+/// Different sizes, to a hundredth of the largest.
+fn levels(x: &[f64]) -> usize {
+    let mut sizes: Vec<i64> = x.iter().map(|x| (100.0 * x.abs()).round() as i64).collect();
+    sizes.sort_unstable();
+    sizes.dedup();
+    sizes.len()
+}
+
+/// Products with the inputs of other axes, and their squares.
+fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
+    /// A product that is never larger than this is a leak of one axis into the other.
+    const LEAK: f64 = 0.05;
+    let product = |input: &Input, (other, text): &Modifier| {
+        let product = map2(&input.own, other, |s, q| s * q);
+        let large = largest(&product) > LEAK;
+        large.then(|| (product, format!("signal*{text}")))
+    };
+    let square = |(other, text): &Modifier| (map(other, |q| q * q), format!("{text}^2"));
+    let most = inputs.iter().map(|input| input.others.len()).max();
+    let each = 0..most.unwrap_or(0);
+    let name = |other: usize| match each.len() {
+        1 => String::new(),
+        _ => format!("other axis {}", other + 1),
+    };
+    let mut crossed: Vec<Shaped<'_>> = each
+        .clone()
+        .map(|at| {
+            let law = move |input: &Input| {
+                let other = input.others.get(at);
+                other
+                    .and_then(|other| product(input, other))
+                    .into_iter()
+                    .collect()
+            };
+            Shaped::plain(&name(at), law)
+        })
+        .collect();
+    if each.len() > 1 {
+        let all = |input: &Input| {
+            let others = input.others.iter();
+            others.filter_map(|other| product(input, other)).collect()
+        };
+        crossed.push(Shaped::plain("", all));
+    }
+    // All squares together are the square of the own input: the field has a length.
+    let squared = each.clone().map(|at| {
+        let law = move |input: &Input| input.others.get(at).map(square).into_iter().collect();
+        Shaped::plain(&name(at), law)
+    });
+    let squared = squared.collect();
+    vec![
+        cell(ground, inputs, "cross-product", crossed),
+        cell(ground, inputs, "cross-square", squared),
+    ]
+}
+
+/// What depends on the inputs before: relaxation, late reading, hysteresis.
+fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
+    let mut cells = vec![cell(ground, inputs, "hysteresis", loops())];
+    if !ground.is_timed() {
+        return cells;
+    }
+    let t = ground.clock.values.clone();
+    let unit = ground.time_unit();
+    let scales = time_constants(ground);
+    let lacks = |input: &Input, tau: f64| {
+        let own = &input.own;
+        let late = if creeps(own) {
+            lag(&t, own, tau)
+        } else {
+            held_lag(&t, own, &input.came, tau)
+        };
+        let modifier = map2(&late, own, |late, now| late - now);
+        let text = format!("(lag(signal, {} {unit}) - signal)", figure(tau));
+        (modifier, text)
+    };
+    let lacks = &lacks;
+    let single = scales.iter().map(|tau| Shaped {
+        label: format!("τ = {} {unit}", figure(*tau)),
+        shape: Some(("τ", *tau, unit.clone())),
+        law: Box::new(move |input: &Input| vec![lacks(input, *tau)]),
+    });
+    // Real bodies relax more than once: a quick part and a slow one.
+    let double = scales.iter().step_by(2).map(|tau| Shaped {
+        label: format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau)),
+        shape: None,
+        law: Box::new(move |input: &Input| vec![lacks(input, *tau), lacks(input, 4.0 * tau)]),
+    });
+    cells.push(cell(ground, inputs, "lag", single.chain(double).collect()));
+    let skew = |input: &Input| {
+        let modifier = rate(&t, &input.own);
+        let moving = creeps(&input.own);
+        moving
+            .then(|| (modifier, "dsignal/dt".to_owned()))
+            .into_iter()
+            .collect()
+    };
+    let skew = vec![Shaped::plain("", skew)];
+    cells.push(cell(ground, inputs, "timing-skew", skew));
+    cells
+}
+
+/// Loops of a body with inner friction: one play, or several of growing width in parallel.
+fn loops() -> Vec<Shaped<'static>> {
+    const WIDTHS: [f64; 5] = [0.1, 0.3, 0.6, 1.0, 1.5];
+    let behind = |own: &[f64], width: f64| map2(own, &play(own, width), |s, behind| s - behind);
+    let one = WIDTHS.map(|width| {
+        Shaped::plain(&format!("width {width}"), move |input: &Input| {
+            let (least, most) = range(&input.own);
+            if most - least <= width {
+                return Vec::new();
+            }
+            let text = format!("(signal - play(signal, {width}))");
+            vec![(behind(&input.own, width), text)]
+        })
+    });
+    let many = Shaped::plain("several widths", move |input: &Input| {
+        let mut sum = vec![0.0; input.own.len()];
+        for width in WIDTHS {
+            sum = map2(&sum, &behind(&input.own, width), |sum, one| sum + one);
+        }
+        vec![(
+            map(&sum, |sum| sum / WIDTHS.len() as f64),
+            "mean of (signal - play(signal, w)) over widths w".to_owned(),
+        )]
+    });
+    one.into_iter().chain([many]).collect()
+}

@@ -1,0 +1,188 @@
+//! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
+//! nothing happens.
+
+use super::ground::{Ground, Node, varies};
+use super::modifiers::{figure, largest, map, range};
+use super::response::{crosses_zero, levels_of, on_node, on_output, plain, words};
+use super::{Cell, Term, Variants, Variation};
+
+/// Cells of one column that is an input.
+pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
+    /// Fewer values show no bend.
+    const VALUES: usize = 6;
+    let x = ground.numbers(column);
+    let mut cells = Vec::new();
+    if crosses_zero(x) {
+        cells.push(dead_band(ground, column));
+    }
+    if levels_of(x).len() < VALUES {
+        return cells;
+    }
+    let ends = plateaus(ground, column);
+    if ends.is_empty() {
+        if crosses_zero(x) {
+            cells.push(soft_limit(ground, column));
+        }
+        cells.push(kink(ground, column));
+    } else {
+        cells.push(plain(ground, "saturation", ground.label(column), ends));
+    }
+    cells
+}
+
+/// A step at zero, and bands of several widths around it.
+fn dead_band(ground: &Ground<'_>, column: usize) -> Cell {
+    let (x, name) = (ground.numbers(column), ground.label(column));
+    let unit = ground.case().columns[column].unit.typeset();
+    let most = largest(x);
+    let step = (
+        String::new(),
+        vec![(
+            map(x, |x| if x == 0.0 { 0.0 } else { x.signum() }),
+            format!("sign({name})"),
+        )],
+    );
+    let bands = [0.05, 0.1, 0.2].map(|share| {
+        let width = share * most;
+        let modifier = map(x, |x| (x / width).clamp(-1.0, 1.0));
+        let width = figure(width);
+        (
+            format!("within {width} {unit}"),
+            vec![(modifier, format!("clamp({name}/{width}, -1, 1)"))],
+        )
+    });
+    let variants: Variants = [step].into_iter().chain(bands).collect();
+    let words = words(ground, name);
+    on_node(ground, "zero-step", words, name, Node::Output, variants)
+}
+
+/// Both ends bend alike.
+fn soft_limit(ground: &Ground<'_>, column: usize) -> Cell {
+    let (x, name) = (ground.numbers(column), ground.label(column));
+    let unit = ground.case().columns[column].unit.typeset();
+    let most = largest(x);
+    let variants = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| {
+        let limit = share * most;
+        let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * x.signum());
+        let shown = figure(limit);
+        let text = format!("-sign({name})*max(abs({name}) - {shown}, 0)");
+        Variation::one(format!("above {shown} {unit}"), on_output(modifier, text))
+            .shaped("x₀", limit, &unit)
+    });
+    plain(ground, "saturation", name, variants.into())
+}
+
+/// Another slope from one value on.
+fn kink(ground: &Ground<'_>, column: usize) -> Cell {
+    /// Parts into which the range is divided.
+    const PARTS: usize = 16;
+    let (x, name) = (ground.numbers(column), ground.label(column));
+    let unit = ground.case().columns[column].unit.typeset();
+    let (least, most) = range(x);
+    let variants = (1..PARTS).map(|part| {
+        let at = least + part as f64 / PARTS as f64 * (most - least);
+        let modifier = map(x, |x| (x - at).max(0.0));
+        let shown = figure(at);
+        let text = format!("max({name} - {shown}, 0)");
+        Variation::one(format!("at {shown} {unit}"), on_output(modifier, text))
+            .shaped("x₀", at, &unit)
+    });
+    plain(ground, "kink", name, variants.collect())
+}
+
+/// Ends of the range at which the readings pile up at one value although the model moves on: what is
+/// missing there is the whole of the signal beyond the knee.
+fn plateaus(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
+    let x = ground.numbers(column);
+    let mut order: Vec<usize> = (0..x.len()).collect();
+    order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
+    let mut variants = Vec::new();
+    for response in 0..ground.case().responses.len() {
+        variants.extend(at_end(ground, column, response, &order, "above"));
+        order.reverse();
+        variants.extend(at_end(ground, column, response, &order, "below"));
+        order.reverse();
+    }
+    variants
+}
+
+/// Knees before the plateau at the end of an order of the rows.
+fn at_end(
+    ground: &Ground<'_>,
+    column: usize,
+    response: usize,
+    order: &[usize],
+    side: &str,
+) -> Vec<Variation> {
+    /// Knees that are tried within the last step before the plateau.
+    const KNEES: usize = 8;
+    let (x, name) = (ground.numbers(column), ground.label(column));
+    let Some(first) = plateau(
+        &ground.frame.observed(response),
+        ground.signal(response),
+        x,
+        order,
+    ) else {
+        return Vec::new();
+    };
+    let unit = ground.case().columns[column].unit.typeset();
+    let (inside, outside) = (x[order[first - 1]], x[order[first]]);
+    let away = (outside - inside).signum();
+    let knees = (1..=KNEES).map(|step| {
+        let knee = inside + (outside - inside) * step as f64 / KNEES as f64;
+        let modifier = map(x, |x| -(away * (x - knee)).max(0.0));
+        let shown = figure(knee);
+        let text = match side {
+            "above" => format!("-max({name} - {shown}, 0)"),
+            _ => format!("-max({shown} - {name}, 0)"),
+        };
+        let term: Term = on_output(modifier, text);
+        let label = format!("{side} {shown} {unit}");
+        let (label, term) = match &ground.case().responses[..] {
+            [_] => (label, term),
+            many => (
+                format!("{}, {label}", many[response].name),
+                term.on(response),
+            ),
+        };
+        Variation::one(label, term).shaped("x₀", knee, &unit)
+    });
+    knees.filter(|v| varies(&v.terms[0].modifier)).collect()
+}
+
+/// Where a plateau begins in an order of the rows that ends with it; nothing if there is none.
+fn plateau(observed: &[f64], signal: &[f64], x: &[f64], order: &[usize]) -> Option<usize> {
+    /// Rows and values that a plateau has at least.
+    const ROWS: usize = 4;
+    const VALUES: usize = 3;
+    /// The readings move by less than this part of what the model says.
+    const STILL: f64 = 0.1;
+    let is_plateau = |first: &usize| {
+        let rows = &order[*first..];
+        let values = levels_of(&rows.iter().map(|row| x[*row]).collect::<Vec<f64>>());
+        let of = |y: &[f64]| -> Vec<f64> { rows.iter().map(|row| y[*row]).collect() };
+        let (seen, expected) = (range(&of(observed)), range(&of(signal)));
+        values.len() >= VALUES && seen.1 - seen.0 < STILL * (expected.1 - expected.0)
+    };
+    // The longest; the line before it needs rows of its own.
+    let shortest = order.len().checked_sub(ROWS)?;
+    (order.len() / 4 + 1..=shortest).find(is_plateau)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plateau_begins_where_readings_stay() {
+        let x: Vec<f64> = (0..40).map(f64::from).collect();
+        let order: Vec<usize> = (0..40).collect();
+        let clipped: Vec<f64> = x
+            .iter()
+            .map(|x| x.min(29.5) + 0.01 * libm::sin(7.0 * x))
+            .collect();
+        assert_eq!(plateau(&clipped, &x, &x, &order), Some(29));
+        let straight: Vec<f64> = x.iter().map(|x| 2.0 * x).collect();
+        assert_eq!(plateau(&straight, &straight, &x, &order), None);
+    }
+}

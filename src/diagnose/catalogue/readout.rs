@@ -1,0 +1,106 @@
+//! What the readout and the protocol do: rounding to a step, outputs in the wrong line.
+
+use super::ground::{Ground, varies};
+use super::response::{on_output, plain};
+use super::{Cell, Variation, tied};
+
+/// Cells of the readout.
+pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    let mut cells: Vec<Cell> = (0..ground.case().responses.len())
+        .filter_map(|response| quantisation(ground, response))
+        .collect();
+    cells.extend(shifted(ground));
+    cells
+}
+
+/// Rounding of the model's output to the step in which readings come: an error of known size.
+fn quantisation(ground: &Ground<'_>, response: usize) -> Option<Cell> {
+    let observed = ground.frame.observed(response);
+    if ground.is_implicit(response) || ground.frame.blocks.len() < ground.rows() {
+        return None;
+    }
+    let step = step(&observed)?;
+    let model = &ground.fit.linear.values[response];
+    let modifier: Vec<f64> = model
+        .iter()
+        .map(|y| (y / step).round() * step - y)
+        .collect();
+    let name = &ground.case().responses[response].name;
+    let unit = ground.case().responses[response].unit.typeset();
+    let shown = super::modifiers::figure(step);
+    let term = on_output(
+        modifier,
+        format!("(round({name}/{shown})*{shown} - {name})"),
+    );
+    let label = format!("step {shown} {unit}");
+    let mut cell = plain(
+        ground,
+        "quantisation",
+        name,
+        vec![Variation::one(label, term.on(response))],
+    );
+    cell.words.y = name.clone();
+    Some(cell)
+}
+
+/// The step of which all differences of readings are multiples, if it is coarse: several readings agree.
+fn step(readings: &[f64]) -> Option<f64> {
+    /// Share of the readings that are different from all others, at most.
+    const ALIKE: f64 = 0.7;
+    /// A multiple is whole to this part of the step.
+    const WHOLE: f64 = 1e-3;
+    let mut values = readings.to_vec();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    if values.len() < 3 || values.len() as f64 > ALIKE * readings.len() as f64 {
+        return None;
+    }
+    let gaps: Vec<f64> = values.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let step = gaps.iter().copied().fold(f64::INFINITY, f64::min);
+    let whole = |gap: &f64| {
+        let times = gap / step;
+        (times - times.round()).abs() < WHOLE * times.max(1.0)
+    };
+    // Values that come again because the stimulus does have no common step.
+    let range = values[values.len() - 1] - values[0];
+    (gaps.iter().all(whole) && range < 1e4 * step).then_some(step)
+}
+
+/// Every output stands one row too late or too early.
+fn shifted(ground: &Ground<'_>) -> Option<Cell> {
+    let single = ground.frame.blocks.iter().all(|rows| rows.len() == 1);
+    if !single || !ground.has_signal() || ground.rows() < 8 {
+        return None;
+    }
+    let last = ground.rows() - 1;
+    let variant = |label: &str, other: &dyn Fn(usize) -> usize| {
+        let terms = (0..ground.case().responses.len()).map(|response| {
+            let model = &ground.fit.linear.values[response];
+            let modifier = (0..=last).map(|row| model[other(row)] - model[row]);
+            on_output(modifier.collect(), format!("outputs {label}")).on(response)
+        });
+        let terms = terms.filter(|term| varies(&term.modifier));
+        Variation::of(label, tied(terms.collect()))
+    };
+    let variants = vec![
+        variant("one row late", &|row| row.saturating_sub(1)),
+        variant("one row early", &|row| (row + 1).min(last)),
+    ];
+    Some(plain(ground, "shifted", "row", variants))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coarse_display_has_a_step() {
+        let readings: Vec<f64> = (0..60)
+            .map(|k| (f64::from(k) * 0.013 / 0.05).round() * 0.05)
+            .collect();
+        let found = step(&readings).unwrap();
+        assert!((found - 0.05).abs() < 1e-9);
+        let fine: Vec<f64> = (0..60).map(|k| libm::sin(f64::from(k))).collect();
+        assert_eq!(step(&fine), None);
+    }
+}

@@ -1,0 +1,71 @@
+//! Several bad rows at once are not bad rows: what is wrong at one position, or time and again, is an
+//! effect of its own, which no catalogue names.
+
+use super::catalogue::{Cell, Ground};
+use super::evidence::{Examination, State};
+
+/// So many of them are no accidents any more.
+const MANY: usize = 3;
+/// A column with fewer different values says nothing when two rows agree in it.
+const VALUES: usize = 5;
+
+/// Slots of single rows, jumps, or odd levels that have no name because of the others.
+pub(super) fn nameless(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    examination: &Examination,
+) -> Vec<usize> {
+    let of_kind = |id: &str| -> Vec<usize> {
+        let first = |slot: usize| examination.slots[slot].named.first();
+        (0..examination.slots.len())
+            .filter(|slot| examination.slots[*slot].state != State::Unexplained)
+            .filter(|slot| first(*slot).is_some_and(|one| cells[one.candidate].effect.id == id))
+            .collect()
+    };
+    let mut found: Vec<usize> = ["outlier", "step", "odd-level"]
+        .into_iter()
+        .flat_map(of_kind)
+        .collect();
+    if found.len() < MANY {
+        found.clear();
+    }
+    let outliers = of_kind("outlier");
+    let row = |slot: usize| {
+        let variant = examination.slots[slot].named.first()?.variants.first()?;
+        let (cell, variation) = places[variant.atom];
+        let modifier = &cells[cell].variants[variation].terms.first()?.modifier;
+        modifier.iter().position(|x| *x != 0.0)
+    };
+    if let [one, other] = outliers[..]
+        && let (Some(a), Some(b)) = (row(one), row(other))
+        && share_a_level(ground, a, b)
+    {
+        found.extend(outliers);
+    }
+    found
+}
+
+/// Whether two rows have the same value of a column in which rows differ.
+fn share_a_level(ground: &Ground<'_>, a: usize, b: usize) -> bool {
+    ground.case().columns.iter().any(|column| {
+        let values: Vec<f64> = match (column.labels(), column.numbers()) {
+            (Some(labels), _) => labels
+                .of_row
+                .iter()
+                .map(|level| f64::from(*level))
+                .collect(),
+            (None, Some(numbers)) => numbers.to_vec(),
+            (None, None) => return false,
+        };
+        if values[a] != values[b] {
+            return false;
+        }
+        let mut distinct = values.clone();
+        distinct.sort_by(f64::total_cmp);
+        distinct.dedup();
+        // Values that are written with few digits come again by chance.
+        let alike = values.iter().filter(|value| **value == values[a]).count();
+        distinct.len() >= VALUES && alike * VALUES <= values.len()
+    })
+}

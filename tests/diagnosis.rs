@@ -1,56 +1,15 @@
 //! Diagnosis as a user meets it: the examples of the documentation, negative controls, files with the improved
-//! model, and real recordings where they are at hand.
+//! model.
 
 mod common;
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::path::Path;
 
 use serde_json::Value;
 
 use common::Noise;
-
-fn folder(name: &str) -> PathBuf {
-    let folder =
-        std::env::temp_dir().join(format!("gumption-diagnosis-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    folder
-}
-
-fn gumption(folder: &Path, arguments: &[&str]) -> (bool, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
-        .current_dir(folder)
-        .args(arguments)
-        .env("NO_COLOR", "1")
-        .env("COLUMNS", "100")
-        .output()
-        .expect("the program runs");
-    let text = if output.status.success() {
-        output.stdout
-    } else {
-        output.stderr
-    };
-    (
-        output.status.success(),
-        String::from_utf8_lossy(&text).into_owned(),
-    )
-}
-
-fn diagnosed(folder: &Path, case: &str) -> Value {
-    std::fs::write(folder.join("case.toml"), case).expect("written");
-    let (good, text) = gumption(folder, &["diagnose", "case.toml", "--json"]);
-    assert!(good, "{case}\n{text}");
-    serde_json::from_str(&text).expect("JSON")
-}
-
-/// Identifiers of everything that a diagnosis names.
-fn named(diagnosis: &Value) -> Vec<String> {
-    let effects = diagnosis["effects"].as_array().into_iter().flatten();
-    let of = effects.flat_map(|effect| effect["named"].as_array().into_iter().flatten());
-    of.filter_map(|one| one["id"].as_str().map(str::to_owned))
-        .collect()
-}
+use common::cases::{diagnosed, folder, gumption, named, planned};
 
 /// Two series of a load cell; `curvature` in mV/kN².
 fn load_cell(curvature: f64, seed: u64) -> String {
@@ -168,6 +127,10 @@ fn faults_are_shown_in_the_file() {
 /// Recordings that the examples of the documentation name.
 fn examples(folder: &Path) {
     let mut noise = Noise(11);
+    let mut design = "head [°],mount [°]\n".to_owned();
+    for step in 0..12 {
+        let _ = writeln!(design, "{},0", 30 * step);
+    }
     let mut oven = "time [h],oven [°C],resistance [ohm],room [°C]\n".to_owned();
     for row in 0..120 {
         let time = f64::from(row) * 0.05;
@@ -204,6 +167,8 @@ fn examples(folder: &Path) {
         ("poses.csv", poses),
         ("wafers.csv", wafers),
         ("load-cell.csv", load_cell(-2e-6, 5)),
+        ("load-cell-2.csv", load_cell(-2e-6, 6)),
+        ("design.csv", design),
     ] {
         std::fs::write(folder.join(name), text).expect("written");
     }
@@ -214,97 +179,39 @@ fn every_case_of_the_documentation_is_diagnosed() {
     let folder = folder("documentation");
     examples(&folder);
     let page = std::fs::read_to_string(common::root().join("docs/diagnose.md")).expect("the page");
-    let cases: Vec<&str> = page
-        .split("```toml case\n")
-        .skip(1)
-        .filter_map(|rest| rest.split("```").next())
-        .collect();
-    assert!(cases.len() > 5);
+    let blocks = |kind: &str| -> Vec<String> {
+        let opening = format!("```toml{kind}\n");
+        let parts = page.split(&opening).skip(1);
+        parts
+            .filter_map(|rest| Some(rest.split_once("```")?.0.to_owned()))
+            .collect()
+    };
+    let budgets = blocks("");
+    std::fs::write(folder.join("certificate.toml"), &budgets[0]).expect("written");
+    let cases = blocks(" case");
+    assert!(cases.len() >= 10);
     for case in cases {
-        diagnosed(&folder, case);
+        diagnosed(&folder, &case);
+    }
+    for case in blocks(" design") {
+        let plan = planned(&folder, &case);
+        assert!(
+            !plan["effects"].as_array().is_none_or(Vec::is_empty),
+            "{plan}"
+        );
     }
 }
-
-/// What each real recording must show: one of these identifiers among the names.
-const RECORDINGS: [(&str, &[&str]); 10] = [
-    ("acoustic_microscope_hsu", &["level-shift"]),
-    ("dmm_tempco_1V", &["temperature-lag", "tempco-bias"]),
-    ("loadcell_pontius", &["quadratic"]),
-    ("mpu9150_tumble", &["cross-axis"]),
-    ("oil_drop_millikan", &["mean-free-path"]),
-    ("resistor_tc_lag_vhd200", &["temperature-lag"]),
-    (
-        "resistor_tc_settling_ultrohm",
-        &["temperature-lag", "temperature-rate"],
-    ),
-    ("standard_resistor_dziuba", &["season"]),
-    ("wafer_resistivity_mpc61", &["level-shift"]),
-    ("xsens_tumble_accel", &["cross-axis"]),
-];
 
 #[test]
-fn real_recordings() {
-    let root = common::root();
-    if !root.join("../shared/recordings").is_dir() {
-        eprintln!("skipped: ../shared/recordings is not here");
-        return;
+fn usual_sizes_are_those_of_the_documentation() {
+    let page = std::fs::read_to_string(common::root().join("docs/diagnose.md")).expect("the page");
+    let (_, section) = page.split_once("## What may be there unseen").expect("it");
+    let (section, _) = section.split_once("\n## ").expect("the next");
+    let source = include_str!("../src/diagnose/typical.rs");
+    let (_, table) = source.split_once("const USUAL").expect("the table");
+    let (table, _) = table.split_once("];").expect("its end");
+    let ids = table.split('"').skip(1).step_by(2);
+    for id in ids {
+        assert!(section.contains(&format!("`{id}`")), "{id}");
     }
-    for (name, expected) in RECORDINGS {
-        let case = format!("cases/{name}.toml");
-        let (good, text) = gumption(&root, &["diagnose", &case, "--json"]);
-        assert!(good, "{name}: {text}");
-        let found: Value = serde_json::from_str(&text).expect("JSON");
-        let names = named(&found);
-        assert!(
-            expected
-                .iter()
-                .any(|id| names.iter().any(|name| name == id)),
-            "{name}: {names:?}"
-        );
-    }
-    if std::env::var_os("GUMPTION_UPDATE").is_some() {
-        report(&root);
-    }
-}
-
-/// `reports/recordings.md`: all recordings, each with its plot.
-fn report(root: &Path) {
-    let mut page = "# Real recordings\n\nWritten by `GUMPTION_UPDATE=1 cargo test --test diagnosis`; each section is what `gumption diagnose` says of a case in [cases](../cases).\n".to_owned();
-    for (name, _) in RECORDINGS {
-        let case = format!("cases/{name}.toml");
-        let plots = folder(name);
-        let (_, text) = gumption(
-            root,
-            &[
-                "diagnose",
-                &case,
-                "--markdown",
-                "--plots",
-                &plots.display().to_string(),
-            ],
-        );
-        let deeper = text.replace("\n## ", "\n### ");
-        let _ = write!(page, "\n#{deeper}\n");
-        let mut files: Vec<PathBuf> = std::fs::read_dir(&plots)
-            .expect("plots")
-            .filter_map(|entry| Some(entry.ok()?.path()))
-            .collect();
-        files.sort();
-        let first = [
-            "residuals_time.svg",
-            "residuals_day.svg",
-            "residuals_load.svg",
-            "residuals_row.svg",
-        ]
-        .iter()
-        .map(|file| plots.join(file))
-        .find(|path| path.exists());
-        if let Some(plot) = first.or_else(|| files.first().cloned()) {
-            std::fs::create_dir_all(root.join("reports/recordings")).expect("a folder");
-            std::fs::copy(&plot, root.join(format!("reports/recordings/{name}.svg")))
-                .expect("copied");
-            let _ = write!(page, "\n![residuals of {name}](recordings/{name}.svg)\n");
-        }
-    }
-    std::fs::write(root.join("reports/recordings.md"), page).expect("written");
 }

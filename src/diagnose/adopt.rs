@@ -33,14 +33,8 @@ pub struct Addition {
 pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extended> {
     let mut case = ground.case().clone();
     let mut additions: Vec<Addition> = Vec::new();
-    let mut lines: Vec<Vec<String>> = (0..case.responses.len())
-        .map(|response| {
-            case.equations
-                .text(response)
-                .lines()
-                .map(str::to_owned)
-                .collect()
-        })
+    let mut equations: Vec<Extending> = (0..case.responses.len())
+        .map(|response| Extending::of(case.equations.text(response)))
         .collect();
     let parameters = case.parameters.len();
     let mut columns = Vec::new();
@@ -52,15 +46,9 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
             None => free(&case, "beta", additions.len() + 1),
         };
         let is_new = shared.is_none();
-        for (response, lines) in lines.iter_mut().enumerate() {
+        for (response, equation) in equations.iter_mut().enumerate() {
             if term.response.is_none_or(|only| only == response) {
-                insert(
-                    ground,
-                    term,
-                    response,
-                    lines,
-                    &format!("{parameter}*{column}"),
-                );
+                equation.insert(ground, term, &format!("{parameter}*{column}"));
             }
         }
         columns.push(Column {
@@ -92,10 +80,34 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
     }
     debug_assert_eq!(case.parameters.len(), parameters + additions.len());
     case.columns.extend(columns);
-    let texts: Vec<String> = lines.iter().map(|lines| lines.join("\n")).collect();
+    let texts: Vec<String> = equations
+        .iter()
+        .enumerate()
+        .map(|(response, equation)| equation.text(ground, response))
+        .collect();
     case.equations = compiled(&case, &texts)?;
     case.model = texts;
     Some(Extended { case, additions })
+}
+
+/// Takes the coefficients of each variation as scattered about zero, with the scatter that was found:
+/// `counts` are their numbers, variation by variation.
+pub fn scattered(extended: &mut Extended, counts: &[usize], coefficients: &DVector<f64>) {
+    let first = extended.case.parameters.len() - extended.additions.len();
+    let mut at = 0;
+    for count in counts {
+        let own = (at..at + count).filter_map(|i| coefficients.get(i).copied());
+        let own: Vec<f64> = own.filter(|size| size.is_finite()).collect();
+        let squares: f64 = own.iter().map(|size| size * size).sum();
+        let scatter = (squares / own.len().max(1) as f64).sqrt();
+        for parameter in extended.case.parameters[first + at..]
+            .iter_mut()
+            .take(*count)
+        {
+            parameter.prior = (scatter > 0.0).then_some((0.0, scatter));
+        }
+        at += count;
+    }
 }
 
 /// Where the search begins: the declared fit, with the coefficients that the examination found.
@@ -143,37 +155,72 @@ fn unit_of(ground: &Ground<'_>, term: &Term) -> Unit {
     }
 }
 
-fn insert(ground: &Ground<'_>, term: &Term, response: usize, lines: &mut [String], product: &str) {
-    let case = ground.case();
-    let Some(last) = lines.len().checked_sub(1) else {
-        return;
-    };
-    let Some((left, right)) = lines[last]
-        .split_once(" = ")
-        .map(|(l, r)| (l.to_owned(), r.to_owned()))
-    else {
-        return;
-    };
-    match term.node {
-        Node::Output => lines[last] = format!("{left} = {right} + {product}"),
-        Node::Gain => {
-            let constants = ground.constant_terms(response);
-            let minus: String = constants
-                .iter()
-                .map(|p| format!(" - {}", case.parameters[*p].name))
-                .collect();
-            lines[last] = format!("{left} = {right} + {product}*({right}{minus})");
+/// An equation to which effects are added.
+struct Extending {
+    /// Statements before the last, in which the declared equation ends.
+    before: Vec<String>,
+    left: String,
+    right: String,
+    /// Effects on everything but constant terms.
+    gains: Vec<String>,
+    /// Effects on the output.
+    offsets: Vec<String>,
+}
+
+impl Extending {
+    fn of(text: &str) -> Extending {
+        let mut before: Vec<String> = text.lines().map(str::to_owned).collect();
+        let last = before.pop().unwrap_or_default();
+        let (left, right) = last.split_once(" = ").unwrap_or(("", last.as_str()));
+        Extending {
+            left: left.to_owned(),
+            right: right.to_owned(),
+            before,
+            gains: Vec::new(),
+            offsets: Vec::new(),
         }
-        Node::Parameter(_) | Node::Column(_) => {
-            let name = ground.name(term.node);
-            let with = format!("({name} + {product})");
-            for line in lines {
-                *line = match line.split_once(" = ") {
-                    Some((left, right)) => format!("{left} = {}", replaced(right, &name, &with)),
-                    None => replaced(line, &name, &with),
-                };
+    }
+
+    fn insert(&mut self, ground: &Ground<'_>, term: &Term, product: &str) {
+        match term.node {
+            Node::Output => self.offsets.push(product.to_owned()),
+            Node::Gain => self.gains.push(product.to_owned()),
+            Node::Parameter(_) | Node::Column(_) => {
+                let name = ground.name(term.node);
+                let with = format!("({name} + {product})");
+                self.right = replaced(&self.right, &name, &with);
+                for line in &mut self.before {
+                    *line = match line.split_once(" = ") {
+                        Some((left, right)) => {
+                            format!("{left} = {}", replaced(right, &name, &with))
+                        }
+                        None => replaced(line, &name, &with),
+                    };
+                }
             }
         }
+    }
+
+    fn text(&self, ground: &Ground<'_>, response: usize) -> String {
+        let right = &self.right;
+        let mut last = format!("{} = {right}", self.left);
+        if !self.gains.is_empty() {
+            let parameters = &ground.case().parameters;
+            let constants = ground.constant_terms(response);
+            let minus = constants
+                .iter()
+                .map(|p| format!(" - {}", parameters[*p].name));
+            let signal = format!("({right}{})", minus.collect::<String>());
+            last += &match self.gains.as_slice() {
+                [one] => format!(" + {one}*{signal}"),
+                several => format!(" + ({})*{signal}", several.join(" + ")),
+            };
+        }
+        for offset in &self.offsets {
+            last += &format!(" + {offset}");
+        }
+        let lines = self.before.iter().map(String::as_str);
+        lines.chain([last.as_str()]).collect::<Vec<_>>().join("\n")
     }
 }
 

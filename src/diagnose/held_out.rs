@@ -146,11 +146,11 @@ fn improved(
     for atom in &adopted.atoms {
         let (cell, variation) = places[*atom];
         let cell = &cells[cell];
-        let other = others
-            .iter()
-            .find(|other| other.effect.id == cell.effect.id && other.words == cell.words)?;
+        // Each harmonic of an angle is a cell of its own.
+        let alike = |other: &&Cell| other.effect.id == cell.effect.id && other.words == cell.words;
+        let alike: Vec<&Cell> = others.iter().filter(alike).collect();
         for term in &cell.variants[variation].terms {
-            let modifier = continued(term, other, ground.rows())?;
+            let modifier = continued(term, &alike, ground.rows())?;
             rows.data.push(Data::Numbers(modifier));
         }
     }
@@ -184,10 +184,11 @@ fn improved(
 /// The course of a modifier in the rows that follow the first `rows`: of the term of the same effect that
 /// is, but for its origin and its unit, the same in the first rows. Origins and units (the mean of a column,
 /// the start of the recording) belong to the recording in which the effect was found.
-fn continued(term: &Term, cell: &Cell, rows: usize) -> Option<Vec<f64>> {
+fn continued(term: &Term, cells: &[&Cell], rows: usize) -> Option<Vec<f64>> {
     /// What is left of the modifier by another one, as a share of its variance, at most.
     const LEFT: f64 = 0.05;
-    let terms = cell.variants.iter().flat_map(|variation| &variation.terms);
+    let variants = cells.iter().flat_map(|cell| &cell.variants);
+    let terms = variants.flat_map(|variation| &variation.terms);
     let like = terms.filter(|other| other.node == term.node && other.response == term.response);
     let fits = like.filter_map(|other| {
         let first = other.modifier.get(..rows)?;

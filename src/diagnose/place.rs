@@ -107,18 +107,20 @@ fn ranges(name: &str, unit: &str, numbers: &[f64]) -> Vec<(String, String, Vec<f
         };
         let least = members().fold(f64::INFINITY, f64::min);
         let most = members().fold(f64::NEG_INFINITY, f64::max);
-        let level = if least == most {
-            format!("{least} {unit}")
-        } else {
-            format!(
-                "{least} to {most} {unit}",
-                least = figure(least),
-                most = figure(most)
-            )
-        };
-        (name.to_owned(), level.trim().to_owned(), inside)
+        (name.to_owned(), extent(least, most, unit), inside)
     };
     (0..edges.len()).map(part).collect()
+}
+
+/// A part of a range as text.
+fn extent(least: f64, most: f64, unit: &str) -> String {
+    let unit = if unit == "1" { "" } else { unit };
+    let text = if least == most {
+        format!("{least} {unit}")
+    } else {
+        format!("{} to {} {unit}", figure(least), figure(most))
+    };
+    text.trim().to_owned()
 }
 
 /// Successive parts of the recording.
@@ -137,7 +139,7 @@ fn spans(ground: &Ground<'_>) -> Vec<(String, String, Vec<f64>)> {
         match ground.clock.column {
             Some(column) => (
                 ground.case().columns[column].name.clone(),
-                format!("{} to {} {unit}", figure(t[first]), figure(t[last])),
+                extent(t[first], t[last], &unit),
                 inside.collect(),
             ),
             None => (

@@ -324,7 +324,7 @@ impl Contenders<'_> {
             .iter()
             .map(|line| {
                 let variation = &cells[line.cell].variants[line.variation];
-                let size = DVector::from_element(variation.terms.len(), 1.0);
+                let size = DVector::from_element(variation.coefficients(), 1.0);
                 Contender::new(&cells[line.cell], variation, size)
             })
             .collect();

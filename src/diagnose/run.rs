@@ -426,13 +426,28 @@ fn adopted_fit(
     if variations.is_empty() {
         return None;
     }
-    let extended = adopt::extended(ground, &variations)?;
+    let mut extended = adopt::extended(ground, &variations)?;
+    if let Some(fit) = refit(ground, &extended, fitted, claimed) {
+        return Some((extended, fit));
+    }
+    // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
+    // parameter's.
+    let counts: Vec<usize> = variations.iter().map(|v| v.coefficients()).collect();
+    adopt::scattered(&mut extended, &counts, &fitted.coefficients);
+    let fit = refit(ground, &extended, fitted, claimed)?;
+    Some((extended, fit))
+}
+
+fn refit(
+    ground: &Ground<'_>,
+    extended: &adopt::Extended,
+    fitted: &evidence::Fitted,
+    claimed: &Claimed,
+) -> Option<Fit> {
     let frame = Frame::new(&extended.case);
     let start = adopt::start(ground, &frame, &fitted.coefficients);
-    let fit = super::fit::from(&frame, &claimed.u, start)
-        .or_else(|_| super::fit::fit(&frame, &claimed.u))
-        .ok()?;
-    Some((extended, fit))
+    let fit = super::fit::from(&frame, &claimed.u, start);
+    fit.or_else(|_| super::fit::fit(&frame, &claimed.u)).ok()
 }
 
 /// The model with the named effects, and how well it does.

@@ -47,11 +47,18 @@ impl Contender {
     /// The same variation in another design. A grid that follows the rows may have another step there: its
     /// middle then stands for it.
     fn variation<'c>(&self, cells: &'c [Cell]) -> Option<&'c Variation> {
-        let cell = cells
-            .iter()
-            .find(|cell| cell.effect.id == self.id && cell.words == self.words)?;
-        let same = cell.variants.iter().find(|v| v.label == self.label);
-        same.or_else(|| cell.variants.get(cell.variants.len() / 2))
+        // Each harmonic of an angle is a cell of its own.
+        let alike = || {
+            let of = cells.iter();
+            of.filter(|cell| cell.effect.id == self.id && cell.words == self.words)
+        };
+        let mut all = alike().flat_map(|cell| &cell.variants);
+        let middle = || {
+            let cell = alike().next()?;
+            cell.variants.get(cell.variants.len() / 2)
+        };
+        all.find(|variation| variation.label == self.label)
+            .or_else(middle)
     }
 }
 

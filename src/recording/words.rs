@@ -66,7 +66,12 @@ impl Finding {
                 format!("\"{column}\" is \"{label}\" in {rows}, {lines}, which is not expected")
             }
             Problem::Uneven { label, usual } => format!(
-                "\"{label}\" has {count} points, most others have {usual}, and its average stands for them"
+                "\"{label}\" has {} where most others have {usual}, and its average stands for them",
+                if count == 1 {
+                    "1 point".to_owned()
+                } else {
+                    format!("{count} points")
+                }
             ),
         }
     }

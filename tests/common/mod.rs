@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "every test file uses its own part")]
 
+pub mod cases;
+
 use std::path::{Path, PathBuf};
 
 /// The root of the repository.

@@ -277,7 +277,7 @@ fn positions_are_averaged_together() {
         panic!("{:?}", experiment.points.findings);
     };
     assert!(
-        finding.message().contains("\"down\" has 1 points"),
+        finding.message().contains("\"down\" has 1 point "),
         "{}",
         finding.message()
     );

@@ -11,7 +11,7 @@ use crate::budget::values::OneOrMany;
 use crate::diagnose::faults::{LEFT_SIDE, MISSING, ROLE, UNKNOWN_NAME};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::{Fault, nearest};
-use crate::model::faults::POINT;
+use crate::model::faults::{CLASH, EXPONENT, NOT_ONE, POINT, RESERVED, RESULT_UNIT};
 use crate::model::{Outline, Role as SymbolRole, Symbol, outline};
 
 /// The declared model of a case.
@@ -81,6 +81,11 @@ pub(super) fn declared(
     let names = parameter_names(checker, file, &outlines, columns, constants)?;
     let mut parameters = Vec::new();
     let inferred = inferred_units(checker, &names, &outlines, &responses, columns, constants);
+    let open = names
+        .iter()
+        .zip(&inferred)
+        .filter(|(_, unit)| unit.is_none());
+    let open: Vec<String> = open.map(|((name, ..), _)| name.clone()).collect();
     for ((name, span, table), inferred) in names.iter().zip(inferred) {
         parameters.push(parameter(
             checker,
@@ -118,7 +123,10 @@ pub(super) fn declared(
     let equations = match compiled {
         Ok(equations) => equations,
         Err(faults) => {
-            checker.faults.extend(faults);
+            let advised = faults
+                .into_iter()
+                .map(|fault| advised(fault, columns, &open));
+            checker.faults.extend(advised);
             return None;
         }
     };
@@ -131,6 +139,31 @@ pub(super) fn declared(
         responses,
         equations,
     })
+}
+
+/// A fault of a formula with the mend that a case has for it: another name for a column, units for parameters
+/// of which the model does not say any.
+fn advised(fault: Fault, columns: &[Column], open: &[String]) -> Fault {
+    if fault.code == RESERVED {
+        let taken = |column: &&Column| fault.message.contains(&format!("`{}`", column.name));
+        if let Some(column) = columns.iter().find(taken) {
+            let name = &column.name;
+            return fault.help(format!(
+                "call the column otherwise below [columns]: {name}_1 = {{ role = \"{}\", column = \"{}\" }}",
+                column.role.word(),
+                column.header
+            ));
+        }
+    }
+    let clash = [CLASH, NOT_ONE, EXPONENT, RESULT_UNIT].contains(&fault.code);
+    if !clash || open.is_empty() {
+        return fault;
+    }
+    let names = open.join(", ");
+    let one = &open[0];
+    fault.help(format!(
+        "the model does not say in which units {names} are: state them, [parameter] {one} = {{ unit = \"…\" }}, or use columns as numbers: value_in(x, 'unit')"
+    ))
 }
 
 /// Parameters and columns, in the order of the vector of their values.

@@ -40,10 +40,14 @@ struct Input {
 
 fn inputs(ground: &Ground<'_>) -> Vec<Input> {
     let case = ground.case();
-    let numeric = ground.numeric();
+    // What goes on with the time is a drift of the source, not an input of an axis.
+    let times = case
+        .with_role(Role::Time)
+        .chain(case.with_role(Role::Order));
+    let columns: Vec<usize> = ground.numeric().into_iter().chain(times).collect();
     let of_response = |response: usize| {
         let signal = ground.signal(response);
-        let is_column = numeric.iter().any(|c| ground.takes_in(response, *c));
+        let is_column = columns.iter().any(|c| ground.takes_in(response, *c));
         let formed = !ground.is_implicit(response) && varies(signal) && !is_column;
         formed.then(|| Input {
             response,

@@ -251,6 +251,11 @@ impl Variation {
         self
     }
 
+    /// Number of coefficients.
+    pub fn coefficients(&self) -> usize {
+        self.terms.iter().filter(|term| !term.tied).count()
+    }
+
     /// Observations × coefficients: derivatives of the outputs by the coefficients.
     pub fn columns(&self, ground: &Ground<'_>) -> DMatrix<f64> {
         let mut columns: Vec<DVector<f64>> = Vec::new();
@@ -295,8 +300,29 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         (chosen || cell.effect.family == "user") && !settings.exclude.iter().any(named)
     };
     cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
+    let mut cells = distinct(cells);
     cells.extend(generics::cells(ground));
     cells
+}
+
+/// Without cells that do the same to every row as one before them: the nonlinearity "in head" and "in mount"
+/// of a model of head + mount.
+fn distinct(cells: Vec<Cell>) -> Vec<Cell> {
+    let terms = |cell: &Cell| -> Vec<(Node, Option<usize>, Vec<f64>)> {
+        let all = cell.variants.iter().flat_map(|variation| &variation.terms);
+        all.map(|term| (term.node, term.response, term.modifier.clone()))
+            .collect()
+    };
+    let mut kept: Vec<Cell> = Vec::new();
+    for cell in cells {
+        let mut alike = kept
+            .iter()
+            .filter(|other| other.effect.id == cell.effect.id);
+        if !alike.any(|other| terms(other) == terms(&cell)) {
+            kept.push(cell);
+        }
+    }
+    kept
 }
 
 #[cfg(test)]

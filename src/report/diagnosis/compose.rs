@@ -1,18 +1,16 @@
 //! A diagnosis as blocks: verdict, where, what, the improvement, what remains open.
 
+use crate::diagnose::Diagnosis;
 use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State};
-use crate::diagnose::{Adopted, Diagnosis, Estimated, HeldOutQuality, Quality};
-
-use crate::special::chi_squared_sf;
 
 use crate::report::document::Block;
 use crate::report::language::Language;
-use crate::report::number::{NONE, aligned, freedom, percent, significant};
+use crate::report::number::{NONE, aligned, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
-use super::open;
-use super::words::{name, name_of_atom, noise, probability, verdict};
+use super::words::{name, name_of_atom, noise, p_is, probability, verdict};
+use super::{improvement, open};
 
 /// Cells of the scan that are shown.
 const PLACES: usize = 5;
@@ -26,8 +24,8 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> 
     ];
     blocks.extend(located(diagnosis, language));
     blocks.extend(slots(diagnosis, language));
-    blocks.extend(improvement(case, diagnosis, language));
-    blocks.extend(parameters(diagnosis, language));
+    blocks.extend(improvement::blocks(case, diagnosis, language));
+    blocks.extend(improvement::parameters(diagnosis, language));
     blocks.extend(open::lines(diagnosis, language));
     blocks.extend(open::rivals(diagnosis, language));
     blocks.push(Block::Footer(vec![footer(case, diagnosis, language)]));
@@ -54,7 +52,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
     };
     let differences = as_differences(case, language);
     let alarm = diagnosis.examination.levels.first();
-    let p = alarm.map_or(NONE.to_owned(), |level| probability(level.p));
+    let p = alarm.map_or(NONE.to_owned(), |level| p_is(level.p));
     vec![
         (
             language.pick("Declared model", "声明的模型").into(),
@@ -72,12 +70,12 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
             language.pick("Test for a mismatch", "不一致检验").into(),
             language.pick(
                 format!(
-                    "p = {p} over all {} explanations together (alarm below {})",
+                    "{p} over all {} explanations together (alarm below {})",
                     diagnosis.cells.len(),
                     significant(case.settings.alpha, 2)
                 ),
                 format!(
-                    "p = {p}（同时考虑全部 {} 种解释；低于 {} 报警）",
+                    "{p}（同时考虑全部 {} 种解释；低于 {} 报警）",
                     diagnosis.cells.len(),
                     significant(case.settings.alpha, 2)
                 ),
@@ -232,289 +230,6 @@ fn headline(
         format!("▸ {title}: {probability}strength λ = {lambda}{separate}"),
         format!("▸ {title}：{probability}强度 λ = {lambda}{separate}"),
     )
-}
-
-fn improvement(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
-    let before = &diagnosis.before;
-    let after = diagnosis.adopted.as_ref().map(|adopted| &adopted.quality);
-    let mut blocks = vec![Block::Section(
-        match after {
-            Some(_) => language.pick("Before and after", "改进前后"),
-            None => language.pick("Agreement of the model", "模型的符合程度"),
-        }
-        .into(),
-    )];
-    if let Some(adopted) = &diagnosis.adopted {
-        blocks.push(Block::Formula(improved_model(adopted)));
-        blocks.push(Block::Table(coefficients(adopted, language)));
-    }
-    blocks.push(Block::Table(qualities(
-        case, diagnosis, before, after, language,
-    )));
-    if let Some(adopted) = &diagnosis.adopted {
-        blocks.extend(confirmation(adopted, language));
-    }
-    blocks.extend(badly_predicted(case, diagnosis, language));
-    blocks
-}
-
-fn improved_model(adopted: &Adopted) -> Vec<String> {
-    let mut lines: Vec<String> = adopted
-        .extended
-        .case
-        .model
-        .iter()
-        .flat_map(|model| model.lines().map(str::to_owned).collect::<Vec<_>>())
-        .collect();
-    for addition in &adopted.extended.additions {
-        lines.push(format!("{} = {}", addition.column, addition.text));
-    }
-    lines
-}
-
-fn coefficients(adopted: &Adopted, language: Language) -> Table {
-    let mut table = Table::new([
-        (language.pick("size", "大小"), ColumnKind::Names),
-        (language.pick("multiplies", "乘以"), ColumnKind::Wrapped),
-        (language.pick("estimate", "估计值"), ColumnKind::Numbers),
-        ("u", ColumnKind::Numbers),
-        (language.pick("unit", "单位"), ColumnKind::Names),
-    ]);
-    for (estimated, addition) in adopted.coefficients.iter().zip(&adopted.extended.additions) {
-        table.push(vec![
-            estimated.name.as_str().into(),
-            addition.text.as_str().into(),
-            aligned(estimated.value, estimated.u, 2).into(),
-            significant(estimated.u, 2).into(),
-            estimated.unit.as_str().into(),
-        ]);
-    }
-    table
-}
-
-fn qualities(
-    case: &Case,
-    diagnosis: &Diagnosis,
-    before: &Quality,
-    after: Option<&Quality>,
-    language: Language,
-) -> Table {
-    let mut table = Table::new([
-        ("", ColumnKind::Names),
-        (
-            language.pick("declared model", "声明的模型"),
-            ColumnKind::Numbers,
-        ),
-        (
-            if after.is_some() {
-                language.pick("with the physics", "加入遗漏的物理")
-            } else {
-                ""
-            },
-            ColumnKind::Numbers,
-        ),
-    ]);
-    let cell = |value: Option<f64>| value.map_or(String::new(), |value| significant(value, 3));
-    for (index, response) in case.responses.iter().enumerate() {
-        let unit = if response.unit.is_one() {
-            String::new()
-        } else {
-            format!(" / {}", response.unit.typeset())
-        };
-        let label = |what: &str| format!("{what}, {}{unit}", response.name);
-        table.push(vec![
-            label(language.pick("residual RMS", "残差均方根")).into(),
-            cell(before.residual.get(index).copied()).into(),
-            cell(after.and_then(|after| after.residual.get(index).copied())).into(),
-        ]);
-        if !diagnosis.noise.is_estimated() {
-            table.push(vec![
-                label(language.pick("expected noise", "预期噪声")).into(),
-                cell(before.expected.get(index).copied()).into(),
-                cell(after.and_then(|after| after.expected.get(index).copied())).into(),
-            ]);
-        }
-        table.push(vec![
-            label(language.pick("error predicting held-out rows", "留出行的预测误差")).into(),
-            cell(before.held_out.get(index).copied()).into(),
-            cell(after.and_then(|after| after.held_out.get(index).copied())).into(),
-        ]);
-    }
-    if let Some(held) = &diagnosis.held_out {
-        held_out(&mut table, case, held, language);
-    }
-    if !diagnosis.noise.is_estimated() {
-        table.push(vec![
-            "χ²/ν".into(),
-            significant(before.chi_squared / before.dof, 3).into(),
-            cell(after.map(|after| after.chi_squared / after.dof)).into(),
-        ]);
-    }
-    table.push(vec![
-        language.pick("degrees of freedom", "自由度").into(),
-        freedom(before.dof).into(),
-        after
-            .map_or(String::new(), |after| freedom(after.dof))
-            .into(),
-    ]);
-    table.without_empty_columns()
-}
-
-/// Prediction of the recording that was held out.
-fn held_out(table: &mut Table, case: &Case, held: &HeldOutQuality, language: Language) {
-    let after = held.after.as_ref();
-    for (index, response) in case.responses.iter().enumerate() {
-        let unit = if response.unit.is_one() {
-            String::new()
-        } else {
-            format!(" / {}", response.unit.typeset())
-        };
-        let expected = significant(held.expected[index], 3);
-        let label = language.pick(
-            format!(
-                "error predicting {} (noise {expected}), {}{unit}",
-                held.file, response.name
-            ),
-            format!(
-                "对 {} 的预测误差（噪声 {expected}），{}{unit}",
-                held.file, response.name
-            ),
-        );
-        table.push(vec![
-            label.into(),
-            significant(held.before.rms[index], 3).into(),
-            after
-                .map_or(String::new(), |p| significant(p.rms[index], 3))
-                .into(),
-        ]);
-    }
-    let count = held.observations as f64;
-    table.push(vec![
-        language
-            .pick(
-                format!("χ²/n of that prediction, n = {}", held.observations),
-                format!("该预测的 χ²/n，n = {}", held.observations),
-            )
-            .into(),
-        significant(held.before.chi_squared / count, 3).into(),
-        after
-            .map_or(String::new(), |p| significant(p.chi_squared / count, 3))
-            .into(),
-    ]);
-}
-
-/// A remark where the recording that was held out is predicted worse than the noise allows.
-fn badly_predicted(case: &Case, diagnosis: &Diagnosis, language: Language) -> Option<Block> {
-    let held = diagnosis.held_out.as_ref()?;
-    let best = held.after.as_ref().unwrap_or(&held.before);
-    let p = chi_squared_sf(best.chi_squared, held.observations as f64);
-    let known = !diagnosis.noise.is_estimated();
-    (known && p < case.settings.alpha).then(|| {
-        Block::Paragraph(language.pick(
-            format!("{} is predicted worse than the noise allows (p = {}): its conditions show something that those of the recording do not. Diagnose it too.", held.file, probability(p)),
-            format!("对 {} 的预测误差超出噪声（p = {}）：其条件显示出本记录未显示的影响，请对其也进行诊断。", held.file, probability(p)),
-        ))
-    })
-}
-
-fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
-    let parts: Vec<String> = adopted
-        .confirmation
-        .parts
-        .iter()
-        .map(|(part, value, u)| {
-            format!(
-                "{part}: {} ± {}",
-                aligned(*value, *u, 2),
-                significant(*u, 2)
-            )
-        })
-        .collect();
-    let (Some(first), false) = (adopted.coefficients.first(), parts.is_empty()) else {
-        return Vec::new();
-    };
-    let agreement = adopted.confirmation.agreement.map_or(String::new(), |p| {
-        language.pick(
-            format!("; they agree with p = {}", probability(p)),
-            format!("；一致性 p = {}", probability(p)),
-        )
-    });
-    vec![Block::Paragraph(language.pick(
-        format!(
-            "{} from parts of the recording: {}{agreement}.",
-            first.name,
-            parts.join(", ")
-        ),
-        format!(
-            "由记录各部分得到的 {}：{}{agreement}。",
-            first.name,
-            parts.join("，")
-        ),
-    ))]
-}
-
-fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
-    /// Longer lists, one for each label, are in the JSON.
-    const MOST: usize = 30;
-    let mut table = Table::new([
-        (language.pick("parameter", "参数"), ColumnKind::Names),
-        (
-            language.pick("declared model", "声明的模型"),
-            ColumnKind::Numbers,
-        ),
-        ("u", ColumnKind::Numbers),
-        (
-            if diagnosis.adopted.is_some() {
-                language.pick("with the physics", "加入遗漏的物理")
-            } else {
-                ""
-            },
-            ColumnKind::Numbers,
-        ),
-        (
-            if diagnosis.adopted.is_some() { "u" } else { "" },
-            ColumnKind::Numbers,
-        ),
-        (
-            language.pick("u with unseen", "计入未见影响的 u"),
-            ColumnKind::Numbers,
-        ),
-        (language.pick("unit", "单位"), ColumnKind::Names),
-    ]);
-    let unseen = diagnosis.u_with_unseen();
-    for (index, unknown) in diagnosis.unknowns.iter().take(MOST).enumerate() {
-        let after: Option<&Estimated> = diagnosis
-            .adopted
-            .as_ref()
-            .and_then(|adopted| adopted.unknowns.get(index));
-        table.push(vec![
-            unknown.name.as_str().into(),
-            aligned(unknown.value, unknown.u, 2).into(),
-            significant(unknown.u, 2).into(),
-            after
-                .map_or(String::new(), |after| aligned(after.value, after.u, 2))
-                .into(),
-            after
-                .map_or(String::new(), |after| significant(after.u, 2))
-                .into(),
-            unseen
-                .get(index)
-                .map_or(String::new(), |u| significant(*u, 2))
-                .into(),
-            unknown.unit.as_str().into(),
-        ]);
-    }
-    vec![
-        Block::Section(
-            language
-                .pick(
-                    "What it changes in the result and its uncertainty",
-                    "对结果及其不确定度的影响",
-                )
-                .into(),
-        ),
-        Block::Table(table.without_empty_columns()),
-    ]
 }
 
 fn footer(case: &Case, diagnosis: &Diagnosis, language: Language) -> String {

@@ -1,6 +1,7 @@
 //! A diagnosis for the terminal, as Markdown, and for machines.
 
 mod compose;
+mod improvement;
 mod json;
 mod open;
 mod outlook;

@@ -11,7 +11,7 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::json::{estimates, finite};
 use super::open;
-use super::words::{full_name, measure, name, noise};
+use super::words::{full_name, label, measure, name, noise};
 
 /// Name and version of the format.
 pub const FORMAT: &str = "gumption-outlook-1";
@@ -149,7 +149,7 @@ fn effects(outlook: &Outlook, language: Language) -> Table {
 
 fn prospect_name(outlook: &Outlook, prospect: &Prospect, language: Language) -> String {
     let cell = &outlook.cells[prospect.cell];
-    let label = &cell.variants[prospect.variation].label;
+    let label = label(&cell.variants[prospect.variation]);
     let own = name(cell, language);
     if label.is_empty() {
         own

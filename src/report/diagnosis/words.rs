@@ -1,7 +1,7 @@
 //! Sentences and names of a diagnosis.
 
 use crate::diagnose::case::Case;
-use crate::diagnose::catalogue::{Cell, Text};
+use crate::diagnose::catalogue::{Cell, Text, Variation};
 use crate::diagnose::evidence::{Refusal, Slot, State, Verdict};
 use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
 
@@ -20,11 +20,17 @@ pub(super) fn name(cell: &Cell, language: Language) -> String {
     cell.words.fill(language.of(&cell.effect.name))
 }
 
+/// What distinguishes a variant; numbers without a unit stand alone.
+pub(super) fn label(variation: &Variation) -> &str {
+    let label = variation.label.as_str();
+    label.strip_suffix(" 1").unwrap_or(label)
+}
+
 /// The name, and what distinguishes a cell whose only variant has a label: the harmonic of an angle.
 pub(super) fn full_name(cell: &Cell, language: Language) -> String {
     let name = name(cell, language);
     match cell.variants.as_slice() {
-        [only] if !only.label.is_empty() => format!("{name} ({})", only.label),
+        [only] if !only.label.is_empty() => format!("{name} ({})", label(only)),
         _ => name,
     }
 }
@@ -34,7 +40,7 @@ pub(super) fn name_of_atom(diagnosis: &Diagnosis, atom: usize, language: Languag
     let (cell, variation) = diagnosis.atoms[atom];
     let cell = &diagnosis.cells[cell];
     let name = name(cell, language);
-    match cell.variants[variation].label.as_str() {
+    match label(&cell.variants[variation]) {
         "" => name,
         label => format!("{name} ({label})"),
     }
@@ -62,15 +68,15 @@ pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
             format!("The model leaves out something that this recording cannot tell apart: {list}."),
             format!("模型有遗漏，但此记录不能区分：{list}。"),
         ),
-        Verdict::Partly => language.pick(
+        Verdict::Partly if !names.is_empty() => language.pick(
             format!("The model leaves out: {list}. Something without a name remains."),
             format!("模型遗漏了：{list}。此外还有无法命名的部分。"),
         ),
-        Verdict::Contested => language.pick(
+        Verdict::Contested if !names.is_empty() => language.pick(
             format!("The model leaves out: {list}; or else something unknown that varies smoothly, which explains the recording as well."),
             format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释此记录。"),
         ),
-        Verdict::Unexplained => {
+        Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {
             let places: Vec<String> = diagnosis
                 .examination
                 .slots
@@ -189,7 +195,16 @@ fn growth(claimed: &Claimed, language: Language) -> String {
         + &grows.join("; ")
 }
 
-/// Probability of a false alarm in words.
+/// A probability as an equation or inequality.
+pub(super) fn p_is(p: f64) -> String {
+    if p < 0.001 {
+        "p < 0.001".to_owned()
+    } else {
+        format!("p = {}", significant(p, 2))
+    }
+}
+
+/// Probability of a false alarm in a table.
 pub(super) fn probability(p: f64) -> String {
     if p < 0.001 {
         "<0.001".to_owned()

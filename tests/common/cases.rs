@@ -1,0 +1,60 @@
+//! What tests of cases share: a folder for each, the program in it, and what a diagnosis names.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+/// A folder of the test's own.
+pub fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("gumption-case-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// Runs the program in a folder; what it prints, or what it complains of.
+pub fn gumption(folder: &Path, arguments: &[&str]) -> (bool, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+        .current_dir(folder)
+        .args(arguments)
+        .env("NO_COLOR", "1")
+        .env("COLUMNS", "100")
+        .output()
+        .expect("the program runs");
+    let text = if output.status.success() {
+        output.stdout
+    } else {
+        output.stderr
+    };
+    (
+        output.status.success(),
+        String::from_utf8_lossy(&text).into_owned(),
+    )
+}
+
+/// The JSON that a command prints.
+pub fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let (good, text) = gumption(folder, arguments);
+    assert!(good, "{arguments:?}\n{text}");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// The diagnosis of a case.
+pub fn diagnosed(folder: &Path, case: &str) -> Value {
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    json(folder, &["diagnose", "case.toml", "--json"])
+}
+
+/// The plan of a case.
+pub fn planned(folder: &Path, case: &str) -> Value {
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    json(folder, &["plan", "case.toml", "--json"])
+}
+
+/// Identifiers of everything that a diagnosis names.
+pub fn named(diagnosis: &Value) -> Vec<String> {
+    let effects = diagnosis["effects"].as_array().into_iter().flatten();
+    let of = effects.flat_map(|effect| effect["named"].as_array().into_iter().flatten());
+    of.filter_map(|one| one["id"].as_str().map(str::to_owned))
+        .collect()
+}

@@ -163,7 +163,8 @@ fn a_line_with_two_reflections_ripples_along_the_frequency() {
         let f = 1.0 + 0.1 * f64::from(row);
         // Two reflections of 0.05, 30 cm apart: |1/(1 − Γ²e^{−2jβl})| in decibels.
         let turn = std::f64::consts::TAU * 2.0 * 0.3 * f / 0.299_792;
-        let loss = 0.4 + 0.05 * f - 20.0 * (0.0025 * libm::cos(turn)).ln_1p() / 10.0_f64.ln();
+        let loss =
+            0.4 + 0.05 * f - 20.0 * libm::log1p(0.0025 * libm::cos(turn)) / std::f64::consts::LN_10;
         let _ = writeln!(rows, "{f:.2},{:.5}", loss + 0.004 * noise.normal());
     }
     let case = "model = \"loss = a + b*f\"\n[columns]\nloss = \"output\"\nf = \"stimulus\"\n[noise]\nu = \"0.004 dB\"\n";

@@ -3,44 +3,11 @@
 mod common;
 
 use std::fmt::Write;
-use std::path::PathBuf;
-use std::process::Command;
 
 use serde_json::Value;
 
 use common::Noise;
-
-fn diagnosed(name: &str, recording: &str, case: &str) -> Value {
-    let folder: PathBuf =
-        std::env::temp_dir().join(format!("gumption-catalogue-{name}-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    std::fs::write(folder.join("recording.csv"), recording).expect("written");
-    let case = format!("recording = \"recording.csv\"\n{case}");
-    std::fs::write(folder.join("case.toml"), case).expect("written");
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
-        .current_dir(&folder)
-        .args(["diagnose", "case.toml", "--json"])
-        .output()
-        .expect("the program runs");
-    let text = String::from_utf8_lossy(&output.stdout);
-    serde_json::from_str(&text)
-        .unwrap_or_else(|_| panic!("{text}{}", String::from_utf8_lossy(&output.stderr)))
-}
-
-/// Identifiers of everything that a diagnosis names, effect by effect.
-fn named(diagnosis: &Value) -> Vec<Vec<String>> {
-    let of = |effect: &Value| {
-        let list = effect["named"].as_array().into_iter().flatten();
-        list.filter_map(|one| one["id"].as_str().map(str::to_owned))
-            .collect()
-    };
-    diagnosis["effects"]
-        .as_array()
-        .into_iter()
-        .flatten()
-        .map(of)
-        .collect()
-}
+use common::cases::{diagnosed_with as diagnosed, named_apart as named};
 
 #[test]
 fn two_harmonics_of_one_angle_are_two_effects() {

@@ -5,36 +5,17 @@ mod common;
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
-use std::process::Command;
 
 use serde_json::Value;
 
 use common::Noise;
+use common::cases::{diagnosed_with as diagnosed, named_apart};
 
-fn diagnosed(name: &str, recording: &str, case: &str) -> Value {
-    let folder = std::env::temp_dir().join(format!(
-        "gumption-instruments-{name}-{}",
-        std::process::id()
-    ));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    std::fs::write(folder.join("recording.csv"), recording).expect("written");
-    let case = format!("recording = \"recording.csv\"\n{case}");
-    std::fs::write(folder.join("case.toml"), case).expect("written");
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
-        .current_dir(&folder)
-        .args(["diagnose", "case.toml", "--json"])
-        .output()
-        .expect("the program runs");
-    let text = String::from_utf8_lossy(&output.stdout);
-    serde_json::from_str(&text)
-        .unwrap_or_else(|_| panic!("{text}{}", String::from_utf8_lossy(&output.stderr)))
-}
-
-/// Identifiers of what a diagnosis names, effect by effect, the likeliest of each.
-fn first_names(diagnosis: &Value) -> Vec<&str> {
-    let effects = diagnosis["effects"].as_array().into_iter().flatten();
+/// The likeliest name of each effect.
+fn first_names(diagnosis: &Value) -> Vec<String> {
+    let effects = named_apart(diagnosis).into_iter();
     effects
-        .filter_map(|effect| effect["named"][0]["id"].as_str())
+        .filter_map(|names| names.into_iter().next())
         .collect()
 }
 
@@ -124,7 +105,7 @@ fn noise_that_grows_with_the_reading_is_no_physics() {
         }
         let case = "model = \"reading = a + b*truth\"\n[columns]\ntruth = \"stimulus\"\nreading = \"output\"\n";
         let found = diagnosed(&format!("growing-{seed}"), &rows, case);
-        names.extend(first_names(&found).iter().map(|name| (*name).to_owned()));
+        names.extend(first_names(&found));
     }
     assert!(names.is_empty(), "{names:?}");
 }
@@ -144,15 +125,10 @@ fn light_that_does_not_go_out_is_one_with_its_second_harmonic() {
     }
     let case = "model = \"current = I0 * cos(angle - theta0)^2\"\n[columns]\nangle = \"angle\"\ncurrent = \"output\"\n[parameter]\nI0 = { start = 5, unit = \"uA\" }\ntheta0 = { start = 10, unit = \"deg\" }\n";
     let found = diagnosed("malus", &rows, case);
-    let listed = found["effects"][0]["named"]
-        .as_array()
-        .into_iter()
-        .flatten();
-    let listed: Vec<&str> = listed.filter_map(|one| one["id"].as_str()).collect();
-    assert!(
-        listed.contains(&"zero") && listed.contains(&"periodic"),
-        "{listed:?}"
-    );
+    let listed = &named_apart(&found)[0];
+    for id in ["zero", "periodic"] {
+        assert!(listed.iter().any(|one| one == id), "{listed:?}");
+    }
 }
 
 #[test]

@@ -45,6 +45,13 @@ pub fn diagnosed(folder: &Path, case: &str) -> Value {
     json(folder, &["diagnose", "case.toml", "--json"])
 }
 
+/// The diagnosis of a recording of the test's own, which the case need not name.
+pub fn diagnosed_with(name: &str, recording: &str, case: &str) -> Value {
+    let folder = folder(name);
+    std::fs::write(folder.join("recording.csv"), recording).expect("written");
+    diagnosed(&folder, &format!("recording = \"recording.csv\"\n{case}"))
+}
+
 /// The plan of a case.
 pub fn planned(folder: &Path, case: &str) -> Value {
     std::fs::write(folder.join("case.toml"), case).expect("written");
@@ -53,8 +60,16 @@ pub fn planned(folder: &Path, case: &str) -> Value {
 
 /// Identifiers of everything that a diagnosis names.
 pub fn named(diagnosis: &Value) -> Vec<String> {
+    named_apart(diagnosis).concat()
+}
+
+/// Identifiers of everything that a diagnosis names, effect by effect, the likeliest first.
+pub fn named_apart(diagnosis: &Value) -> Vec<Vec<String>> {
+    let of = |effect: &Value| {
+        let list = effect["named"].as_array().into_iter().flatten();
+        list.filter_map(|one| one["id"].as_str().map(str::to_owned))
+            .collect()
+    };
     let effects = diagnosis["effects"].as_array().into_iter().flatten();
-    let of = effects.flat_map(|effect| effect["named"].as_array().into_iter().flatten());
-    of.filter_map(|one| one["id"].as_str().map(str::to_owned))
-        .collect()
+    effects.map(of).collect()
 }

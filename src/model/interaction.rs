@@ -13,34 +13,14 @@ pub fn blocks(graph: &Graph, inputs: usize) -> Vec<Option<usize>> {
     let mut bent = vec![false; graph.ops.len()];
     let mut sets = Sets::new(graph.ops.len());
     let mut out = vec![None; inputs];
-    for (i, op) in graph.ops.iter().enumerate().rev() {
+    for i in (0..graph.ops.len()).rev() {
         let above = bent[i];
-        let mut meets = |id: Id, nonlinear: bool| {
-            if (above || nonlinear) && graph.constant(id).is_none() {
+        varying_operands(graph, graph.ops[i], |id, nonlinear| {
+            if above || nonlinear {
                 bent[id as usize] = true;
                 sets.unite(i, id as usize);
             }
-        };
-        let varies = |id: Id| graph.constant(id).is_none();
-        match *op {
-            Op::Unary(row, a) => meets(a, row.name != "-"),
-            Op::Binary(row, a, b) => {
-                let (in_a, in_b) = match row.name {
-                    "+" | "-" => (false, false),
-                    "*" => (varies(b), varies(a)),
-                    "/" | "quantize" => (varies(b), true),
-                    _ => (true, true),
-                };
-                meets(a, in_a);
-                meets(b, in_b);
-            }
-            Op::Select(c, a, b) => {
-                meets(c, true);
-                meets(a, false);
-                meets(b, false);
-            }
-            _ => graph.operands(*op, |a| meets(a, true)),
-        }
+        });
     }
     for (i, op) in graph.ops.iter().enumerate() {
         if let (Op::Input(place), true) = (op, bent[i]) {
@@ -48,6 +28,81 @@ pub fn blocks(graph: &Graph, inputs: usize) -> Vec<Option<usize>> {
         }
     }
     out
+}
+
+/// Operations that are looked at, and pairs that are listed, per operation and input of the model at most.
+const FEW: usize = 64;
+
+/// For each input those with which it may have mixed derivatives, itself included; within a block these are
+/// fewer where terms overlap, as in x₁x₂ + x₂x₃ + x₃x₄. `None` where they are not few.
+pub fn neighbours(graph: &Graph, inputs: usize) -> Option<Vec<Vec<usize>>> {
+    let mut bent = vec![false; graph.ops.len()];
+    let mut seen = vec![usize::MAX; graph.ops.len()];
+    let mut neighbours = vec![Vec::new(); inputs];
+    let (mut looks, mut pairs) = (0, 0);
+    for i in (0..graph.ops.len()).rev() {
+        let above = bent[i];
+        let mut open = Vec::new();
+        varying_operands(graph, graph.ops[i], |id, nonlinear| {
+            bent[id as usize] |= above || nonlinear;
+            if nonlinear && !above {
+                open.push(id);
+            }
+        });
+        // All that reaches the outermost nonlinear operation may interact.
+        let mut together = Vec::new();
+        while let Some(id) = open.pop() {
+            if std::mem::replace(&mut seen[id as usize], i) == i {
+                continue;
+            }
+            looks += 1;
+            match graph.ops[id as usize] {
+                Op::Input(place) => together.push(place as usize),
+                op => varying_operands(graph, op, |id, _| open.push(id)),
+            }
+        }
+        pairs += together.len() * together.len();
+        if looks > FEW * graph.ops.len() || pairs > FEW * inputs {
+            return None;
+        }
+        for input in &together {
+            neighbours[*input].extend(&together);
+        }
+    }
+    for list in &mut neighbours {
+        list.sort_unstable();
+        list.dedup();
+    }
+    Some(neighbours)
+}
+
+/// Shows the operands that are not constant, and whether the operation is nonlinear in them.
+fn varying_operands(graph: &Graph, op: Op, mut show: impl FnMut(Id, bool)) {
+    let varies = |id: Id| graph.constant(id).is_none();
+    let mut meets = |id: Id, nonlinear: bool| {
+        if varies(id) {
+            show(id, nonlinear);
+        }
+    };
+    match op {
+        Op::Unary(row, a) => meets(a, row.name != "-"),
+        Op::Binary(row, a, b) => {
+            let (in_a, in_b) = match row.name {
+                "+" | "-" => (false, false),
+                "*" => (varies(b), varies(a)),
+                "/" | "quantize" => (varies(b), true),
+                _ => (true, true),
+            };
+            meets(a, in_a);
+            meets(b, in_b);
+        }
+        Op::Select(c, a, b) => {
+            meets(c, true);
+            meets(a, false);
+            meets(b, false);
+        }
+        _ => graph.operands(op, |a| meets(a, true)),
+    }
 }
 
 /// Whether no operation is nonlinear in what depends on the given inputs.

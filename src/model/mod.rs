@@ -253,6 +253,12 @@ impl Model {
         interaction::blocks(&self.graph, self.inputs)
     }
 
+    /// For each input those with which it may have mixed derivatives, itself included; `None` where they are
+    /// too many to be listed. Finer than [`Model::interactions`] where terms overlap.
+    pub(crate) fn neighbours(&self) -> Option<Vec<Vec<usize>>> {
+        interaction::neighbours(&self.graph, self.inputs)
+    }
+
     /// Which inputs one output uses.
     pub fn inputs_of(&self, output: usize) -> Vec<bool> {
         let mut used = vec![false; self.inputs];

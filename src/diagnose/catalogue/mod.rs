@@ -161,6 +161,8 @@ pub struct Variation {
     pub spectrum: Option<Vec<f64>>,
     /// A continuous parameter that the grid of variants steps through.
     pub shape: Option<ShapeParameter>,
+    /// How likely it is beforehand, relative to the other variants of its candidate.
+    pub weight: f64,
 }
 
 /// A parameter of a variant that may take any value.
@@ -237,6 +239,7 @@ impl Variation {
             terms,
             spectrum: None,
             shape: None,
+            weight: 1.0,
         }
     }
 

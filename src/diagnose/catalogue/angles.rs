@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{map, range};
 use super::response::{on_node, words};
-use super::{Cell, Modifier, Term, Variants, Variation, effect};
+use super::{Cell, Modifier, Term, Variants, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 use crate::quantity::UnitTable;
@@ -124,17 +124,15 @@ fn play(ground: &Ground<'_>, column: usize) -> Option<Cell> {
         modifier,
         format!("-direction({name})/2"),
     );
-    Some(Cell {
-        effect: effect("play"),
-        words: words(ground, name),
-        place: Place {
+    Some(Cell::new(
+        "play",
+        words(ground, name),
+        Place {
             node: name.to_owned(),
             along: name.to_owned(),
         },
-        variants: vec![Variation::one("", term)],
-        typical: None,
-        description: None,
-    })
+        vec![Variation::one("", term)],
+    ))
 }
 
 /// The side from which each angle was reached, +1 or −1. Between runs a head goes back behind the first

@@ -9,7 +9,7 @@ use super::angles::{angles, radians};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{largest, map2};
 use super::response::words;
-use super::{Cell, Term, Variation, effect, tied};
+use super::{Cell, Term, Variation, tied};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -114,17 +114,15 @@ impl<'g> Turning<'g> {
 
     fn cell(&self, id: &str, variants: Vec<Variation>) -> Cell {
         let name = self.ground.label(self.angle);
-        Cell {
-            effect: effect(id),
-            words: words(self.ground, name),
-            place: Place {
+        Cell::new(
+            id,
+            words(self.ground, name),
+            Place {
                 node: self.ground.name(Node::Output),
                 along: name.to_owned(),
             },
             variants,
-            typical: None,
-            description: None,
-        }
+        )
     }
 
     /// The signals along the axis of turning: the rate of a gyroscope.

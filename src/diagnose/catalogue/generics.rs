@@ -8,7 +8,7 @@ use super::ground::{Ground, Node};
 use super::levels::{indicator, present};
 use super::modifiers::{map, range};
 use super::response::words;
-use super::{Cell, Term, Variation, effect};
+use super::{Cell, Term, Variation};
 use crate::diagnose::case::{NoiseClaim, Role};
 use crate::diagnose::evidence::Place;
 
@@ -178,15 +178,13 @@ fn generic(ground: &Ground<'_>, id: &str, node: Node, along: &str, features: &[F
     }
     let mut words = words(ground, along);
     words.p = ground.name(node);
-    Cell {
-        effect: effect(id),
+    Cell::new(
+        id,
         words,
-        place: Place {
+        Place {
             node: ground.name(node),
             along: along.to_owned(),
         },
         variants,
-        typical: None,
-        description: None,
-    }
+    )
 }

@@ -3,7 +3,7 @@
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{figure, grid, lag, largest, map};
 use super::response::words;
-use super::{Cell, Term, Variation, effect};
+use super::{Cell, Term, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -81,17 +81,15 @@ fn warmth(ground: &Ground<'_>, x: &[f64], name: &str, tau: f64) -> (Vec<f64>, St
 fn cell(ground: &Ground<'_>, node: Node, along: &str, variants: Vec<Variation>) -> Cell {
     let mut words = words(ground, along);
     words.p = ground.name(node);
-    Cell {
-        effect: effect("self-heating"),
+    Cell::new(
+        "self-heating",
         words,
-        place: Place {
+        Place {
             node: ground.name(node),
             along: along.to_owned(),
         },
         variants,
-        typical: None,
-        description: None,
-    }
+    )
 }
 
 /// What is quicker than the rows follow one another is a power of the signal.

@@ -3,7 +3,7 @@
 use super::ground::{Ground, Node};
 use super::modifiers::{centred, figure, map, range};
 use super::response::words;
-use super::{Cell, Term, Variation, Words, effect};
+use super::{Cell, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
 /// Disturbances of each column that the model uses.
@@ -14,20 +14,18 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
     let cell = |id: &str, variants: Vec<Variation>| {
         let names: Vec<&str> = used.iter().map(|c| ground.label(*c)).collect();
         let joined = names.join(", ");
-        Cell {
-            effect: effect(id),
-            words: Words {
+        Cell::new(
+            id,
+            Words {
                 p: joined.clone(),
                 ..words(ground, &joined)
             },
-            place: Place {
+            Place {
                 node: "axes".into(),
                 along: joined,
             },
             variants,
-            typical: None,
-            description: None,
-        }
+        )
     };
     let mut cells = Vec::new();
     let mut pairs = Vec::new();

@@ -9,7 +9,7 @@ use super::modifiers::{
     correlation, creeps, figure, held_lag, lag, largest, map, map2, play, range, rate,
 };
 use super::response::time_constants;
-use super::{Cell, Modifier, Term, Variation, Words, effect};
+use super::{Cell, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -169,21 +169,19 @@ fn cell(ground: &Ground<'_>, inputs: &[Input], id: &str, laws: Vec<Shaped<'_>>) 
         .iter()
         .map(|input| case.responses[input.response].name.as_str())
         .collect();
-    Cell {
-        effect: effect(id),
-        words: Words {
+    Cell::new(
+        id,
+        Words {
             x: format!("signal({})", names.join(", ")),
             y: ground.output(),
             ..Words::default()
         },
-        place: Place {
+        Place {
             node: ground.name(Node::Output),
             along: along(ground),
         },
         variants,
-        typical: None,
-        description: None,
-    }
+    )
 }
 
 /// The columns that inputs are formed from.

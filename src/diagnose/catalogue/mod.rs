@@ -150,6 +150,20 @@ pub struct Cell {
     pub description: Option<String>,
 }
 
+impl Cell {
+    /// An effect of the catalogue, without a size or a sentence of the user's own.
+    fn new(id: &str, words: Words, place: evidence::Place, variants: Vec<Variation>) -> Cell {
+        Cell {
+            effect: effect(id),
+            words,
+            place,
+            variants,
+            typical: None,
+            description: None,
+        }
+    }
+}
+
 /// One variant of a candidate.
 #[derive(Debug, Clone)]
 pub struct Variation {

@@ -90,17 +90,15 @@ pub(super) fn on_node(
             .collect();
         all.push(Variation::of(label, each));
     }
-    Cell {
-        effect: effect(id),
-        place: Place {
+    Cell::new(
+        id,
+        words,
+        Place {
             node: ground.name(node),
             along: along.to_owned(),
         },
-        words,
-        variants: all,
-        typical: None,
-        description: None,
-    }
+        all,
+    )
 }
 
 /// Words for one column.
@@ -199,17 +197,15 @@ pub(super) fn on_output(modifier: Vec<f64>, text: String) -> Term {
 
 /// A cell on the offset, alike on all responses.
 pub(super) fn plain(ground: &Ground<'_>, id: &str, x: &str, variants: Vec<Variation>) -> Cell {
-    Cell {
-        effect: effect(id),
-        words: words(ground, x),
-        place: Place {
+    Cell::new(
+        id,
+        words(ground, x),
+        Place {
             node: ground.name(Node::Output),
             along: x.to_owned(),
         },
         variants,
-        typical: None,
-        description: None,
-    }
+    )
 }
 
 /// Different values, ascending.
@@ -257,17 +253,15 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         Variation::of(label, vec![lacks(*tau), lacks(4.0 * tau)])
     });
     let variants = single.chain(double);
-    let lagged = Cell {
-        effect: effect(id),
-        words: words(ground, label),
-        place: Place {
+    let lagged = Cell::new(
+        id,
+        words(ground, label),
+        Place {
             node: label.to_owned(),
             along: "time".into(),
         },
-        variants: variants.collect(),
-        typical: None,
-        description: None,
-    };
+        variants.collect(),
+    );
     let skew = Cell {
         effect: effect(if ground.is_temperature(column) {
             "temperature-rate"

@@ -2,7 +2,7 @@
 
 use super::ground::{Ground, Node};
 use super::response::{on_output, plain};
-use super::{Cell, Term, Variation, effect, tied};
+use super::{Cell, Term, Variation, tied};
 use crate::diagnose::evidence::Place;
 
 /// Longer recordings are not searched row by row.
@@ -87,15 +87,13 @@ fn reversed(ground: &Ground<'_>) -> Cell {
             variants.push(Variation::one(label, term));
         }
     }
-    Cell {
-        effect: effect("polarity"),
-        words: super::response::words(ground, "polarity"),
-        place: Place {
+    Cell::new(
+        "polarity",
+        super::response::words(ground, "polarity"),
+        Place {
             node: ground.name(Node::Gain),
             along: "level".into(),
         },
         variants,
-        typical: None,
-        description: None,
-    }
+    )
 }

@@ -221,21 +221,7 @@ impl Rest {
         squares: impl Iterator<Item = f64> + Clone,
         residual: &Residual,
     ) -> f64 {
-        match &self.form {
-            Form::Named => named(
-                self.directions(),
-                squares.sum(),
-                residual.rss,
-                residual.scale,
-            ),
-            Form::Smooth(ladder) => ladder.log_bayes_factor(squares, residual.rss, residual.scale),
-            Form::Scatter => scatter(
-                residual.dof,
-                residual.chi_squared,
-                residual.rss,
-                residual.scale,
-            ),
-        }
+        self.form.evidence(self.directions(), squares, residual)
     }
 }
 

@@ -25,6 +25,28 @@ pub(super) enum Form {
     Scatter,
 }
 
+impl Form {
+    /// Logarithm of the Bayes factor against none, from the squared components of the residuals along so
+    /// many directions.
+    pub(super) fn evidence(
+        &self,
+        directions: usize,
+        squares: impl Iterator<Item = f64> + Clone,
+        residual: &Residual,
+    ) -> f64 {
+        match self {
+            Form::Named => named(directions, squares.sum(), residual.rss, residual.scale),
+            Form::Smooth(ladder) => ladder.log_bayes_factor(squares, residual.rss, residual.scale),
+            Form::Scatter => scatter(
+                residual.dof,
+                residual.chi_squared,
+                residual.rss,
+                residual.scale,
+            ),
+        }
+    }
+}
+
 /// An atom in the space of z, possibly beside a set of others.
 #[derive(Debug, Clone)]
 pub(super) struct Block {
@@ -232,21 +254,7 @@ impl Block {
         residual: &Residual,
     ) -> f64 {
         let squares = components.map(|c| c * c);
-        match &self.form {
-            Form::Named => named(
-                self.basis.ncols(),
-                squares.sum(),
-                residual.rss,
-                residual.scale,
-            ),
-            Form::Smooth(ladder) => ladder.log_bayes_factor(squares, residual.rss, residual.scale),
-            Form::Scatter => scatter(
-                residual.dof,
-                residual.chi_squared,
-                residual.rss,
-                residual.scale,
-            ),
-        }
+        self.form.evidence(self.basis.ncols(), squares, residual)
     }
 
     /// The block with everything along a basis taken out; `None` if nothing is left.

@@ -9,7 +9,7 @@ use crate::report::language::Language;
 use crate::report::number::{NONE, aligned, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
-use super::words::{name, name_of_atom, noise, p_is, probability, verdict};
+use super::words::{name, name_of_atom, noise, p_found, probability, verdict};
 use super::{improvement, open};
 
 /// Cells of the scan that are shown.
@@ -52,7 +52,7 @@ fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String
     };
     let differences = as_differences(case, language);
     let alarm = diagnosis.examination.levels.first();
-    let p = alarm.map_or(NONE.to_owned(), |level| p_is(level.p));
+    let p = alarm.map_or(NONE.to_owned(), |level| p_found(level.p, level.draws));
     vec![
         (
             language.pick("Declared model", "声明的模型").into(),

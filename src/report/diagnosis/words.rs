@@ -204,6 +204,16 @@ pub(super) fn p_is(p: f64) -> String {
     }
 }
 
+/// A probability found from so many simulated recordings: the least that they can show is a bound.
+pub(super) fn p_found(p: f64, draws: usize) -> String {
+    let least = 1.0 / (draws + 1) as f64;
+    if p > least {
+        p_is(p)
+    } else {
+        p_is(p).replace("p = ", "p ≤ ")
+    }
+}
+
 /// Probability of a false alarm in a table.
 pub(super) fn probability(p: f64) -> String {
     if p < 0.001 {

@@ -13,7 +13,7 @@ use gumption_lanes::bins::{BINS, Grid};
 use super::cells::{Cell, Wanted};
 use super::histogram;
 use super::interval::{Ordered, Ranked};
-use super::strainer::{Gap, Strainer};
+use super::strainer::{Gap, Strained, Strainer};
 use crate::propagate::Histogram;
 
 /// Most values kept.
@@ -41,10 +41,16 @@ pub(super) struct Sieve {
 }
 
 impl Sieve {
-    /// An empty sieve for values like these; intervals are to hold a share p of them.
-    pub(super) fn new(sample: &[f64], p: f64) -> Self {
+    /// Orders values, of which there is at least one, as [`Sieve::new`] needs it; intervals are to hold a share
+    /// p of them.
+    pub(super) fn order(sample: &[f64], p: f64) -> Ordered {
+        Ordered::new(sample, depth(sample.len(), p), 1)
+    }
+
+    /// An empty sieve for values like these.
+    pub(super) fn new(sample: &Ordered, p: f64) -> Self {
         Sieve {
-            grid: grid(sample, p),
+            grid: grid(sample, depth(sample.count(), p)),
             counts: vec![0; BINS],
             keeps: vec![true; BINS],
             kept: Vec::new(),
@@ -61,19 +67,17 @@ impl Sieve {
     }
 
     /// Takes over what was counted.
-    pub(super) fn absorb(&mut self, strained: &Strainer) {
+    pub(super) fn absorb(&mut self, strained: Strained) {
         for (all, count) in self.counts.iter_mut().zip(strained.counts()) {
             *all += count;
         }
-        for (gap, taken) in self.gaps.iter().zip(strained.taken()) {
+        for (gap, taken) in self.gaps.iter().zip(strained.taken) {
             self.counts[*gap.bins.start()] += taken;
         }
-        let [low, high] = strained.range();
+        let [low, high] = strained.range;
         self.range = [self.range[0].min(low), self.range[1].max(high)];
-        match strained.picked() {
-            Some(picked) if self.kept.len() + picked.len() <= MOST_KEPT => {
-                self.kept.extend_from_slice(picked);
-            }
+        match strained.picked {
+            Some(picked) if self.kept.len() + picked.len() <= MOST_KEPT => self.kept.extend(picked),
             _ => self.keep_nothing(),
         }
     }
@@ -131,7 +135,7 @@ impl Sieve {
             }
             match gaps.last_mut() {
                 // Empty bins between are kept only where they lie beside others that are.
-                Some((count, gap)) if !self.keeps[*gap.start()..*row.end()].contains(&true) => {
+                Some((count, gap)) if !self.keeps[*gap.end()..*row.end()].contains(&true) => {
                     *count += cell.count;
                     *gap = *gap.start()..=*row.end();
                 }
@@ -258,14 +262,17 @@ pub(super) fn keep_only(values: &mut Vec<f64>, condition: impl Fn(f64) -> bool) 
     values.truncate(kept);
 }
 
+/// Values at either end of a sample that do not make its grid any wider.
+fn depth(count: usize, p: f64) -> usize {
+    let share = ((1.0 - p) / 16.0).min(0.002);
+    ((share * count as f64) as usize).max(1)
+}
+
 /// A grid over the middle of some values, wide enough for the ends of intervals and fine where they
 /// lie, however far away single values are.
-fn grid(sample: &[f64], p: f64) -> Grid {
-    let share = ((1.0 - p) / 16.0).min(0.002);
-    let depth = ((share * sample.len() as f64) as usize).max(1);
-    let ordered = Ordered::new(sample, depth, 1);
-    let [least, most] = ordered.range();
-    let (low, high) = (ordered.at(depth), ordered.at(ordered.count() + 1 - depth));
+fn grid(sample: &Ordered, depth: usize) -> Grid {
+    let [least, most] = sample.range();
+    let (low, high) = (sample.at(depth), sample.at(sample.count() + 1 - depth));
     let margin = 0.25 * (high - low);
     let (low, high) = ((low - margin).max(least), (high + margin).min(most));
     let width = (high - low) / (BINS - 1) as f64;
@@ -314,10 +321,10 @@ mod tests {
     #[test]
     fn spans_hold_exactly_the_numbers_of_their_bins() {
         let sample: Vec<f64> = (0..1000).map(|i| f64::from(i).sin()).collect();
-        let mut sieve = Sieve::new(&sample, 0.95);
+        let mut sieve = Sieve::new(&Sieve::order(&sample, 0.95), 0.95);
         let mut strainer = sieve.strainer();
         sample.iter().for_each(|x| strainer.take_one(*x));
-        sieve.absorb(&strainer);
+        sieve.absorb(strainer.finish());
         assert_eq!(
             (sieve.count(), sieve.kept(0..BINS).unwrap().len()),
             (1000, 1000)

@@ -7,7 +7,7 @@
 use gumption_lanes::bins::{BINS, Grid};
 use gumption_lanes::{Block, LANES};
 
-use super::cells::{Cell, Wanted, cell_of, for_each_pair};
+use super::cells::{Cell, Slack, Wanted, cell_of, for_each_pair};
 use super::engine::{Layout, Sink, Source, simulate};
 use super::interval::{Ranked, Ranks};
 use super::sieve::{MOST_KEPT, Sieve, keep_only};
@@ -68,7 +68,7 @@ impl Resolved {
         again: &impl Again,
     ) -> Self {
         let (mut cells, rows) = sieve.cells();
-        let needed = wanted.cells(&cells, 0.0);
+        let needed = wanted.cells(&cells, Slack::NONE);
         let chosen = rows.iter().zip(&needed).filter(|(_, needed)| **needed);
         let kept = sieve.kept(chosen.flat_map(|(row, _)| row.clone()));
         let mut runs = runs(&cells, &needed);
@@ -106,7 +106,7 @@ impl Resolved {
             cells = finer.cells();
             cells.append(&mut known);
             cells.sort_unstable_by_key(|cell| cell.below);
-            let needed = wanted.cells(&cells, 0.0);
+            let needed = wanted.cells(&cells, Slack::NONE);
             let pairs = cells.iter().zip(&needed);
             known = pairs
                 .filter(|(cell, needed)| **needed && cell.is_known())

@@ -10,7 +10,7 @@ use std::ops::RangeInclusive;
 
 use gumption_lanes::bins::{BINS, Grid};
 
-use super::cells::{Cell, Wanted};
+use super::cells::{Cell, Slack, Wanted};
 use super::histogram;
 use super::interval::{Ordered, Ranked};
 use super::strainer::{Gap, Strained, Strainer};
@@ -96,9 +96,7 @@ impl Sieve {
     /// Stops keeping what will not matter when more values have come.
     pub(super) fn plan(&mut self, wanted: &Wanted) {
         let (cells, rows) = self.cells();
-        let needed = wanted
-            .widened()
-            .cells(&cells, self.scatter_of_widths(wanted));
+        let needed = wanted.widened().cells(&cells, self.slack(wanted));
         // Bins between and beyond those that matter may be empty only as yet.
         let mut keeps = vec![false; BINS];
         let mut next = 0;
@@ -153,14 +151,14 @@ impl Sieve {
         }
     }
 
-    /// By how much the widths of two candidates for the shortest interval may still change, one
-    /// against the other, over the root of the ranks between them: several standard errors of how many
-    /// values lie between their ends.
-    fn scatter_of_widths(&self, wanted: &Wanted) -> f64 {
+    /// By how much the widths of two candidates for the shortest interval may still change, one against the
+    /// other: several standard errors of how many values lie between their ends, and the bins in which their
+    /// ends will be when it is decided which of them are needed.
+    fn slack(&self, wanted: &Wanted) -> Slack {
         /// Bins over which a density is averaged.
         const AROUND: usize = 16;
         let Some(ranks) = wanted.shortest else {
-            return 0.0;
+            return Slack::NONE;
         };
         let place = |rank: usize| {
             let mut below = 0;
@@ -181,7 +179,10 @@ impl Sieve {
             });
             bins * self.grid.width() / count as f64
         });
-        6.0 * std::f64::consts::SQRT_2 * per_value[0].max(per_value[1])
+        Slack {
+            fixed: 2.0 * self.grid.width(),
+            per_root_of_ranks: 6.0 * std::f64::consts::SQRT_2 * per_value[0].max(per_value[1]),
+        }
     }
 
     /// Rows of bins that hold values, as cells, and their numbers: single ones, but for lumped ones.

@@ -80,7 +80,7 @@ impl Sifted {
         let (mut left, mut in_first) = (0, 0);
         for row in x.0.as_chunks::<ROW>().0 {
             let row = f64x8::from_slice(simd, row);
-            finite = finite & row.abs().simd_lt(infinity);
+            finite &= row.abs().simd_lt(infinity);
             let inside = row.simd_ge(first[0]) & row.simd_le(first[1]);
             let outside = !(inside | (row.simd_ge(second[0]) & row.simd_le(second[1])));
             row.compress(outside)

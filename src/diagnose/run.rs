@@ -334,6 +334,11 @@ pub(super) fn question(
             place: cell.place.clone(),
             typical: cell.typical,
             repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
+            describes: matches!(
+                cell.effect.id.as_str(),
+                "outlier" | "step" | "step-scale" | "wave"
+            ),
+            odds: cell.odds,
         });
         let before = atoms.len();
         let shapes: Vec<(usize, Shape)> = (cell.variants.iter().enumerate())

@@ -91,6 +91,14 @@ impl Record {
         }
     }
 
+    /// Takes as κ what the nearest of the catalogue's own candidates leave of each effect, where that is
+    /// less: shares of λ.
+    pub fn separate(&mut self, nearest: &[f64]) {
+        for (outcome, share) in self.outcomes.iter_mut().zip(nearest) {
+            outcome.kappa = outcome.kappa.min(outcome.lambda * share);
+        }
+    }
+
     /// Whether the case was given a single effect and nothing was done to it.
     pub fn is_whole(&self) -> bool {
         self.ablation == Ablation::Whole

@@ -7,6 +7,10 @@ use super::response::{levels_of, on_node, on_outputs, time_constants, words};
 use super::{Cell, Modifier, Variants, Words};
 use crate::diagnose::case::Role;
 
+/// Odds beforehand that pressure or humidity acts on an instrument, over those of another condition: they are
+/// recorded because laboratories record them.
+const AIR: f64 = 0.2;
+
 /// Cells of the columns that may act although, or besides how, the model uses them.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
@@ -99,10 +103,45 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let variants = vec![(String::new(), vec![(modifier, format!("d{label}/dt"))])];
         cells.push(on_outputs(ground, id, words, &label, variants));
     }
+    if !stimulus && stands_for_temperature(ground, column) {
+        let words = cells[0].words.clone();
+        let id = "unrecorded-temperature";
+        cells.push(on_outputs(ground, id, words, &label, linear));
+    }
+    let odds = if stimulus || !is_of_air(ground, column) {
+        1.0
+    } else {
+        AIR
+    };
     for cell in &mut cells {
         shape(ground, cell);
+        if cell.effect.id != "unrecorded-temperature" {
+            cell.odds = odds;
+        }
     }
     cells
+}
+
+/// Whether a column is the pressure or the humidity of the air.
+fn is_of_air(ground: &Ground<'_>, column: usize) -> bool {
+    ground.case().columns[column].unit.symbol == "%" || ground.is_like(column, "Pa")
+}
+
+/// Whether a condition changes slowly while no temperature was recorded: whatever went up and down with the
+/// room looks like it.
+fn stands_for_temperature(ground: &Ground<'_>, column: usize) -> bool {
+    /// Mean square of successive differences over the variance, from which on a series is no slow one: for
+    /// independent values it is 2 (von Neumann).
+    const SLOW: f64 = 0.5;
+    let recorded = (0..ground.case().columns.len()).any(|c| ground.is_temperature(c));
+    let mut order: Vec<usize> = (0..ground.rows()).collect();
+    order.sort_by(|a, b| ground.clock.values[*a].total_cmp(&ground.clock.values[*b]));
+    let x = centred(ground.numbers(column));
+    let squares: f64 = x.iter().map(|x| x * x).sum();
+    let steps: f64 = (order.windows(2))
+        .map(|pair| (x[pair[1]] - x[pair[0]]).powi(2))
+        .sum();
+    !recorded && ground.is_timed() && steps < SLOW * squares
 }
 
 /// The square alone, and with a linear part; nothing where the numbers are the same up to their sign, or
@@ -291,10 +330,7 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
 /// of the air.
 fn meet(ground: &Ground<'_>, x: usize, z: usize) -> bool {
     let applied = |c: usize| ground.case().columns[c].role == Role::Stimulus;
-    let of_air = |c: usize| {
-        let relative = ground.case().columns[c].unit.symbol == "%";
-        ground.is_temperature(c) || ground.is_like(c, "Pa") || relative
-    };
+    let of_air = |c: usize| ground.is_temperature(c) || is_of_air(ground, c);
     applied(x) || applied(z) || of_air(x) && of_air(z)
 }
 

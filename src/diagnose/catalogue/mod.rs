@@ -148,6 +148,8 @@ pub struct Cell {
     pub typical: Option<f64>,
     /// A sentence of the user's own.
     pub description: Option<String>,
+    /// Odds beforehand, over those of a usual effect.
+    pub odds: f64,
 }
 
 impl Cell {
@@ -160,6 +162,7 @@ impl Cell {
             variants,
             typical: None,
             description: None,
+            odds: 1.0,
         }
     }
 }

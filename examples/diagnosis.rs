@@ -18,9 +18,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use gumption::challenge::SealedCase;
-use gumption::challenge::grade::{self, Answer, Name};
+use gumption::challenge::grade::{self, Answer, Name, State};
 use gumption::challenge::study::{
-    EACH, FIRST_SEED, NULLS, Record, Trial, read, report, trials, write,
+    EACH, FIRST_SEED, NULLS, Record, Trial, Twin, read, report, trials, write,
 };
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Failure, Likeness, Opinion, Pick, diagnose, likenesses, opinions};
@@ -201,12 +201,12 @@ impl<'a> Study<'a> {
 fn one(trial: &Trial, folder: &Path, options: &Options) -> Record {
     let sealed = trial.case();
     match answer(trial, &sealed, folder, options.alone) {
-        Ok((answer, nearest, opinions)) => {
+        Ok((answer, twins, opinions)) => {
             if options.show {
                 eprintln!("{}", shown(trial, &answer));
             }
             let mut record = Record::of(trial, &grade::grade(&sealed.truth, &answer), &answer);
-            record.separate(&nearest);
+            record.complete(&twins);
             record.rivals = opinions
                 .iter()
                 .map(|opinion| judged(&sealed, opinion))
@@ -231,7 +231,7 @@ fn answer(
     sealed: &SealedCase,
     folder: &Path,
     alone: bool,
-) -> Result<(Answer, Vec<f64>, Vec<Opinion>), String> {
+) -> Result<(Answer, Vec<Twin>, Vec<Opinion>), String> {
     trial
         .write(sealed, folder)
         .map_err(|error| error.to_string())?;
@@ -247,13 +247,18 @@ fn answer(
     } else {
         opinions(&case).map_err(failed)?
     };
-    let nearest = nearest(trial, sealed, &case).map_err(failed)?;
-    Ok((answer, nearest, others))
+    let twins = twins(trial, sealed, &case, &answer).map_err(failed)?;
+    Ok((answer, twins, others))
 }
 
-/// What the nearest wrong candidate of the catalogue leaves of each concealed effect, as a share of its
-/// length: of those with no more coefficients than the right one.
-fn nearest(trial: &Trial, sealed: &SealedCase, case: &Case) -> Result<Vec<f64>, Failure> {
+/// What twin runs say of each concealed effect. A wrong candidate is a rival if it has no more coefficients
+/// than the right one.
+fn twins(
+    trial: &Trial,
+    sealed: &SealedCase,
+    case: &Case,
+    answer: &Answer,
+) -> Result<Vec<Twin>, Failure> {
     /// Where the right candidate is missing, whatever fits is a rival.
     const USUAL: usize = usize::MAX;
     let traces = trial.signatures();
@@ -271,7 +276,17 @@ fn nearest(trial: &Trial, sealed: &SealedCase, case: &Case) -> Result<Vec<f64>, 
         let best = own.iter().min_by(|a, b| a.left.total_cmp(&b.left));
         let coefficients = best.map_or(USUAL, |best| best.coefficients);
         let rivals = wrong.iter().filter(|l| l.coefficients <= coefficients);
-        Ok(rivals.map(|l| l.left).fold(1.0, f64::min))
+        let truth = &sealed.truth.effects[at];
+        let unique = (answer.effects.iter())
+            .filter(|effect| effect.state == State::Identified)
+            .filter_map(|effect| effect.named.first())
+            .find(|name| grade::accepts(truth.physics, name));
+        Ok(Twin {
+            nearest: rivals.map(|l| l.left).fold(1.0, f64::min),
+            deviation: unique.and_then(|name| deviation(&all, name)),
+            located: unique
+                .and_then(|name| grade::located(sealed.truth.rig, trial.dwell(), truth, name)),
+        })
     };
     (0..traces.len()).map(of).collect()
 }
@@ -306,6 +321,15 @@ fn judged(sealed: &SealedCase, opinion: &Opinion) -> (String, String) {
         opinion.method.into(),
         grade::grade_names(&sealed.truth, &names).into(),
     )
+}
+
+/// Size of a name less that of its variant in the twin run, over its standard uncertainty.
+fn deviation(all: &[Likeness], name: &Name) -> Option<f64> {
+    let label = &name.variants.first()?.label;
+    let is_it =
+        |l: &&Likeness| l.pick.id == name.id && l.pick.along == name.along && l.label == *label;
+    let size = all.iter().find(is_it)?.size?;
+    Some(((*name.size.first()?)? - size) / (*name.u.first()?)?)
 }
 
 fn name(pick: &Pick) -> Name {

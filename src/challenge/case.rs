@@ -6,6 +6,8 @@ use super::files::{CaseFile, case_file, recordings};
 use super::random::{Random, Stream};
 use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge, Scenario, draw};
+use super::schedule::Campaign;
+use super::simulate::{Readings, duration, simulate};
 use super::strength::Visible;
 use super::truth::{Truth, salt, seal};
 
@@ -54,7 +56,7 @@ pub fn challenge(request: &Request) -> SealedCase {
 }
 
 /// What each concealed effect of a case adds to the readings beside the others, without noise and digits:
-/// all rows of the first output, then those of the next.
+/// all rows of the first output, then those of the next, in units of the recording.
 pub fn signatures(request: &Request) -> Vec<DVector<f64>> {
     let drawn = drawn(request);
     let visible = Visible::new(&drawn.setup);
@@ -62,9 +64,16 @@ pub fn signatures(request: &Request) -> Vec<DVector<f64>> {
     let of = |at: usize| {
         let mut others = all.clone();
         let own = others.remove(at);
-        visible.added(&own, &others)
+        visible.added(&own, &others) * drawn.setup.rig.sensitivity()
     };
     (0..all.len()).map(of).collect()
+}
+
+/// Mean time from one reading of the recording to the next, in hours.
+pub fn dwell(request: &Request) -> f64 {
+    let setup = drawn(request).setup;
+    let rows = simulate(&setup, Campaign::Calibration, &[], Readings::Ideal).len();
+    duration(setup.rig, Campaign::Calibration, setup.seed) / 3600.0 / rows as f64
 }
 
 fn drawn(request: &Request) -> Drawn {

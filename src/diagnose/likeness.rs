@@ -19,8 +19,12 @@ const DEPENDENT: f64 = 1e-6;
 pub struct Likeness {
     /// The candidate.
     pub pick: Pick,
+    /// What distinguishes the variant.
+    pub label: String,
     /// Number of its free coefficients that are visible.
     pub coefficients: usize,
+    /// The coefficient with which it comes nearest to the trace, if it has one alone.
+    pub size: Option<f64>,
     /// Length of what it leaves of the trace over the length of the trace, beside the others.
     pub left: f64,
 }
@@ -72,12 +76,20 @@ pub fn likenesses(
         }
         let own = &directions[adopted.len()..];
         let cell = &cells[place.0];
+        let size = match (own, seen.column_iter().next()) {
+            ([direction], Some(column)) if seen.ncols() == 1 => {
+                Some(direction.dot(&rest) / direction.dot(&column))
+            }
+            _ => None,
+        };
         (!own.is_empty()).then(|| Likeness {
             pick: Pick {
                 id: cell.effect.id.clone(),
                 along: cell.place.along.clone(),
             },
+            label: cell.variants[place.1].label.clone(),
             coefficients: own.len(),
+            size,
             left: beside(rest.clone(), own).norm() / whole,
         })
     };

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nalgebra::DVector;
 
-use crate::challenge::case::{Request, SealedCase, challenge, signatures};
+use crate::challenge::case::{Request, SealedCase, challenge, dwell, signatures};
 use crate::challenge::files::{CASE, CaseFile, RECORDING};
 use crate::challenge::scenario::{Class, NoiseKnowledge, Scenario};
 
@@ -150,6 +150,11 @@ impl Trial {
     /// What each concealed effect adds to the recording, see [`signatures`].
     pub fn signatures(&self) -> Vec<DVector<f64>> {
         signatures(&self.request())
+    }
+
+    /// Mean time between readings, see [`dwell`].
+    pub fn dwell(&self) -> f64 {
+        dwell(&self.request())
     }
 
     fn request(&self) -> Request {

@@ -10,6 +10,8 @@ use crate::diagnose::case::Role;
 /// Odds beforehand that pressure or humidity acts on an instrument, over those of another condition: they are
 /// recorded because laboratories record them.
 const AIR: f64 = 0.2;
+/// Odds beforehand of what is not first order in a condition: a square, a rate of change, a product.
+const HIGHER: f64 = 0.3;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -115,9 +117,11 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     for cell in &mut cells {
         shape(ground, cell);
-        if cell.effect.id != "unrecorded-temperature" {
-            cell.odds = odds;
-        }
+        cell.odds = match cell.effect.id.as_str() {
+            "unrecorded-temperature" => 1.0,
+            id if id.ends_with("-quadratic") || id.ends_with("-rate") => odds * HIGHER,
+            _ => odds,
+        };
     }
     cells
 }
@@ -283,13 +287,16 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
     let text = format!("({} - mean)*({} - mean)", name(x), name(z));
     let mut cells = Vec::new();
     if meet(ground, x, z) {
-        cells.push(on_outputs(
-            ground,
-            "interaction",
-            pair.clone(),
-            &along,
-            vec![(String::new(), vec![(product, text)])],
-        ));
+        cells.push(Cell {
+            odds: HIGHER,
+            ..on_outputs(
+                ground,
+                "interaction",
+                pair.clone(),
+                &along,
+                vec![(String::new(), vec![(product, text)])],
+            )
+        });
     }
     let (of_x, of_z) = (ground.numbers(x), ground.numbers(z));
     let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));

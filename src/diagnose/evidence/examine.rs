@@ -82,6 +82,13 @@ pub fn examine(
             kept.retain(|block| rivalry.kept.contains(block));
         }
         doubt(&space, question, &mut slots, &kept);
+    } else if verdict(&slots, explained) == Verdict::Partly {
+        let excess = space.z.norm_squared() - space.dof as f64;
+        for slot in &mut slots {
+            if !dominates(slot, excess) && describes(question, slot) {
+                slot.state = State::Unexplained;
+            }
+        }
     }
     let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
         Verdict::None
@@ -204,23 +211,37 @@ fn slots(
     slots.into_iter().map(|(_, slot)| slot).collect()
 }
 
+/// Whether an effect is most of the excess of χ².
+fn dominates(slot: &Slot, excess: f64) -> bool {
+    let strength = slot.named.first().map_or(0.0, |first| first.lambda);
+    strength * strength >= DOMINANT * excess
+}
+
+/// Whether a name says what something looks like, and not what it is.
+fn describes(question: &Question, slot: &Slot) -> bool {
+    let first = slot.named.first();
+    first.is_some_and(|first| question.candidates[first.candidate].describes)
+}
+
 /// Names are tentative where something without a name may be most of what was found, or look like them.
 /// `kept` are the effects that every rival explanation has as well: these may share what they explain with
 /// others.
 fn doubt(space: &Space, question: &Question, slots: &mut [Slot], kept: &[usize]) {
     let excess = space.z.norm_squared() - space.dof as f64;
     for slot in slots {
-        let firm = slot.named.first().is_some_and(|first| {
-            let block = |index: &&usize| space.blocks[**index].candidate == first.candidate;
+        let firm = {
+            let block = |index: &&usize| {
+                let candidate = space.blocks[**index].candidate;
+                slot.named.iter().any(|named| named.candidate == candidate)
+            };
             let alone = kept.iter().find(block).map_or(0.0, |index| {
                 let own = space.places(*index);
                 let components = space.components.rows(own.start, own.len());
                 components.norm_squared()
             });
-            let fit = alone.max(first.lambda * first.lambda);
-            fit >= DOMINANT * excess && !question.candidates[first.candidate].describes
-        });
-        if !firm || slot.generic_share > DOUBTFUL {
+            alone >= DOMINANT * excess || dominates(slot, excess)
+        };
+        if !firm || describes(question, slot) || slot.generic_share > DOUBTFUL {
             slot.state = State::Unexplained;
         }
     }

@@ -3,7 +3,7 @@
 
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{centred, correlation, figure, lag, map, map2, mean, range, rate};
-use super::response::{levels_of, on_node, on_outputs, time_constants, words};
+use super::response::{finer_time_constants, levels_of, on_node, on_outputs, words};
 use super::{Cell, Modifier, Variants, Words};
 use crate::diagnose::case::Role;
 
@@ -180,7 +180,7 @@ fn delayed(ground: &Ground<'_>, column: usize, own: &[f64], text: &str) -> Varia
     let mut variants = vec![(String::new(), vec![(own.to_vec(), text.to_owned())])];
     if ground.is_timed() && !ground.is_immediate(column) {
         let unit = ground.time_unit();
-        for tau in time_constants(ground) {
+        for tau in finer_time_constants(ground) {
             let lagged = lag(&ground.clock.values, own, tau);
             let text = format!("lag{text}[{tau} {unit}]", tau = figure(tau));
             variants.push((

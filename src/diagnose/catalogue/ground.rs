@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::Term;
+use super::{Finer, Term};
 use crate::diagnose::case::{Case, Role};
 use crate::diagnose::fit::Fit;
 use crate::diagnose::frame::{Clock, Frame};
@@ -30,6 +30,8 @@ pub struct Ground<'f> {
     pub fit: &'f Fit,
     /// When rows were recorded.
     pub clock: Clock,
+    /// What is tried beside the grids of time constants and knees.
+    pub finer: Finer,
     /// What the model gives besides constant terms, for each response and row.
     signal: Vec<Vec<f64>>,
 }
@@ -42,10 +44,17 @@ impl<'f> Ground<'f> {
             frame,
             fit,
             clock: frame.time(),
+            finer: Finer::default(),
             signal: responses
                 .map(|response| signal(frame, fit, response))
                 .collect(),
         }
+    }
+
+    /// With values between those of the grids.
+    #[must_use]
+    pub fn refined(self, finer: Finer) -> Ground<'f> {
+        Ground { finer, ..self }
     }
 
     /// The case.

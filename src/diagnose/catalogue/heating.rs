@@ -38,7 +38,7 @@ fn of_signals(ground: &Ground<'_>) -> Cell {
         .filter(|response| swings(ground.signal(*response)))
         .collect();
     let mut variants = Vec::new();
-    for tau in scales(ground) {
+    for tau in ground.finer.times(scales(ground)) {
         let label = format!("τ = {} {unit}", figure(tau));
         let terms = responses.iter().map(|response| {
             let (warmth, text) = warmth(ground, ground.signal(*response), "signal", tau);
@@ -62,7 +62,7 @@ fn of_signals(ground: &Ground<'_>) -> Cell {
 fn of_column(ground: &Ground<'_>, column: usize) -> Cell {
     let unit = ground.time_unit();
     let name = ground.label(column);
-    let variants = scales(ground).into_iter().map(|tau| {
+    let variants = ground.finer.times(scales(ground)).into_iter().map(|tau| {
         let (warmth, text) = warmth(ground, ground.numbers(column), name, tau);
         let label = format!("τ = {} {unit}", figure(tau));
         Variation::one(label, Term::new(Node::Output, warmth, text)).shaped("τ", tau, &unit)

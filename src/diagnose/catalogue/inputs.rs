@@ -8,7 +8,7 @@ use super::ground::{Ground, Node, varies};
 use super::modifiers::{
     correlation, creeps, figure, held_lag, lag, largest, map, map2, play, range, rate,
 };
-use super::response::time_constants;
+use super::response::{finer_time_constants, time_constants};
 use super::{Cell, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -317,7 +317,8 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
         (modifier, text)
     };
     let lacks = &lacks;
-    let single = scales.iter().map(|tau| Shaped {
+    let singles = finer_time_constants(ground);
+    let single = singles.iter().map(|tau| Shaped {
         label: format!("τ = {} {unit}", figure(*tau)),
         shape: Some(("τ", *tau, unit.clone())),
         law: Box::new(move |input: &Input| vec![lacks(input, *tau)]),

@@ -16,11 +16,13 @@
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
 //! | `heating`, `stem`, `waves`, `readout` | power of the signal, loss along a stem, what repeats, rounding and slips |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
+//! | `finer` | values between those of the grids |
 //! | `generics` | competitors without a name |
 
 mod angles;
 mod conditions;
 mod fields;
+mod finer;
 mod generics;
 mod ground;
 mod heating;
@@ -44,6 +46,7 @@ use std::sync::LazyLock;
 use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
 
+pub use finer::Finer;
 pub use ground::{Ground, Node};
 
 use super::evidence;
@@ -321,6 +324,7 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     };
     cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
     let mut cells = distinct(cells);
+    ground.finer.prune(&mut cells);
     cells.extend(generics::cells(ground));
     cells
 }

@@ -216,7 +216,13 @@ pub(super) fn levels_of(x: &[f64]) -> Vec<f64> {
     levels
 }
 
-/// Time constants from a fraction of the interval of the blocks to a fraction of the recording.
+/// Time constants from a fraction of the interval of the blocks to a fraction of the recording, with those
+/// that are tried between.
+pub(super) fn finer_time_constants(ground: &Ground<'_>) -> Vec<f64> {
+    ground.finer.times(time_constants(ground))
+}
+
+/// The grid alone.
 pub(super) fn time_constants(ground: &Ground<'_>) -> Vec<f64> {
     let span = ground.clock.span();
     let blocks = ground.frame.blocks.len().max(2) as f64;
@@ -243,7 +249,8 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
         Term::new(node, modifier, text)
     };
-    let single = scales.iter().map(|tau| {
+    let singles = finer_time_constants(ground);
+    let single = singles.iter().map(|tau| {
         let label = format!("τ = {} {unit}", figure(*tau));
         Variation::one(label, lacks(*tau)).shaped("τ", *tau, &unit)
     });

@@ -62,9 +62,10 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         2.2,
         7,
     );
+    let singles = ground.finer.times(scales.clone());
     let mut drifts = steady;
     if ground.is_timed() {
-        drifts.extend(curved(ground, &since, &scales));
+        drifts.extend(curved(ground, &since, &singles));
     }
     add(["drift", "drift-scale"], drifts, Some("t₀"));
     add(["step", "step-scale"], steps(ground, &along), None);
@@ -74,7 +75,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             let modifier = map(&since, |t| libm::exp(-t / tau));
             (modifier, format!("exp(-t/{})", figure(tau)))
         };
-        let single = scales.iter().map(|tau| {
+        let single = singles.iter().map(|tau| {
             let label = format!("τ = {} {unit}", figure(*tau));
             (label, vec![decay(*tau)])
         });

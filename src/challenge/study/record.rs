@@ -311,6 +311,7 @@ mod tests {
             wrong_names: vec![("drift".into(), 0.99)],
             wrong_lists: 1,
             chi: [4.5, 1.0],
+            dof: 33.0,
             held_out: [2.0, 1.125],
             points: [0.9, 1.25],
             rivals: vec![("bic".into(), "drift+step".into())],

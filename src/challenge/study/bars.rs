@@ -47,7 +47,9 @@ impl Study<'_> {
             .filter(|(_, o)| o.finding == "unique")
             .map(|(r, _)| r)
             .collect();
+        // How far a label slipped is no size of an effect.
         let sizes = (self.whole().flat_map(|r| &r.outcomes))
+            .filter(|o| o.physics != "swapped-label")
             .map(|o| o.deviation)
             .filter(|z| z.is_finite());
         let located = self.whole().flat_map(|r| &r.outcomes);

@@ -4,7 +4,8 @@
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{centred, correlation, figure, lag, map, map2, mean, range, rate};
 use super::response::{levels_of, on_node, on_outputs, time_constants, words};
-use super::{Cell, Modifier, Variants, Words};
+use super::sharp::sharpened;
+use super::{Cell, Modifier, Term, Variants, Words};
 use crate::diagnose::case::Role;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
@@ -43,19 +44,19 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         (_, true) => "cross-sensitivity",
         _ => "sensitivity",
     };
-    let delayed = delayed(ground, column, &own, &text);
-    let linear: Variants = delayed
-        .iter()
-        .cloned()
-        .chain(leading(ground, column, &own, &text))
-        .collect();
+    let on = |node: Node| delayed(ground, column, node, &own, &text);
+    let linear = |delayed: &Variants| -> Variants {
+        let leading = leading(ground, column, &own, &text);
+        delayed.iter().cloned().chain(leading).collect()
+    };
+    let delayed = on(Node::Output);
     let words = words(ground, &label);
     cells.push(on_outputs(
         ground,
         bias,
         words.clone(),
         &label,
-        linear.clone(),
+        linear(&delayed),
     ));
     let square: Variants = delayed
         .iter()
@@ -75,7 +76,8 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     cells.push(on_outputs(ground, second, words.clone(), &label, square));
     for (node, id) in scale_nodes(ground, temperature) {
-        let mut cell = on_node(ground, id, words.clone(), &label, node, linear.clone());
+        let variants = linear(&on(node));
+        let mut cell = on_node(ground, id, words.clone(), &label, node, variants);
         cell.words.p = ground.name(node);
         cells.push(cell);
         let squares = squares(ground, column);
@@ -133,12 +135,14 @@ fn squares(ground: &Ground<'_>, column: usize) -> Variants {
 
 /// The modifier without a lag, and with each of a series of time constants where it has to get through
 /// something first.
-fn delayed(ground: &Ground<'_>, column: usize, own: &[f64], text: &str) -> Variants {
+fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &[f64], text: &str) -> Variants {
     let mut variants = vec![(String::new(), vec![(own.to_vec(), text.to_owned())])];
     if ground.is_timed() && !ground.is_immediate(column) {
         let unit = ground.time_unit();
-        for tau in time_constants(ground) {
-            let lagged = lag(&ground.clock.values, own, tau);
+        let late = |tau: f64| lag(&ground.clock.values, own, tau);
+        let term = |tau: f64| Term::new(node, late(tau), String::new());
+        for tau in sharpened(ground, time_constants(ground), &term) {
+            let lagged = late(tau);
             let text = format!("lag{text}[{tau} {unit}]", tau = figure(tau));
             variants.push((
                 format!("τ = {tau} {unit}", tau = figure(tau)),

@@ -8,7 +8,7 @@ use super::ground::{Ground, Node, varies};
 use super::modifiers::{
     correlation, creeps, figure, held_lag, lag, largest, map, map2, play, range, rate,
 };
-use super::response::time_constants;
+use super::response::{comes_back, time_constants};
 use super::{Cell, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -298,7 +298,10 @@ fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
 
 /// What depends on the inputs before: relaxation, late reading, hysteresis.
 fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
-    let mut cells = vec![cell(ground, inputs, "hysteresis", loops())];
+    let mut cells = Vec::new();
+    if inputs.iter().any(|input| comes_back(&input.own)) {
+        cells.push(cell(ground, inputs, "hysteresis", loops()));
+    }
     if !ground.is_timed() {
         return cells;
     }

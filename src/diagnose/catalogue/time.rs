@@ -4,7 +4,8 @@ use super::conditions::single;
 use super::ground::{Ground, Node};
 use super::modifiers::{centred, figure, grid, map, range};
 use super::response::{on_node, words};
-use super::{Cell, Variants};
+use super::sharp::sharpened;
+use super::{Cell, Term, Variants};
 use crate::diagnose::case::Role;
 
 /// More steps than that are not scanned.
@@ -26,7 +27,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         .columns
         .iter()
         .any(|column| matches!(column.role, Role::Run | Role::Factor));
-    if (factors && !ground.is_timed()) || !ground.is_ordered() {
+    if (factors && ground.clock.column.is_none()) || !ground.is_ordered() {
         return Vec::new();
     }
     let nodes = if ground.has_signal() {
@@ -64,6 +65,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     );
     let mut drifts = steady;
     if ground.is_timed() {
+        let slowing = |scale: f64| {
+            let modifier = map(&since, |t| libm::log1p(t / scale));
+            Term::new(Node::Output, modifier, String::new())
+        };
+        let scales = sharpened(ground, scales.clone(), &slowing);
         drifts.extend(curved(ground, &since, &scales));
     }
     add(["drift", "drift-scale"], drifts, Some("t₀"));
@@ -74,6 +80,8 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             let modifier = map(&since, |t| libm::exp(-t / tau));
             (modifier, format!("exp(-t/{})", figure(tau)))
         };
+        let warming = |tau: f64| Term::new(Node::Output, decay(tau).0, String::new());
+        let scales = sharpened(ground, scales, &warming);
         let single = scales.iter().map(|tau| {
             let label = format!("τ = {} {unit}", figure(*tau));
             (label, vec![decay(*tau)])

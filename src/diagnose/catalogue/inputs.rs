@@ -5,10 +5,11 @@
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
 use super::ground::{Ground, Node, varies};
+use super::history::comes_back;
 use super::modifiers::{
     correlation, creeps, figure, held_lag, lag, largest, map, map2, play, range, rate,
 };
-use super::response::{comes_back, time_constants};
+use super::response::time_constants;
 use super::{Cell, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;

@@ -10,7 +10,7 @@
 //! | `modifiers` | what a disturbance may follow, computed row by row |
 //! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `ground` | slopes of the nodes, and which columns can be what |
-//! | `response`, `limits` | what a stimulus does otherwise than declared |
+//! | `response`, `limits`, `history` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `implicit` | the same where the model holds a constant against several columns |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
@@ -26,6 +26,7 @@ mod fields;
 mod generics;
 mod ground;
 mod heating;
+mod history;
 mod implicit;
 mod inputs;
 mod levels;

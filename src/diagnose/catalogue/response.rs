@@ -1,12 +1,11 @@
 //! How the response to the stimuli may differ from the declared one: powers, modulus, limits, cross terms,
-//! lag, history.
+//! lag.
 
-use super::ground::{Ground, Node, varies};
+use super::ground::{Ground, Node};
 use super::modifiers::{
-    centred, creeps, delayed, direction, figure, grid, late, map, map2, mean, play, range, rate,
-    typical_step,
+    centred, creeps, delayed, figure, grid, late, map, map2, mean, range, rate,
 };
-use super::sharp::sharpened;
+use super::sharp::{best_pair, sharpened};
 use super::{Cell, Term, Variants, Variation, Words, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -29,9 +28,10 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells.extend(factors.iter().flat_map(|c| bends(ground, *c)));
     for column in &direct {
         cells.extend(powers(ground, *column));
+        cells.extend(exponent(ground, *column));
         cells.extend(super::limits::cells(ground, *column));
         cells.extend(dynamics(ground, *column));
-        cells.extend(history(ground, *column));
+        cells.extend(super::history::cells(ground, *column));
     }
     for (at, x) in direct.iter().enumerate() {
         for z in &direct[at + 1..] {
@@ -141,6 +141,39 @@ fn aside(ground: &Ground<'_>, factors: &[usize]) -> Vec<Cell> {
         on_outputs(ground, id, words(ground, &names), &names, variants)
     };
     vectors.iter().map(of_vector).collect()
+}
+
+/// Another exponent, where the model is a power of a quantity other than the first and has no zero besides:
+/// the flow through an orifice, light at a distance, radiation of a hot body.
+fn exponent(ground: &Ground<'_>, column: usize) -> Option<Cell> {
+    /// Exponents so near to one another are the same.
+    const SAME: f64 = 1e-3;
+    let x = ground.numbers(column);
+    let one_output = ground.case().responses.len() == 1 && ground.constant_terms(0).is_empty();
+    if !one_output || range(x).0 <= 0.0 {
+        return None;
+    }
+    let slope = ground.slope(Node::Column(column), 0);
+    let powers: Vec<f64> = (x.iter().zip(&slope).zip(ground.signal(0)))
+        .map(|((x, slope), y)| x * slope / y)
+        .collect();
+    let (least, most) = range(&powers);
+    if !(most - least).is_finite() || most - least > SAME || (least - 1.0).abs() < SAME {
+        return None;
+    }
+    let label = name(ground, column);
+    let middle = libm::exp(mean(&map(x, libm::log)));
+    let modifier = map(x, |x| libm::log(x / middle));
+    let text = format!("ln({label}/{})", figure(middle));
+    let variants = vec![(String::new(), vec![(modifier, text)])];
+    Some(on_node(
+        ground,
+        "exponent",
+        words(ground, label),
+        label,
+        Node::Gain,
+        variants,
+    ))
 }
 
 /// Curvature of the response to a factor of a product of quantities of different kinds, such as current times
@@ -317,6 +350,10 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             Variation::of(label, vec![lacks(*tau), lacks(slow)])
         })
     });
+    let free = best_pair(ground, &scales, &lacks).map(|(quick, slow)| {
+        let label = format!("τ = {} and {} {unit}", figure(quick), figure(slow));
+        Variation::of(label, vec![lacks(quick), lacks(slow)])
+    });
     // What the recording begins with was on its way already.
     let began = t.first().copied().unwrap_or(0.0);
     let unbalanced = scales.iter().filter(|_| creeps(x)).map(|tau| {
@@ -330,7 +367,7 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let label = format!("τ = {shown} {unit}, not in balance at the start");
         Variation::of(label, vec![lacks(*tau), start]).shaped("τ", *tau, &unit)
     });
-    let variants = single.chain(double).chain(unbalanced);
+    let variants = single.chain(double).chain(free).chain(unbalanced);
     let lagged = Cell::new(
         id,
         words(ground, label),
@@ -378,123 +415,6 @@ fn delays(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
         Variation::of(format!("by about {} {unit}", figure(delay)), terms)
     });
     variants.collect()
-}
-
-fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
-    let (x, label) = (ground.numbers(column), name(ground, column));
-    if !comes_back(x) {
-        return Vec::new();
-    }
-    let way = direction(x);
-    let mut cells = vec![plain(ground, "hysteresis", label, loops(x, &way, label))];
-    let (least, most) = range(x);
-    let unit = ground.case().columns[column].unit.typeset();
-    let step = typical_step(x);
-    let widths = grid((most - least) * 1e-3, (most - least) * 0.3, 3.0, 6);
-    let widths = widths
-        .into_iter()
-        .filter(|width| *width < 2.0 * step || step == 0.0);
-    let variants = widths.map(|width| {
-        let modifier = map2(&play(x, width), x, |played, x| (played - x) / width);
-        let term = Term::new(
-            Node::Column(column),
-            modifier,
-            format!(
-                "(play({label}, {width}) - {label})/{width}",
-                width = figure(width)
-            ),
-        );
-        Variation::one(format!("gap {width} {unit}", width = figure(width)), term)
-    });
-    // A gap far below the steps is the direction alone.
-    let wide: Vec<Variation> = variants.filter(|v| varies(&v.terms[0].modifier)).collect();
-    if step < 0.3 * (most - least)
-        && ground.case().columns[column].role == Role::Stimulus
-        && !wide.is_empty()
-    {
-        cells.push(plain(ground, "play", label, wide));
-    }
-    cells
-}
-
-/// Shapes of a loop: a constant offset between both ways, a loop that is closed at both ends of the range
-/// and widest between them, and the same on one of the ways only.
-fn loops(x: &[f64], way: &[f64], label: &str) -> Vec<Variation> {
-    let (least, most) = range(x);
-    let half = (most - least) / 2.0;
-    let wide = map(x, |x| (x - least) * (most - x) / (half * half));
-    let shape = format!(
-        "({label} - {least})*({most} - {label})/{square}",
-        least = figure(least),
-        most = figure(most),
-        square = figure(half * half)
-    );
-    let direction = format!("direction({label})");
-    let on_one = |sign: f64| map2(&wide, way, |wide, way| wide * (1.0 + sign * way) / 2.0);
-    let simple = [
-        ("", way.to_vec(), direction.clone()),
-        (
-            "widest in the middle",
-            map2(&wide, way, |wide, way| wide * way),
-            format!("{direction}*{shape}"),
-        ),
-        (
-            "on rising values only, widest in the middle",
-            on_one(1.0),
-            format!("[rising]*{shape}"),
-        ),
-        (
-            "on falling values only, widest in the middle",
-            on_one(-1.0),
-            format!("[falling]*{shape}"),
-        ),
-    ];
-    let simple = simple
-        .into_iter()
-        .map(|(variant, modifier, text)| Variation::one(variant, on_output(modifier, text)));
-    simple.chain(plays(x, label)).collect()
-}
-
-/// Inner friction (Prandtl, Ishlinskii): the output stays behind by a play, or by several of growing width
-/// together. The first way from rest has no loop yet, which a direction alone cannot say.
-fn plays(x: &[f64], label: &str) -> Vec<Variation> {
-    /// Widths as parts of the range.
-    const WIDTHS: [f64; 5] = [0.05, 0.15, 0.3, 0.5, 0.75];
-    let (least, most) = range(x);
-    let behind = |part: f64| {
-        let width = part * (most - least);
-        let modifier = map2(x, &play(x, width), |x, played| x - played);
-        let text = format!("({label} - play({label}, {}))", figure(width));
-        (modifier, text)
-    };
-    let single = WIDTHS.map(|part| {
-        let (modifier, text) = behind(part);
-        let width = format!("width {} % of the range", 100.0 * part);
-        Variation::one(width, on_output(modifier, text))
-    });
-    let mut sum = vec![0.0; x.len()];
-    for part in WIDTHS {
-        sum = map2(&sum, &behind(part).0, |sum, one| sum + one);
-    }
-    let mean = map(&sum, |sum| sum / WIDTHS.len() as f64);
-    let text = format!("mean of ({label} - play({label}, w)) over widths w");
-    let even = Variation::one("several widths", on_output(mean, text));
-    let apart = WIDTHS.iter().skip(1).step_by(2).map(|part| {
-        let (modifier, text) = behind(*part);
-        on_output(modifier, text)
-    });
-    let uneven = Variation::of("two widths", apart.collect());
-    single.into_iter().chain([even, uneven]).collect()
-}
-
-/// Whether a course goes both ways, more than by returning to where a series begins.
-pub(super) fn comes_back(x: &[f64]) -> bool {
-    /// Rows of the rarer way, one in so many.
-    const ONE_IN: usize = 8;
-    let way = direction(x);
-    let rising = way.iter().filter(|way| **way > 0.0).count();
-    let turns = way.windows(2).any(|pair| pair[0] != pair[1]);
-    turns && rising.min(way.len() - rising) * ONE_IN >= way.len()
 }
 
 fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {

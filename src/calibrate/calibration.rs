@@ -2,12 +2,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::apart::{Apart, apart};
 use super::causes::{Cause, causes};
 use super::experiment::{Experiment, Scatter, Weights, Words};
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
 use super::limits::{Limit, limits};
 use super::scatter::{ResponseScatter, Scatters, weights};
+use super::signs::reversed;
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
 use super::trouble::Trouble;
@@ -35,8 +37,12 @@ pub struct Calibration {
     /// What each omitted effect would shift.
     pub aliases: Vec<Alias>,
     /// Two points, or two labels, whose readings look exchanged: with them in each other's place the residuals would be a
-    /// tenth or less.
-    pub swapped: Option<[Words; 2]>,
+    /// tenth or less. Several pairs where nothing tells which.
+    pub swapped: Vec<[Words; 2]>,
+    /// Parameters with another sign than those that should have the same.
+    pub reversed: Vec<String>,
+    /// Points that stand apart from all others, where no exchange explains it.
+    pub apart: Vec<Apart>,
     /// Values at which readings stay that should differ.
     pub limits: Vec<Limit>,
     /// Whether the equations are linear in the parameters.
@@ -155,15 +161,25 @@ fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
     let causes = causes(&stack, &gain, &scatters, &u);
     let jacobian = stack.jacobian(&solution.parameters, &u);
     let swapped = swapped(&stack, &solution, &gain, &scatters);
+    let limits = limits(&stack, &solution);
+    let residuals = residuals(&stack, &solution, &gain, &scatters, &u);
+    let figures = figures(experiment, &solution.parameters, causes);
+    let explained = !swapped.is_empty() || !limits.is_empty();
+    let apart = match explained {
+        true => Vec::new(),
+        false => apart(&residuals, &scatters.responses),
+    };
     Ok(Calibration {
         swapped,
-        limits: limits(&stack, &solution),
+        reversed: reversed(&figures.coefficients, &experiment.same_sign),
+        apart,
+        limits,
         linear: stack.is_linear(),
-        figures: figures(experiment, &solution.parameters, causes),
+        figures,
         readings: stack.readings(),
         left_out: stack.left_out,
         scatter: scatters.way,
-        residuals: residuals(&stack, &solution, &gain, &scatters, &u),
+        residuals,
         responses: scatters.responses,
         identifiability: Identifiability::of(&jacobian, &experiment.parameters),
         aliases: aliases(&stack, &solution.parameters, &u),

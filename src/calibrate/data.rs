@@ -11,13 +11,13 @@ use super::points::Points;
 use super::positions::{expected, optional};
 use super::schedule::scheduled;
 use super::tables::{HoldsWord, RecordingTable};
-use crate::budget::doubts::text_of;
 use crate::budget::table::Stated;
 use crate::budget::{Files, Rejection};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 use crate::recording::{
     Checks, Finding, Heading, Problem, Recording, Request, Settling, Severity, check, headings,
+    text_of,
 };
 
 /// The points; `None` after faults of the calibration file.
@@ -110,12 +110,8 @@ fn recorded(
     purpose: Purpose,
 ) -> Result<Option<Points>, Box<Rejection>> {
     let path = folder.join(&file.value);
-    let text = text_of(&path).map_err(|mut rejection| {
-        // The file that names it is at fault when it is not there.
-        rejection.name = path.display().to_string();
-        Box::new(rejection)
-    })?;
     let shown = path.display().to_string();
+    let text = text_of(Files::Disk, &path, &shown)?;
     let found = headings(&text, &definer.units)
         .map_err(|fault| Box::new(Rejection::new(&shown, &text, vec![*fault])))?;
     let Some(stated) = definer.source.table.recording.as_ref() else {
@@ -297,6 +293,20 @@ fn averaged(
                     "{}: the dwell {name}from line {line} on has too few samples: {rows} before settling is left out", recording.name))
                     .label("too few samples are left")
                     .help("record longer, shorten `settle`, or lower `fewest`"),
+            );
+        }
+        if points.names.is_empty() && lost.is_empty() {
+            definer.faults.push(
+                Fault::new(
+                    RECORDING,
+                    stated.key.clone(),
+                    format!(
+                        "{}: nothing stays at one value long enough for a dwell",
+                        recording.name
+                    ),
+                )
+                .label("no dwells")
+                .help("shorten `settle` or lower `fewest`; or state `tolerance`, how far apart the values of the stimulus in one dwell may be"),
             );
         }
         points

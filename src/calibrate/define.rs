@@ -8,7 +8,7 @@ use std::path::Path;
 use super::data;
 use super::doubts;
 use super::experiment::{Experiment, Heading, Input, Observed, Parameter, Scatter, Weights, Words};
-use super::faults::{NO_EQUATIONS, NO_PARAMETERS, UNIT};
+use super::faults::{KEY, NO_EQUATIONS, NO_PARAMETERS, UNIT};
 use super::names::{Kind, Names};
 use super::points::Points;
 use super::positions;
@@ -135,7 +135,8 @@ impl Definer<'_> {
             .as_ref()
             .is_none_or(|list| list.value.is_empty())
         {
-            if !table.refused {
+            // A procedure that is not there would have had them.
+            if !table.refused && self.source.procedure.is_none() {
                 let place = table
                     .equations
                     .as_ref()
@@ -250,6 +251,7 @@ impl Definer<'_> {
                 _ => Weights::Equal,
             },
             separately: table.separately.as_ref().map(|stated| stated.value.clone()),
+            same_sign: self.same_sign(),
             coverage_probability: doubts.coverage_probability,
             remarks: {
                 let mut remarks = doubts.remarks;
@@ -370,6 +372,28 @@ impl Definer<'_> {
                 first.name, other.name
             ),
         })
+    }
+
+    /// Parameters that should have the same sign. Those of a procedure may have become inputs.
+    fn same_sign(&mut self) -> Vec<String> {
+        let parameters = entries(&self.source.table.parameter);
+        let stated = self.source.table.same_sign.iter();
+        let (listed, others): (Vec<_>, Vec<_>) = stated
+            .flat_map(|list| &list.value)
+            .partition(|name| parameters.iter().any(|(other, _)| *other == name.value));
+        let others = others
+            .into_iter()
+            .filter(|name| !self.source.is_base(&name.span));
+        let fault = |name: &Stated<String>| {
+            Fault::new(
+                KEY,
+                name.span.clone(),
+                format!("{} is no parameter", name.value),
+            )
+            .label("expected a name of [parameter]")
+        };
+        self.faults.extend(others.map(fault));
+        listed.into_iter().map(|name| name.value.clone()).collect()
     }
 
     /// Parameters and inputs that no equation uses.

@@ -161,9 +161,10 @@ fn known<'t>(
     columns: &[Quantity],
 ) -> Option<Vec<Known<'t>>> {
     let before = definer.faults.len();
-    let mut symbols: Vec<Symbol> = columns.iter().map(column_symbol).collect();
-    let mut all = Vec::new();
     let source = definer.source;
+    let mut symbols: Vec<Symbol> = columns.iter().map(column_symbol).collect();
+    symbols.extend(constants(definer));
+    let mut all = Vec::new();
     for (name, entry) in entries(&source.table.input) {
         if names.kind(name) == Some(Kind::Constant) {
             continue;
@@ -273,6 +274,26 @@ fn known<'t>(
         }
     }
     (definer.faults.len() == before).then_some(all)
+}
+
+/// Constants as far as their units can be read; their check tells what is wrong with the others.
+fn constants(definer: &Definer<'_>) -> Vec<Symbol> {
+    let entries = entries(&definer.source.table.constant).iter();
+    let symbol = |(name, entry): &(String, Stated<ConstantEntry>)| {
+        let table = &entry.value.0;
+        let own = table.unit.as_ref().map(|text| text.value.as_str());
+        let amount = table
+            .value
+            .as_ref()
+            .and_then(|value| value.value.unit.as_ref());
+        let text = own.or(amount.map(|(text, _)| text.as_str()));
+        let unit = text.map_or(Some(Unit::one()), |text| definer.units.parse(text).ok())?;
+        Some(column_symbol(&Quantity {
+            name: name.clone(),
+            unit,
+        }))
+    };
+    entries.filter_map(symbol).collect()
 }
 
 fn column_symbol(quantity: &Quantity) -> Symbol {

@@ -71,6 +71,8 @@ pub struct Experiment {
     pub weights: Weights,
     /// The column of labels that are evaluated one by one.
     pub separately: Option<String>,
+    /// Parameters of which one that has another sign than the others is doubtful, by their names.
+    pub same_sign: Vec<String>,
     /// Conventions for the coverage factor and for written budgets.
     pub coverage_probability: f64,
     /// What a reader should know.
@@ -255,6 +257,7 @@ impl Experiment {
         Experiment {
             points: self.points.select(rows),
             separately: None,
+            same_sign: self.same_sign.clone(),
             ..self.clone()
         }
     }

@@ -18,7 +18,7 @@
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `causes` | what makes the coefficients uncertain |
 //! | `identify` | rank, condition, aliases |
-//! | `swaps`, `limits` | readings that look exchanged, or saturated |
+//! | `swaps`, `signs`, `apart`, `limits` | readings that look exchanged, that stand apart, or look saturated |
 //! | `calibration`, `plan` | the results, after and before measuring |
 //! | `budget` | coefficients as measurands of a budget file |
 //!
@@ -29,6 +29,7 @@
 //! Σ_i ∂coefficient/∂y_i · ∂f_i/∂e. The sum is over all rows on which *one* error acts, so that common
 //! errors do not average away and correlate the coefficients, and independent ones do average.
 
+mod apart;
 mod budget;
 mod calibration;
 mod causes;
@@ -51,6 +52,7 @@ mod positions;
 pub mod procedure;
 mod scatter;
 mod schedule;
+mod signs;
 mod source;
 mod stack;
 mod swaps;
@@ -60,6 +62,7 @@ mod tests;
 mod together;
 mod trouble;
 
+pub use apart::Apart;
 pub use budget::budget;
 pub use calibration::{Calibration, Coefficient, Figures, Residual, calibrate, estimates};
 pub use causes::{Cause, Origin};

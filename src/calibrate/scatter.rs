@@ -169,7 +169,15 @@ impl Scatters {
             } else {
                 dof
             };
-            if way == Scatter::Residuals && dof == 0.0 && !rows.is_empty() {
+            let unknown = match way {
+                Scatter::Residuals => dof == 0.0,
+                // Nobody said that nothing but the stated errors matters, and none is stated.
+                Scatter::Stated => {
+                    experiment.scatter.is_none() && rows.iter().any(|row| stated[*row] == 0.0)
+                }
+                Scatter::Dwells => false,
+            };
+            if unknown && !rows.is_empty() {
                 return Err(Trouble::NoScatter {
                     response: quantity.name.clone(),
                     readings: rows.len(),

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 
+use super::define::entries;
 use super::faults::NO_PROCEDURE;
 use super::procedure::{PROCEDURES, procedure_named};
 use super::tables::CalibrationTable;
@@ -95,7 +96,8 @@ fn no_procedure(stated: &Stated<String>) -> Fault {
 }
 
 /// The file's tables over those of the procedure, entry by entry and key by key.
-fn merged(own: CalibrationTable, base: CalibrationTable, listed: &Listed) -> CalibrationTable {
+fn merged(mut own: CalibrationTable, base: CalibrationTable, listed: &Listed) -> CalibrationTable {
+    change_places(&mut own, &base);
     let moved = |own: &HashSet<String>, other: &HashSet<String>, name: &str| {
         other.contains(name) && !own.contains(name)
     };
@@ -123,6 +125,59 @@ fn merged(own: CalibrationTable, base: CalibrationTable, listed: &Listed) -> Cal
         unit: named_or(own.unit.clone(), base.unit.clone()),
         ..own.over(base)
     }
+}
+
+/// What the procedure says of an input holds of the parameter that the file makes of it, and the other way
+/// round: its unit and what it is.
+fn change_places(own: &mut CalibrationTable, base: &CalibrationTable) {
+    let known = names(&own.input);
+    let (inputs, parameters) = (entries(&base.input), entries(&base.parameter));
+    for (name, entry) in entries_mut(&mut own.parameter) {
+        if let Some(below) = of_name(inputs, name) {
+            let (table, below) = (&mut entry.value, &below.value);
+            let texts = [
+                (&mut table.description, &below.input.description),
+                (&mut table.description_zh, &below.description_zh),
+            ];
+            texts.into_iter().for_each(|(own, below)| fill(own, below));
+            // A value that is known besides brings its own unit.
+            if !known.contains(name) && table.unit.is_none() && table.like.is_none() {
+                fill(&mut table.unit, &below.input.unit);
+                fill(&mut table.like, &below.like);
+            }
+        }
+    }
+    for (name, entry) in entries_mut(&mut own.input) {
+        if let Some(below) = of_name(parameters, name) {
+            let (table, below) = (&mut entry.value, &below.value);
+            let texts = [
+                (&mut table.input.description, &below.description),
+                (&mut table.description_zh, &below.description_zh),
+            ];
+            texts.into_iter().for_each(|(own, below)| fill(own, below));
+            if table.input.unit.is_none() && table.like.is_none() {
+                fill(&mut table.input.unit, &below.unit);
+                fill(&mut table.like, &below.like);
+            }
+        }
+    }
+}
+
+fn fill<T: Clone>(own: &mut Option<T>, below: &Option<T>) {
+    if own.is_none() {
+        own.clone_from(below);
+    }
+}
+
+fn of_name<'t, T>(entries: &'t [(String, Stated<T>)], name: &str) -> Option<&'t Stated<T>> {
+    let found = entries.iter().find(|(other, _)| other == name);
+    found.map(|(_, entry)| entry)
+}
+
+fn entries_mut<T>(named: &mut Option<Stated<Named<T>>>) -> &mut [(String, Stated<T>)] {
+    named
+        .as_mut()
+        .map_or(&mut [], |stated| stated.value.entries.as_mut_slice())
 }
 
 /// What either states, or what both state joined.

@@ -15,42 +15,80 @@ const MOST_POINTS: usize = 100;
 /// not do that where the residuals have some degrees of freedom.
 const FACTOR: f64 = 100.0;
 
+/// Exchanges that leave less than so many times the least sum of squares are as good as the best.
+const AS_GOOD: f64 = 10.0;
+
 /// Fewer degrees of freedom tell nothing.
 const LEAST_DOF: f64 = 2.0;
 
-/// The two points, or the two labels with all their points, whose exchange brings the residuals down most,
-/// if it brings them down that much.
+/// Less than this part of a sum of squares is rounding.
+const ROUNDING: f64 = 1e-20;
+
+/// The exchanges of two points, or of two labels with all their points, that bring the residuals down that
+/// much, as far as nothing tells between them; the best first.
 pub(super) fn swapped(
     stack: &Stack<'_>,
     solution: &Solution,
     gain: &Gain,
     scatters: &Scatters,
-) -> Option<[Words; 2]> {
+) -> Vec<[Words; 2]> {
     let points = stack.experiment.points.len();
     let dof: f64 = scatters.responses.iter().map(|one| one.dof).sum();
     if points > MOST_POINTS || dof < LEAST_DOF {
-        return None;
+        return Vec::new();
     }
     let ones = vec![1.0; stack.rows.len()];
     let jacobian = stack.jacobian(&solution.parameters, &ones);
     let parameters = solution.parameters.len();
     let projector = &jacobian * gain.by_observed.rows(0, parameters);
-    let weight: Vec<f64> = stack.rows.iter().map(|row| weight(row, scatters)).collect();
-    let sum =
-        |residuals: &[f64]| -> f64 { residuals.iter().zip(&weight).map(|(r, w)| w * r * r).sum() };
-    let before = sum(&solution.residuals);
-    let mut best: Option<([Words; 2], f64)> = None;
-    for exchange in exchanges(stack.experiment) {
-        let pairs = &exchange.pairs;
-        let Some(after) = exchanged(stack, &solution.residuals, &projector, pairs) else {
-            continue;
-        };
-        let after = sum(&after);
-        if after < before / FACTOR && best.as_ref().is_none_or(|(_, least)| after < *least) {
-            best = Some((exchange.names, after));
+    let mean_dof = dof / scatters.responses.len() as f64;
+    let observed = squares(stack, &stack.observed);
+    let mut before = squares(stack, &solution.residuals);
+    for (before, observed) in before.iter_mut().zip(observed) {
+        // What is rounding says nothing.
+        if *before < ROUNDING * observed {
+            *before = 0.0;
         }
     }
-    best.map(|(names, _)| names)
+    let mut found: Vec<([Words; 2], f64)> = Vec::new();
+    for exchange in exchanges(stack.experiment) {
+        let Some(after) = exchanged(stack, &solution.residuals, &projector, &exchange.pairs) else {
+            continue;
+        };
+        let fall = fall(&before, &squares(stack, &after), scatters);
+        if fall > mean_dof * libm::log(FACTOR) {
+            found.push((exchange.names, fall));
+        }
+    }
+    found.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let best = found.first().map_or(0.0, |(_, fall)| *fall);
+    let as_good = found
+        .into_iter()
+        .take_while(|(_, fall)| *fall > best - mean_dof * libm::log(AS_GOOD));
+    as_good.map(|(names, _)| names).collect()
+}
+
+/// Sums of squares of the residuals of each response.
+fn squares(stack: &Stack<'_>, residuals: &[f64]) -> Vec<f64> {
+    let mut sums = vec![0.0; stack.experiment.equations.responses().len()];
+    for (row, residual) in stack.rows.iter().zip(residuals) {
+        if let Row::Reading { response, .. } = row {
+            sums[*response] += residual * residual;
+        }
+    }
+    sums
+}
+
+/// How far the sums of squares fall: Σ ν·ln(before/after), twice the logarithm of a ratio of likelihoods in
+/// which every response has a scatter of its own, so that those that see nothing of an exchange do not hide it.
+fn fall(before: &[f64], after: &[f64], scatters: &Scatters) -> f64 {
+    let responses = scatters.responses.iter().zip(before).zip(after);
+    responses
+        .filter(|((_, before), _)| **before > 0.0)
+        .map(|((scatter, before), after)| {
+            scatter.dof * libm::log(before / after.max(ROUNDING * before))
+        })
+        .sum()
 }
 
 /// Points that may have changed places.
@@ -93,17 +131,6 @@ fn exchanges(experiment: &Experiment) -> Vec<Exchange> {
         }
     }
     all
-}
-
-/// Responses of different units count alike.
-fn weight(row: &Row, scatters: &Scatters) -> f64 {
-    match row {
-        Row::Reading { response, .. } => {
-            let rms = scatters.responses[*response].rms;
-            if rms > 0.0 { 1.0 / (rms * rms) } else { 0.0 }
-        }
-        Row::Prior { .. } => 0.0,
-    }
 }
 
 /// The residuals, to first order, after all readings of pairs of points changed places; nothing where one

@@ -72,6 +72,8 @@ table! {
         positions: PositionsTable,
         /// What the calibration estimates.
         parameter: Named<ParameterTable>,
+        /// Parameters of which one that has another sign than the others is doubtful.
+        same_sign: List<String>,
         /// Errors of references (their value is zero) and quantities of the set-up, with their uncertainty.
         input: Named<KnownTable>,
         /// Further errors of the readings of a column, with the keys of a budget's components.

@@ -40,15 +40,21 @@ pub(super) fn replace(path: &Path, text: &str) -> Outcome {
     replace_all(&[(path.to_path_buf(), text.to_string())])
 }
 
-/// Replaces several files, all of them or, where one cannot be written, none.
+/// Replaces several files, all of them or, where one cannot be written, none. What is there and is no
+/// file (a device, a pipe) cannot be replaced, and is written to after the files are safe.
 pub(super) fn replace_all(files: &[(PathBuf, String)]) -> Outcome {
-    let beside: Vec<PathBuf> = files.iter().map(|(path, _)| beside(path)).collect();
+    let (streams, files): (Vec<_>, Vec<_>) = files.iter().partition(|(path, _)| is_stream(path));
+    let places: Vec<PathBuf> = files.iter().map(|(path, _)| place(path)).collect();
+    let beside: Vec<PathBuf> = places.iter().map(|path| beside(path)).collect();
     let write_all = || {
         for ((path, text), beside) in files.iter().zip(&beside) {
             std::fs::write(beside, text).map_err(|error| (path, error))?;
         }
-        for ((path, _), beside) in files.iter().zip(&beside) {
-            std::fs::rename(beside, path).map_err(|error| (path, error))?;
+        for (path, text) in &streams {
+            std::fs::write(path, text).map_err(|error| (path, error))?;
+        }
+        for ((path, _), (beside, place)) in files.iter().zip(beside.iter().zip(&places)) {
+            std::fs::rename(beside, place).map_err(|error| (path, error))?;
         }
         Ok(())
     };
@@ -61,6 +67,18 @@ pub(super) fn replace_all(files: &[(PathBuf, String)]) -> Outcome {
             complain(&format!("cannot write {}: {error}", path.display()))
         }
     }
+}
+
+/// Whether a path leads to something that is written to and not replaced: `/dev/null`, `/dev/stdout`, a pipe.
+fn is_stream(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
+}
+
+/// Where a file is, if the path is a link to it: the file is replaced, not the link.
+fn place(path: &Path) -> PathBuf {
+    let is_link = std::fs::symlink_metadata(path).is_ok_and(|there| there.is_symlink());
+    let target = is_link.then(|| std::fs::canonicalize(path).ok()).flatten();
+    target.unwrap_or_else(|| path.to_path_buf())
 }
 
 /// Where a file is written before it takes its place.
@@ -133,6 +151,37 @@ mod tests {
         assert_eq!(replace(&path, "third"), Outcome::Done);
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "third");
         std::fs::remove_file(&path).unwrap();
+    }
+
+    /// A link stays a link, to a file with the new content; a pipe stays a pipe, and gets the text.
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_plain_file_is_not_replaced() {
+        use std::os::unix::fs::FileTypeExt;
+        let folder = std::env::temp_dir().join(format!("gumption-links-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let (file, link, pipe) = (
+            folder.join("file"),
+            folder.join("link"),
+            folder.join("pipe"),
+        );
+        std::fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        assert_eq!(replace(&link, "new"), Outcome::Done);
+        assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), "new");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        if made.is_ok_and(|status| status.success()) {
+            let reader = std::thread::spawn({
+                let pipe = pipe.clone();
+                move || std::fs::read_to_string(pipe).unwrap()
+            });
+            assert_eq!(replace(&pipe, "text"), Outcome::Done);
+            assert_eq!(reader.join().unwrap(), "text");
+            let there = std::fs::symlink_metadata(&pipe).unwrap();
+            assert!(there.file_type().is_fifo());
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

@@ -70,6 +70,7 @@ pub use checks::{Checks, Finding, Problem, Severity, check};
 pub use heading::Heading;
 pub use noise::{Coefficient, Noises};
 pub use power_law::PowerLaw;
+pub(crate) use reader::text_of;
 pub use reader::{Content, Request, headings};
 pub use segment::{Cut, Dwell, Settling, Steps, Stillness, by_label, by_steps, by_stillness};
 pub use sheet::{Row, Sheet};

@@ -211,7 +211,11 @@ fn headings_of(sheet: &Sheet, units: &UnitTable) -> Vec<Heading> {
     fields.map(|field| Heading::read(field, units)).collect()
 }
 
-fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejection> {
+/// The text of a file that a calibration or a case names.
+///
+/// # Errors
+/// It is not there, may not be read, or is no UTF-8.
+pub(crate) fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejection> {
     let refuse = |code, message: String, help: &str| {
         Rejection::new(name, "", vec![Fault::new(code, 0..0, message).help(help)])
     };

@@ -23,8 +23,8 @@ pub struct Steps {
     pub fewest: usize,
     /// How far apart the values of the stimulus in one dwell may be, in its unit. `None`: twelve standard
     /// deviations, as the median difference of successive values tells them, or four times the median
-    /// range of `fewest` (at most ten) successive values, if that is more. This supposes that it is at
-    /// rest most of the time; 0 for a stimulus that was commanded.
+    /// range of `fewest` (at most ten) successive values, if that is more and can be noise. This supposes
+    /// that it is at rest most of the time; 0 for a stimulus that was commanded.
     pub tolerance: Option<f64>,
 }
 
@@ -127,17 +127,31 @@ pub fn by_steps(stimulus: &[f64], steps: &Steps) -> Vec<Dwell> {
     dwells
 }
 
+/// How far apart the values of a stimulus at rest are, by its noise.
 fn usual(stimulus: &[f64], fewest: usize) -> f64 {
     /// Twelve standard deviations over the median absolute difference of two normal values.
     const OF_DIFFERENCE: f64 = 12.0 / 0.954;
+    /// Noise spreads little more over some rows than over two.
+    const SLOW: f64 = 10.0;
+    /// A commanded stimulus whose last digit flickers now and then: that digit is no larger part of the range.
+    const DIGIT: f64 = 1.0 / 500.0;
+    let range = |values: &[f64]| {
+        let present = || values.iter().copied().filter(|x| !x.is_nan());
+        present().fold(f64::NEG_INFINITY, f64::max) - present().fold(f64::INFINITY, f64::min)
+    };
     let median_range = |window: usize| {
-        let ranges = stimulus.windows(window).map(|values| {
-            let present = || values.iter().copied().filter(|x| !x.is_nan());
-            present().fold(f64::NEG_INFINITY, f64::max) - present().fold(f64::INFINITY, f64::min)
-        });
+        let ranges = stimulus.windows(window).map(range);
         quantile(ranges.filter(|range| range.is_finite()).collect(), 0.5)
     };
-    (OF_DIFFERENCE * median_range(2)).max(4.0 * median_range(fewest.clamp(2, 10)))
+    let of_pairs = OF_DIFFERENCE * median_range(2);
+    let of_some = 4.0 * median_range(fewest.clamp(2, 10));
+    // Where dwells are shorter than that many rows, most windows hold a step, which is no noise.
+    let noise = of_some <= (SLOW * of_pairs).max(4.0 * DIGIT * range(stimulus));
+    if noise {
+        of_pairs.max(of_some)
+    } else {
+        of_pairs
+    }
 }
 
 /// From every row on, the longest stretch whose values are no farther apart than the tolerance.

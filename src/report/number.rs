@@ -89,8 +89,11 @@ pub(super) fn probability(p: f64) -> String {
     format!("{} %", text.trim_end_matches('0').trim_end_matches('.'))
 }
 
-/// Degrees of freedom: whole numbers as such, one decimal below 100.
+/// Degrees of freedom: whole numbers as such, one decimal below 100, one digit where that were zero.
 pub(super) fn freedom(dof: f64) -> String {
+    if dof > 0.0 && dof < 0.1 {
+        return significant(dof, 1);
+    }
     let place = if dof < 100.0 { -1 } else { 0 };
     let text = print(&at_place(dof, place));
     text.strip_suffix(".0").map_or(text.clone(), str::to_string)
@@ -141,6 +144,7 @@ mod tests {
         assert_eq!(freedom(f64::INFINITY), "∞");
         assert_eq!(freedom(9.0), "9");
         assert_eq!(freedom(16.72), "16.7");
+        assert_eq!(freedom(0.031), "0.03");
         assert_eq!(probability(0.9545), "95.45 %");
         assert_eq!(probability(0.95), "95 %");
         assert_eq!(percent(0.0001), "<0.1");

@@ -172,7 +172,7 @@ fn exchanged_labels_are_found() {
         calibrate(&experiment(POSITIONS, good))
             .expect("figures")
             .swapped,
-        None
+        Vec::<[Words; 2]>::new()
     );
     let bad = good
         .replacen("up,", "x,", 1)
@@ -181,7 +181,7 @@ fn exchanged_labels_are_found() {
     let found = calibrate(&experiment(POSITIONS, &bad)).expect("figures");
     assert_eq!(
         found.swapped,
-        Some([2, 3].map(|line| Words::new(format!("line {line}"), format!("第 {line} 行"))))
+        [[2, 3].map(|line| Words::new(format!("line {line}"), format!("第 {line} 行")))]
     );
 }
 
@@ -283,6 +283,161 @@ fn positions_are_averaged_together() {
     );
 }
 
+/// Accelerometer triad, two points of each position. One response sees the exchange; the others, which see
+/// nothing of it, do not hide it. Which of two pairs it was the readings do not tell: the scale factor is
+/// positive with the one, negative with the other.
+#[test]
+fn exchanged_labels_are_found_by_the_response_that_sees_them() {
+    const TRIAD: &str = "procedure = \"accelerometer-six-positions\"\nconstant.g = \"1 gn\"\n[recording]\nfile = \"run.csv\"\naverages = true\n";
+    let mut lines = vec!["position,Uax [V],Uay [V],Uaz [V]".to_owned()];
+    for turn in 0..2 {
+        for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+            for (sign, way) in [(1.0, "up"), (-1.0, "down")] {
+                let noise = |response: usize| {
+                    1e-4 * ((turn * 7 + axis * 5 + response * 3) as f64 + sign).sin()
+                };
+                let value =
+                    |response: usize| noise(response) + if response == axis { sign } else { 0.0 };
+                let row = [0, 1, 2].map(|response| format!("{:.6}", value(response)));
+                lines.push(format!("{name} {way},{}", row.join(",")));
+            }
+        }
+    }
+    let of = |lines: &[String]| {
+        let found = calibrate(&experiment(TRIAD, &lines.join("\n"))).expect("coefficients");
+        assert_eq!(found.apart, []);
+        found.swapped
+    };
+    assert_eq!(of(&lines), Vec::<[Words; 2]>::new());
+    lines[1] = lines[1].replace("up", "down");
+    lines[2] = lines[2].replace("down", "up");
+    let said: Vec<[String; 2]> = of(&lines)
+        .into_iter()
+        .map(|pair| pair.map(|words| words.en))
+        .collect();
+    let pair = |lines: [usize; 2]| lines.map(|line| format!("line {line}"));
+    assert_eq!(said.len(), 2, "{said:?}");
+    assert!(
+        said.contains(&pair([2, 3])) && said.contains(&pair([8, 9])),
+        "{said:?}"
+    );
+}
+
+/// Two ways of one axis exchanged throughout: no residual shows it, the sign of the scale factor does.
+#[test]
+fn a_sign_unlike_the_others_is_told() {
+    const TRIAD: &str = "procedure = \"accelerometer-six-positions\"\nconstant.g = \"1 gn\"\n[recording]\nfile = \"run.csv\"\naverages = true\n";
+    let good = "position,Uax [V],Uay [V],Uaz [V]\nx up,1.001,0,0\nx down,-1,0.001,0\ny up,0,1,0.001\ny down,0,-1,0\nz up,0,0,1\nz down,0.001,0,-1\n";
+    let of = |csv: &str| {
+        calibrate(&experiment(TRIAD, csv))
+            .expect("coefficients")
+            .reversed
+    };
+    assert_eq!(of(good), Vec::<String>::new());
+    let exchanged = good
+        .replace("y up", "?")
+        .replace("y down", "y up")
+        .replace('?', "y down");
+    assert_eq!(of(&exchanged), ["Kyy"]);
+    let all = good
+        .replace("up", "?")
+        .replace("down", "up")
+        .replace('?', "down");
+    assert_eq!(of(&all), Vec::<String>::new());
+    says(
+        &format!("same_sign = [\"L\"]\n{RATE}"),
+        "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n",
+        &["L is no parameter"],
+    );
+}
+
+/// What a procedure says of an input holds of the parameter that the file makes of it, and the other way round.
+#[test]
+fn inputs_and_parameters_that_change_places_keep_their_units() {
+    let toml = "procedure = \"accelerometer-tumble\"\nconstant.g = \"9.8 m/s^2\"\n[parameter.theta0]\n[input.delta_o]\nu = 1e-5\n[input.K2]\nvalue = 1e-5\nu = 1e-6\n[recording]\nfile = \"run.csv\"\naverages = true\n";
+    let rows: String = (0..12)
+        .map(|i| {
+            let angle = f64::from(30 * i);
+            format!(
+                "{angle},{}\n",
+                2.0 * angle.to_radians().sin() + 1e-5 * f64::from(i % 5)
+            )
+        })
+        .collect();
+    let experiment = experiment(toml, &format!("theta [deg],E [V]\n{rows}"));
+    let theta0 = experiment
+        .parameters
+        .iter()
+        .find(|one| one.name == "theta0");
+    let theta0 = theta0.expect("a parameter");
+    assert_eq!(theta0.unit.symbol, "rad");
+    let description = theta0.description.as_ref().expect("what it is");
+    assert!(description.en.contains("Level angle"), "{}", description.en);
+    let k2 = experiment.inputs.iter().find(|one| one.name == "K2");
+    let of = experiment.units.parse("s^2/m").expect("a unit");
+    assert_eq!(k2.expect("an input").unit.dimension, of.dimension);
+}
+
+/// A blunder in one of seven points, and none in good readings.
+#[test]
+fn a_reading_that_stands_apart_is_told() {
+    let csv =
+        "omega [deg/s],U [mV]\n-3,-6.01\n-2,-3.99\n-1,-2.00\n0,0.01\n1,1.99\n2,4.01\n3,6.00\n";
+    let of = |csv: &str| {
+        calibrate(&experiment(RATE, csv))
+            .expect("coefficients")
+            .apart
+    };
+    assert_eq!(of(csv), []);
+    let bad = of(&csv.replace("1,1.99", "1,1.49"));
+    let [one] = bad.as_slice() else {
+        panic!("one point: {bad:?}");
+    };
+    assert_eq!(
+        (one.point.en.as_str(), one.response.as_str()),
+        ("line 6", "U")
+    );
+    // The line of the others, and its residual there.
+    let (x, y) = (
+        [-3.0, -2.0, -1.0, 0.0, 2.0, 3.0],
+        [-6.01, -3.99, -2.0, 0.01, 4.01, 6.0],
+    );
+    let mean = |v: &[f64; 6]| v.iter().sum::<f64>() / 6.0;
+    let (mx, my) = (mean(&x), mean(&y));
+    let xx: f64 = x.iter().map(|x| (x - mx).powi(2)).sum();
+    let slope = x
+        .iter()
+        .zip(&y)
+        .map(|(x, y)| (x - mx) * (y - my))
+        .sum::<f64>()
+        / xx;
+    let left = |x: f64, y: f64| y - my - slope * (x - mx);
+    let s2 = x
+        .iter()
+        .zip(&y)
+        .map(|(x, y)| left(*x, *y).powi(2))
+        .sum::<f64>()
+        / 4.0;
+    let t = left(1.0, 1.49).abs() / (s2 * (1.0 + 1.0 / 6.0 + (1.0 - mx).powi(2) / xx)).sqrt();
+    assert!((one.t / t - 1.0).abs() < 1e-9, "{} {t}", one.t);
+}
+
+/// As many readings as parameters, and nothing said of their errors: no uncertainty of zero.
+#[test]
+fn unknown_scatter_is_refused() {
+    let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n";
+    let found = calibrate(&experiment(RATE, csv));
+    assert!(matches!(found, Err(Trouble::NoScatter { .. })), "{found:?}");
+    let stated = RATE.to_owned() + "[reading.U]\nu = 0.1\n";
+    let found = calibrate(&experiment(&stated, csv)).expect("coefficients");
+    let b = found
+        .figures
+        .coefficients
+        .iter()
+        .find(|one| one.name == "b");
+    assert!((b.expect("b").u - 0.1).abs() < 1e-12);
+}
+
 /// Labels exchanged throughout, in all their points.
 #[test]
 fn labels_exchanged_throughout_are_found() {
@@ -296,8 +451,10 @@ fn labels_exchanged_throughout_are_found() {
             .expect("coefficients")
             .swapped
     };
-    assert_eq!(of(good), None);
-    let labels = of(&swapped).expect("exchanged labels");
+    assert_eq!(of(good), Vec::<[Words; 2]>::new());
+    let [labels] = &of(&swapped)[..] else {
+        panic!("one pair of labels: {:?}", of(&swapped));
+    };
     assert!(
         labels.contains(&Words::plain("up")) && labels.contains(&Words::plain("level")),
         "{labels:?}"

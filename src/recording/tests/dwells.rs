@@ -82,6 +82,30 @@ fn dwells_by_a_measured_stimulus() {
     }
 }
 
+/// More rows are wanted than the steps have: no dwell may reach over several of them.
+#[test]
+fn dwells_never_hold_several_steps() {
+    let levels = (0..60).map(|level| f64::from((level * 7) % 13));
+    let commanded: Vec<f64> = levels.flat_map(|level| [level; 4]).collect();
+    let noise = normals(11, commanded.len());
+    let measured: Vec<f64> = commanded
+        .iter()
+        .zip(noise)
+        .map(|(x, e)| x + 1e-3 * e)
+        .collect();
+    for stimulus in [commanded, measured] {
+        let dwells = |fewest: usize| {
+            let steps = Steps {
+                fewest,
+                tolerance: None,
+            };
+            by_steps(&stimulus, &steps)
+        };
+        assert_eq!(dwells(3).len(), 60);
+        assert_eq!(dwells(6), []);
+    }
+}
+
 #[test]
 fn a_slow_ramp_is_no_dwell() {
     let ramp: Vec<f64> = (0..1000).map(|i| f64::from(i) * 0.01).collect();

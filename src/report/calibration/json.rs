@@ -27,8 +27,14 @@ pub fn calibration_json(experiment: &Experiment, found: &Calibration, l: Languag
     value["kind"] = json!("calibration");
     value["readings"] = json!(found.readings);
     value["left_out"] = json!(found.left_out);
-    let swapped = found.swapped.as_ref();
-    value["swapped"] = json!(swapped.map(|pair| pair.each_ref().map(|point| said(point, l))));
+    let pair = |pair: &[Words; 2]| pair.each_ref().map(|point| said(point, l));
+    value["swapped"] = json!(found.swapped.iter().map(pair).collect::<Vec<_>>());
+    value["reversed"] = json!(found.reversed);
+    value["apart"] = found
+        .apart
+        .iter()
+        .map(|one| json!({ "response": one.response, "point": said(&one.point, l), "t": number(one.t), "p_value": one.p_value }))
+        .collect();
     value["limits"] = found
         .limits
         .iter()

@@ -7,7 +7,7 @@ use super::super::symbol;
 use super::super::table::{ColumnKind, Table};
 use super::sections::{DIGITS, said, shown_u};
 use crate::calibrate::{
-    Calibration, Experiment, Limit, Residual, ResponseScatter, Scatter, ScatterTest, Words,
+    Apart, Calibration, Experiment, Limit, Residual, ResponseScatter, Scatter, ScatterTest, Words,
 };
 
 /// More residuals than these are not listed.
@@ -31,7 +31,7 @@ pub(super) fn residuals(experiment: &Experiment, found: &Calibration, l: Languag
         scatter.push(vec![
             one.response.as_str().into(),
             one.readings.to_string().into(),
-            shown_u(one.rms).into(),
+            shown_u(if one.dof > 0.0 { one.rms } else { 0.0 }).into(),
             shown_u(one.s).into(),
             freedom(one.dof).into(),
             of_test(&|test| significant(test.expected, DIGITS)).into(),
@@ -98,8 +98,12 @@ pub(super) fn residuals(experiment: &Experiment, found: &Calibration, l: Languag
         Block::Section(l.pick("Residuals", "残差").to_owned()),
         Block::Table(scatter.without_empty_columns()),
         Block::Paragraph(way.to_owned()),
-        Block::Table(table),
     ];
+    if found.responses.iter().all(|one| one.dof == 0.0) {
+        // What is left is rounding.
+        return blocks;
+    }
+    blocks.push(Block::Table(table));
     if found.residuals.len() > RESIDUALS {
         blocks.push(Block::Paragraph(l.pick(
             format!(
@@ -159,6 +163,52 @@ fn at_limit(limit: &Limit, l: Language) -> String {
     )
 }
 
+/// Readings that look exchanged, and which others instead.
+fn exchanged(pairs: &[[Words; 2]], l: Language) -> Option<String> {
+    let both = |pair: &[Words; 2]| {
+        let [first, second] = pair.each_ref().map(|point| said(point, l));
+        l.pick(
+            format!("{first} and {second}"),
+            format!("{first} 与 {second}"),
+        )
+    };
+    let (first, others) = pairs.split_first()?;
+    let mut which = both(first);
+    if !others.is_empty() {
+        let others: Vec<String> = others.iter().map(both).collect();
+        which += &l.pick(
+            format!(" (or those of {})", others.join(", or of ")),
+            format!("（或 {}）", others.join("、或 ")),
+        );
+    }
+    Some(l.pick(
+        format!("The readings of {which} look exchanged: with each in the other's place the residuals would be less than a tenth of what they are. Check the labels before using these figures."),
+        format!("{which} 的读数疑似互换：交换后残差不到现在的十分之一。使用结果前请核对标签。"),
+    ))
+}
+
+/// Coefficients with another sign than those like them.
+fn reversed(names: &[String], l: Language) -> Option<String> {
+    let listed = names.join(l.pick(", ", "、"));
+    (!names.is_empty()).then(|| l.pick(
+        format!("The sign of {listed} is another than that of the other axes: the two ways of this axis may be exchanged in the labels, or the sensor is mounted or read reversed. Check the labels before using these figures."),
+        format!("{listed} 的符号与其他轴相反：该轴正、反两个方向的标签可能互换，或传感器安装、读出极性相反。使用结果前请核对标签。"),
+    ))
+}
+
+fn stands_apart(one: &Apart, l: Language) -> String {
+    let (response, point) = (&one.response, said(&one.point, l));
+    let times = if one.t.is_finite() {
+        significant(one.t, 2)
+    } else {
+        "∞".to_owned()
+    };
+    l.pick(
+        format!("{response} in {point} stands apart: its residual is {times} times the standard deviation that the others give it. Find out why before using these figures: a wrong reading, a wrong label, or something that the equations leave out."),
+        format!("{point} 的 {response} 明显离群：其残差为其余各点所给标准偏差的 {times} 倍。使用结果前请查明原因：读数或标签有误，或方程有遗漏。"),
+    )
+}
+
 /// What a reader must know.
 pub(super) fn remarks(
     experiment: &Experiment,
@@ -176,20 +226,18 @@ pub(super) fn remarks(
     if let Some(found) = found {
         if found.left_out > 0 {
             items.push(l.pick(
-                format!(
-                    "{} readings were left out, because a value is missing.",
-                    found.left_out
-                ),
+                match found.left_out {
+                    1 => "1 reading was left out, because a value is missing.".to_owned(),
+                    count => {
+                        format!("{count} readings were left out, because a value is missing.")
+                    }
+                },
                 format!("有 {} 个读数因缺值而未使用。", found.left_out),
             ));
         }
-        if let Some(pair) = &found.swapped {
-            let [first, second] = pair.each_ref().map(|point| said(point, l));
-            items.push(l.pick(
-                format!("The readings of {first} and {second} look exchanged: with each in the other's place the residuals would be less than a tenth of what they are. Check their labels before using these figures."),
-                format!("{first} 与 {second} 的读数疑似互换：交换后残差不到现在的十分之一。使用结果前请核对其标签。"),
-            ));
-        }
+        items.extend(exchanged(&found.swapped, l));
+        items.extend(reversed(&found.reversed, l));
+        items.extend(found.apart.iter().map(|one| stands_apart(one, l)));
         items.extend(found.limits.iter().map(|limit| at_limit(limit, l)));
         if !found.linear {
             items.push(l.pick(

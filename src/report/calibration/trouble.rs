@@ -9,11 +9,11 @@ use super::super::number::significant;
 pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
     match trouble {
         Trouble::TooFew { readings, parameters } => l.pick(
-            format!("{readings} readings cannot determine {parameters} parameters; measure at more points, or list fewer parameters."),
+            format!("{} cannot determine {parameters} parameters; measure at more points, or list fewer parameters.", counted(*readings)),
             format!("{readings} 个读数不能确定 {parameters} 个参数；请增加测量点或减少参数。"),
         ),
         Trouble::NoScatter { response, readings, parameters } => l.pick(
-            format!("The scatter of {response} is not known: {readings} readings and {parameters} parameters leave no residuals. Measure at more points, or state the errors of the readings in [reading.{response}] and write scatter = \"stated\"."),
+            format!("The scatter of {response} is not known: {} and {parameters} parameters leave no residuals. Measure at more points, or state the errors of the readings in [reading.{response}] and write scatter = \"stated\".", counted(*readings)),
             format!("{response} 的分散性未知：{readings} 个读数、{parameters} 个参数，没有残差。请增加测量点，或在 [reading.{response}] 中给出读数误差并写 scatter = \"stated\"。"),
         ),
         Trouble::NoSamples => l.pick(
@@ -59,6 +59,13 @@ pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
             let inner = sentences(trouble, l);
             l.pick(format!("In \"{label}\": {inner}"), format!("在 \"{label}\" 中：{inner}"))
         }
+    }
+}
+
+fn counted(readings: usize) -> String {
+    match readings {
+        1 => "1 reading".to_owned(),
+        _ => format!("{readings} readings"),
     }
 }
 

@@ -1,0 +1,54 @@
+//! Points that stand apart from all others.
+
+use super::calibration::Residual;
+use super::experiment::Words;
+use super::scatter::ResponseScatter;
+use crate::special::student_t_sf;
+
+/// A point whose residual the scatter of the others does not explain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Apart {
+    /// The response.
+    pub response: String,
+    /// The point.
+    pub point: Words,
+    /// Its residual over the standard deviation that the residuals of the others give it.
+    pub t: f64,
+    /// The probability that the largest of all these residuals is as far out.
+    pub p_value: f64,
+}
+
+/// How improbable a residual must be.
+const RARE: f64 = 1e-3;
+
+/// Fewer degrees of freedom tell nothing.
+const LEAST_DOF: f64 = 3.0;
+
+/// Less than this part of a reading is rounding.
+const ROUNDING: f64 = 1e-10;
+
+/// For each response the largest residual, by the t test of deleted residuals for the largest of n (Bonferroni).
+pub(super) fn apart(residuals: &[Residual], responses: &[ResponseScatter]) -> Vec<Apart> {
+    let of_response = |scatter: &ResponseScatter| {
+        let own = residuals
+            .iter()
+            .filter(|one| one.response == scatter.response && !one.standardised.is_nan());
+        let count = own.clone().count() as f64;
+        let largest = own.max_by(|a, b| a.standardised.abs().total_cmp(&b.standardised.abs()))?;
+        let (dof, square) = (scatter.dof, largest.standardised.powi(2));
+        let rounding = ROUNDING * largest.observed.abs().max(largest.fitted.abs());
+        if dof < LEAST_DOF || (largest.observed - largest.fitted).abs() < rounding {
+            return None;
+        }
+        // Where the others fit perfectly the quotient is infinite.
+        let t = ((dof - 1.0) * square / (dof - square).max(0.0)).sqrt();
+        let p_value = (2.0 * count * student_t_sf(t, dof - 1.0)).min(1.0);
+        (p_value < RARE).then(|| Apart {
+            response: scatter.response.clone(),
+            point: largest.point.clone(),
+            t,
+            p_value,
+        })
+    };
+    responses.iter().filter_map(of_response).collect()
+}

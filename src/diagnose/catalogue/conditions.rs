@@ -3,8 +3,9 @@
 
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{centred, correlation, figure, lag, map, map2, mean, range, rate};
-use super::response::{finer_time_constants, levels_of, on_node, on_outputs, words};
-use super::{Cell, Modifier, Variants, Words};
+use super::response::{levels_of, on_node, on_outputs, time_constants, words};
+use super::sharp::sharpened;
+use super::{Cell, Modifier, Term, Variants, Words};
 use crate::diagnose::case::Role;
 
 /// Odds beforehand that pressure or humidity acts on an instrument, over those of another condition: they are
@@ -49,19 +50,19 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         (_, true) => "cross-sensitivity",
         _ => "sensitivity",
     };
-    let delayed = delayed(ground, column, &own, &text);
-    let linear: Variants = delayed
-        .iter()
-        .cloned()
-        .chain(leading(ground, column, &own, &text))
-        .collect();
+    let on = |node: Node| delayed(ground, column, node, &own, &text);
+    let linear = |delayed: &Variants| -> Variants {
+        let leading = leading(ground, column, &own, &text);
+        delayed.iter().cloned().chain(leading).collect()
+    };
+    let delayed = on(Node::Output);
     let words = words(ground, &label);
     cells.push(on_outputs(
         ground,
         bias,
         words.clone(),
         &label,
-        linear.clone(),
+        linear(&delayed),
     ));
     let square: Variants = delayed
         .iter()
@@ -81,7 +82,8 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     cells.push(on_outputs(ground, second, words.clone(), &label, square));
     for (node, id) in scale_nodes(ground, temperature) {
-        let mut cell = on_node(ground, id, words.clone(), &label, node, linear.clone());
+        let variants = linear(&on(node));
+        let mut cell = on_node(ground, id, words.clone(), &label, node, variants);
         cell.words.p = ground.name(node);
         cells.push(cell);
         let squares = squares(ground, column);
@@ -108,7 +110,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     if !stimulus && stands_for_temperature(ground, column) {
         let words = cells[0].words.clone();
         let id = "unrecorded-temperature";
-        cells.push(on_outputs(ground, id, words, &label, linear));
+        cells.push(on_outputs(ground, id, words, &label, linear(&delayed)));
     }
     let odds = if stimulus || !is_of_air(ground, column) {
         1.0
@@ -176,12 +178,17 @@ fn squares(ground: &Ground<'_>, column: usize) -> Variants {
 
 /// The modifier without a lag, and with each of a series of time constants where it has to get through
 /// something first.
-fn delayed(ground: &Ground<'_>, column: usize, own: &[f64], text: &str) -> Variants {
+fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &[f64], text: &str) -> Variants {
     let mut variants = vec![(String::new(), vec![(own.to_vec(), text.to_owned())])];
     if ground.is_timed() && !ground.is_immediate(column) {
         let unit = ground.time_unit();
-        for tau in finer_time_constants(ground) {
-            let lagged = lag(&ground.clock.values, own, tau);
+        let late = |tau: f64| lag(&ground.clock.values, own, tau);
+        let term = |tau: f64| Term::new(node, late(tau), String::new());
+        for tau in ground
+            .finer
+            .times(sharpened(ground, time_constants(ground), &term))
+        {
+            let lagged = late(tau);
             let text = format!("lag{text}[{tau} {unit}]", tau = figure(tau));
             variants.push((
                 format!("τ = {tau} {unit}", tau = figure(tau)),

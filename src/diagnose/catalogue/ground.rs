@@ -254,7 +254,7 @@ impl<'f> Ground<'f> {
         };
         let used = self.case().with_role(Role::Stimulus);
         let used: Vec<usize> = used.filter(|column| self.in_model(*column)).collect();
-        self.is_timed() || !used.iter().any(sorted)
+        self.clock.column.is_some() || !used.iter().any(sorted)
     }
 
     /// Seconds in a unit of the clock, where it is a time.
@@ -265,9 +265,10 @@ impl<'f> Ground<'f> {
         Some(unit.conversion_to(&second)?.apply(1.0))
     }
 
-    /// Whether the order and distance in time of the rows is recorded.
+    /// Whether the distance in time of the rows is recorded; their order alone says nothing of lags.
     pub fn is_timed(&self) -> bool {
-        self.clock.column.is_some()
+        let role = self.clock.column.map(|at| self.case().columns[at].role);
+        role == Some(Role::Time)
     }
 
     /// Whether what is observed is a constant that the model should give in every row.

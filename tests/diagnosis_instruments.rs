@@ -364,3 +364,42 @@ fn a_time_constant_lies_between_those_of_the_grid() {
     let tau: f64 = tau.and_then(|tau| tau.parse().ok()).expect(label);
     assert!((tau - 240.0).abs() < 24.0, "{label}");
 }
+
+#[test]
+fn a_venturi_has_an_exponent_of_its_own() {
+    let mut noise = Noise(47);
+    let mut rows = "Q [m^3/h],dp [kPa]\n".to_owned();
+    for row in 0..40 {
+        let flow = 2.0 + 2.0 * f64::from(row / 4);
+        let dp = 0.043 * libm::pow(flow, 1.99) + 3e-3 * noise.normal();
+        let _ = writeln!(rows, "{flow},{dp:.4}");
+    }
+    let case = "model = \"dp = k*Q^2\"\n[columns]\nQ = \"stimulus\"\ndp = \"output\"\n";
+    let found = diagnosed("venturi", &rows, case);
+    assert_eq!(first_names(&found), ["exponent"], "{found}");
+    let (estimate, u) = size(&found);
+    assert!(
+        (estimate + 0.06).abs() < 4.0 * u.max(1e-3),
+        "{estimate} ± {u}"
+    );
+}
+
+#[test]
+fn a_step_within_a_mean_leaves_no_wrong_reading() {
+    let mut noise = Noise(48);
+    let mut rows = "t [h],ref [hPa],dut [hPa]\n".to_owned();
+    for row in 0..960 {
+        let t = 0.5 * f64::from(row);
+        let truth = 1000.0 + 9.0 * libm::sin(t / 31.0) + 4.0 * libm::sin(t / 7.3);
+        let moved = if row > 445 { 0.22 } else { 0.0 };
+        let _ = writeln!(
+            rows,
+            "{t},{truth:.3},{:.3}",
+            truth + moved + 0.03 * noise.normal()
+        );
+    }
+    let case = "model = \"dut = a + b*ref\"\n[columns]\nt = \"time\"\nref = \"stimulus\"\ndut = \"output\"\n";
+    let listed = named_apart(&diagnosed("moved", &rows, case));
+    assert_eq!(listed.len(), 1, "{listed:?}");
+    assert!(listed[0].contains(&"step".to_owned()), "{listed:?}");
+}

@@ -148,6 +148,8 @@ fn aside(ground: &Ground<'_>, factors: &[usize]) -> Vec<Cell> {
 fn exponent(ground: &Ground<'_>, column: usize) -> Option<Cell> {
     /// Exponents so near to one another are the same.
     const SAME: f64 = 1e-3;
+    /// Below it a quantity only corrects the output.
+    const WEAK: f64 = 0.1;
     let x = ground.numbers(column);
     let one_output = ground.case().responses.len() == 1 && ground.constant_terms(0).is_empty();
     if !one_output || range(x).0 <= 0.0 {
@@ -158,7 +160,8 @@ fn exponent(ground: &Ground<'_>, column: usize) -> Option<Cell> {
         .map(|((x, slope), y)| x * slope / y)
         .collect();
     let (least, most) = range(&powers);
-    if !(most - least).is_finite() || most - least > SAME || (least - 1.0).abs() < SAME {
+    let steady = (most - least).is_finite() && most - least <= SAME;
+    if !steady || (least - 1.0).abs() < SAME || least.abs() < WEAK {
         return None;
     }
     let label = name(ground, column);

@@ -213,7 +213,10 @@ fn between(ground: &Ground<'_>, along: &str, stride: usize) -> Option<(String, V
     let best = sharp::best(ground, &mut starts.iter().map(|row| term(*row)))?;
     let near = starts[best.saturating_sub(1)]..starts[(best + 1).min(starts.len() - 1)];
     let row = near.start + sharp::best(ground, &mut near.map(term))?;
-    if begins(ground, row) {
+    // Next to the beginning of a run it is the run that differs.
+    let reach = stride * blocks[0].len();
+    let around = row.saturating_sub(reach)..(row + reach + 1).min(ground.rows());
+    if { around }.any(|row| begins(ground, row)) {
         return None;
     }
     let label = match ground.clock.column {

@@ -353,3 +353,22 @@ pub fn failure(case: &Case, failure: &Failure, language: Language) -> String {
         Failure::Refused(other) => other.to_string(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_spoken_in_both_languages() {
+        for (label, chinese) in [
+            ("τ = 44 and 178 s", "τ = 44 和 178 s"),
+            ("rows 61 to 80", "行 61 至 80"),
+            ("width 15 % of the range", "宽度 15 % 量程"),
+            ("90 per turn", "90 次每转"),
+            ("place front", "place front"),
+        ] {
+            assert_eq!(spoken(label, Language::English), label);
+            assert_eq!(spoken(label, Language::Chinese), chinese);
+        }
+    }
+}

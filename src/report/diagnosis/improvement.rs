@@ -9,7 +9,7 @@ use crate::report::number::{aligned, freedom, significant};
 use crate::report::table::{ColumnKind, Table};
 use crate::special::chi_squared_sf;
 
-use super::words::p_is;
+use super::words::{p_is, spoken};
 
 /// Before and after.
 pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
@@ -202,7 +202,8 @@ fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
         .iter()
         .map(|(part, value, u)| {
             format!(
-                "{part}: {} ± {}",
+                "{}: {} ± {}",
+                spoken(part, language),
                 aligned(*value, *u, 2),
                 significant(*u, 2)
             )

@@ -2,7 +2,7 @@
 
 use crate::diagnose::case::Case;
 use crate::diagnose::catalogue::{Cell, Text, Variation};
-use crate::diagnose::evidence::{Refusal, Slot, State, Verdict};
+use crate::diagnose::evidence::{Alternative, Refusal, Slot, State, Verdict};
 use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
 
 use crate::report::language::Language;
@@ -21,16 +21,88 @@ pub(super) fn name(cell: &Cell, language: Language) -> String {
 }
 
 /// What distinguishes a variant; numbers without a unit stand alone.
-pub(super) fn label(variation: &Variation) -> &str {
+pub(super) fn label(variation: &Variation, language: Language) -> String {
     let label = variation.label.as_str();
-    label.strip_suffix(" 1").unwrap_or(label)
+    spoken(label.strip_suffix(" 1").unwrap_or(label), language)
+}
+
+/// Labels of variants and of places are formed in English; here the phrases in them in Chinese. A phrase
+/// that begins a label is replaced only there, since names of columns may contain it.
+const PHRASES: &[(&str, &str)] = &[
+    (", not in balance at the start", "，起始时未平衡"),
+    ("with its rate of change", "及其变化率"),
+    ("with a linear part", "含线性项"),
+    ("square alone", "仅平方项"),
+    ("with its square", "含平方项"),
+    ("with the root of time", "随时间平方根"),
+    ("slowing down", "逐渐减慢"),
+    ("several widths", "多种间隙宽度"),
+    ("two widths", "两种间隙宽度"),
+    (" % of the range", " % 量程"),
+    (" of the largest", " 倍最大值"),
+    ("on rising values only", "仅上升段"),
+    ("on falling values only", "仅下降段"),
+    ("widest in the middle", "中间最宽"),
+    ("levelling off, half at", "趋于饱和，半值点"),
+    ("at once", "即时"),
+    (" per turn", " 次每转"),
+    ("first half", "前半段"),
+    ("second half", "后半段"),
+    ("one row late", "晚一行"),
+    ("one row early", "早一行"),
+    (" to ", " 至 "),
+    (" and ", " 和 "),
+];
+
+/// Phrases with which a label begins.
+const BEGINNINGS: &[(&str, &str)] = &[
+    ("rows ", "行 "),
+    ("row ", "行 "),
+    ("period ", "周期 "),
+    ("width ", "宽度 "),
+    ("gap ", "间隙 "),
+    ("within ", "在此范围内 "),
+    ("above ", "高于 "),
+    ("below ", "低于 "),
+    ("by about ", "约 "),
+    ("step ", "步长 "),
+    ("from ", "起自 "),
+    ("at ", "位于 "),
+    ("bent", "弯曲"),
+    ("all", "全部"),
+];
+
+/// A label of a variant or a place in a language.
+pub(super) fn spoken(label: &str, language: Language) -> String {
+    if language.pick(true, false) {
+        return label.to_owned();
+    }
+    let mut text = label.to_owned();
+    for (english, chinese) in PHRASES {
+        text = text.replace(english, chinese);
+    }
+    for (english, chinese) in BEGINNINGS {
+        if let Some(rest) = text.strip_prefix(english) {
+            return format!("{chinese}{rest}");
+        }
+    }
+    text
+}
+
+/// A quantity of the model in a language: offset and scale have words, others their names.
+pub(super) fn quantity(node: &str, language: Language) -> &str {
+    match node {
+        "offset" => language.pick("offset", "零位"),
+        "scale" => language.pick("scale", "标度"),
+        other => other,
+    }
 }
 
 /// The name, and what distinguishes a cell whose only variant has a label: the harmonic of an angle.
 pub(super) fn full_name(cell: &Cell, language: Language) -> String {
     let name = name(cell, language);
     match cell.variants.as_slice() {
-        [only] if !only.label.is_empty() => format!("{name} ({})", label(only)),
+        [only] if !only.label.is_empty() => format!("{name} ({})", label(only, language)),
         _ => name,
     }
 }
@@ -40,9 +112,11 @@ pub(super) fn name_of_atom(diagnosis: &Diagnosis, atom: usize, language: Languag
     let (cell, variation) = diagnosis.atoms[atom];
     let cell = &diagnosis.cells[cell];
     let name = name(cell, language);
-    match label(&cell.variants[variation]) {
-        "" => name,
-        label => format!("{name} ({label})"),
+    let label = label(&cell.variants[variation], language);
+    if label.is_empty() {
+        name
+    } else {
+        format!("{name} ({label})")
     }
 }
 
@@ -77,21 +151,50 @@ pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
             format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释此记录。"),
         ),
         Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {
-            let places: Vec<String> = diagnosis
-                .examination
-                .slots
-                .iter()
-                .filter(|slot| slot.state == State::Unexplained)
-                .filter_map(|slot| slot.generic.first())
-                .map(|alternative| name(&diagnosis.cells[alternative.candidate], language))
-                .collect();
-            let places = places.join(language.pick("; ", "；"));
+            let places = places(diagnosis, language);
+            let places = match &places[..] {
+                [] => String::new(),
+                places => language.pick(": ", "：").to_owned() + &places.join(language.pick("; ", "；")),
+            };
             language.pick(
-                format!("Model and recording disagree, and nothing in the catalogue explains it: {places}."),
-                format!("模型与记录不一致，且目录中没有可解释的原因：{places}。"),
+                format!("Model and recording disagree, and nothing in the catalogue explains it{places}."),
+                format!("模型与记录不一致，且目录中没有可解释的原因{places}。"),
             )
         }
     }
+}
+
+/// Whether an explanation without a name is likely enough to say a place.
+pub(super) fn weighs(alternative: &Alternative) -> bool {
+    const LEAST: f64 = 0.005;
+    alternative.probability >= LEAST
+}
+
+/// Where what is unexplained sits: what is likely enough; else the best there is.
+fn places(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
+    let slots = diagnosis.examination.slots.iter();
+    let unexplained = slots.filter(|slot| slot.state == State::Unexplained);
+    let found: Vec<&Alternative> = unexplained.filter_map(|s| s.generic.first()).collect();
+    let likely = found.iter().copied().filter(|one| weighs(one));
+    let mut likely: Vec<&Alternative> = likely.collect();
+    if likely.is_empty() {
+        likely = found;
+    }
+    let names = likely
+        .iter()
+        .map(|one| name(&diagnosis.cells[one.candidate], language));
+    distinct(names.collect())
+}
+
+/// Each text once, in the order of their first places.
+fn distinct(texts: Vec<String>) -> Vec<String> {
+    let mut kept: Vec<String> = Vec::new();
+    for text in texts {
+        if !kept.contains(&text) {
+            kept.push(text);
+        }
+    }
+    kept
 }
 
 /// The names of a slot, joined by "or".
@@ -248,5 +351,24 @@ pub fn failure(case: &Case, failure: &Failure, language: Language) -> String {
         }
         Failure::Refused(Refusal::Cancelled) => language.pick("stopped".to_owned(), "已中断".to_owned()),
         Failure::Refused(other) => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_are_spoken_in_both_languages() {
+        for (label, chinese) in [
+            ("τ = 44 and 178 s", "τ = 44 和 178 s"),
+            ("rows 61 to 80", "行 61 至 80"),
+            ("width 15 % of the range", "宽度 15 % 量程"),
+            ("90 per turn", "90 次每转"),
+            ("place front", "place front"),
+        ] {
+            assert_eq!(spoken(label, Language::English), label);
+            assert_eq!(spoken(label, Language::Chinese), chinese);
+        }
     }
 }

@@ -162,7 +162,7 @@ fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Bl
             )
         });
         let places: Vec<String> = places.collect();
-        let named = places.is_empty() || tentative(slot).is_some();
+        let named = places.is_empty() || tentative(diagnosis, slot).is_some();
         blocks.push(Block::Paragraph(match named {
             true => language
                 .pick(

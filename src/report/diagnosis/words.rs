@@ -212,13 +212,19 @@ pub(super) fn weighs(alternative: &Alternative) -> bool {
 }
 
 /// The name of a slot that is not certain, but far likelier than everything without a name.
-pub(super) fn tentative(slot: &Slot) -> Option<&Alternative> {
+pub(super) fn tentative<'s>(diagnosis: &Diagnosis, slot: &'s Slot) -> Option<&'s Alternative> {
     /// What has no name is out of question below this …
     const UNLIKELY: f64 = 0.05;
     /// … and a name is tentative from here on.
     const LIKELY: f64 = 0.5;
     let unlikely = slot.generic.iter().all(|one| one.probability < UNLIKELY);
+    // What only tells how the recording looks is no name beside something unexplained.
+    let describes = |one: &Alternative| {
+        let id = diagnosis.cells[one.candidate].effect.id.as_str();
+        matches!(id, "outlier" | "step" | "step-scale" | "wave")
+    };
     let first = slot.named.first().filter(|one| one.probability > LIKELY);
+    let first = first.filter(|one| !describes(one));
     first.filter(|_| slot.state == State::Unexplained && unlikely)
 }
 
@@ -226,7 +232,7 @@ pub(super) fn tentative(slot: &Slot) -> Option<&Alternative> {
 fn tentatives(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
     let slots = diagnosis.examination.slots.iter();
     let names = slots
-        .filter_map(tentative)
+        .filter_map(|slot| tentative(diagnosis, slot))
         .map(|one| name(&diagnosis.cells[one.candidate], language));
     distinct(names.collect())
 }
@@ -235,7 +241,8 @@ fn tentatives(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
 /// there is.
 fn places(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
     let slots = diagnosis.examination.slots.iter();
-    let unexplained = slots.filter(|s| s.state == State::Unexplained && tentative(s).is_none());
+    let unexplained =
+        slots.filter(|s| s.state == State::Unexplained && tentative(diagnosis, s).is_none());
     let found: Vec<&Alternative> = unexplained.filter_map(|s| s.generic.first()).collect();
     let likely = found.iter().copied().filter(|one| weighs(one));
     let mut likely: Vec<&Alternative> = likely.collect();

@@ -9,7 +9,7 @@ use crate::report::language::Language;
 use crate::report::number::{NONE, aligned, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
-use super::words::{name, name_of_atom, noise, p_found, probability, verdict};
+use super::words::{formula, name, name_of_atom, noise, p_found, probability, verdict};
 use super::{improvement, open};
 
 /// Cells of the scan that are shown.
@@ -190,7 +190,7 @@ fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Bl
                 None => cell.words.fill(language.of(&cell.effect.prose)),
             };
             blocks.push(Block::Paragraph(prose));
-            blocks.push(Block::Formula(vec![cell.words.fill(&cell.effect.formula)]));
+            blocks.push(Block::Formula(vec![formula(diagnosis, alternative)]));
         }
     }
     blocks

@@ -236,8 +236,21 @@ fn tick_label(tick: f64, step: f64) -> String {
         format!("{tick:.decimals$}")
     } else {
         let digits = exponent(tick * (1.0 + 1e-9)) - last_place + 1;
-        significant(tick, u8::try_from(digits).unwrap_or(1).max(1))
+        raised(&significant(tick, u8::try_from(digits).unwrap_or(1).max(1)))
     }
+}
+
+/// A power of ten as it is printed in a figure: `1×10⁶`.
+fn raised(text: &str) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let Some((number, exponent)) = text.split_once('^') else {
+        return text.to_owned();
+    };
+    let exponent = exponent.chars().map(|c| match c.to_digit(10) {
+        Some(digit) => RAISED[digit as usize],
+        None => '⁻',
+    });
+    number.chars().chain(exponent).collect()
 }
 
 fn escaped(text: &str) -> String {

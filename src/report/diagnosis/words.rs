@@ -2,7 +2,7 @@
 
 use crate::diagnose::case::Case;
 use crate::diagnose::catalogue::{Cell, Text, Variation};
-use crate::diagnose::evidence::{Refusal, Slot, State, Verdict};
+use crate::diagnose::evidence::{Alternative, Refusal, Slot, State, Verdict};
 use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
 
 use crate::report::language::Language;
@@ -102,6 +102,24 @@ pub(super) fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) 
         .map(|a| name(&diagnosis.cells[a.candidate], language))
         .collect();
     names.join(language.pick(" or ", " 或 "))
+}
+
+/// The formula of an explanation, without the lag where its best variant has none.
+pub(super) fn formula(diagnosis: &Diagnosis, alternative: &Alternative) -> String {
+    let cell = &diagnosis.cells[alternative.candidate];
+    let lags = alternative.variants.first().is_none_or(|variant| {
+        let (_, variation) = diagnosis.atoms[variant.atom];
+        let mut terms = cell.variants[variation].terms.iter();
+        terms.any(|term| term.text.contains("lag("))
+    });
+    let general = &cell.effect.formula;
+    match general.split_once("lag(") {
+        Some((before, rest)) if !lags => match rest.split_once(", τ)") {
+            Some((within, after)) => cell.words.fill(&format!("{before}({within}){after}")),
+            None => cell.words.fill(general),
+        },
+        _ => cell.words.fill(general),
+    }
 }
 
 /// Where the noise comes from.

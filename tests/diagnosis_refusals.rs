@@ -32,11 +32,11 @@ fn recording(field: impl Fn(usize, &str) -> Option<&'static str>) -> String {
                 "y",
                 format!(
                     "{}",
-                    0.2 * f64::from(10 * (row as u32 % 6)) + 1e-3 * (7.3 * i).sin()
+                    0.2 * f64::from(10 * (row as u32 % 6)) + 1e-3 * libm::sin(7.3 * i)
                 ),
             ),
             ("t", format!("{}", 0.1 * i)),
-            ("room", format!("{}", 20.0 + 0.1 * (3.1 * i).cos())),
+            ("room", format!("{}", 20.0 + 0.1 * libm::cos(3.1 * i))),
             ("run", format!("{}", 1 + row / 6)),
         ];
         let fields = good

@@ -139,7 +139,11 @@ fn delayed(ground: &Ground<'_>, column: usize, own: &[f64], text: &str) -> Varia
         let unit = ground.time_unit();
         for tau in time_constants(ground) {
             let lagged = lag(&ground.clock.values, own, tau);
-            let text = format!("lag{text}[{tau} {unit}]", tau = figure(tau));
+            let inner = text
+                .strip_prefix('(')
+                .and_then(|text| text.strip_suffix(')'));
+            let inner = inner.unwrap_or(text);
+            let text = format!("lag({inner}, {tau} {unit})", tau = figure(tau));
             variants.push((
                 format!("τ = {tau} {unit}", tau = figure(tau)),
                 vec![(lagged, text)],

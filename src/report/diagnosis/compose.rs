@@ -9,6 +9,7 @@ use crate::report::language::Language;
 use crate::report::number::{NONE, aligned, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
+use super::labels::spoken;
 use super::words::{formula, name, name_of_atom, noise, p_found, probability, verdict};
 use super::{improvement, open};
 
@@ -118,8 +119,13 @@ fn located(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
     ]);
     for (cell, located) in shown {
         table.push(vec![
-            cell.node.as_str().into(),
-            format!("{} {}", cell.factor, cell.level).into(),
+            spoken(&cell.node, language).into(),
+            format!(
+                "{} {}",
+                spoken(&cell.factor, language),
+                spoken(&cell.level, language)
+            )
+            .into(),
             aligned(located.size, located.u, 2).into(),
             significant(located.u, 2).into(),
             significant(located.chi_squared, 3).into(),
@@ -141,7 +147,7 @@ fn slots(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
     for slot in &diagnosis.examination.slots {
         if blocks.is_empty() {
             blocks.push(Block::Section(
-                language.pick("What was left out", "遗漏的物理").into(),
+                language.pick("What was left out", "遗漏的物理效应").into(),
             ));
         }
         blocks.extend(slot_blocks(diagnosis, slot, language));
@@ -214,7 +220,7 @@ fn headline(
             let kappa = significant(rival.kappa, 2);
             language.pick(
                 format!("; nearest rival {other}, κ = {kappa}"),
-                format!("；最接近的竞争解释为{other}，κ = {kappa}"),
+                format!("；最接近的竞争解释：{other}，κ = {kappa}"),
             )
         }
         None => String::new(),
@@ -224,7 +230,7 @@ fn headline(
     let probability = if only && alternative.probability > 0.999 {
         String::new()
     } else {
-        format!("{posterior} %, ")
+        format!("{posterior} %{}", language.pick(", ", "，"))
     };
     language.pick(
         format!("▸ {title}: {probability}strength λ = {lambda}{separate}"),

@@ -9,6 +9,7 @@ use crate::report::number::{aligned, freedom, significant};
 use crate::report::table::{ColumnKind, Table};
 use crate::special::chi_squared_sf;
 
+use super::labels::spoken;
 use super::words::p_is;
 
 /// Before and after.
@@ -85,7 +86,7 @@ fn qualities(
         ),
         (
             if after.is_some() {
-                language.pick("with the physics", "加入遗漏的物理")
+                language.pick("with the physics", "加入遗漏效应后")
             } else {
                 ""
             },
@@ -99,7 +100,8 @@ fn qualities(
         } else {
             format!(" / {}", response.unit.typeset())
         };
-        let label = |what: &str| format!("{what}, {}{unit}", response.name);
+        let label =
+            |what: &str| format!("{what}{}{}{unit}", language.pick(", ", "，"), response.name);
         table.push(vec![
             label(language.pick("residual RMS", "残差均方根")).into(),
             cell(before.residual.get(index).copied()).into(),
@@ -113,7 +115,7 @@ fn qualities(
             ]);
         }
         table.push(vec![
-            label(language.pick("error predicting held-out rows", "留出行的预测误差")).into(),
+            label(language.pick("error predicting held-out rows", "留出数据的预测误差")).into(),
             cell(before.held_out.get(index).copied()).into(),
             cell(after.and_then(|after| after.held_out.get(index).copied())).into(),
         ]);
@@ -202,7 +204,8 @@ fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
         .iter()
         .map(|(part, value, u)| {
             format!(
-                "{part}: {} ± {}",
+                "{}: {} ± {}",
+                spoken(part, language),
                 aligned(*value, *u, 2),
                 significant(*u, 2)
             )
@@ -244,7 +247,7 @@ pub(super) fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block
         ("u", ColumnKind::Numbers),
         (
             if diagnosis.adopted.is_some() {
-                language.pick("with the physics", "加入遗漏的物理")
+                language.pick("with the physics", "加入遗漏效应后")
             } else {
                 ""
             },

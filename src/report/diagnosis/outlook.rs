@@ -149,7 +149,7 @@ fn effects(outlook: &Outlook, language: Language) -> Table {
 
 fn prospect_name(outlook: &Outlook, prospect: &Prospect, language: Language) -> String {
     let cell = &outlook.cells[prospect.cell];
-    let label = label(&cell.variants[prospect.variation]);
+    let label = label(&cell.variants[prospect.variation], language);
     let own = name(cell, language);
     if label.is_empty() {
         own

@@ -96,7 +96,7 @@ fn figure(
             format!(" / {}", declared.unit.typeset())
         };
         let title = |which: &str| format!("{}: {which}{unit}", declared.name);
-        let before = language.pick("residuals of the declared model", "声明模型的残差");
+        let before = language.pick("residuals of the declared model", "声明的模型的残差");
         panels.push(panel(
             &title(before),
             label,
@@ -107,7 +107,7 @@ fn figure(
         if let Some(adopted) = &diagnosis.adopted {
             let after = language.pick(
                 "residuals with the physics in the model",
-                "加入遗漏物理后的残差",
+                "加入遗漏效应后的残差",
             );
             panels.push(panel(
                 &title(after),

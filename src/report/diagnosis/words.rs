@@ -5,6 +5,7 @@ use crate::diagnose::catalogue::{Cell, Text, Variation};
 use crate::diagnose::evidence::{Alternative, Refusal, Slot, State, Verdict};
 use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
 
+use super::labels::spoken;
 use crate::report::language::Language;
 use crate::report::number::{freedom, significant};
 
@@ -21,16 +22,16 @@ pub(super) fn name(cell: &Cell, language: Language) -> String {
 }
 
 /// What distinguishes a variant; numbers without a unit stand alone.
-pub(super) fn label(variation: &Variation) -> &str {
+pub(super) fn label(variation: &Variation, language: Language) -> String {
     let label = variation.label.as_str();
-    label.strip_suffix(" 1").unwrap_or(label)
+    spoken(label.strip_suffix(" 1").unwrap_or(label), language)
 }
 
 /// The name, and what distinguishes a cell whose only variant has a label: the harmonic of an angle.
 pub(super) fn full_name(cell: &Cell, language: Language) -> String {
     let name = name(cell, language);
     match cell.variants.as_slice() {
-        [only] if !only.label.is_empty() => format!("{name} ({})", label(only)),
+        [only] if !only.label.is_empty() => format!("{name} ({})", label(only, language)),
         _ => name,
     }
 }
@@ -40,8 +41,8 @@ pub(super) fn name_of_atom(diagnosis: &Diagnosis, atom: usize, language: Languag
     let (cell, variation) = diagnosis.atoms[atom];
     let cell = &diagnosis.cells[cell];
     let name = name(cell, language);
-    match label(&cell.variants[variation]) {
-        "" => name,
+    match label(&cell.variants[variation], language) {
+        label if label.is_empty() => name,
         label => format!("{name} ({label})"),
     }
 }
@@ -66,7 +67,7 @@ pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
         Verdict::Identified => language.pick(format!("The model leaves out: {list}."), format!("模型遗漏了：{list}。")),
         Verdict::Ambiguous => language.pick(
             format!("The model leaves out something that this recording cannot tell apart: {list}."),
-            format!("模型有遗漏，但此记录不能区分：{list}。"),
+            format!("模型有遗漏，但本记录无法区分：{list}。"),
         ),
         Verdict::Partly if !names.is_empty() => language.pick(
             format!("The model leaves out: {list}. Something without a name remains."),
@@ -74,7 +75,7 @@ pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
         ),
         Verdict::Contested if !names.is_empty() => language.pick(
             format!("The model leaves out: {list}; or else something unknown that varies smoothly, which explains the recording as well."),
-            format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释此记录。"),
+            format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释本记录。"),
         ),
         Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {
             let places: Vec<String> = diagnosis

@@ -18,12 +18,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use gumption::challenge::SealedCase;
-use gumption::challenge::grade::{self, Answer, Name};
+use gumption::challenge::grade::{self, Answer, Name, State};
 use gumption::challenge::study::{
-    EACH, FIRST_SEED, NULLS, Record, Trial, read, report, trials, write,
+    EACH, FIRST_SEED, NULLS, Record, Trial, Twin, read, report, trials, write,
 };
 use gumption::diagnose::case::{Case, Purpose};
-use gumption::diagnose::{Opinion, diagnose, opinions};
+use gumption::diagnose::{Failure, Likeness, Opinion, Pick, diagnose, likenesses, opinions};
 use gumption::report::{Language, diagnosis_failure, diagnosis_json};
 
 struct Options {
@@ -89,7 +89,9 @@ fn save_tables(out: &Path) -> Result<(), String> {
     let lines = std::fs::read_to_string(out.join("diagnosis.csv")).map_err(|e| e.to_string())?;
     let made = "Made by `cargo run --release --example diagnosis -- --out reports` from sealed cases of \
         `gumption challenge` (docs/challenge.md). λ is the visible strength of an effect in standard \
-        deviations, κ what its nearest rival leaves of it; both come from twin runs of the simulator. \
+        deviations, κ what its nearest rival leaves of it: both from twin runs of the simulator, with and \
+        without the effect, and the rivals are every other effect of the simulator and every wrong candidate \
+        of the catalogue that has no more coefficients than the right one. \
         Every case is a line of diagnosis.csv.";
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), made)).map_err(|e| e.to_string())
 }
@@ -199,11 +201,12 @@ impl<'a> Study<'a> {
 fn one(trial: &Trial, folder: &Path, options: &Options) -> Record {
     let sealed = trial.case();
     match answer(trial, &sealed, folder, options.alone) {
-        Ok((answer, opinions)) => {
+        Ok((answer, twins, opinions)) => {
             if options.show {
                 eprintln!("{}", shown(trial, &answer));
             }
             let mut record = Record::of(trial, &grade::grade(&sealed.truth, &answer), &answer);
+            record.complete(&twins);
             record.rivals = opinions
                 .iter()
                 .map(|opinion| judged(&sealed, opinion))
@@ -228,7 +231,7 @@ fn answer(
     sealed: &SealedCase,
     folder: &Path,
     alone: bool,
-) -> Result<(Answer, Vec<Opinion>), String> {
+) -> Result<(Answer, Vec<Twin>, Vec<Opinion>), String> {
     trial
         .write(sealed, folder)
         .map_err(|error| error.to_string())?;
@@ -244,7 +247,48 @@ fn answer(
     } else {
         opinions(&case).map_err(failed)?
     };
-    Ok((answer, others))
+    let twins = twins(trial, sealed, &case, &answer).map_err(failed)?;
+    Ok((answer, twins, others))
+}
+
+/// What twin runs say of each concealed effect. A wrong candidate is a rival if it has no more coefficients
+/// than the right one.
+fn twins(
+    trial: &Trial,
+    sealed: &SealedCase,
+    case: &Case,
+    answer: &Answer,
+) -> Result<Vec<Twin>, Failure> {
+    /// Where the right candidate is missing, whatever fits is a rival.
+    const USUAL: usize = usize::MAX;
+    let traces = trial.signatures();
+    let right = |pick: &Pick| {
+        let name = name(pick);
+        let mut effects = sealed.truth.effects.iter();
+        effects.any(|effect| grade::accepts(effect.physics, &name))
+    };
+    let of = |at: usize| {
+        let mut others = traces.clone();
+        let own = others.remove(at);
+        let all = likenesses(case, &own, &others)?;
+        let (own, wrong): (Vec<&Likeness>, Vec<&Likeness>) =
+            all.iter().partition(|likeness| right(&likeness.pick));
+        let best = own.iter().min_by(|a, b| a.left.total_cmp(&b.left));
+        let coefficients = best.map_or(USUAL, |best| best.coefficients);
+        let rivals = wrong.iter().filter(|l| l.coefficients <= coefficients);
+        let truth = &sealed.truth.effects[at];
+        let unique = (answer.effects.iter())
+            .filter(|effect| effect.state == State::Identified)
+            .filter_map(|effect| effect.named.first())
+            .find(|name| grade::accepts(truth.physics, name));
+        Ok(Twin {
+            nearest: rivals.map(|l| l.left).fold(1.0, f64::min),
+            deviation: unique.and_then(|name| deviation(&all, name)),
+            located: unique
+                .and_then(|name| grade::located(sealed.truth.rig, trial.dwell(), truth, name)),
+        })
+    };
+    (0..traces.len()).map(of).collect()
 }
 
 /// An answer in one line.
@@ -272,22 +316,31 @@ fn shown(trial: &Trial, answer: &Answer) -> String {
 
 /// A rival's names against the truth.
 fn judged(sealed: &SealedCase, opinion: &Opinion) -> (String, String) {
-    let names: Vec<Name> = opinion
-        .picks
-        .iter()
-        .map(|pick| Name {
-            id: pick.id.clone(),
-            family: String::new(),
-            node: String::new(),
-            along: pick.along.clone(),
-            probability: f64::NAN,
-            variants: Vec::new(),
-            size: Vec::new(),
-            u: Vec::new(),
-        })
-        .collect();
+    let names: Vec<Name> = opinion.picks.iter().map(name).collect();
     (
         opinion.method.into(),
         grade::grade_names(&sealed.truth, &names).into(),
     )
+}
+
+/// Size of a name less that of its variant in the twin run, over its standard uncertainty.
+fn deviation(all: &[Likeness], name: &Name) -> Option<f64> {
+    let label = &name.variants.first()?.label;
+    let is_it =
+        |l: &&Likeness| l.pick.id == name.id && l.pick.along == name.along && l.label == *label;
+    let size = all.iter().find(is_it)?.size?;
+    Some(((*name.size.first()?)? - size) / (*name.u.first()?)?)
+}
+
+fn name(pick: &Pick) -> Name {
+    Name {
+        id: pick.id.clone(),
+        family: String::new(),
+        node: String::new(),
+        along: pick.along.clone(),
+        probability: f64::NAN,
+        variants: Vec::new(),
+        size: Vec::new(),
+        u: Vec::new(),
+    }
 }

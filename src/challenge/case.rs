@@ -1,9 +1,14 @@
 //! Making a sealed case from a seed.
 
+use nalgebra::DVector;
+
 use super::files::{CaseFile, case_file, recordings};
 use super::random::{Random, Stream};
 use super::rig::Rig;
-use super::scenario::{Class, NoiseKnowledge, Scenario, draw};
+use super::scenario::{Class, Drawn, NoiseKnowledge, Scenario, draw};
+use super::schedule::Campaign;
+use super::simulate::{Readings, duration, simulate};
+use super::strength::Visible;
 use super::truth::{Truth, salt, seal};
 
 /// What is asked for; chance decides the rest.
@@ -34,16 +39,7 @@ pub struct SealedCase {
 
 /// Makes a sealed case.
 pub fn challenge(request: &Request) -> SealedCase {
-    let mut random = Random::new(request.seed, Stream::Case, 0);
-    let scenario = request
-        .scenario
-        .unwrap_or_else(|| choose(request.rig, &mut random));
-    let by_chance = if random.chance(0.5) {
-        NoiseKnowledge::Stated
-    } else {
-        NoiseKnowledge::AtRest
-    };
-    let drawn = draw(scenario, request.noise.unwrap_or(by_chance), request.seed);
+    let drawn = drawn(request);
     let mut truth = Truth::of(&drawn, &salt(request.seed, request.entropy));
     let mut files = recordings(&drawn);
     truth.files = files
@@ -57,6 +53,40 @@ pub fn challenge(request: &Request) -> SealedCase {
         truth,
         truth_text,
     }
+}
+
+/// What each concealed effect of a case adds to the readings beside the others, without noise and digits:
+/// all rows of the first output, then those of the next, in units of the recording.
+pub fn signatures(request: &Request) -> Vec<DVector<f64>> {
+    let drawn = drawn(request);
+    let visible = Visible::new(&drawn.setup);
+    let all = drawn.concealed();
+    let of = |at: usize| {
+        let mut others = all.clone();
+        let own = others.remove(at);
+        visible.added(&own, &others) * drawn.setup.rig.sensitivity()
+    };
+    (0..all.len()).map(of).collect()
+}
+
+/// Mean time from one reading of the recording to the next, in hours.
+pub fn dwell(request: &Request) -> f64 {
+    let setup = drawn(request).setup;
+    let rows = simulate(&setup, Campaign::Calibration, &[], Readings::Ideal).len();
+    duration(setup.rig, Campaign::Calibration, setup.seed) / 3600.0 / rows as f64
+}
+
+fn drawn(request: &Request) -> Drawn {
+    let mut random = Random::new(request.seed, Stream::Case, 0);
+    let scenario = request
+        .scenario
+        .unwrap_or_else(|| choose(request.rig, &mut random));
+    let by_chance = if random.chance(0.5) {
+        NoiseKnowledge::Stated
+    } else {
+        NoiseKnowledge::AtRest
+    };
+    draw(scenario, request.noise.unwrap_or(by_chance), request.seed)
 }
 
 /// How often a class is drawn, in percent.

@@ -39,7 +39,7 @@ pub mod study;
 mod truth;
 mod world;
 
-pub use case::{Request, SealedCase, challenge};
+pub use case::{Request, SealedCase, challenge, dwell, signatures};
 pub use effect::{Concealed, Physics, Shape};
 pub use files::CaseFile;
 pub use rig::Rig;

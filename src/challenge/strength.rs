@@ -74,7 +74,26 @@ impl<'a> Visible<'a> {
         self.differences(&all, others)
     }
 
+    /// What an effect adds to the readings when the others are there already, as it is: rows of the
+    /// recording for each axis, one axis after the other.
+    pub(super) fn added(&self, effect: &Concealed, others: &[Concealed]) -> DVector<f64> {
+        let mut all = others.to_vec();
+        all.push(*effect);
+        self.raw(&all, others)
+    }
+
     fn differences(&self, with: &[Concealed], without: &[Concealed]) -> DVector<f64> {
+        let mut trace = self.raw(with, without);
+        let rows = self.without.len();
+        for axis in 0..self.setup.rig.axes() {
+            let mut own = trace.rows_mut(axis * rows, rows);
+            let white = &self.whitener * &own;
+            own.copy_from(&(&white - &self.absorbed * self.absorbed.tr_mul(&white)));
+        }
+        trace
+    }
+
+    fn raw(&self, with: &[Concealed], without: &[Concealed]) -> DVector<f64> {
         let run = |effects: &[Concealed]| {
             simulate(self.setup, Campaign::Calibration, effects, Readings::Ideal)
         };
@@ -84,23 +103,12 @@ impl<'a> Visible<'a> {
         } else {
             run(without)
         };
-        let pairs: Vec<(Row, Row)> = with.into_iter().zip(base).collect();
-        let axes = self.setup.rig.axes();
-        let mut trace = DVector::zeros(pairs.len() * axes);
-        for axis in 0..axes {
-            let raw = DVector::from_iterator(
-                pairs.len(),
-                pairs
-                    .iter()
-                    .map(|(w, b)| self.residual(w, axis) - self.residual(b, axis)),
-            );
-            let white = &self.whitener * raw;
-            let seen = &white - &self.absorbed * self.absorbed.tr_mul(&white);
-            trace
-                .rows_mut(axis * pairs.len(), pairs.len())
-                .copy_from(&seen);
-        }
-        trace
+        let axes = 0..self.setup.rig.axes();
+        let values = axes.flat_map(|axis| {
+            let pairs = with.iter().zip(&base);
+            pairs.map(move |(w, b)| self.residual(w, axis) - self.residual(b, axis))
+        });
+        DVector::from_vec(values.collect())
     }
 
     /// Reading less the declared input: a wrong label counts as well as a wrong reading.

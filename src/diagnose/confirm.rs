@@ -104,6 +104,9 @@ fn held_out(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
 
 /// Change of the unknowns when only some observations count.
 fn solved(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, kept: &[usize]) -> DVector<f64> {
+    if frame.unknowns.is_empty() {
+        return DVector::zeros(0);
+    }
     let (normal, right) = normal(frame, fit, claimed, kept);
     let scale = normal
         .diagonal()
@@ -151,6 +154,9 @@ pub(super) fn covariance(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DMa
 }
 
 fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {
+    if normal.is_empty() {
+        return normal.clone();
+    }
     let scale = normal
         .diagonal()
         .map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });

@@ -225,6 +225,9 @@ impl Problem<'_, '_> {
         damping: f64,
     ) -> Result<Option<DVector<f64>>, NoFit> {
         let (rows, columns) = jacobian.shape();
+        if columns == 0 {
+            return Ok(Some(DVector::zeros(0)));
+        }
         if jacobian.iter().any(|x| !x.is_finite()) {
             return Err(NoFit::NoMinimum);
         }
@@ -258,6 +261,9 @@ impl Problem<'_, '_> {
     fn determined(&self, linear: &Linear) -> Result<(), NoFit> {
         const DEPENDENT: f64 = 1e-9;
         let jacobian = self.weighted_jacobian(linear);
+        if jacobian.ncols() == 0 {
+            return Ok(());
+        }
         let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
         let r = jacobian.qr().r();
         for (at, length) in lengths.iter().enumerate() {

@@ -140,7 +140,7 @@ fn improved(
     let both = known.case.followed_by(&held.rows);
     let frame = Frame::new(&both);
     let fit = fit::at(&frame, super::separation::unknowns(known, &frame));
-    let wide = Ground::new(&frame, &fit);
+    let wide = Ground::new(&frame, &fit).refined(ground.finer.clone());
     let others = catalogue::cells(&wide);
     let mut rows = held.rows.clone();
     for atom in &adopted.atoms {

@@ -11,6 +11,7 @@
 //! | `extra`, `separation` | measurements that may follow, and what they tell apart |
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
 //! | `held_out` | prediction of a recording that the fit has not seen |
+//! | `likeness` | what can stand in for something whose trace is known |
 //! | `result` | the parameters as the measurands of a budget |
 //! | [`rivals`] | methods in common use, to be compared with |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
@@ -29,6 +30,7 @@ mod fit;
 mod frame;
 mod held_out;
 mod improved;
+mod likeness;
 mod local;
 mod noise;
 mod omitted;
@@ -49,6 +51,7 @@ pub use extra::{Extra, Measure};
 pub use fit::NoFit;
 pub use held_out::{HeldOutQuality, Prediction};
 pub use improved::{RECORDING as IMPROVED_RECORDING, improved};
+pub use likeness::{Likeness, likenesses};
 pub use noise::{Claimed, Origin};
 pub use omitted::Omitted;
 pub use plan::{Outlook, Promise, Prospect, plan};

@@ -187,6 +187,8 @@ mod tests {
                 place: Place::default(),
                 typical: None,
                 repeats: false,
+                describes: false,
+                odds: 1.0,
             })
             .collect();
         let atoms: Vec<Atom> = columns

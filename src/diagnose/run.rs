@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::adopt;
 use super::case::Case;
-use super::catalogue::{self, Cell, Ground, Variation};
+use super::catalogue::{self, Cell, Finer, Ground, Variation};
 use super::confirm::{self, Confirmation, Quality};
 use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Located, Prior, Question, Refusal, Shape, Verdict,
@@ -154,69 +154,57 @@ pub fn diagnose(
 ) -> Result<Diagnosis, Failure> {
     let frame = Frame::new(case);
     let (fit, mut claimed) = noise::settle(&frame)?;
-    let ground = Ground::new(&frame, &fit);
-    let cells = catalogue::cells(&ground);
     let white = baseline(&frame, &fit, &claimed)?;
-    let (candidates, mut atoms, mut places) = question(&ground, &cells, &claimed, &white);
     let settings = settings(case);
-    let examined = |claimed: &Claimed, atoms: &[Atom], from: f64, to: f64| {
-        let baseline = baseline(&frame, &fit, claimed)?;
-        let question = Question {
-            baseline: &baseline,
-            candidates: &candidates,
-            atoms,
-            settings: settings.clone(),
-        };
-        let examination =
-            evidence::examine(&question, &|share| progress(from + (to - from) * share))?;
-        Ok::<_, Failure>((baseline, examination))
-    };
-    // Effects of a known size that are seen with another one are something else: without them, again.
-    let mut ask = |claimed: &Claimed, places: &mut Vec<(usize, usize)>, from: f64, to: f64| loop {
-        let (baseline, examination) = examined(claimed, &atoms, from, to)?;
-        let missized = missized(&cells, &examination);
-        if missized.is_empty() {
-            return Ok::<_, Failure>((baseline, examination));
-        }
-        atoms.retain(|atom| !missized.contains(&atom.candidate));
-        places.retain(|(cell, _)| !missized.contains(cell));
-    };
-    let (mut baseline, mut examination) = ask(
-        &claimed,
-        &mut places,
-        0.0,
-        if claimed.is_estimated() { 0.4 } else { 0.9 },
-    )?;
+    let mut inquiry = Inquiry::new(Ground::new(&frame, &fit), &claimed, &white);
+    let part = |from: f64, to: f64| move |share: f64| progress(from + (to - from) * share);
+    let first = if claimed.is_estimated() { 0.4 } else { 0.6 };
+    let (mut baseline, mut examination) = inquiry.ask(&claimed, &settings, &part(0.0, first))?;
     if claimed.is_estimated() && examination.verdict == Verdict::None {
         let spread = noise::spread_out(&frame, &fit);
         if spread.growth.iter().any(Option::is_some) {
             claimed = spread;
-            (baseline, examination) = ask(&claimed, &mut places, 0.4, 0.6)?;
+            (baseline, examination) = inquiry.ask(&claimed, &settings, &part(0.4, 0.6))?;
         }
     }
     if claimed.is_estimated() && examination.verdict != Verdict::None {
         // Noise and effects are estimated in turn: what an effect explains is no noise.
         for round in 0..ROUNDS {
-            let adopted = examination
-                .fitted
-                .as_ref()
-                .map(|fitted| fitted.atoms.clone());
-            claimed = match adopted_fit(&ground, &cells, &places, &examination, &claimed) {
-                Some((frame, fit)) => noise::refined(&Frame::new(&frame.case), &fit),
-                None => noise::refined(&frame, &fit),
-            };
-            let from = 0.4 + 0.17 * f64::from(round);
-            (baseline, examination) = ask(&claimed, &mut places, from, from + 0.17)?;
-            if examination
-                .fitted
-                .as_ref()
-                .map(|fitted| fitted.atoms.clone())
-                == adopted
-            {
+            let adopted = adopted_atoms(&examination);
+            claimed = inquiry.noise(&examination, &claimed);
+            let from = 0.4 + 0.1 * f64::from(round);
+            let part = part(from, from + 0.1);
+            (baseline, examination) = inquiry.ask(&claimed, &settings, &part)?;
+            if adopted_atoms(&examination) == adopted {
                 break;
             }
         }
     }
+    // Shapes that lie between the steps of a grid: closer and closer.
+    let mut finer = Finer::default();
+    for round in 0..REFINEMENTS {
+        if !inquiry.refine(&mut finer, &examination) {
+            break;
+        }
+        inquiry = Inquiry::new(
+            Ground::new(&frame, &fit).refined(finer.clone()),
+            &claimed,
+            &white,
+        );
+        let from = 0.7 + 0.1 * f64::from(round);
+        (baseline, examination) = inquiry.ask(&claimed, &settings, &part(from, from + 0.05))?;
+        if claimed.is_estimated() {
+            claimed = inquiry.noise(&examination, &claimed);
+            let part = part(from + 0.05, from + 0.1);
+            (baseline, examination) = inquiry.ask(&claimed, &settings, &part)?;
+        }
+    }
+    let Inquiry {
+        ground,
+        cells,
+        places,
+        ..
+    } = inquiry;
     let nameless = local::nameless(&ground, &cells, &places, &examination);
     examination.demote(&nameless);
     let located = if examination.verdict == Verdict::None {
@@ -285,6 +273,96 @@ pub fn diagnose(
     })
 }
 
+/// Candidates, asked of a recording.
+struct Inquiry<'f> {
+    ground: Ground<'f>,
+    cells: Vec<Cell>,
+    candidates: Vec<Candidate>,
+    atoms: Vec<Atom>,
+    /// Cell and variation of each atom.
+    places: Vec<(usize, usize)>,
+}
+
+impl<'f> Inquiry<'f> {
+    fn new(ground: Ground<'f>, claimed: &Claimed, white: &Baseline) -> Inquiry<'f> {
+        let cells = catalogue::cells(&ground);
+        let (candidates, atoms, places) = question(&ground, &cells, claimed, white);
+        Inquiry {
+            ground,
+            cells,
+            candidates,
+            atoms,
+            places,
+        }
+    }
+
+    /// Effects of a known size that are seen with another one are something else: without them, again.
+    fn ask(
+        &mut self,
+        claimed: &Claimed,
+        settings: &evidence::Settings,
+        progress: &dyn Fn(f64) -> ControlFlow<()>,
+    ) -> Result<(Baseline, Examination), Failure> {
+        let baseline = baseline(self.ground.frame, self.ground.fit, claimed)?;
+        loop {
+            let question = Question {
+                baseline: &baseline,
+                candidates: &self.candidates,
+                atoms: &self.atoms,
+                settings: settings.clone(),
+            };
+            let examination = evidence::examine(&question, progress)?;
+            let missized = missized(&self.cells, &examination);
+            if missized.is_empty() {
+                return Ok((baseline, examination));
+            }
+            self.atoms
+                .retain(|atom| !missized.contains(&atom.candidate));
+            self.places.retain(|(cell, _)| !missized.contains(cell));
+        }
+    }
+
+    /// The noise that is left when the named effects are in the model.
+    fn noise(&self, examination: &Examination, claimed: &Claimed) -> Claimed {
+        let adopted = adopted_fit(
+            &self.ground,
+            &self.cells,
+            &self.places,
+            examination,
+            claimed,
+        );
+        match adopted {
+            Some((extended, fit)) => noise::refined(&Frame::new(&extended.case), &fit),
+            None => noise::refined(self.ground.frame, self.ground.fit),
+        }
+    }
+
+    /// Adds values about the parameters of strong effects; whether there are any that were not tried.
+    fn refine(&self, finer: &mut Finer, examination: &Examination) -> bool {
+        let strong = (examination.slots.iter())
+            .filter_map(|slot| slot.named.first())
+            .filter(|named| named.lambda >= CLEAR);
+        let mut new = false;
+        for named in strong {
+            // The variant with two time constants has none between: one alone may do when it is the right one.
+            let found = named.variants.iter().find_map(|variant| {
+                let (cell, variation) = self.places[variant.atom];
+                let variation = &self.cells[cell].variants[variation];
+                variation.shape.is_some().then_some((cell, variation))
+            });
+            if let Some((cell, variation)) = found {
+                new |= finer.add(&self.cells[cell], variation);
+            }
+        }
+        new
+    }
+}
+
+fn adopted_atoms(examination: &Examination) -> Option<Vec<usize>> {
+    let fitted = examination.fitted.as_ref();
+    fitted.map(|fitted| fitted.atoms.clone())
+}
+
 /// Candidates of a known size (a reversal, an exchange) that would have to have another size here.
 fn missized(cells: &[Cell], examination: &Examination) -> Vec<usize> {
     let named = examination.slots.iter().flat_map(|slot| &slot.named);
@@ -302,6 +380,11 @@ fn missized(cells: &[Cell], examination: &Examination) -> Vec<usize> {
 const TRACE: f64 = 1e-4;
 /// So often noise and effects are estimated in turn.
 const ROUNDS: u8 = 3;
+/// So often the values about the parameter of an effect are brought closer together.
+const REFINEMENTS: u8 = 3;
+/// λ from which on it matters by how much the parameter of an effect is off: by 10 % of a time constant, some
+/// 5 % of the effect are left.
+const CLEAR: f64 = 15.0;
 
 pub(super) fn settings(case: &Case) -> evidence::Settings {
     evidence::Settings {
@@ -351,6 +434,11 @@ pub(super) fn question(
             place: cell.place.clone(),
             typical: cell.typical,
             repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
+            describes: matches!(
+                cell.effect.id.as_str(),
+                "outlier" | "step" | "step-scale" | "wave"
+            ),
+            odds: cell.odds,
         });
         let before = atoms.len();
         let shapes: Vec<(usize, Shape)> = (cell.variants.iter().enumerate())

@@ -21,6 +21,8 @@ pub struct Contender {
     words: Words,
     /// Its variant.
     label: String,
+    /// The value of its continuous parameter.
+    shape: Option<f64>,
     /// Its coefficients.
     size: DVector<f64>,
 }
@@ -32,6 +34,7 @@ impl Contender {
             id: cell.effect.id.clone(),
             words: cell.words.clone(),
             label: variation.label.clone(),
+            shape: value(variation),
             size,
         }
     }
@@ -44,8 +47,8 @@ impl Contender {
         usable.then_some(columns)
     }
 
-    /// The same variation in another design. A grid that follows the rows may have another step there: its
-    /// middle then stands for it.
+    /// The same variation in another design. A grid that follows the rows may have another step there: what
+    /// is nearest to it, or else its middle, then stands for it.
     fn variation<'c>(&self, cells: &'c [Cell]) -> Option<&'c Variation> {
         // Each harmonic of an angle is a cell of its own.
         let alike = || {
@@ -53,13 +56,28 @@ impl Contender {
             of.filter(|cell| cell.effect.id == self.id && cell.words == self.words)
         };
         let mut all = alike().flat_map(|cell| &cell.variants);
+        let nearest = || {
+            let own = self.shape?;
+            let usable = alike().flat_map(|cell| &cell.variants);
+            let usable = usable.filter(|other| other.coefficients() == self.size.len());
+            let far = |other: &Variation| value(other).map(|value| (value - own).abs());
+            let ranked = usable.filter_map(|other| Some((far(other)?, other)));
+            ranked
+                .min_by(|a, b| a.0.total_cmp(&b.0))
+                .map(|(_, other)| other)
+        };
         let middle = || {
             let cell = alike().next()?;
             cell.variants.get(cell.variants.len() / 2)
         };
         all.find(|variation| variation.label == self.label)
+            .or_else(nearest)
             .or_else(middle)
     }
+}
+
+fn value(variation: &Variation) -> Option<f64> {
+    Some(variation.shape.as_ref()?.value)
 }
 
 /// What is known of a case before a further measurement.

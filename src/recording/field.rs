@@ -97,10 +97,12 @@ fn plain(text: &str) -> Option<f64> {
 }
 
 /// A time as ISO 8601 has it: `2026-03-01T09:00:01.25+08:00`, also with a blank for the T, with slashes or
-/// without zone; or a time of the day alone, `09:00:01.25`.
+/// without zone; a date alone, `2026-03-01`; or a time of the day alone, `09:00:01.25`.
 fn instant(text: &str) -> Option<Instant> {
     let (date, clock) = match text.split_once(['T', ' ']) {
         Some((date, clock)) => (Some(date), clock.trim_start()),
+        // A date alone is the beginning of its day.
+        None if days(text).is_some() => (Some(text), "00:00"),
         None => (None, text),
     };
     let days = date.map_or(Some(0), days)?;
@@ -188,7 +190,7 @@ pub(super) fn mend(field: &str) -> String {
         return format!("write {minus}, with the hyphen as minus");
     }
     if field.len() >= 8 && field.matches([':', '-', '/']).count() >= 2 {
-        return "write times as 2026-03-01T09:00:01.25, as 09:00:01.25, or as seconds since the start"
+        return "write times as 2026-03-01T09:00:01.25, as 2026-03-01, as 09:00:01.25, or as seconds since the start"
             .to_owned();
     }
     if field.starts_with(|c: char| c.is_ascii_digit()) {
@@ -221,10 +223,12 @@ mod tests {
         );
         assert_eq!(seconds("2026-03-01T09:00:01-0330"), Some(1_772_368_201.0));
         assert_eq!(seconds("9:00:01.5"), Some(32_401.5));
+        assert_eq!(seconds("2000-03-01"), Some(951_868_800.0));
+        assert_eq!(seconds("2000/3/1"), Some(951_868_800.0));
         for wrong in [
             "2026-13-01T00:00",
             "09-00",
-            "2026-03-01",
+            "2026-02",
             "9",
             "25:00",
             "10:00:61",

@@ -4,10 +4,12 @@
 //! |---|---|
 //! | `answer` | what the grader reads of a diagnosis |
 //! | `vocabulary` | which names of the catalogue are right for which physics |
+//! | `place` | whether axis and moment are right |
 //! | `score` | what was found, missed, made up, and the points |
 //! | `text` | the same in words |
 
 mod answer;
+mod place;
 mod score;
 mod text;
 mod vocabulary;
@@ -15,6 +17,7 @@ mod vocabulary;
 use std::path::{Path, PathBuf};
 
 pub use answer::{Answer, AnsweredEffect, Name, Quality, State};
+pub use place::located;
 pub use score::{Finding, Graded, GradedEffect, grade, grade_names};
 pub use text::{json, text};
 pub(super) use vocabulary::share_a_name;

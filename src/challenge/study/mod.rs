@@ -17,6 +17,6 @@ mod report;
 mod trial;
 
 pub use rate::Rate;
-pub use record::{Outcome, Record, read, write};
+pub use record::{Outcome, Record, Twin, read, write};
 pub use report::report;
 pub use trial::{Ablation, EACH, FIRST_SEED, NULLS, Trial, trials};

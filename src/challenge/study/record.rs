@@ -24,6 +24,20 @@ pub struct Outcome {
     pub probability: f64,
     /// Deviation of the size from the truth, in standard uncertainties.
     pub deviation: f64,
+    /// Whether axis or moment is right, where one is stated.
+    pub located: Option<bool>,
+}
+
+/// What twin runs of the simulator say of a concealed effect and of the name that it was given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Twin {
+    /// What the nearest wrong candidate of the catalogue leaves of it, over its length.
+    pub nearest: f64,
+    /// Deviation of the size, in standard uncertainties: from that with which the variant that was named comes
+    /// nearest to what the effect adds to the recording.
+    pub deviation: Option<f64>,
+    /// Whether axis or moment is right, where one is stated.
+    pub located: Option<bool>,
 }
 
 /// One run of the study.
@@ -49,6 +63,8 @@ pub struct Record {
     pub wrong_lists: usize,
     /// χ²/dof before and after.
     pub chi: [f64; 2],
+    /// Degrees of freedom of χ² after.
+    pub dof: f64,
     /// Error of predictions over the noise, before and after.
     pub held_out: [f64; 2],
     /// Points and the most that could be had.
@@ -68,7 +84,8 @@ impl Record {
             finding: word(effect.finding),
             overclaimed: effect.overclaimed,
             probability: effect.probability.unwrap_or(f64::NAN),
-            deviation: effect.deviation.unwrap_or(f64::NAN),
+            deviation: f64::NAN,
+            located: None,
         });
         let quality = |of: fn(&crate::challenge::grade::Quality) -> Option<f64>| {
             [&answer.before, &answer.after]
@@ -85,9 +102,20 @@ impl Record {
             wrong_names: graded.wrong_names.clone(),
             wrong_lists: graded.wrong_lists.len(),
             chi: quality(|q| Some(q.reduced())),
+            dof: answer.after.as_ref().map_or(f64::NAN, |after| after.dof),
             held_out: quality(|q| q.held_out()),
             points: [graded.points, graded.attainable],
             rivals: Vec::new(),
+        }
+    }
+
+    /// Adds what twin runs say of each effect: κ is what the nearest rival leaves, of the simulator or of the
+    /// catalogue.
+    pub fn complete(&mut self, twins: &[Twin]) {
+        for (outcome, twin) in self.outcomes.iter_mut().zip(twins) {
+            outcome.kappa = outcome.kappa.min(outcome.lambda * twin.nearest);
+            outcome.deviation = twin.deviation.unwrap_or(f64::NAN);
+            outcome.located = twin.located;
         }
     }
 
@@ -106,7 +134,7 @@ fn word(finding: Finding) -> String {
     }
 }
 
-const HEAD: &str = "seed,scenario,noise,ablation,verdict,effects,wrong_names,wrong_lists,chi_before,chi_after,held_out_before,held_out_after,points,attainable,rivals";
+const HEAD: &str = "seed,scenario,noise,ablation,verdict,effects,wrong_names,wrong_lists,chi_before,chi_after,held_out_before,held_out_after,points,attainable,rivals,dof_after";
 
 /// Records as CSV, in the order of scenarios and seeds.
 pub fn write(records: &[Record]) -> String {
@@ -126,7 +154,7 @@ pub fn write(records: &[Record]) -> String {
         let [before, after] = record.chi;
         let [held_before, held_after] = record.held_out;
         text += &format!(
-            "{},{},{},{},{},{},{},{},{before:.3},{after:.3},{held_before:.3},{held_after:.3},{:.2},{:.2},{}\n",
+            "{},{},{},{},{},{},{},{},{before:.3},{after:.3},{held_before:.3},{held_after:.3},{:.2},{:.2},{},{}\n",
             record.seed,
             record.scenario,
             noise_word(record.noise),
@@ -138,6 +166,7 @@ pub fn write(records: &[Record]) -> String {
             record.points[0],
             record.points[1],
             rivals.join(" "),
+            record.dof,
         );
     }
     text
@@ -145,7 +174,7 @@ pub fn write(records: &[Record]) -> String {
 
 fn outcome(outcome: &Outcome) -> String {
     format!(
-        "{}:{}:{:.2}:{:.2}:{}:{}:{:.4}:{:.3}",
+        "{}:{}:{:.2}:{:.2}:{}:{}:{:.4}:{:.3}:{}",
         outcome.physics,
         u8::from(outcome.nameable),
         outcome.lambda,
@@ -153,7 +182,12 @@ fn outcome(outcome: &Outcome) -> String {
         outcome.finding,
         u8::from(outcome.overclaimed),
         outcome.probability,
-        outcome.deviation
+        outcome.deviation,
+        match outcome.located {
+            Some(true) => "right",
+            Some(false) => "wrong",
+            None => "-",
+        }
     )
 }
 
@@ -212,6 +246,7 @@ fn read_line(line: &str, scenarios: &[Scenario]) -> Option<Record> {
                     .map(|(a, b)| (a.to_string(), b.to_string()))
             })
             .collect(),
+        dof: number(15)?,
     })
 }
 
@@ -226,6 +261,7 @@ fn read_outcome(item: &str) -> Option<Outcome> {
         overclaimed,
         probability,
         deviation,
+        located,
     ] = parts[..]
     else {
         return None;
@@ -239,6 +275,11 @@ fn read_outcome(item: &str) -> Option<Outcome> {
         overclaimed: overclaimed == "1",
         probability: probability.parse().ok()?,
         deviation: deviation.parse().ok()?,
+        located: match located {
+            "right" => Some(true),
+            "wrong" => Some(false),
+            _ => None,
+        },
     })
 }
 
@@ -265,10 +306,12 @@ mod tests {
                 overclaimed: false,
                 probability: 0.625,
                 deviation: -0.5,
+                located: Some(true),
             }],
             wrong_names: vec![("drift".into(), 0.99)],
             wrong_lists: 1,
             chi: [4.5, 1.0],
+            dof: 33.0,
             held_out: [2.0, 1.125],
             points: [0.9, 1.25],
             rivals: vec![("bic".into(), "drift+step".into())],

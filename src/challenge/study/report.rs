@@ -27,8 +27,8 @@ pub fn report(records: &[Record], made: &str) -> String {
 }
 
 /// What the figures above do not hold.
-const NOT_MEASURED: &str = "## Not measured here\n\nWhether axis and time span are located rightly, and whether \
-the further measurement that is recommended resolves a list, is not graded by this study.\n";
+const NOT_MEASURED: &str = "## Not measured here\n\nWhether the further measurement that is recommended resolves \
+a list is not graded by this study.\n";
 
 /// The records of a study.
 pub(super) struct Study<'a> {

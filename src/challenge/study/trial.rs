@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use crate::challenge::case::{Request, SealedCase, challenge};
+use nalgebra::DVector;
+
+use crate::challenge::case::{Request, SealedCase, challenge, dwell, signatures};
 use crate::challenge::files::{CASE, CaseFile, RECORDING};
 use crate::challenge::scenario::{Class, NoiseKnowledge, Scenario};
 
@@ -54,7 +56,7 @@ pub struct Trial {
 
 /// The seeds of the study begin here. A batch of seeds is used once: whoever changes the diagnosis after
 /// having looked at its results moves on to seeds that nobody has seen.
-pub const FIRST_SEED: u64 = 77_000_000;
+pub const FIRST_SEED: u64 = 78_000_000;
 
 /// How many cases of every scenario the study has: enough for 600 with an effect.
 pub const EACH: usize = 9;
@@ -133,12 +135,7 @@ fn trial(first: u64, number: usize, k: usize, scenario: Scenario, ablation: Abla
 impl Trial {
     /// The case, as it is handed to the diagnosis.
     pub fn case(&self) -> SealedCase {
-        let request = Request {
-            seed: self.seed,
-            scenario: Some(self.scenario),
-            noise: Some(self.noise),
-            ..Request::default()
-        };
+        let request = self.request();
         let mut case = challenge(&request);
         if self.ablation == Ablation::ForeignConditions {
             let other = challenge(&Request {
@@ -148,6 +145,25 @@ impl Trial {
             exchange(&mut case.files, &other.files);
         }
         case
+    }
+
+    /// What each concealed effect adds to the recording, see [`signatures`].
+    pub fn signatures(&self) -> Vec<DVector<f64>> {
+        signatures(&self.request())
+    }
+
+    /// Mean time between readings, see [`dwell`].
+    pub fn dwell(&self) -> f64 {
+        dwell(&self.request())
+    }
+
+    fn request(&self) -> Request {
+        Request {
+            seed: self.seed,
+            scenario: Some(self.scenario),
+            noise: Some(self.noise),
+            ..Request::default()
+        }
     }
 
     /// Writes the case into a folder.

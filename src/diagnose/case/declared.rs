@@ -8,7 +8,7 @@ use super::tables::{CaseTable, RoleWord};
 use super::{Column, Data, Observed, Parameter, Response};
 use crate::budget::table::Stated;
 use crate::budget::values::OneOrMany;
-use crate::diagnose::faults::{LEFT_SIDE, MISSING, ROLE, UNKNOWN_NAME};
+use crate::diagnose::faults::{LEFT_SIDE, ROLE, UNKNOWN_NAME};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::{Fault, nearest};
 use crate::model::faults::{CLASH, EXPONENT, NOT_ONE, POINT, RESERVED, RESULT_UNIT};
@@ -316,13 +316,6 @@ fn parameter_names(
                 None => fault.help("use it in the model, or remove it"),
             });
         }
-    }
-    if names.is_empty() {
-        checker.faults.push(
-            Fault::new(MISSING, outlines.first().map_or(0..0, |(model, _)| model.span.clone()), "the model has no parameter")
-                .label("nothing can be fitted")
-                .help("every name that is neither a column nor a constant is a parameter; a model without any may have an offset: \"y = x + b\""),
-        );
     }
     (checker.faults.len() == before).then_some(names)
 }

@@ -76,7 +76,14 @@ fn search_units(
     let fixed = constants.iter().map(|c| c.unit.clone());
     for unit in used.chain(fixed) {
         let difference = unit.difference();
-        for candidate in [unit.clone(), difference.clone(), one.quotient(&difference)] {
+        let square = difference.product(&difference);
+        for candidate in [
+            unit.clone(),
+            difference.clone(),
+            one.quotient(&difference),
+            // The second coefficient of a polynomial in a factor: R0*(1 + A*T + B*T^2).
+            one.quotient(&square),
+        ] {
             likely.push(candidate.clone());
             likely.extend(
                 responses

@@ -11,7 +11,7 @@ use crate::diagnose::evidence::Place;
 use crate::quantity::UnitTable;
 
 /// Highest harmonic.
-const HIGHEST: u32 = 4;
+pub(super) const HIGHEST: u32 = 4;
 
 /// Cells of the angles.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -86,7 +86,7 @@ fn harmonics(ground: &Ground<'_>, column: usize) -> Variants {
 }
 
 /// Different places on the circle, to a ten-thousandth of a turn.
-fn positions(phi: &[f64]) -> usize {
+pub(super) fn positions(phi: &[f64]) -> usize {
     let mut places: Vec<i64> = phi
         .iter()
         .map(|phi| (phi / TAU * 1e4).round() as i64 % 10_000)

@@ -4,8 +4,15 @@
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{centred, correlation, figure, lag, map, map2, mean, range, rate};
 use super::response::{levels_of, on_node, on_outputs, time_constants, words};
-use super::{Cell, Modifier, Variants, Words};
+use super::sharp::sharpened;
+use super::{Cell, Modifier, Term, Variants, Words};
 use crate::diagnose::case::Role;
+
+/// Odds beforehand that pressure or humidity acts on an instrument, over those of another condition: they are
+/// recorded because laboratories record them.
+const AIR: f64 = 0.2;
+/// Odds beforehand of what is not first order in a condition: a square, a rate of change, a product.
+const HIGHER: f64 = 0.3;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -43,19 +50,19 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         (_, true) => "cross-sensitivity",
         _ => "sensitivity",
     };
-    let delayed = delayed(ground, column, &own, &text);
-    let linear: Variants = delayed
-        .iter()
-        .cloned()
-        .chain(leading(ground, column, &own, &text))
-        .collect();
+    let on = |node: Node| delayed(ground, column, node, &own, &text);
+    let linear = |delayed: &Variants| -> Variants {
+        let leading = leading(ground, column, &own, &text);
+        delayed.iter().cloned().chain(leading).collect()
+    };
+    let delayed = on(Node::Output);
     let words = words(ground, &label);
     cells.push(on_outputs(
         ground,
         bias,
         words.clone(),
         &label,
-        linear.clone(),
+        linear(&delayed),
     ));
     let square: Variants = delayed
         .iter()
@@ -75,7 +82,8 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     cells.push(on_outputs(ground, second, words.clone(), &label, square));
     for (node, id) in scale_nodes(ground, temperature) {
-        let mut cell = on_node(ground, id, words.clone(), &label, node, linear.clone());
+        let variants = linear(&on(node));
+        let mut cell = on_node(ground, id, words.clone(), &label, node, variants);
         cell.words.p = ground.name(node);
         cells.push(cell);
         let squares = squares(ground, column);
@@ -99,10 +107,47 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let variants = vec![(String::new(), vec![(modifier, format!("d{label}/dt"))])];
         cells.push(on_outputs(ground, id, words, &label, variants));
     }
+    if !stimulus && stands_for_temperature(ground, column) {
+        let words = cells[0].words.clone();
+        let id = "unrecorded-temperature";
+        cells.push(on_outputs(ground, id, words, &label, linear(&delayed)));
+    }
+    let odds = if stimulus || !is_of_air(ground, column) {
+        1.0
+    } else {
+        AIR
+    };
     for cell in &mut cells {
         shape(ground, cell);
+        cell.odds = match cell.effect.id.as_str() {
+            "unrecorded-temperature" => 1.0,
+            id if id.ends_with("-quadratic") || id.ends_with("-rate") => odds * HIGHER,
+            _ => odds,
+        };
     }
     cells
+}
+
+/// Whether a column is the pressure or the humidity of the air.
+fn is_of_air(ground: &Ground<'_>, column: usize) -> bool {
+    ground.case().columns[column].unit.symbol == "%" || ground.is_like(column, "Pa")
+}
+
+/// Whether a condition changes slowly while no temperature was recorded: whatever went up and down with the
+/// room looks like it.
+fn stands_for_temperature(ground: &Ground<'_>, column: usize) -> bool {
+    /// Mean square of successive differences over the variance, from which on a series is no slow one: for
+    /// independent values it is 2 (von Neumann).
+    const SLOW: f64 = 0.5;
+    let recorded = (0..ground.case().columns.len()).any(|c| ground.is_temperature(c));
+    let mut order: Vec<usize> = (0..ground.rows()).collect();
+    order.sort_by(|a, b| ground.clock.values[*a].total_cmp(&ground.clock.values[*b]));
+    let x = centred(ground.numbers(column));
+    let squares: f64 = x.iter().map(|x| x * x).sum();
+    let steps: f64 = (order.windows(2))
+        .map(|pair| (x[pair[1]] - x[pair[0]]).powi(2))
+        .sum();
+    !recorded && ground.is_timed() && steps < SLOW * squares
 }
 
 /// The square alone, and with a linear part; nothing where the numbers are the same up to their sign, or
@@ -133,12 +178,17 @@ fn squares(ground: &Ground<'_>, column: usize) -> Variants {
 
 /// The modifier without a lag, and with each of a series of time constants where it has to get through
 /// something first.
-fn delayed(ground: &Ground<'_>, column: usize, own: &[f64], text: &str) -> Variants {
+fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &[f64], text: &str) -> Variants {
     let mut variants = vec![(String::new(), vec![(own.to_vec(), text.to_owned())])];
     if ground.is_timed() && !ground.is_immediate(column) {
         let unit = ground.time_unit();
-        for tau in time_constants(ground) {
-            let lagged = lag(&ground.clock.values, own, tau);
+        let late = |tau: f64| lag(&ground.clock.values, own, tau);
+        let term = |tau: f64| Term::new(node, late(tau), String::new());
+        for tau in ground
+            .finer
+            .times(sharpened(ground, time_constants(ground), &term))
+        {
+            let lagged = late(tau);
             let inner = text
                 .strip_prefix('(')
                 .and_then(|text| text.strip_suffix(')'));
@@ -248,13 +298,16 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
     let text = format!("({} - mean)*({} - mean)", name(x), name(z));
     let mut cells = Vec::new();
     if meet(ground, x, z) {
-        cells.push(on_outputs(
-            ground,
-            "interaction",
-            pair.clone(),
-            &along,
-            vec![(String::new(), vec![(product, text)])],
-        ));
+        cells.push(Cell {
+            odds: HIGHER,
+            ..on_outputs(
+                ground,
+                "interaction",
+                pair.clone(),
+                &along,
+                vec![(String::new(), vec![(product, text)])],
+            )
+        });
     }
     let (of_x, of_z) = (ground.numbers(x), ground.numbers(z));
     let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));
@@ -295,10 +348,7 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
 /// of the air.
 fn meet(ground: &Ground<'_>, x: usize, z: usize) -> bool {
     let applied = |c: usize| ground.case().columns[c].role == Role::Stimulus;
-    let of_air = |c: usize| {
-        let relative = ground.case().columns[c].unit.symbol == "%";
-        ground.is_temperature(c) || ground.is_like(c, "Pa") || relative
-    };
+    let of_air = |c: usize| ground.is_temperature(c) || is_of_air(ground, c);
     applied(x) || applied(z) || of_air(x) && of_air(z)
 }
 

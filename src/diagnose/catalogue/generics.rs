@@ -49,7 +49,12 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             role,
             Role::Run | Role::Factor | Role::Axis | Role::Direction
         );
-        let unnamed = if named { &[][..] } else { &nodes[..] };
+        let place = role == Role::Position && super::levels::is_place(ground);
+        let unnamed = match () {
+            () if named => &[][..],
+            () if place => &nodes[..1],
+            () => &nodes[..],
+        };
         for node in unnamed.iter().chain(&on_angles) {
             cells.extend(labels(ground, *node, column));
         }

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::Term;
+use super::{Finer, Term};
 use crate::diagnose::case::{Case, Role};
 use crate::diagnose::fit::Fit;
 use crate::diagnose::frame::{Clock, Frame};
@@ -30,6 +30,8 @@ pub struct Ground<'f> {
     pub fit: &'f Fit,
     /// When rows were recorded.
     pub clock: Clock,
+    /// What is tried beside the grids of time constants and knees.
+    pub finer: Finer,
     /// What the model gives besides constant terms, for each response and row.
     signal: Vec<Vec<f64>>,
 }
@@ -42,10 +44,17 @@ impl<'f> Ground<'f> {
             frame,
             fit,
             clock: frame.time(),
+            finer: Finer::default(),
             signal: responses
                 .map(|response| signal(frame, fit, response))
                 .collect(),
         }
+    }
+
+    /// With values between those of the grids.
+    #[must_use]
+    pub fn refined(self, finer: Finer) -> Ground<'f> {
+        Ground { finer, ..self }
     }
 
     /// The case.
@@ -245,7 +254,7 @@ impl<'f> Ground<'f> {
         };
         let used = self.case().with_role(Role::Stimulus);
         let used: Vec<usize> = used.filter(|column| self.in_model(*column)).collect();
-        self.is_timed() || !used.iter().any(sorted)
+        self.clock.column.is_some() || !used.iter().any(sorted)
     }
 
     /// Seconds in a unit of the clock, where it is a time.
@@ -256,9 +265,10 @@ impl<'f> Ground<'f> {
         Some(unit.conversion_to(&second)?.apply(1.0))
     }
 
-    /// Whether the order and distance in time of the rows is recorded.
+    /// Whether the distance in time of the rows is recorded; their order alone says nothing of lags.
     pub fn is_timed(&self) -> bool {
-        self.clock.column.is_some()
+        let role = self.clock.column.map(|at| self.case().columns[at].role);
+        role == Some(Role::Time)
     }
 
     /// Whether what is observed is a constant that the model should give in every row.

@@ -10,17 +10,18 @@ use crate::diagnose::evidence::Place;
 /// On the scale, by the power of the signal, as in the resistor through which a current is read; and on the
 /// offset, by the power of a current or voltage that is applied, as in a thermometer.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    if !ground.is_timed() || !ground.has_signal() {
-        return Vec::new();
+    let mut cells = Vec::new();
+    if ground.is_timed() && ground.has_signal() {
+        cells.push(of_signals(ground));
     }
-    let mut cells = vec![of_signals(ground)];
-    for column in ground.numeric() {
-        if ["A", "V"].iter().any(|unit| ground.is_like(column, unit))
-            && ground.case().columns[column].role == Role::Stimulus
-        {
-            cells.push(of_column(ground, column));
-        }
-    }
+    let heats = |column: &usize| {
+        let applied = ground.case().columns[*column].role == Role::Stimulus;
+        // A supply is what it is; a current through the sensor is chosen.
+        ground.is_like(*column, "A") || applied && ground.is_like(*column, "V")
+    };
+    let heating = ground.numeric().into_iter().filter(heats);
+    cells.extend(heating.flat_map(|column| of_column(ground, column)));
+    cells.retain(|cell| !cell.variants.is_empty());
     cells
 }
 
@@ -38,7 +39,7 @@ fn of_signals(ground: &Ground<'_>) -> Cell {
         .filter(|response| swings(ground.signal(*response)))
         .collect();
     let mut variants = Vec::new();
-    for tau in scales(ground) {
+    for tau in ground.finer.times(scales(ground)) {
         let label = format!("τ = {} {unit}", figure(tau));
         let terms = responses.iter().map(|response| {
             let (warmth, text) = warmth(ground, ground.signal(*response), "signal", tau);
@@ -59,21 +60,42 @@ fn of_signals(ground: &Ground<'_>) -> Cell {
     cell(ground, Node::Gain, "signal", variants)
 }
 
-fn of_column(ground: &Ground<'_>, column: usize) -> Cell {
+fn of_column(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let unit = ground.time_unit();
     let name = ground.label(column);
-    let variants = scales(ground).into_iter().map(|tau| {
+    let late = ground.finer.times(scales(ground)).into_iter().map(|tau| {
         let (warmth, text) = warmth(ground, ground.numbers(column), name, tau);
         let label = format!("τ = {} {unit}", figure(tau));
         Variation::one(label, Term::new(Node::Output, warmth, text)).shaped("τ", tau, &unit)
     });
-    cell(ground, Node::Output, name, variants.collect())
+    let mut on_offset: Vec<Variation> = late.collect();
+    let power = power(ground.numbers(column));
+    if ground.in_model(column) || !varies(&power) {
+        return vec![cell(ground, Node::Output, name, on_offset)];
+    }
+    // Warm before the reading is taken: the power alone. The signal of a resistor is in proportion to its
+    // resistance, and so is its power.
+    let at_once = |node| {
+        let term = Term::new(node, power.clone(), format!("{name}^2"));
+        Variation::one("at once", term)
+    };
+    on_offset.push(at_once(Node::Output));
+    let mut cells = vec![cell(ground, Node::Output, name, on_offset)];
+    if ground.has_signal() {
+        cells.push(cell(ground, Node::Gain, name, vec![at_once(Node::Gain)]));
+    }
+    cells
+}
+
+/// As a part of the largest.
+fn power(x: &[f64]) -> Vec<f64> {
+    let size = largest(x).max(f64::MIN_POSITIVE);
+    map(x, |x| (x / size) * (x / size))
 }
 
 /// The power of something as a part of the largest, late.
 fn warmth(ground: &Ground<'_>, x: &[f64], name: &str, tau: f64) -> (Vec<f64>, String) {
-    let size = largest(x).max(f64::MIN_POSITIVE);
-    let power = map(x, |x| (x / size) * (x / size));
+    let power = power(x);
     let text = format!("lag({name}^2, {} {})", figure(tau), ground.time_unit());
     (lag(&ground.clock.values, &power, tau), text)
 }
@@ -94,6 +116,9 @@ fn cell(ground: &Ground<'_>, node: Node, along: &str, variants: Vec<Variation>) 
 
 /// What is quicker than the rows follow one another is a power of the signal.
 fn scales(ground: &Ground<'_>) -> Vec<f64> {
+    if !ground.is_timed() {
+        return Vec::new();
+    }
     let span = ground.clock.span();
     let blocks = ground.frame.blocks.len().max(2) as f64;
     grid(

@@ -40,6 +40,19 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
         }
     }
     cells.push(cell("cross-axis", singles_and_all(pairs)));
+    let own = used.iter().map(|column| {
+        let label = ground.label(*column).to_owned();
+        let x = ground.numbers(*column).to_vec();
+        (label.clone(), term(*column, x, label))
+    });
+    let mut scales = cell("axis-scale", singles_and_all(own.collect()));
+    let absorbed = super::zero::Absorbed::by_parameters(ground);
+    scales.variants.retain(|variation| {
+        let columns = variation.columns(ground);
+        let mut columns = columns.column_iter();
+        columns.all(|column| absorbed.leaves(&column.into_owned()))
+    });
+    cells.push(scales);
     type Law = fn(f64) -> f64;
     let laws: [(&str, &str, Law); 3] = [
         ("axis-quadratic", "^2", |x| x * x),

@@ -5,6 +5,7 @@
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
 use super::ground::{Ground, Node, varies};
+use super::history::comes_back;
 use super::modifiers::{
     correlation, creeps, figure, held_lag, lag, largest, map, map2, play, range, rate,
 };
@@ -298,7 +299,10 @@ fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
 
 /// What depends on the inputs before: relaxation, late reading, hysteresis.
 fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
-    let mut cells = vec![cell(ground, inputs, "hysteresis", loops())];
+    let mut cells = Vec::new();
+    if inputs.iter().any(|input| comes_back(&input.own)) {
+        cells.push(cell(ground, inputs, "hysteresis", loops()));
+    }
     if !ground.is_timed() {
         return cells;
     }
@@ -317,7 +321,8 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
         (modifier, text)
     };
     let lacks = &lacks;
-    let single = scales.iter().map(|tau| Shaped {
+    let singles = ground.finer.times(scales.clone());
+    let single = singles.iter().map(|tau| Shaped {
         label: format!("τ = {} {unit}", figure(*tau)),
         shape: Some(("τ", *tau, unit.clone())),
         law: Box::new(move |input: &Input| vec![lacks(input, *tau)]),

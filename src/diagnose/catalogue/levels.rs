@@ -20,6 +20,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         }
         match column.role {
             Role::Direction => cells.extend(directions(ground, &column.name, labels, &levels)),
+            Role::Position if is_place(ground) => {
+                let all = shifts(ground, &column.name, labels, &levels, column.role);
+                let scales = all.into_iter().filter(|c| c.effect.id == "level-scale");
+                cells.extend(scales);
+            }
             role @ (Role::Run | Role::Factor | Role::Axis) => {
                 cells.extend(shifts(ground, &column.name, labels, &levels, role));
             }
@@ -27,6 +32,15 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         }
     }
     cells
+}
+
+/// Whether positions are places where one and the same stimulus acts, as on the pan of a balance or over an
+/// aperture, rather than attitudes of an inertial sensor.
+pub(super) fn is_place(ground: &Ground<'_>) -> bool {
+    let case = ground.case();
+    let stimuli = case.with_role(Role::Stimulus).count();
+    let turned = case.with_role(Role::Angle).next().is_some();
+    stimuli == 1 && !turned && ground.has_signal()
 }
 
 /// Levels that occur in the rows that are left.

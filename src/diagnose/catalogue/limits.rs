@@ -4,6 +4,7 @@
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{figure, largest, map, range};
 use super::response::{crosses_zero, levels_of, on_node, on_output, plain, words};
+use super::sharp::sharpened;
 use super::{Cell, Term, Variants, Variation};
 
 /// Cells of one column that is an input.
@@ -61,15 +62,21 @@ fn soft_limit(ground: &Ground<'_>, column: usize) -> Cell {
     let (x, name) = (ground.numbers(column), ground.label(column));
     let unit = ground.case().columns[column].unit.typeset();
     let most = largest(x);
-    let variants = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| {
-        let limit = share * most;
+    let beyond = |limit: f64| {
         let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * x.signum());
         let shown = figure(limit);
         let text = format!("-sign({name})*max(abs({name}) - {shown}, 0)");
-        Variation::one(format!("above {shown} {unit}"), on_output(modifier, text))
-            .shaped("x₀", limit, &unit)
+        on_output(modifier, text)
+    };
+    let limits = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| share * most);
+    let limits = ground
+        .finer
+        .levels(sharpened(ground, limits.into(), &beyond));
+    let variants = limits.into_iter().map(|limit| {
+        let label = format!("above {} {unit}", figure(limit));
+        Variation::one(label, beyond(limit)).shaped("x₀", limit, &unit)
     });
-    plain(ground, "saturation", name, variants.into())
+    plain(ground, "saturation", name, variants.collect())
 }
 
 /// Another slope from one value on.
@@ -79,8 +86,9 @@ fn kink(ground: &Ground<'_>, column: usize) -> Cell {
     let (x, name) = (ground.numbers(column), ground.label(column));
     let unit = ground.case().columns[column].unit.typeset();
     let (least, most) = range(x);
-    let variants = (1..PARTS).map(|part| {
-        let at = least + part as f64 / PARTS as f64 * (most - least);
+    let knees = (1..PARTS).map(|part| least + part as f64 / PARTS as f64 * (most - least));
+    let knees = ground.finer.levels(knees.collect());
+    let variants = knees.into_iter().map(|at| {
         let modifier = map(x, |x| (x - at).max(0.0));
         let shown = figure(at);
         let text = format!("max({name} - {shown}, 0)");

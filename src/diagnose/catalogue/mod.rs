@@ -8,22 +8,27 @@
 //! |---|---|
 //! | `effects.toml` | names, prose, formulas of all effects |
 //! | `modifiers` | what a disturbance may follow, computed row by row |
+//! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `ground` | slopes of the nodes, and which columns can be what |
-//! | `response`, `limits` | what a stimulus does otherwise than declared |
+//! | `response`, `limits`, `history` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `implicit` | the same where the model holds a constant against several columns |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
-//! | `heating`, `stem`, `waves`, `readout` | power of the signal, loss along a stem, what repeats, rounding and slips |
+//! | `heating`, `stem`, `waves` | power of the signal, loss along a stem, what repeats |
+//! | `readout`, `stuck` | rounding and slips, readings that stand still |
 //! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
+//! | `finer` | values between those of the grids |
 //! | `generics` | competitors without a name |
 
 mod angles;
 mod conditions;
 mod fields;
+mod finer;
 mod generics;
 mod ground;
 mod heating;
+mod history;
 mod implicit;
 mod inputs;
 mod levels;
@@ -33,7 +38,9 @@ mod parameters;
 mod readout;
 mod response;
 mod rows;
+mod sharp;
 mod stem;
+mod stuck;
 mod time;
 mod user;
 mod waves;
@@ -44,6 +51,7 @@ use std::sync::LazyLock;
 use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
 
+pub use finer::Finer;
 pub use ground::{Ground, Node};
 
 use super::evidence;
@@ -148,6 +156,8 @@ pub struct Cell {
     pub typical: Option<f64>,
     /// A sentence of the user's own.
     pub description: Option<String>,
+    /// Odds beforehand, over those of a usual effect.
+    pub odds: f64,
 }
 
 impl Cell {
@@ -160,6 +170,7 @@ impl Cell {
             variants,
             typical: None,
             description: None,
+            odds: 1.0,
         }
     }
 }
@@ -304,6 +315,7 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells.extend(angles::cells(ground));
     cells.extend(rows::cells(ground));
     cells.extend(readout::cells(ground));
+    cells.extend(stuck::cells(ground));
     cells.extend(stem::cells(ground));
     cells.extend(heating::cells(ground));
     cells.extend(user::cells(ground));
@@ -318,6 +330,7 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     };
     cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
     let mut cells = distinct(cells);
+    ground.finer.prune(&mut cells);
     cells.extend(generics::cells(ground));
     cells
 }

@@ -66,6 +66,23 @@ pub fn late(t: &[f64], x: &[f64], tau: f64) -> Vec<f64> {
     }
 }
 
+/// The course a time `delay` earlier, along straight lines between the rows; where the recording had not
+/// begun, or is over, along the line of its ends.
+pub fn delayed(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
+    if t.len() < 2 {
+        return x.to_vec();
+    }
+    let at = |then: f64| {
+        let above = t.partition_point(|t| *t <= then).clamp(1, t.len() - 1);
+        let step = t[above] - t[above - 1];
+        if step <= 0.0 {
+            return x[above];
+        }
+        x[above - 1] + (x[above] - x[above - 1]) * (then - t[above - 1]) / step
+    };
+    t.iter().map(|t| at(t - delay)).collect()
+}
+
 /// Rate of change, by differences over the neighbouring rows.
 pub fn rate(t: &[f64], x: &[f64]) -> Vec<f64> {
     let last = x.len().saturating_sub(1);
@@ -187,6 +204,14 @@ mod tests {
         let t: Vec<f64> = (0..400).map(|i| 0.1 * f64::from(i)).collect();
         let lagged = lag(&t, &t, 2.0);
         assert!((lagged[399] - (t[399] - 2.0)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_delayed_course_is_what_was() {
+        let t = [0.0, 1.0, 2.0, 4.0];
+        let x = [0.0, 1.0, 4.0, 0.0];
+        assert_eq!(delayed(&t, &x, 1.0), [-1.0, 0.0, 1.0, 2.0]);
+        assert_eq!(delayed(&t, &x, -1.0), [1.0, 4.0, 2.0, -2.0]);
     }
 
     #[test]

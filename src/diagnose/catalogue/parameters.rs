@@ -63,7 +63,7 @@ fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
         let text = format!("({name} - {})", figure(mean(x)));
         add("parameter-sensitivity", name, vec![(centred(x), text)]);
     }
-    if ground.is_timed() {
+    if ground.clock.column.is_some() {
         let along = ground.along_time();
         let text = format!("({along} - {})", figure(mean(&ground.clock.values)));
         add(

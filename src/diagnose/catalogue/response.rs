@@ -1,11 +1,11 @@
 //! How the response to the stimuli may differ from the declared one: powers, modulus, limits, cross terms,
-//! lag, history.
+//! lag.
 
-use super::ground::{Ground, Node, varies};
+use super::ground::{Ground, Node};
 use super::modifiers::{
-    centred, creeps, direction, figure, grid, late, map, map2, mean, play, range, rate,
-    typical_step,
+    centred, creeps, delayed, figure, grid, late, map, map2, mean, range, rate,
 };
+use super::sharp::{best_pair, sharpened};
 use super::{Cell, Term, Variants, Variation, Words, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
@@ -25,11 +25,13 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let (direct, factors): (Vec<usize>, Vec<usize>) =
         used.iter().partition(|column| ground.is_direct(**column));
     let mut cells = aside(ground, &factors);
+    cells.extend(factors.iter().flat_map(|c| bends(ground, *c)));
     for column in &direct {
         cells.extend(powers(ground, *column));
+        cells.extend(exponent(ground, *column));
         cells.extend(super::limits::cells(ground, *column));
         cells.extend(dynamics(ground, *column));
-        cells.extend(history(ground, *column));
+        cells.extend(super::history::cells(ground, *column));
     }
     for (at, x) in direct.iter().enumerate() {
         for z in &direct[at + 1..] {
@@ -141,6 +143,68 @@ fn aside(ground: &Ground<'_>, factors: &[usize]) -> Vec<Cell> {
     vectors.iter().map(of_vector).collect()
 }
 
+/// Another exponent, where the model is a power of a quantity other than the first and has no zero besides:
+/// the flow through an orifice, light at a distance, radiation of a hot body.
+fn exponent(ground: &Ground<'_>, column: usize) -> Option<Cell> {
+    /// Exponents so near to one another are the same.
+    const SAME: f64 = 1e-3;
+    /// Below it a quantity only corrects the output.
+    const WEAK: f64 = 0.1;
+    let x = ground.numbers(column);
+    let one_output = ground.case().responses.len() == 1 && ground.constant_terms(0).is_empty();
+    if !one_output || range(x).0 <= 0.0 {
+        return None;
+    }
+    let slope = ground.slope(Node::Column(column), 0);
+    let powers: Vec<f64> = (x.iter().zip(&slope).zip(ground.signal(0)))
+        .map(|((x, slope), y)| x * slope / y)
+        .collect();
+    let (least, most) = range(&powers);
+    let steady = (most - least).is_finite() && most - least <= SAME;
+    if !steady || (least - 1.0).abs() < SAME || least.abs() < WEAK {
+        return None;
+    }
+    let label = name(ground, column);
+    let middle = libm::exp(mean(&map(x, libm::log)));
+    let modifier = map(x, |x| libm::log(x / middle));
+    let text = format!("ln({label}/{})", figure(middle));
+    let variants = vec![(String::new(), vec![(modifier, text)])];
+    Some(on_node(
+        ground,
+        "exponent",
+        words(ground, label),
+        label,
+        Node::Gain,
+        variants,
+    ))
+}
+
+/// Curvature of the response to a factor of a product of quantities of different kinds, such as current times
+/// field: each of them may bend by itself. Direction cosines and switches do not.
+fn bends(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
+    /// Through fewer values a cube goes anyhow.
+    const VALUES: usize = 5;
+    let columns = &ground.case().columns;
+    let used = |c: &usize| ground.in_model(*c) && columns[*c].role == Role::Stimulus;
+    let has_cosines = (0..columns.len())
+        .filter(used)
+        .any(|c| columns[c].unit.is_one());
+    let x = ground.numbers(column);
+    let one_output = ground.case().responses.len() == 1;
+    if has_cosines || !one_output || ground.is_angle(column) || levels_of(x).len() < VALUES {
+        return Vec::new();
+    }
+    let (size, label) = (super::modifiers::largest(x), name(ground, column));
+    let power = |id: &str, exponent: i32| {
+        let modifier = map(x, |x| x * (x / size).powi(exponent - 1));
+        let text = format!("{label}^{exponent}/{}", figure(size.powi(exponent - 1)));
+        let variants = vec![(String::new(), vec![(modifier, text)])];
+        let node = Node::Column(column);
+        on_node(ground, id, words(ground, label), label, node, variants)
+    };
+    vec![power("quadratic", 2), power("cubic", 3)]
+}
+
 fn name<'g>(ground: &'g Ground<'_>, column: usize) -> &'g str {
     ground.label(column)
 }
@@ -181,8 +245,38 @@ fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     );
     if crosses_zero(x) {
         add("asymmetry", map(x, f64::abs), format!("abs({label})"));
+    } else {
+        cells[0].variants.extend(levelling(x, label));
     }
     cells
+}
+
+/// A square that levels off, as counting losses of a dead time do, and detectors near their limit.
+fn levelling(x: &[f64], label: &str) -> Vec<Variation> {
+    /// Where the loss is a half, in units of the largest value.
+    const HALF: [f64; 3] = [0.5, 1.0, 3.0];
+    let most = super::modifiers::largest(x);
+    let of = |part: f64| {
+        let half = part * most;
+        let modifier = map(x, |x| x * x / (1.0 + x.abs() / half));
+        let shown = figure(half);
+        let text = format!("{label}^2/(1 + abs({label})/{shown})");
+        Variation::one(
+            format!("levelling off, half at {shown}"),
+            on_output(modifier, text),
+        )
+    };
+    if x.iter().all(|x| *x >= 0.0) && least_share(x) < 0.3 {
+        HALF.map(of).into()
+    } else {
+        Vec::new()
+    }
+}
+
+/// The smallest value as a share of the largest.
+fn least_share(x: &[f64]) -> f64 {
+    let (least, most) = range(x);
+    least / most
 }
 
 /// Whether numbers go well to both sides of zero.
@@ -225,9 +319,12 @@ pub(super) fn time_constants(ground: &Ground<'_>) -> Vec<f64> {
 }
 
 fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
+    /// How many times slower the slower of two bodies is.
+    const APART: [f64; 2] = [4.0, 12.0];
     if !ground.is_timed() {
         return Vec::new();
     }
+    let slowest = ground.clock.span();
     let (x, label) = (ground.numbers(column), name(ground, column));
     let t = &ground.clock.values;
     let unit = ground.time_unit();
@@ -237,22 +334,44 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     } else {
         "lag"
     };
-    let scales = time_constants(ground);
     let lacks = |tau: f64| {
         let modifier = map2(&late(t, x, tau), x, |late, x| late - x);
         let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
         Term::new(node, modifier, text)
     };
-    let single = scales.iter().map(|tau| {
+    let scales = sharpened(ground, time_constants(ground), &lacks);
+    let singles = ground.finer.times(scales.clone());
+    let single = singles.iter().map(|tau| {
         let label = format!("τ = {} {unit}", figure(*tau));
         Variation::one(label, lacks(*tau)).shaped("τ", *tau, &unit)
     });
     // Two bodies, one in the other.
-    let double = scales.iter().step_by(2).map(|tau| {
-        let label = format!("τ = {} and {} {unit}", figure(*tau), figure(4.0 * tau));
-        Variation::of(label, vec![lacks(*tau), lacks(4.0 * tau)])
+    let double = scales.iter().step_by(2).flat_map(|tau| {
+        let slower = APART.map(|times| times * tau);
+        let slower = slower.into_iter().filter(|slow| *slow <= slowest);
+        slower.map(|slow| {
+            let label = format!("τ = {} and {} {unit}", figure(*tau), figure(slow));
+            Variation::of(label, vec![lacks(*tau), lacks(slow)])
+        })
     });
-    let variants = single.chain(double);
+    let free = best_pair(ground, &scales, &lacks).map(|(quick, slow)| {
+        let label = format!("τ = {} and {} {unit}", figure(quick), figure(slow));
+        Variation::of(label, vec![lacks(quick), lacks(slow)])
+    });
+    // What the recording begins with was on its way already.
+    let began = t.first().copied().unwrap_or(0.0);
+    let unbalanced = scales.iter().filter(|_| creeps(x)).map(|tau| {
+        let shown = figure(*tau);
+        let start = map(t, |t| libm::exp(-(t - began) / tau));
+        let start = Term::new(
+            node,
+            start,
+            format!("exp(-(t - {})/{shown})", figure(began)),
+        );
+        let label = format!("τ = {shown} {unit}, not in balance at the start");
+        Variation::of(label, vec![lacks(*tau), start]).shaped("τ", *tau, &unit)
+    });
+    let variants = single.chain(double).chain(free).chain(unbalanced);
     let lagged = Cell::new(
         id,
         words(ground, label),
@@ -262,16 +381,15 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         },
         variants.collect(),
     );
+    let instant = Variation::one("", Term::new(node, rate(t, x), format!("d{label}/dt")));
+    let (id, delays) = if ground.is_temperature(column) {
+        ("temperature-rate", Vec::new())
+    } else {
+        ("timing-skew", delays(ground, column))
+    };
     let skew = Cell {
-        effect: effect(if ground.is_temperature(column) {
-            "temperature-rate"
-        } else {
-            "timing-skew"
-        }),
-        variants: vec![Variation::one(
-            "",
-            Term::new(node, rate(t, x), format!("d{label}/dt")),
-        )],
+        effect: effect(id),
+        variants: [instant].into_iter().chain(delays).collect(),
         ..lagged.clone()
     };
     if creeps(x) {
@@ -281,89 +399,26 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     }
 }
 
-fn history(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
+/// Delays of more than a part of the interval, in which a course bends: the course as it was then, and its
+/// rate for what the delay differs from that.
+fn delays(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
     let (x, label) = (ground.numbers(column), name(ground, column));
-    let way = direction(x);
-    let rising = way.iter().filter(|way| **way > 0.0).count();
-    let both = rising.min(way.len() - rising) * 10 >= way.len();
-    if !both || !repeats(x) {
-        return Vec::new();
-    }
-    let mut cells = vec![plain(ground, "hysteresis", label, loops(x, &way, label))];
-    let (least, most) = range(x);
-    let unit = ground.case().columns[column].unit.typeset();
-    let step = typical_step(x);
-    let widths = grid((most - least) * 1e-3, (most - least) * 0.3, 3.0, 6);
-    let widths = widths
-        .into_iter()
-        .filter(|width| *width < 2.0 * step || step == 0.0);
-    let variants = widths.map(|width| {
-        let modifier = map2(&play(x, width), x, |played, x| (played - x) / width);
-        let term = Term::new(
-            Node::Column(column),
-            modifier,
-            format!(
-                "(play({label}, {width}) - {label})/{width}",
-                width = figure(width)
-            ),
-        );
-        Variation::one(format!("gap {width} {unit}", width = figure(width)), term)
+    let t = &ground.clock.values;
+    let unit = ground.time_unit();
+    let longest = (20.0 * ground.clock.interval()).min(ground.clock.span() / 20.0);
+    let sizes = grid(ground.clock.interval(), longest, 1.6, 8);
+    let both = sizes.iter().flat_map(|size| [*size, -size]);
+    let variants = both.map(|delay| {
+        let then = delayed(t, x, delay);
+        let shown = format!("{label}(t - {} {unit})", figure(delay));
+        let moved = map2(&then, x, |then, now| then - now);
+        let terms = vec![
+            Term::new(Node::Column(column), moved, format!("({shown} - {label})")),
+            Term::new(Node::Column(column), rate(t, &then), format!("d{shown}/dt")),
+        ];
+        Variation::of(format!("by about {} {unit}", figure(delay)), terms)
     });
-    // A gap far below the steps is the direction alone.
-    let wide: Vec<Variation> = variants.filter(|v| varies(&v.terms[0].modifier)).collect();
-    if step < 0.3 * (most - least)
-        && ground.case().columns[column].role == Role::Stimulus
-        && !wide.is_empty()
-    {
-        cells.push(plain(ground, "play", label, wide));
-    }
-    cells
-}
-
-/// Shapes of a loop: a constant offset between both ways, a loop that is closed at both ends of the range
-/// and widest between them, and the same on one of the ways only.
-fn loops(x: &[f64], way: &[f64], label: &str) -> Vec<Variation> {
-    let (least, most) = range(x);
-    let half = (most - least) / 2.0;
-    let wide = map(x, |x| (x - least) * (most - x) / (half * half));
-    let shape = format!(
-        "({label} - {least})*({most} - {label})/{square}",
-        least = figure(least),
-        most = figure(most),
-        square = figure(half * half)
-    );
-    let direction = format!("direction({label})");
-    let on_one = |sign: f64| map2(&wide, way, |wide, way| wide * (1.0 + sign * way) / 2.0);
-    [
-        ("", way.to_vec(), direction.clone()),
-        (
-            "widest in the middle",
-            map2(&wide, way, |wide, way| wide * way),
-            format!("{direction}*{shape}"),
-        ),
-        (
-            "on rising values only, widest in the middle",
-            on_one(1.0),
-            format!("[rising]*{shape}"),
-        ),
-        (
-            "on falling values only, widest in the middle",
-            on_one(-1.0),
-            format!("[falling]*{shape}"),
-        ),
-    ]
-    .into_iter()
-    .map(|(variant, modifier, text)| Variation::one(variant, on_output(modifier, text)))
-    .collect()
-}
-
-/// Whether values come again on the way back, roughly.
-fn repeats(x: &[f64]) -> bool {
-    direction(x)
-        .windows(2)
-        .filter(|pair| pair[0] != pair[1])
-        .count()
-        > 0
+    variants.collect()
 }
 
 fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {

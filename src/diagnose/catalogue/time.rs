@@ -4,7 +4,8 @@ use super::conditions::single;
 use super::ground::{Ground, Node};
 use super::modifiers::{centred, figure, grid, map, range};
 use super::response::{on_node, words};
-use super::{Cell, Variants};
+use super::sharp::{self, sharpened};
+use super::{Cell, Modifier, Term, Variants};
 use crate::diagnose::case::Role;
 
 /// More steps than that are not scanned.
@@ -26,7 +27,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         .columns
         .iter()
         .any(|column| matches!(column.role, Role::Run | Role::Factor));
-    if (factors && !ground.is_timed()) || !ground.is_ordered() {
+    if (factors && ground.clock.column.is_none()) || !ground.is_ordered() {
         return Vec::new();
     }
     let nodes = if ground.has_signal() {
@@ -64,7 +65,12 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     );
     let mut drifts = steady;
     if ground.is_timed() {
-        drifts.extend(curved(ground, &since, &scales));
+        let slowing = |scale: f64| {
+            let modifier = map(&since, |t| libm::log1p(t / scale));
+            Term::new(Node::Output, modifier, String::new())
+        };
+        let scales = sharpened(ground, scales.clone(), &slowing);
+        drifts.extend(curved(ground, &since, &ground.finer.times(scales)));
     }
     add(["drift", "drift-scale"], drifts, Some("t₀"));
     add(["step", "step-scale"], steps(ground, &along), None);
@@ -74,7 +80,10 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             let modifier = map(&since, |t| libm::exp(-t / tau));
             (modifier, format!("exp(-t/{})", figure(tau)))
         };
-        let single = scales.iter().map(|tau| {
+        let warming = |tau: f64| Term::new(Node::Output, decay(tau).0, String::new());
+        let scales = sharpened(ground, scales, &warming);
+        let singles = ground.finer.times(scales.clone());
+        let single = singles.iter().map(|tau| {
             let label = format!("τ = {} {unit}", figure(*tau));
             (label, vec![decay(*tau)])
         });
@@ -169,20 +178,54 @@ fn steps(ground: &Ground<'_>, along: &str) -> Variants {
             vec![(modifier.collect(), format!("[row >= {}]", first + 1))],
         )
     };
-    // Where a run begins, a shift has the name of the run.
-    let begins = |block: &usize| {
-        let (now, before) = (blocks[*block][0], blocks[*block - 1][0]);
-        ground
-            .case()
-            .columns
-            .iter()
-            .filter_map(|column| column.labels())
-            .any(|labels| {
-                labels.levels.len() * 3 < 2 * blocks.len()
-                    && labels.of_row[now] != labels.of_row[before]
-            })
-    };
+    let begins = |block: &usize| begins(ground, blocks[*block][0]);
     let first = stride.max(2);
     let scanned = (first..blocks.len().saturating_sub(1)).step_by(stride);
-    scanned.filter(|block| !begins(block)).map(at).collect()
+    let mut variants: Variants = scanned.filter(|block| !begins(block)).map(at).collect();
+    variants.extend(between(ground, along, stride));
+    variants
+}
+
+/// Whether a run begins with a row: a shift there has the name of the run.
+fn begins(ground: &Ground<'_>, row: usize) -> bool {
+    let labels = ground.case().columns.iter().filter_map(|c| c.labels());
+    let blocks = ground.frame.blocks.len();
+    labels
+        .filter(|labels| labels.levels.len() * 3 < 2 * blocks)
+        .any(|labels| row > 0 && labels.of_row[row] != labels.of_row[row - 1])
+}
+
+/// The best row for a step, where blocks are skipped or hold several rows; nothing where the others have it.
+fn between(ground: &Ground<'_>, along: &str, stride: usize) -> Option<(String, Vec<Modifier>)> {
+    let blocks = &ground.frame.blocks;
+    let from = |row: usize| -> Vec<f64> {
+        let after = |at: usize| f64::from(u8::from(at >= row));
+        (0..ground.rows()).map(after).collect()
+    };
+    let term = |row: usize| Term::new(Node::Output, from(row), String::new());
+    let whole = blocks.iter().all(|rows| rows.len() == 1);
+    if whole && stride == 1 || blocks.len() < 4 {
+        return None;
+    }
+    let starts: Vec<usize> = (2..blocks.len() - 1)
+        .map(|block| blocks[block][0])
+        .collect();
+    let best = sharp::best(ground, &mut starts.iter().map(|row| term(*row)))?;
+    let near = starts[best.saturating_sub(1)]..starts[(best + 1).min(starts.len() - 1)];
+    let row = near.start + sharp::best(ground, &mut near.map(term))?;
+    // Next to the beginning of a run it is the run that differs.
+    let reach = stride * blocks[0].len();
+    let around = row.saturating_sub(reach)..(row + reach + 1).min(ground.rows());
+    if { around }.any(|row| begins(ground, row)) {
+        return None;
+    }
+    let label = match ground.clock.column {
+        Some(_) => format!(
+            "at {along} = {} {}",
+            figure(ground.clock.values[row]),
+            ground.time_unit()
+        ),
+        None => format!("at row {}", row + 1),
+    };
+    Some((label, vec![(from(row), format!("[row >= {}]", row + 1))]))
 }

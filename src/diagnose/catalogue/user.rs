@@ -40,6 +40,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             )],
             typical: candidate.typical,
             description: candidate.description.clone(),
+            odds: 1.0,
         }
     };
     case.candidates.iter().map(build).collect()

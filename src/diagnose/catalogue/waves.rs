@@ -1,5 +1,6 @@
 //! Waves of a constant period over a stimulus, the time or the order of the rows: the pitch of a lead screw,
-//! a grating, interference, hum, a beat with the sampling.
+//! a grating, interference, hum, a beat with the sampling; and over an angle, as many whole ones per turn as a
+//! graduation or a gear has lines or teeth.
 
 use std::f64::consts::TAU;
 
@@ -25,36 +26,50 @@ const PEAKS: usize = 3;
 /// What a wave may follow.
 struct Course {
     name: String,
+    /// What reports call it: where a stimulus went on with the time, both.
+    words: String,
     unit: String,
     values: Vec<f64>,
 }
 
 /// One cell for each course.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    courses(ground)
+    let mut cells: Vec<Cell> = courses(ground)
         .iter()
         .filter_map(|course| wave(ground, course))
-        .collect()
+        .collect();
+    let turning = super::angles::angles(ground).into_iter();
+    cells.extend(turning.filter_map(|column| lines(ground, column)));
+    cells
 }
 
 fn courses(ground: &Ground<'_>) -> Vec<Course> {
     let case = ground.case();
-    let mut courses: Vec<Course> = (0..case.columns.len())
-        .filter(|column| case.columns[*column].role == Role::Stimulus && ground.in_model(*column))
-        .map(|column| Course {
-            name: case.columns[column].name.clone(),
-            unit: ground.unit(column),
-            values: ground.numbers(column).to_vec(),
-        })
-        .collect();
     // Where a stimulus or an angle went on with the time, a wave is one over that.
     let goes_on = |column: &usize| {
         matches!(case.columns[*column].role, Role::Stimulus | Role::Angle)
             && correlation(ground.numbers(*column), &ground.clock.values).abs() > 0.999
     };
+    let called = |column: usize| {
+        let name = &case.columns[column].name;
+        match ground.is_timed() && goes_on(&column) {
+            true => format!("{name} ({})", ground.along_time()),
+            false => name.clone(),
+        }
+    };
+    let mut courses: Vec<Course> = (0..case.columns.len())
+        .filter(|column| case.columns[*column].role == Role::Stimulus && ground.in_model(*column))
+        .map(|column| Course {
+            name: case.columns[column].name.clone(),
+            words: called(column),
+            unit: ground.unit(column),
+            values: ground.numbers(column).to_vec(),
+        })
+        .collect();
     if ground.is_ordered() && !(0..case.columns.len()).any(|column| goes_on(&column)) {
         courses.push(Course {
             name: ground.along_time(),
+            words: ground.along_time(),
             unit: ground.time_unit(),
             values: ground.clock.values.clone(),
         });
@@ -105,10 +120,39 @@ fn wave(ground: &Ground<'_>, course: &Course) -> Option<Cell> {
     Some(on_outputs(
         ground,
         "wave",
-        words(ground, &course.name),
+        words(ground, &course.words),
         &course.name,
         variants,
     ))
+}
+
+/// Whole numbers of waves per turn, beyond those of wobble and eccentricity, as far as the positions on the
+/// circle tell them apart.
+fn lines(ground: &Ground<'_>, column: usize) -> Option<Cell> {
+    /// Fewer positions are those of a test in steps, not of a scan of a graduation.
+    const POSITIONS: usize = 64;
+    let phi = super::angles::radians(ground, column);
+    let positions = super::angles::positions(&phi);
+    let (least, most) = range(&phi);
+    if positions < POSITIONS || ground.frame.blocks.len() < ground.rows() {
+        return None;
+    }
+    let name = ground.label(column);
+    let shows = |k: &u32| f64::from(*k) * (most - least) > FEWEST_PERIODS * TAU;
+    let last = u32::try_from((positions - 1) / 2).ok()?;
+    let variants: Variants = (super::angles::HIGHEST + 1..=last)
+        .filter(shows)
+        .map(|k| {
+            let of = |wave: fn(f64) -> f64| map(&phi, |phi| wave(f64::from(k) * phi));
+            let terms = vec![
+                (of(libm::sin), format!("sin({k}*{name})")),
+                (of(libm::cos), format!("cos({k}*{name})")),
+            ];
+            (format!("{k} per turn"), terms)
+        })
+        .collect();
+    let words = words(ground, name);
+    Some(on_outputs(ground, "wave", words, name, variants))
 }
 
 /// Moves the frequencies next to the highest peaks of the residuals' spectrum onto them: a line between two

@@ -60,16 +60,19 @@ fn cell(ground: &Ground<'_>, id: &str, node: Node, modifier: Vec<f64>, text: &st
 }
 
 /// What the parameters of the model take away from a regressor.
-struct Absorbed {
+pub(super) struct Absorbed {
     /// Orthonormal directions, observations × at most the number of unknowns.
     basis: DMatrix<f64>,
 }
 
 impl Absorbed {
-    fn by_parameters(ground: &Ground<'_>) -> Absorbed {
+    pub(super) fn by_parameters(ground: &Ground<'_>) -> Absorbed {
         /// Directions with a smaller part of the largest singular value are noise of the arithmetic.
         const LEAST: f64 = 1e-9;
         let mut slopes = ground.fit.jacobian.clone();
+        if slopes.ncols() == 0 {
+            return Absorbed { basis: slopes };
+        }
         for mut column in slopes.column_iter_mut() {
             let norm = column.norm();
             if norm > 0.0 {
@@ -86,8 +89,18 @@ impl Absorbed {
         }
     }
 
-    fn leaves(&self, column: &DVector<f64>) -> bool {
-        let rest = column - &self.basis * self.basis.tr_mul(column);
-        rest.norm() > LEFT * column.norm()
+    /// What the parameters leave of a regressor.
+    pub(super) fn rest(&self, column: &DVector<f64>) -> DVector<f64> {
+        column - &self.basis * self.basis.tr_mul(column)
+    }
+
+    /// Directions that the parameters take up.
+    pub(super) fn directions(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    /// Whether something of a regressor is left.
+    pub(super) fn leaves(&self, column: &DVector<f64>) -> bool {
+        self.rest(column).norm() > LEFT * column.norm()
     }
 }

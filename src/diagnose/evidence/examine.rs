@@ -8,12 +8,12 @@ use super::closed_form::Scale;
 use super::confusion::confusions;
 use super::findings::{Examination, Fitted, Invisible, Slot, State, Verdict};
 use super::fit::fitted;
-use super::guard::{Again, leftover, margin, stands, unlisted};
+use super::guard::{Again, Rivalry, leftover, unlisted};
 use super::kin;
 use super::null::Simulated;
 use super::question::{Question, Refusal, Shape};
 use super::search::{Search, frame_of, search};
-use super::slots::{Member, slot};
+use super::slots::{Member, contest, slot};
 use super::space::Space;
 
 /// Up to this probability of generics the named set stands.
@@ -53,13 +53,14 @@ pub fn examine(
     let generic_probability = search.generic_probability();
     let explanation = explanation(&search, generic_probability);
     let (named, generic) = (&explanation.named, explanation.generic);
-    let mut slots = slots(&space, question, named, generic, &again);
+    let mut slots = slots(&space, question, &search, &explanation, &again);
     let competitor = if named.is_empty() {
         None
     } else {
         unlisted(&space)
     };
-    let margin = (competitor.as_ref()).map_or(f64::INFINITY, |other| margin(&space, named, other));
+    let rivalry = (competitor.as_ref())
+        .map_or_else(Rivalry::default, |other| Rivalry::new(&space, named, other));
     let leftover = match &competitor {
         Some(other) if generic.is_none() => leftover(&space, named, other, &simulated),
         _ => 1.0,
@@ -69,11 +70,25 @@ pub fn examine(
     }
     let set = frame_of(&space, named);
     let explained = explained(&space, set.fit, set.basis.ncols());
-    let contested = explanation.contested || (!named.is_empty() && !stands(margin, named.len()));
-    let excess = space.z.norm_squared() - space.dof as f64;
-    let open = contested || verdict(&slots, explained) == Verdict::Unexplained;
-    if open {
-        doubt(&mut slots, excess);
+    let stands = rivalry.stands(named.len());
+    let contested = explanation.contested || (!named.is_empty() && !stands);
+    if contested || verdict(&slots, explained) == Verdict::Unexplained {
+        let mut kept = if contested { named.clone() } else { Vec::new() };
+        if explanation.contested {
+            let rival = search.best_with_generic().map_or(&[][..], |set| &set.named);
+            kept.retain(|block| rival.contains(block));
+        }
+        if !stands {
+            kept.retain(|block| rivalry.kept.contains(block));
+        }
+        doubt(&space, question, &mut slots, &kept);
+    } else if verdict(&slots, explained) == Verdict::Partly {
+        let excess = space.z.norm_squared() - space.dof as f64;
+        for slot in &mut slots {
+            if !dominates(slot, excess) && describes(question, slot) {
+                slot.state = State::Unexplained;
+            }
+        }
     }
     let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
         Verdict::None
@@ -91,7 +106,7 @@ pub fn examine(
         slots,
         explained,
         generic_probability,
-        margin,
+        margin: rivalry.margin.unwrap_or(f64::INFINITY),
         leftover,
         chi_squared: question.baseline.chi_squared(),
         dof: question.baseline.dof(),
@@ -155,10 +170,11 @@ fn nameless() -> Slot {
 fn slots(
     space: &Space,
     question: &Question,
-    named: &[usize],
-    generic: Option<usize>,
+    search: &Search,
+    explanation: &Explanation,
     again: &Again,
 ) -> Vec<Slot> {
+    let (named, generic) = (&explanation.named[..], explanation.generic);
     let members = named
         .iter()
         .map(|block| Member::Named(*block))
@@ -169,7 +185,11 @@ fn slots(
                 Member::Named(block) => Some(block),
                 Member::Generic(_) => None,
             };
-            (block, slot(space, question, named, generic, member, again))
+            let mut slot = slot(space, question, named, generic, member, again);
+            if let Some(block) = block {
+                contest(space, question, search, named, block, &mut slot);
+            }
+            (block, slot)
         })
         .collect();
     // The strongest effect first, what has no name last.
@@ -191,12 +211,37 @@ fn slots(
     slots.into_iter().map(|(_, slot)| slot).collect()
 }
 
-/// Names are tentative where something without a name may be most of what was found.
-fn doubt(slots: &mut [Slot], excess: f64) {
+/// Whether an effect is most of the excess of χ².
+fn dominates(slot: &Slot, excess: f64) -> bool {
+    let strength = slot.named.first().map_or(0.0, |first| first.lambda);
+    strength * strength >= DOMINANT * excess
+}
+
+/// Whether a name says what something looks like, and not what it is.
+fn describes(question: &Question, slot: &Slot) -> bool {
+    let first = slot.named.first();
+    first.is_some_and(|first| question.candidates[first.candidate].describes)
+}
+
+/// Names are tentative where something without a name may be most of what was found, or look like them.
+/// `kept` are the effects that every rival explanation has as well: these may share what they explain with
+/// others.
+fn doubt(space: &Space, question: &Question, slots: &mut [Slot], kept: &[usize]) {
+    let excess = space.z.norm_squared() - space.dof as f64;
     for slot in slots {
-        let strength = slot.named.first().map_or(0.0, |first| first.lambda);
-        let most = strength * strength >= DOMINANT * excess;
-        if !most || slot.generic_share > DOUBTFUL {
+        let firm = {
+            let block = |index: &&usize| {
+                let candidate = space.blocks[**index].candidate;
+                slot.named.iter().any(|named| named.candidate == candidate)
+            };
+            let alone = kept.iter().find(block).map_or(0.0, |index| {
+                let own = space.places(*index);
+                let components = space.components.rows(own.start, own.len());
+                components.norm_squared()
+            });
+            alone >= DOMINANT * excess || dominates(slot, excess)
+        };
+        if !firm || describes(question, slot) || slot.generic_share > DOUBTFUL {
             slot.state = State::Unexplained;
         }
     }

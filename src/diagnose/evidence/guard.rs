@@ -5,7 +5,7 @@
 //! whose covariance matrix is the average of AAᵀ over all named atoms (each of unit length, candidates
 //! alike). A named set has to be better by far than this competitor, alone or with a part of the set.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -24,7 +24,7 @@ const DRAWS: usize = 2048;
 const HELD: f64 = 0.9;
 /// Logarithm of the Bayes factor from which on a generic says more than the named effects.
 const MORE: f64 = 1.0;
-/// Logarithm of the odds that a generic loses that says nothing more.
+/// Logarithm of the odds that a generic loses that says nothing more, for each effect that it says again.
 const DISCOUNT: f64 = 3.0;
 /// Directions of the competitor.
 const DIRECTIONS: usize = 40;
@@ -100,25 +100,47 @@ fn condensed(directions: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> 
     basis * half
 }
 
-/// By how much (logarithm of the odds, without prior odds of the competitor) a named set is better than
-/// the competitor with the best part of the set.
-pub(super) fn margin(space: &Space, named: &[usize], competitor: &Block) -> f64 {
-    let Some(whole) = space.frame(named) else {
-        return f64::INFINITY;
-    };
-    let own = space.score(&whole);
-    let count = named.len();
-    let rival = (0..(1_usize << count) - 1)
-        .filter_map(|subset| {
-            let part: Vec<usize> = (0..count)
-                .filter(|i| subset & (1 << i) != 0)
-                .map(|i| named[i])
-                .collect();
+/// A named set against the competitor with the best part of the set.
+#[derive(Debug, Default)]
+pub(super) struct Rivalry {
+    /// By how much the set is better: logarithm of the odds, without prior odds of the competitor. Infinite
+    /// where nothing competes.
+    pub(super) margin: Option<f64>,
+    /// The part of the set that the competitor needs.
+    pub(super) kept: Vec<usize>,
+}
+
+impl Rivalry {
+    pub(super) fn new(space: &Space, named: &[usize], competitor: &Block) -> Rivalry {
+        let Some(whole) = space.frame(named) else {
+            return Rivalry::default();
+        };
+        let own = space.score(&whole);
+        let count = named.len();
+        let rivals = (0..(1_usize << count) - 1).filter_map(|subset| {
+            let part = (0..count).filter(|i| subset & (1 << i) != 0);
+            let part: Vec<usize> = part.map(|i| named[i]).collect();
             let frame = space.frame(&part)?;
-            Some(space.score(&frame) + beside(space, &frame, competitor)?)
-        })
-        .fold(f64::NEG_INFINITY, f64::max);
-    own - rival
+            Some((
+                space.score(&frame) + beside(space, &frame, competitor)?,
+                part,
+            ))
+        });
+        match rivals.max_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((score, kept)) => Rivalry {
+                margin: Some(own - score),
+                kept,
+            },
+            None => Rivalry::default(),
+        }
+    }
+
+    /// Whether a set of so many effects stands. Several effects have to be better than one that is not
+    /// listed; a single one that is worse would not have passed the gate as complete, and where it is one of
+    /// a list, the list and not the set would have to be compared.
+    pub(super) fn stands(&self, effects: usize) -> bool {
+        effects < 2 || self.margin.is_none_or(|margin| margin >= 0.0)
+    }
 }
 
 /// Probability that as much is left beside a set as there is, if the set is all there is: of the
@@ -167,8 +189,10 @@ pub(super) fn leftover(
 
 /// Generics that only say again what named effects say: a curve over the supply contains the straight
 /// line, and where the line fits, the line is meant.
+///
+/// For each of them, how many effects of the set it says again.
 #[derive(Debug, Default)]
-pub(super) struct Again(BTreeSet<usize>);
+pub(super) struct Again(BTreeMap<usize, usize>);
 
 impl Again {
     /// Those that hold an effect of a set nearly whole and explain nothing beside the set.
@@ -194,24 +218,23 @@ impl Again {
                 rest.evidence(squares, &beside.residual) > MORE
             })
         };
-        let generics = space.blocks.iter().enumerate().filter(|(_, block)| {
-            matches!(block.form, Form::Smooth(_))
-                && effects.iter().any(|effect| {
-                    let held = block.basis.tr_mul(effect).norm_squared();
-                    held > HELD * effect.norm_squared()
-                })
+        let generics = (space.blocks.iter().enumerate())
+            .filter(|(_, block)| matches!(block.form, Form::Smooth(_)));
+        let again = generics.map(|(index, block)| {
+            let holds = |effect: &&DVector<f64>| {
+                let held = block.basis.tr_mul(*effect).norm_squared();
+                held > HELD * effect.norm_squared()
+            };
+            (index, effects.iter().filter(holds).count())
         });
-        let again = generics.map(|(index, _)| index);
-        Again(again.filter(|generic| !says_more(*generic)).collect())
+        let again = again.filter(|(generic, held)| *held > 0 && !says_more(*generic));
+        Again(again.collect())
     }
 
     /// What is taken from the logarithm of the odds of a block.
     pub(super) fn discount(&self, block: usize) -> f64 {
-        if self.0.contains(&block) {
-            DISCOUNT
-        } else {
-            0.0
-        }
+        let effects = self.0.get(&block).copied().unwrap_or(0);
+        DISCOUNT * effects as f64
     }
 }
 
@@ -228,13 +251,6 @@ fn excess(residual: &Residual) -> f64 {
             }
         }
     }
-}
-
-/// Whether a named set stands against an unlisted effect. Several effects have to be better than one
-/// that is not listed; a single one that is worse would not have passed the gate as complete, and where
-/// it is one of a list, the list and not the set would have to be compared.
-pub(super) fn stands(margin: f64, effects: usize) -> bool {
-    effects < 2 || margin >= 0.0
 }
 
 fn beside(space: &Space, frame: &Frame, competitor: &Block) -> Option<f64> {

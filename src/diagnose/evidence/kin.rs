@@ -14,8 +14,10 @@ use super::fit::Estimate;
 use super::question::{Kind, Question};
 use super::space::{Block, Form, Frame, Space, joined, orthonormal, without};
 
-/// Explanations whose directions have a cosine of more than 0.995 are one: squared.
+/// Explanations whose directions have a cosine of more than 0.995 are one: squared …
 const ALIAS: f64 = 0.99;
+/// … unless the effect is so strong that what a rival leaves of it has this many standard deviations.
+const TOLD_APART: f64 = 8.0;
 /// A mixture of two variants is a rival if it leaves less than this many standard deviations …
 const KIN: f64 = 2.0;
 /// … and no more than this share of the effect (squared).
@@ -67,7 +69,9 @@ pub(super) fn listed(
         let (more, few) = (space.blocks[block].basis.ncols(), own.basis.ncols());
         let same = question.candidates[candidate].place == *place;
         let general = (same && more > few) || more > few + 1;
-        let alias = best > ALIAS && !general;
+        let left = (1.0 - best).max(0.0) * whole;
+        let near = left < (TOLD_APART * estimate.sigma).powi(2);
+        let alias = best > ALIAS && near && !general;
         let mixes = !question.candidates[candidate].repeats && variants.len() > 1;
         if alias || (mixes && kin(space, rest, &variants, estimate)) {
             found.push(candidate);
@@ -245,6 +249,8 @@ mod tests {
                 place: Place::default(),
                 typical: None,
                 repeats: false,
+                describes: false,
+                odds: 1.0,
             });
         }
         let noise = Noise::known(Covariance::Diagonal(DVector::from_element(ROWS, 1.0)));

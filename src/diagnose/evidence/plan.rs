@@ -237,6 +237,8 @@ mod tests {
                 place: Place::default(),
                 typical: None,
                 repeats: false,
+                describes: false,
+                odds: 1.0,
             })
             .collect();
         let atoms: Vec<Atom> = LAWS

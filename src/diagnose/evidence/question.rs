@@ -27,6 +27,11 @@ pub struct Candidate {
     pub typical: Option<f64>,
     /// Several of its atoms may act at once: bad rows, jumps.
     pub repeats: bool,
+    /// It says what the recording looks like (a jump, a wave, a bad row) and not why: whatever is there may
+    /// look so.
+    pub describes: bool,
+    /// Odds beforehand, over those of a usual candidate.
+    pub odds: f64,
 }
 
 /// What an atom does to the output.

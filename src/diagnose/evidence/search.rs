@@ -34,6 +34,8 @@ pub(super) struct Search {
     /// The set beside which nothing stands out.
     pub(super) complete: Option<Vec<usize>>,
     pub(super) visited: Vec<Visited>,
+    /// Named sets among them.
+    seen: BTreeSet<Vec<usize>>,
 }
 
 /// Adds effects until nothing is left that stands out.
@@ -52,6 +54,7 @@ pub(super) fn search(
             generic: None,
             score: 0.0,
         }],
+        seen: BTreeSet::new(),
     };
     let mut seeds: Vec<Vec<usize>> = Vec::new();
     let mut beam = vec![(0.0, Vec::new())];
@@ -88,12 +91,16 @@ pub(super) fn search(
         if level == question.settings.max_effects {
             break;
         }
+        beam = extend(space, question, &beam, &mut search);
         if level == 0 {
             seeds = pairs.seeds(space).into_iter().map(Vec::from).collect();
         }
-        beam = extend(space, question, &beam, &mut search.visited);
-        if level == 1 {
-            add_seeds(space, &seeds, &mut beam, &mut search.visited);
+        if level <= 1 {
+            let pairs = scored(space, &seeds);
+            search.visit(&pairs);
+            if level == 1 {
+                join(&mut beam, pairs);
+            }
         }
         let share = (level + 1) as f64 / (question.settings.max_effects + 2) as f64;
         if progress(share).is_break() {
@@ -108,7 +115,7 @@ fn extend(
     space: &Space,
     question: &Question,
     beam: &[(f64, Vec<usize>)],
-    visited: &mut Vec<Visited>,
+    search: &mut Search,
 ) -> Vec<(f64, Vec<usize>)> {
     let mut seen = BTreeSet::new();
     let mut next = Vec::new();
@@ -124,7 +131,7 @@ fn extend(
                 continue;
             };
             if rest.kind == Kind::Generic {
-                visited.push(Visited {
+                search.visited.push(Visited {
                     named: frame.blocks.clone(),
                     generic: Some(rest.block),
                     score,
@@ -139,40 +146,58 @@ fn extend(
             }
         }
     }
-    visited.extend(next.iter().map(|(score, named)| Visited {
-        named: named.clone(),
-        generic: None,
-        score: *score,
-    }));
+    search.visit(&next);
     next.sort_by(|a, b| b.0.total_cmp(&a.0));
     next
 }
 
-fn add_seeds(
-    space: &Space,
-    seeds: &[Vec<usize>],
-    beam: &mut Vec<(f64, Vec<usize>)>,
-    visited: &mut Vec<Visited>,
-) {
-    for seed in seeds {
-        let Some(frame) = space.frame(seed) else {
-            continue;
-        };
-        if beam.iter().any(|(_, set)| *set == frame.blocks) {
-            continue;
+fn scored(space: &Space, sets: &[Vec<usize>]) -> Vec<(f64, Vec<usize>)> {
+    let frames = sets.iter().filter_map(|set| space.frame(set));
+    frames
+        .map(|frame| (space.score(&frame), frame.blocks))
+        .collect()
+}
+
+/// Adds sets to a beam that are not in it.
+fn join(beam: &mut Vec<(f64, Vec<usize>)>, sets: Vec<(f64, Vec<usize>)>) {
+    for (score, set) in sets {
+        if beam.iter().all(|(_, other)| *other != set) {
+            beam.push((score, set));
         }
-        let score = space.score(&frame);
-        visited.push(Visited {
-            named: frame.blocks.clone(),
-            generic: None,
-            score,
-        });
-        beam.push((score, frame.blocks));
     }
     beam.sort_by(|a, b| b.0.total_cmp(&a.0));
 }
 
 impl Search {
+    /// Keeps named sets, each once.
+    fn visit(&mut self, sets: &[(f64, Vec<usize>)]) {
+        for (score, named) in sets {
+            if self.seen.insert(named.clone()) {
+                self.visited.push(Visited {
+                    named: named.clone(),
+                    generic: None,
+                    score: *score,
+                });
+            }
+        }
+    }
+
+    /// Named sets that do without a candidate: their probability among all named sets, and the best of them.
+    pub(super) fn without(&self, space: &Space, candidate: usize) -> Option<(f64, &Visited)> {
+        let named = || {
+            let sets = self.visited.iter().filter(|set| set.generic.is_none());
+            sets.filter(|set| !set.named.is_empty())
+        };
+        let lacks = |set: &&Visited| {
+            let mut blocks = set.named.iter();
+            blocks.all(|block| space.blocks[*block].candidate != candidate)
+        };
+        let best = (named().filter(lacks)).max_by(|a, b| a.score.total_cmp(&b.score))?;
+        let sum = log_sum(named().filter(lacks).map(|set| set.score));
+        let whole = log_sum(named().map(|set| set.score));
+        Some((libm::exp(sum - whole), best))
+    }
+
     /// Takes from the odds of sets with generics what these lose.
     pub(super) fn discount(&mut self, again: &Again) {
         for set in &mut self.visited {

@@ -11,11 +11,14 @@ use super::fit::{estimate, nearest};
 use super::guard::Again;
 use super::kin;
 use super::question::{Kind, Question};
-use super::search::frame_of;
+use super::search::{Search, frame_of};
 use super::space::{Frame, Space};
 
 /// Probability of a credible list.
 const CREDIBLE: f64 = 0.95;
+/// Probability from which on a name stands alone: posteriors between the two are right less often than they
+/// say, because catalogues have gaps.
+const ALONE: f64 = 0.99;
 /// A slot in which generics have this probability has no name.
 const NAMELESS: f64 = 0.3;
 /// Generics, and tentative names, that are listed at most.
@@ -164,15 +167,62 @@ fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>)
         winner,
         &estimate(space, question, rest, winner),
     );
+    let alone = ranked[0].probability >= ALONE;
     let mut sum = 0.0;
     ranked
         .into_iter()
-        .filter(|candidate| {
-            let wanted = sum < CREDIBLE;
+        .enumerate()
+        .filter(|(place, candidate)| {
+            let wanted = sum < CREDIBLE || (*place == 1 && !alone);
             sum += candidate.probability;
             wanted || kin.contains(&candidate.candidate)
         })
+        .map(|(_, candidate)| candidate)
         .collect()
+}
+
+/// Puts beside a unique name what other sets have instead of it: two effects together may do what one does.
+pub(super) fn contest(
+    space: &Space,
+    question: &Question,
+    search: &Search,
+    named: &[usize],
+    block: usize,
+    slot: &mut Slot,
+) {
+    let own = space.blocks[block].candidate;
+    let Some((probability, set)) = search.without(space, own) else {
+        return;
+    };
+    if slot.state != State::Identified || probability < 1.0 - ALONE {
+        return;
+    }
+    let other = |block: &usize| {
+        let candidate = space.blocks[*block].candidate;
+        named
+            .iter()
+            .all(|b| space.blocks[*b].candidate != candidate)
+    };
+    for block in set.named.iter().copied().filter(other) {
+        let rest: Vec<usize> = set.named.iter().copied().filter(|b| *b != block).collect();
+        let variant = Variant {
+            atom: space.blocks[block].atom,
+            share: 1.0,
+        };
+        let ranked = Ranked {
+            candidate: space.blocks[block].candidate,
+            probability,
+            blocks: vec![(block, variant)],
+        };
+        let rest = frame_of(space, &rest);
+        let shared = 1.0 - slot.generic_share;
+        slot.named
+            .push(alternative(space, question, &rest, ranked, shared));
+        slot.state = State::Ambiguous;
+    }
+    if slot.state == State::Ambiguous {
+        slot.named[0].probability *= 1.0 - probability;
+    }
 }
 
 fn family(question: &Question, ranked: &[Ranked]) -> Option<(String, f64)> {

@@ -452,11 +452,12 @@ pub(super) fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> 
     out
 }
 
-/// Prior odds: as likely as not nothing was left out, all named candidates alike, a share for those
+/// Prior odds: as likely as not nothing was left out, all usual named candidates alike, a share for those
 /// without a name.
 struct Odds {
     named: f64,
     generic: f64,
+    /// Sum of the shares of each candidate's atoms, over its own odds.
     shares: Vec<f64>,
 }
 
@@ -480,6 +481,9 @@ impl Odds {
         }
         let of = |kind| kinds.iter().filter(|k| **k == Some(kind)).count().max(1) as f64;
         let (named, generic) = (of(Kind::Named), of(Kind::Generic));
+        for (share, candidate) in shares.iter_mut().zip(question.candidates) {
+            *share /= candidate.odds;
+        }
         let none = libm::exp2(-1.0 / named);
         let odds = (1.0 - none) / none;
         Ok(Odds {

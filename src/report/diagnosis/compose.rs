@@ -10,7 +10,9 @@ use crate::report::number::{NONE, aligned, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
 use super::labels::spoken;
-use super::words::{formula, name, name_of_atom, noise, p_found, probability, verdict};
+use super::words::{
+    formula, name, name_of_atom, noise, p_found, probability, quantity, verdict, weighs,
+};
 use super::{improvement, open};
 
 /// Cells of the scan that are shown.
@@ -119,7 +121,7 @@ fn located(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
     ]);
     for (cell, located) in shown {
         table.push(vec![
-            spoken(&cell.node, language).into(),
+            quantity(&cell.node, language).into(),
             format!(
                 "{} {}",
                 spoken(&cell.factor, language),
@@ -158,24 +160,23 @@ fn slots(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
 fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
     let mut blocks = Vec::new();
     if slot.state == State::Unexplained {
-        let places = slot.generic.iter().map(|a| {
+        let places = slot.generic.iter().filter(|one| weighs(one)).map(|a| {
             format!(
                 "{} ({} %)",
                 name(&diagnosis.cells[a.candidate], language),
                 percent(a.probability)
             )
         });
-        blocks.push(Block::Paragraph(language.pick(
-            format!("Unexplained: {}.", places.collect::<Vec<_>>().join("; ")),
-            format!(
-                    "未能解释：{}。",
-                    slot.generic
-                        .iter()
-                        .map(|a| name(&diagnosis.cells[a.candidate], language))
-                        .collect::<Vec<_>>()
-                        .join("；")
-                ),
-        )));
+        let places: Vec<String> = places.collect();
+        blocks.push(Block::Paragraph(match places.is_empty() {
+            true => language
+                .pick("No name is certain here.", "此处没有确定的名称。")
+                .to_owned(),
+            false => language.pick(
+                format!("Unexplained: {}.", places.join("; ")),
+                format!("未能解释：{}。", places.join("；")),
+            ),
+        }));
         if !slot.named.is_empty() {
             blocks.push(Block::Paragraph(
                 language.pick("Tentative names:", "仅供参考的名称：").into(),

@@ -18,9 +18,13 @@ pub(super) fn spoken(label: &str, language: Language) -> String {
 }
 
 /// Labels that are always the same.
-const FIXED: [(&str, &str); 21] = [
-    ("offset", "零位"),
-    ("scale", "标度"),
+const FIXED: [(&str, &str); 25] = [
+    ("not in balance at the start", "起始时未平衡"),
+    ("levelling off", "趋于饱和"),
+    ("at once", "即时"),
+    ("one row late", "晚一行"),
+    ("one row early", "早一行"),
+    ("two widths", "两种宽度"),
     ("row", "行"),
     ("rows", "行"),
     ("first half", "前半段"),
@@ -43,7 +47,11 @@ const FIXED: [(&str, &str); 21] = [
 ];
 
 /// Labels around a figure or a name: what stands before and after it, and the same in Chinese.
-const FORMS: [([&str; 2], [&str; 2]); 12] = [
+const FORMS: [([&str; 2], [&str; 2]); 16] = [
+    (["", " % of the range"], ["", " % 量程"]),
+    (["half at ", ""], ["半值点 ", ""]),
+    (["period ", ""], ["周期 ", ""]),
+    (["by about ", ""], ["约 ", ""]),
     (["", " per turn"], ["每转 ", " 次"]),
     (["above ", " of the largest"], ["超过最大值的 ", " 倍"]),
     (["above ", ""], ["高于 ", ""]),
@@ -67,7 +75,7 @@ fn chinese(label: &str) -> String {
             .strip_prefix(before)
             .and_then(|rest| rest.strip_suffix(after));
         if let Some(within) = within.filter(|within| !within.is_empty()) {
-            return format!("{opens}{}{closes}", ranges(within));
+            return format!("{opens}{}{closes}", chinese(within));
         }
     }
     // Where a slope changes: `at 4.17 V`.
@@ -102,6 +110,10 @@ mod tests {
             ("τ = 4.2 and 16.8 h", "τ = 4.2 与 16.8 h"),
             ("3.5 to 7.1 h", "3.5 至 7.1 h"),
             ("rows 3 and 4", "第 3 与 4 行"),
+            ("rows 61 to 80", "第 61 至 80 行"),
+            ("width 15 % of the range", "宽度 15 % 量程"),
+            ("levelling off, half at 3 h", "趋于饱和，半值点 3 h"),
+            ("place front", "place front"),
             ("from run 3 on", "自 run 3 起"),
             ("above 0.9 of the largest", "超过最大值的 0.9 倍"),
             ("deflection, above 4.2 V", "deflection，高于 4.2 V"),

@@ -27,6 +27,15 @@ pub(super) fn label(variation: &Variation, language: Language) -> String {
     spoken(label.strip_suffix(" 1").unwrap_or(label), language)
 }
 
+/// A quantity of the model in a language: offset and scale have words, others their names.
+pub(super) fn quantity(node: &str, language: Language) -> &str {
+    match node {
+        "offset" => language.pick("offset", "零位"),
+        "scale" => language.pick("scale", "标度"),
+        other => other,
+    }
+}
+
 /// The name, and what distinguishes a cell whose only variant has a label: the harmonic of an angle.
 pub(super) fn full_name(cell: &Cell, language: Language) -> String {
     let name = name(cell, language);
@@ -78,21 +87,50 @@ pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
             format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释本记录。"),
         ),
         Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {
-            let places: Vec<String> = diagnosis
-                .examination
-                .slots
-                .iter()
-                .filter(|slot| slot.state == State::Unexplained)
-                .filter_map(|slot| slot.generic.first())
-                .map(|alternative| name(&diagnosis.cells[alternative.candidate], language))
-                .collect();
-            let places = places.join(language.pick("; ", "；"));
+            let places = places(diagnosis, language);
+            let places = match &places[..] {
+                [] => String::new(),
+                places => language.pick(": ", "：").to_owned() + &places.join(language.pick("; ", "；")),
+            };
             language.pick(
-                format!("Model and recording disagree, and nothing in the catalogue explains it: {places}."),
-                format!("模型与记录不一致，且目录中没有可解释的原因：{places}。"),
+                format!("Model and recording disagree, and nothing in the catalogue explains it{places}."),
+                format!("模型与记录不一致，且目录中没有可解释的原因{places}。"),
             )
         }
     }
+}
+
+/// Whether an explanation without a name is likely enough to say a place.
+pub(super) fn weighs(alternative: &Alternative) -> bool {
+    const LEAST: f64 = 0.005;
+    alternative.probability >= LEAST
+}
+
+/// Where what is unexplained sits: what is likely enough; else the best there is.
+fn places(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
+    let slots = diagnosis.examination.slots.iter();
+    let unexplained = slots.filter(|slot| slot.state == State::Unexplained);
+    let found: Vec<&Alternative> = unexplained.filter_map(|s| s.generic.first()).collect();
+    let likely = found.iter().copied().filter(|one| weighs(one));
+    let mut likely: Vec<&Alternative> = likely.collect();
+    if likely.is_empty() {
+        likely = found;
+    }
+    let names = likely
+        .iter()
+        .map(|one| name(&diagnosis.cells[one.candidate], language));
+    distinct(names.collect())
+}
+
+/// Each text once, in the order of their first places.
+fn distinct(texts: Vec<String>) -> Vec<String> {
+    let mut kept: Vec<String> = Vec::new();
+    for text in texts {
+        if !kept.contains(&text) {
+            kept.push(text);
+        }
+    }
+    kept
 }
 
 /// The names of a slot, joined by "or".

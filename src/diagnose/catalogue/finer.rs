@@ -1,0 +1,154 @@
+//! Values between those of a grid. Variants step through time constants and knees; where an effect was found,
+//! the values about it are tried as well, in that effect alone.
+
+use super::{Cell, Variation};
+
+/// Parts into which the distance from a value to its neighbours is divided.
+const PARTS: usize = 4;
+/// Values are the same if they differ by no more than labels round off, as a share.
+const ROUNDED: f64 = 1e-4;
+
+/// What is tried beside the grids.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Finer(Vec<Around>);
+
+/// Values about one that was found.
+#[derive(Debug, Clone, PartialEq)]
+struct Around {
+    /// The effect, and what it follows.
+    id: &'static str,
+    along: String,
+    is_time: bool,
+    values: Vec<f64>,
+}
+
+impl Finer {
+    /// Adds the values between the parameter of a variation that was found and its neighbours in the cell.
+    /// Whether there are any: a variation without a parameter has none.
+    pub fn add(&mut self, cell: &Cell, found: &Variation) -> bool {
+        let Some(shape) = &found.shape else {
+            return false;
+        };
+        let of_kind = cell
+            .variants
+            .iter()
+            .filter_map(|other| other.shape.as_ref());
+        let of_kind = of_kind.filter(|other| other.symbol == shape.symbol);
+        let all: Vec<f64> = of_kind.map(|other| other.value).collect();
+        let own = shape.value;
+        let below = all.iter().copied().filter(|x| *x < own && !same(*x, own));
+        let above = all.iter().copied().filter(|x| *x > own && !same(*x, own));
+        let neighbours = [below.reduce(f64::max), above.reduce(f64::min)];
+        let between =
+            |next: f64| (1..PARTS).map(move |part| own + (next - own) * part as f64 / PARTS as f64);
+        let values: Vec<f64> = neighbours.into_iter().flatten().flat_map(between).collect();
+        let new = values.iter().any(|x| !self.has(cell, *x));
+        self.0.push(Around {
+            id: &cell.effect.id,
+            along: cell.place.along.clone(),
+            is_time: shape.symbol != "x₀",
+            values,
+        });
+        new
+    }
+
+    /// A grid of times with those between.
+    pub(super) fn times(&self, grid: Vec<f64>) -> Vec<f64> {
+        self.with(grid, true)
+    }
+
+    /// A grid of values of a column with those between.
+    pub(super) fn levels(&self, grid: Vec<f64>) -> Vec<f64> {
+        self.with(grid, false)
+    }
+
+    fn with(&self, mut grid: Vec<f64>, is_time: bool) -> Vec<f64> {
+        let low = grid.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = grid.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let around = self.0.iter().filter(|around| around.is_time == is_time);
+        let values = around.flat_map(|around| &around.values);
+        grid.extend(values.filter(|x| (low..=high).contains(*x)));
+        grid.sort_by(f64::total_cmp);
+        grid.dedup_by(|a, b| same(*a, *b));
+        grid
+    }
+
+    /// Takes the values between away from effects that were not found.
+    pub(super) fn prune(&self, cells: &mut [Cell]) {
+        for cell in cells {
+            let other = |x: f64| self.0.iter().any(|around| around.has(x)) && !self.has(cell, x);
+            let keeps = |variation: &Variation| {
+                let shape = variation.shape.as_ref();
+                shape.is_none_or(|shape| !other(shape.value))
+            };
+            let kept: Vec<bool> = cell.variants.iter().map(keeps).collect();
+            let mut kept = kept.into_iter();
+            cell.variants.retain(|_| kept.next().unwrap_or(true));
+        }
+    }
+
+    fn has(&self, cell: &Cell, x: f64) -> bool {
+        let mut own = self.0.iter();
+        own.any(|around| {
+            around.id == cell.effect.id && around.along == cell.place.along && around.has(x)
+        })
+    }
+}
+
+impl Around {
+    fn has(&self, x: f64) -> bool {
+        self.values.iter().any(|value| same(*value, x))
+    }
+}
+
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= ROUNDED * a.abs().max(b.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Node, Term, Words};
+    use super::*;
+    use crate::diagnose::evidence::Place;
+
+    fn cell(id: &str, grid: &[f64]) -> Cell {
+        let one = |tau: &f64| {
+            let term = Term::new(Node::Output, vec![*tau], String::new());
+            Variation::one("", term).shaped("τ", *tau, "s")
+        };
+        let variants = grid.iter().map(one).collect();
+        Cell::new(id, Words::default(), Place::default(), variants)
+    }
+
+    #[test]
+    fn values_lie_between_neighbours_and_close_in() {
+        let mut finer = Finer::default();
+        let lag = cell("lag", &[1.0, 2.0, 4.0]);
+        assert!(finer.add(&lag, &lag.variants[1]));
+        let grid = finer.times(vec![1.0, 2.0, 4.0]);
+        assert_eq!(grid, [1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0]);
+        let lag = cell("lag", &grid);
+        assert!(finer.add(&lag, &lag.variants[1]));
+        assert_eq!(finer.times(vec![1.0, 1.5])[1..4], [1.0625, 1.125, 1.1875]);
+        assert_eq!(finer.levels(vec![1.0, 2.0]), [1.0, 2.0]);
+    }
+
+    #[test]
+    fn other_effects_keep_their_grids() {
+        let mut finer = Finer::default();
+        let lag = cell("lag", &[1.0, 2.0, 4.0]);
+        finer.add(&lag, &lag.variants[1]);
+        let grid = finer.times(vec![1.0, 2.0, 4.0]);
+        let mut cells = [cell("lag", &grid), cell("warm-up", &grid)];
+        finer.prune(&mut cells);
+        assert_eq!(cells[0].variants.len(), 9);
+        assert_eq!(cells[1].variants.len(), 3);
+    }
+
+    #[test]
+    fn what_has_no_parameter_has_no_neighbours() {
+        let mut plain = cell("lag", &[1.0, 2.0]);
+        plain.variants[0].shape = None;
+        assert!(!Finer::default().add(&plain, &plain.variants[0]));
+    }
+}

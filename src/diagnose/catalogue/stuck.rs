@@ -1,0 +1,138 @@
+//! Readings that stand still while the model moves on: a logger that repeats its last value, a frozen channel,
+//! a lock that was left on.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::ground::{Ground, Node, varies};
+use super::modifiers::{range, typical_step};
+use super::response::{on_output, plain};
+use super::{Cell, Variation};
+
+/// Fewer readings in a row are alike by chance.
+const ROWS: usize = 5;
+/// Stretches that are looked at, the longest ones.
+const STRETCHES: usize = 4;
+
+/// One cell with a variant for each stretch in which an output stands still.
+pub(super) fn cells(ground: &Ground<'_>) -> Option<Cell> {
+    let case = ground.case();
+    let whole = case.parameters.iter().all(|p| p.per.is_none());
+    if !whole || ground.rows() < 4 * ROWS {
+        return None;
+    }
+    let variants = (0..case.responses.len())
+        .filter(|response| !ground.is_implicit(*response))
+        .flat_map(|response| of_response(ground, response))
+        .collect();
+    Some(plain(ground, "stuck", "row", variants))
+}
+
+fn of_response(ground: &Ground<'_>, response: usize) -> Vec<Variation> {
+    let observed = ground.frame.observed(response);
+    let mut found: Vec<(usize, usize)> = stretches(&observed)
+        .into_iter()
+        .filter(|(first, last)| moves_on(ground, response, &observed, *first, *last))
+        .collect();
+    found.sort_by_key(|(first, last)| std::cmp::Reverse(last - first));
+    let held = found.into_iter().take(STRETCHES);
+    held.filter_map(|(first, last)| {
+        let model = beside(ground, response, &observed, first, last)?;
+        let modifier: Vec<f64> = (0..observed.len())
+            .map(|row| match (first..last).contains(&row) {
+                true => observed[first] - model[row],
+                false => 0.0,
+            })
+            .collect();
+        let label = format!("rows {} to {}", first + 1, last);
+        let term = on_output(modifier, format!("(reading held in {label})")).on(response);
+        Some(Variation::one(label, term))
+    })
+    .collect()
+}
+
+/// Stretches of equal readings, from the first row to the one behind the last.
+fn stretches(observed: &[f64]) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    let mut first = 0;
+    for row in 1..=observed.len() {
+        if observed.get(row) != Some(&observed[first]) {
+            if row - first >= ROWS {
+                found.push((first, row));
+            }
+            first = row;
+        }
+    }
+    found
+}
+
+/// Whether the model moves in a stretch by far more than residuals change from row to row, and by more than
+/// the step in which readings come.
+fn moves_on(
+    ground: &Ground<'_>,
+    response: usize,
+    observed: &[f64],
+    first: usize,
+    last: usize,
+) -> bool {
+    /// So many times the change.
+    const FAR: f64 = 6.0;
+    /// So many steps.
+    const STEPS: f64 = 3.0;
+    let model = &ground.fit.linear.values[response];
+    let residuals: Vec<f64> = (observed.iter().zip(model)).map(|(y, m)| y - m).collect();
+    let (least, most) = range(&model[first..last]);
+    let mut values = observed.to_vec();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    let gaps = values.windows(2).map(|pair| pair[1] - pair[0]);
+    let step = gaps.fold(f64::INFINITY, f64::min);
+    most - least > FAR * typical_step(&residuals) && most - least > STEPS * step
+}
+
+/// The model as the other rows have it.
+fn beside(
+    ground: &Ground<'_>,
+    response: usize,
+    observed: &[f64],
+    first: usize,
+    last: usize,
+) -> Option<Vec<f64>> {
+    let model = &ground.fit.linear.values[response];
+    let slopes: Vec<Vec<f64>> = (0..ground.case().parameters.len())
+        .map(|parameter| ground.slope(Node::Parameter(parameter), response))
+        .filter(|slope| varies(slope) || slope.iter().any(|s| *s != 0.0))
+        .collect();
+    if slopes.is_empty() {
+        return Some(model.clone());
+    }
+    let others: Vec<usize> = (0..observed.len())
+        .filter(|row| !(first..last).contains(row))
+        .collect();
+    let design = DMatrix::from_fn(others.len(), slopes.len(), |row, at| {
+        slopes[at][others[row]]
+    });
+    let rest = DVector::from_fn(others.len(), |row, _| {
+        observed[others[row]] - model[others[row]]
+    });
+    let change = design.svd(true, true).solve(&rest, 1e-12).ok()?;
+    let of_row = |row: usize| -> f64 {
+        let moved = slopes.iter().zip(change.iter());
+        model[row]
+            + moved
+                .map(|(slope, change)| slope[row] * change)
+                .sum::<f64>()
+    };
+    Some((0..observed.len()).map(of_row).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stretch_is_five_equal_readings() {
+        let readings = [1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 3.0, 4.0, 4.0, 4.0, 4.0];
+        assert_eq!(stretches(&readings), [(1, 6)]);
+        assert_eq!(stretches(&[7.0; 6]), [(0, 6)]);
+    }
+}

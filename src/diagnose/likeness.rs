@@ -1,0 +1,114 @@
+//! Which effects of the catalogue can stand in for something of which the whole trace is known: what a
+//! simulation adds to a recording, say.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::case::Case;
+use super::catalogue::{self, Ground};
+use super::compare::Pick;
+use super::evidence::Shape;
+use super::frame::Frame;
+use super::noise;
+use super::run::{Failure, baseline, question};
+
+/// A direction of which less than this (squared) is left adds nothing.
+const DEPENDENT: f64 = 1e-6;
+
+/// A variant of a candidate, and how well it can stand in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Likeness {
+    /// The candidate.
+    pub pick: Pick,
+    /// What distinguishes the variant.
+    pub label: String,
+    /// Number of its free coefficients that are visible.
+    pub coefficients: usize,
+    /// The coefficient with which it comes nearest to the trace, if it has one alone.
+    pub size: Option<f64>,
+    /// Length of what it leaves of the trace over the length of the trace, beside the others.
+    pub left: f64,
+}
+
+/// Holds every visible named variant beside a trace in units of the outputs, all rows of the first output
+/// first; the declared parameters and `others`, traces as well, may take what they can. Empty where the
+/// recording is averaged in blocks, or where the trace is invisible.
+///
+/// # Errors
+/// When the model cannot be fitted.
+pub fn likenesses(
+    case: &Case,
+    trace: &DVector<f64>,
+    others: &[DVector<f64>],
+) -> Result<Vec<Likeness>, Failure> {
+    let frame = Frame::new(case);
+    if frame.observations() != trace.len() {
+        return Ok(Vec::new());
+    }
+    let (fit, claimed) = noise::settle(&frame)?;
+    let ground = Ground::new(&frame, &fit);
+    let cells = catalogue::cells(&ground);
+    let baseline = baseline(&frame, &fit, &claimed)?;
+    let (_, atoms, places) = question(&ground, &cells, &claimed, &baseline);
+    let seen = |column: &DVector<f64>| {
+        let column = DMatrix::from_column_slice(column.len(), 1, column.as_slice());
+        baseline.project(&column).column(0).into_owned()
+    };
+    let mut adopted = Vec::new();
+    for other in others {
+        add(&mut adopted, seen(other));
+    }
+    let rest = beside(seen(trace), &adopted);
+    let whole = rest.norm();
+    if whole.is_nan() || whole <= 0.0 {
+        return Ok(Vec::new());
+    }
+    let of = |(atom, place): (&super::evidence::Atom, &(usize, usize))| {
+        let Shape::Columns(columns) = &atom.shape else {
+            return None;
+        };
+        let mut directions = adopted.clone();
+        let seen = baseline.project(columns);
+        let shares = baseline.visibilities(columns);
+        for (column, share) in seen.column_iter().zip(shares) {
+            if share > DEPENDENT {
+                add(&mut directions, column.into_owned());
+            }
+        }
+        let own = &directions[adopted.len()..];
+        let cell = &cells[place.0];
+        let size = match (own, seen.column_iter().next()) {
+            ([direction], Some(column)) if seen.ncols() == 1 => {
+                Some(direction.dot(&rest) / direction.dot(&column))
+            }
+            _ => None,
+        };
+        (!own.is_empty()).then(|| Likeness {
+            pick: Pick {
+                id: cell.effect.id.clone(),
+                along: cell.place.along.clone(),
+            },
+            label: cell.variants[place.1].label.clone(),
+            coefficients: own.len(),
+            size,
+            left: beside(rest.clone(), own).norm() / whole,
+        })
+    };
+    Ok(atoms.iter().zip(&places).filter_map(of).collect())
+}
+
+/// Adds what is left of a column to orthonormal directions, if anything.
+fn add(directions: &mut Vec<DVector<f64>>, column: DVector<f64>) {
+    let length = column.norm();
+    let left = beside(column, directions);
+    if left.norm_squared() > DEPENDENT * length * length {
+        directions.push(left.normalize());
+    }
+}
+
+fn beside(mut column: DVector<f64>, directions: &[DVector<f64>]) -> DVector<f64> {
+    // Twice, against cancellation.
+    for direction in directions.iter().chain(directions) {
+        column.axpy(-direction.dot(&column), direction, 1.0);
+    }
+    column
+}

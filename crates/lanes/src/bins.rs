@@ -81,33 +81,23 @@ impl Counter {
         }
     }
 
-    /// Counts the lanes of a block and appends those of picked bins to `picked`.
-    pub fn add(&mut self, level: Level, grid: &Grid, x: &Block, picked: &mut Vec<f64>) {
+    /// Counts some numbers and appends those of picked bins to `picked`, in their order.
+    pub fn add(&mut self, level: Level, grid: &Grid, x: &[f64], picked: &mut Vec<f64>) {
         let mut places = [0_u32; LANES];
-        dispatch!(level, _ => for (place, x) in places.iter_mut().zip(&x.0) {
-            *place = grid.place(*x);
-        });
-        let mut count = 0;
-        for (place, x) in places.iter().zip(&x.0) {
-            let word = &mut self.words[*place as usize % BINS];
-            // Written in any case: a branch on what cannot be foreseen would cost more.
-            self.picked.0[count % LANES] = *x;
-            count += (*word >> 31) as usize;
-            *word += 1;
+        for x in x.chunks(LANES) {
+            dispatch!(level, _ => for (place, x) in places.iter_mut().zip(x) {
+                *place = grid.place(*x);
+            });
+            let mut count = 0;
+            for (place, x) in places.iter().zip(x) {
+                let word = &mut self.words[*place as usize % BINS];
+                // Written in any case: a branch on what cannot be foreseen would cost more.
+                self.picked.0[count % LANES] = *x;
+                count += (*word >> 31) as usize;
+                *word += 1;
+            }
+            picked.extend_from_slice(&self.picked.0[..count]);
         }
-        picked.extend_from_slice(&self.picked.0[..count]);
-    }
-
-    /// Counts some numbers, one block full at most, and appends those of picked bins to `picked`.
-    pub fn add_few(&mut self, grid: &Grid, x: &[f64], picked: &mut Vec<f64>) {
-        let mut count = 0;
-        for x in x {
-            let word = &mut self.words[grid.bin(*x)];
-            self.picked.0[count % LANES] = *x;
-            count += (*word >> 31) as usize;
-            *word += 1;
-        }
-        picked.extend_from_slice(&self.picked.0[..count.min(LANES)]);
     }
 
     /// Counts one number.
@@ -160,7 +150,7 @@ mod tests {
         }
         for level in levels() {
             let (mut all, mut picked) = (Counter::new(pick), Vec::new());
-            all.add(level, &grid, &x, &mut picked);
+            all.add(level, &grid, &x.0, &mut picked);
             assert!(all.counts().eq(one.counts()));
             assert_eq!(picked, picked_one);
         }
@@ -170,7 +160,7 @@ mod tests {
         assert!(!picked_one.is_empty());
         let mut full = Counter::new(|_| true);
         let mut all = Vec::new();
-        full.add(level(), &grid, &Block([1.0; LANES]), &mut all);
-        assert_eq!(all, [1.0; LANES]);
+        full.add(level(), &grid, &[1.0; LANES + 3], &mut all);
+        assert_eq!(all, [1.0; LANES + 3]);
     }
 }

@@ -39,8 +39,11 @@ pub(crate) const INTEGER: f64 = 6_755_399_441_055_744.0;
 #[inline(always)]
 pub(crate) fn horner<const N: usize>(x: f64, coefficients: [f64; N]) -> f64 {
     let mut sum = coefficients[N - 1];
-    for &c in coefficients.iter().rev().skip(1) {
-        sum = sum.mul_add(x, c);
+    // By index: with an iterator the loop is still one when the loop around it is to be vectorised.
+    let mut rest = N - 1;
+    while rest > 0 {
+        rest -= 1;
+        sum = sum.mul_add(x, coefficients[rest]);
     }
     sum
 }

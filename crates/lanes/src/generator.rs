@@ -16,6 +16,9 @@ use crate::{Block, LANES};
 /// Generators that run side by side.
 pub(crate) const WIDTH: usize = 16;
 
+/// Words that are drawn before something is made of them, where that takes long.
+pub(crate) const PART: usize = 64;
+
 /// Sixteen xoshiro256++ generators that step together.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Generator {
@@ -94,16 +97,34 @@ impl Generator {
         f: impl Fn(u64, u64) -> (f64, f64),
     ) {
         const { assert!(N.is_multiple_of(2 * WIDTH)) };
-        let mut state = self.state;
         let (front, back) = out.split_at_mut(N / 2);
-        let rows = front.as_chunks_mut::<WIDTH>().0.iter_mut();
-        for (x, y) in rows.zip(back.as_chunks_mut::<WIDTH>().0) {
-            let (first, second) = (step(&mut state), step(&mut state));
-            for lane in 0..WIDTH {
-                (x[lane], y[lane]) = f(first[lane], second[lane]);
+        let mut words = [[0; PART]; 2];
+        for (x, y) in front.chunks_mut(PART).zip(back.chunks_mut(PART)) {
+            let [first, second] = self.in_turns(&mut words, x.len());
+            for (((x, y), &a), &b) in x.iter_mut().zip(y).zip(first).zip(second) {
+                (*x, *y) = f(a, b);
             }
         }
+    }
+
+    /// Two rows of at most [`PART`] words, 16 of the first and 16 of the second in turns. For functions that are
+    /// long: their loops have the registers for themselves, and the processor sees more than one round at a
+    /// time.
+    #[inline(always)]
+    pub(crate) fn in_turns<'w>(
+        &mut self,
+        [first, second]: &'w mut [[u64; PART]; 2],
+        count: usize,
+    ) -> [&'w [u64]; 2] {
+        let (first, second) = (&mut first[..count], &mut second[..count]);
+        let mut state = self.state;
+        let rows = first.as_chunks_mut::<WIDTH>().0.iter_mut();
+        for (first, second) in rows.zip(second.as_chunks_mut::<WIDTH>().0) {
+            *first = step(&mut state);
+            *second = step(&mut state);
+        }
         self.state = state;
+        [first, second]
     }
 }
 

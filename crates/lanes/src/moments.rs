@@ -109,21 +109,22 @@ pub fn count_nonfinite(level: Level, x: &Block) -> usize {
     count as usize
 }
 
-/// The smallest and the largest lane; NaN lanes are passed over, and a block of nothing but NaN
-/// gives (∞, −∞).
-pub fn min_max(level: Level, x: &Block) -> (f64, f64) {
+/// The smallest and the largest number; NaN is passed over, and nothing but NaN gives (∞, −∞).
+pub fn min_max(level: Level, x: &[f64]) -> (f64, f64) {
     dispatch!(level, _ => {
         let mut lower = [f64::INFINITY; PARTIALS];
         let mut upper = [f64::NEG_INFINITY; PARTIALS];
-        for row in x.0.as_chunks::<PARTIALS>().0 {
+        let (rows, rest) = x.as_chunks::<PARTIALS>();
+        for row in rows {
             for (lane, &x) in row.iter().enumerate() {
                 lower[lane] = if x < lower[lane] { x } else { lower[lane] };
                 upper[lane] = if x > upper[lane] { x } else { upper[lane] };
             }
         }
+        let all = |partials: [f64; PARTIALS]| partials.into_iter().chain(rest.iter().copied());
         (
-            lower.into_iter().fold(f64::INFINITY, f64::min),
-            upper.into_iter().fold(f64::NEG_INFINITY, f64::max),
+            all(lower).fold(f64::INFINITY, f64::min),
+            all(upper).fold(f64::NEG_INFINITY, f64::max),
         )
     })
 }
@@ -169,17 +170,21 @@ mod tests {
         let bad = x.0.iter().filter(|x| !x.is_finite()).count();
         for level in levels() {
             assert_eq!(count_nonfinite(level, &x), bad);
-            assert_eq!(min_max(level, &x), (f64::NEG_INFINITY, f64::INFINITY));
+            assert_eq!(min_max(level, &x.0), (f64::NEG_INFINITY, f64::INFINITY));
         }
         x.0.iter_mut()
             .filter(|x| x.is_infinite())
             .for_each(|x| *x = f64::NAN);
         for level in levels() {
-            assert_eq!(min_max(level, &x), (-1.797e308, 1.797e308));
+            assert_eq!(min_max(level, &x.0), (-1.797e308, 1.797e308));
         }
         assert_eq!(bad, 4);
+        assert_eq!(min_max(level(), &[2.0, f64::NAN, 1.0]), (1.0, 2.0));
         let none = Block([f64::NAN; LANES]);
-        assert_eq!(min_max(level(), &none), (f64::INFINITY, f64::NEG_INFINITY));
+        assert_eq!(
+            min_max(level(), &none.0),
+            (f64::INFINITY, f64::NEG_INFINITY)
+        );
         assert_eq!(count_nonfinite(level(), &none), LANES);
     }
 }

@@ -222,6 +222,11 @@ pub fn axpy(level: Level, s: f64, a: &Block, out: &mut Block) {
     })
 }
 
+/// `out` ← s·`out`.
+pub fn scale(level: Level, s: f64, out: &mut Block) {
+    dispatch!(level, _ => out.0.iter_mut().for_each(#[inline(always)] |out| *out *= s))
+}
+
 /// `out` ← Σ wₖ·aₖ over as many as there are of both, summed in their order, each step with one rounding.
 pub fn combine(level: Level, weights: &[f64], a: &[Block], out: &mut Block) {
     /// Sums that are held at a time.

@@ -13,6 +13,7 @@ use std::sync::Arc;
 use fearless_simd::{Level, dispatch};
 
 use crate::elementary::exp;
+use crate::generator::PART;
 use crate::{Block, Generator, LANES};
 pub use discrete::AliasTable;
 pub(crate) use shapes::{open_unit, sin_pi};
@@ -343,16 +344,22 @@ fn student_t(
     }
     let exponent = 1.0 / (dof * std::f64::consts::LN_2);
     let spread = scale * dof.sqrt();
-    from_two(
-        level,
-        generator,
-        out,
-        #[inline(always)]
-        move |a, b| {
-            let radius = shapes::exp2_m1(exponent * shapes::square_radius(a)).sqrt();
-            (spread * radius).mul_add(shapes::sin_half_turns(b), location)
-        },
-    );
+    // In three loops: one would be a chain of operations too long for the processor to look beyond.
+    dispatch!(level, _ => {
+        let mut words = [[0; PART]; 2];
+        for out in out.0.as_chunks_mut::<PART>().0 {
+            let [first, second] = generator.in_turns(&mut words, PART);
+            for (out, &word) in out.iter_mut().zip(first) {
+                *out = exponent * shapes::square_radius(word);
+            }
+            for out in out.iter_mut() {
+                *out = spread * shapes::exp2_m1(*out).sqrt();
+            }
+            for (out, &word) in out.iter_mut().zip(second) {
+                *out = out.mul_add(shapes::sin_half_turns(word), location);
+            }
+        }
+    })
 }
 
 #[cfg(test)]

@@ -40,6 +40,23 @@ pub(super) struct Wanted {
     pub(super) count: u64,
 }
 
+/// By how much one candidate for the shortest interval may be longer than another and yet turn out to be the
+/// shorter one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Slack {
+    pub(super) fixed: f64,
+    /// Over the root of the number of ranks between the two.
+    pub(super) per_root_of_ranks: f64,
+}
+
+impl Slack {
+    /// All values are there.
+    pub(super) const NONE: Slack = Slack {
+        fixed: 0.0,
+        per_root_of_ranks: 0.0,
+    };
+}
+
 /// Standard errors by which a plan made from part of the values is widened.
 const ERRORS: f64 = 6.0;
 
@@ -79,8 +96,8 @@ impl Wanted {
 
     /// Which of the cells (ascending, none empty, perhaps with gaps) decide what is wanted.
     /// Candidates for the shortest interval count unless they are longer than one that exists by
-    /// more than `slack` times the root of the number of ranks between the two.
-    pub(super) fn cells(&self, cells: &[Cell], slack: f64) -> Vec<bool> {
+    /// more than the slack.
+    pub(super) fn cells(&self, cells: &[Cell], slack: Slack) -> Vec<bool> {
         let mut needed = vec![false; cells.len()];
         for [first, last] in &self.ranks {
             let from = cell_of(cells, *first);
@@ -101,7 +118,7 @@ impl Wanted {
             });
             for_each_pair(cells, ranks, |low, high| {
                 let away = cells[low].below.abs_diff(place) + cells[low].count;
-                let limit = shortest + slack * (away as f64).sqrt();
+                let limit = shortest + slack.fixed + slack.per_root_of_ranks * (away as f64).sqrt();
                 // NaN, of infinite ends, is no proof either.
                 let longer = cells[high].low - cells[low].high > limit;
                 if !longer {
@@ -161,7 +178,7 @@ mod tests {
             shortest: None,
             count: 100,
         };
-        let needed = wanted.cells(&cells(), 0.0);
+        let needed = wanted.cells(&cells(), Slack::NONE);
         let indices: Vec<_> = (0..9).filter(|i| needed[*i]).collect();
         assert_eq!(indices, [0, 2, 3, 8]);
         assert_eq!(cell_of(&cells(), 45), 4);
@@ -195,7 +212,14 @@ mod tests {
             }),
             count: 100,
         };
-        assert_eq!(wanted.cells(&cells, 0.0).iter().filter(|n| **n).count(), 2);
+        assert_eq!(
+            wanted
+                .cells(&cells, Slack::NONE)
+                .iter()
+                .filter(|n| **n)
+                .count(),
+            2
+        );
     }
 
     #[test]

@@ -8,7 +8,7 @@ use gumption_lanes::{Block, LANES, Level, level};
 use super::cells::Wanted;
 use super::comoments::CoMoments;
 use super::engine::{CHUNK, Layout, Sink, Source, simulate};
-use super::interval::{Ordered, Ranked};
+use super::interval::Ranked;
 use super::moments::{Moments, Pivot};
 use super::sieve::Sieve;
 use super::strainer::Strainer;
@@ -146,7 +146,10 @@ impl<'a, S: Source> Collector<'a, S> {
             threads,
             ..
         } = self.plan;
-        let keep = || Keep(vec![Vec::new(); source.outputs()]);
+        let keep = || Keep {
+            columns: vec![Vec::new(); source.outputs()],
+            room: layout.batch().min(CHUNK) as usize,
+        };
         simulate(source, layout, chunks, threads, keep).0
     }
 
@@ -154,6 +157,9 @@ impl<'a, S: Source> Collector<'a, S> {
     pub(super) fn commit(&mut self, chunks: Range<u64>, values: Vec<Vec<Vec<f64>>>) {
         match &mut self.held {
             Held::Columns(columns) => {
+                for (output, column) in columns.iter_mut().enumerate() {
+                    column.reserve(values.iter().map(|chunk| chunk[output].len()).sum());
+                }
                 for chunk in values {
                     for (column, part) in columns.iter_mut().zip(chunk) {
                         column.extend(part);
@@ -187,15 +193,17 @@ impl<'a, S: Source> Collector<'a, S> {
         let mut sieves = Vec::new();
         let mut pivots = Vec::new();
         for (column, pivot) in columns.iter().zip(self.plan.pivots) {
-            let mut finite: Vec<f64> = column.iter().copied().filter(|v| v.is_finite()).collect();
+            let mut finite = column.clone();
+            finite.retain(|value| value.is_finite());
             if finite.is_empty() {
                 // Anything will do; later trials may have values.
                 finite.push(0.0);
             }
+            let ordered = Sieve::order(&finite, self.plan.p);
             // The moments' own origin need not be the mean; a constant's has to be exact.
-            let median = Ordered::new(&finite, 1, 1).median();
-            pivots.push(Pivot::new(median, Moments::of(&finite, *pivot).sd()));
-            sieves.push(Sieve::new(&finite, self.plan.p));
+            let sd = Moments::of(&finite, *pivot).sd();
+            pivots.push(Pivot::new(ordered.median(), sd));
+            sieves.push(Sieve::new(&ordered, self.plan.p));
         }
         let outputs = pivots.len();
         let mut sieved = Sieved {
@@ -241,7 +249,7 @@ impl Sieved {
         }
         for tally in tallies {
             for (sieve, counts) in self.sieves.iter_mut().zip(tally.outputs) {
-                sieve.absorb(&counts.strainer);
+                sieve.absorb(counts.strainer.finish());
             }
         }
         // From fewer values nothing can be planned; they are few enough to be kept.
@@ -296,7 +304,7 @@ impl Tally {
 
 impl Output {
     fn take(&mut self, level: Level, block: &Block, lanes: usize) {
-        if lanes == LANES && self.strainer.take(level, block) {
+        if lanes == LANES && self.strainer.take(block) {
             self.sums.add(level, block, self.pivot.coordinates());
             self.count += LANES as u64;
             return;
@@ -341,18 +349,25 @@ impl Sink for Tally {
 }
 
 /// Keeps everything.
-struct Keep(Vec<Vec<f64>>);
+struct Keep {
+    columns: Vec<Vec<f64>>,
+    /// Most trials of a chunk.
+    room: usize,
+}
 
 impl Sink for Keep {
     type Chunk = Vec<Vec<f64>>;
 
     fn take(&mut self, outputs: &[Block], lanes: usize) {
-        for (column, block) in self.0.iter_mut().zip(outputs) {
+        for (column, block) in self.columns.iter_mut().zip(outputs) {
+            if column.is_empty() {
+                column.reserve_exact(self.room);
+            }
             column.extend_from_slice(&block.0[..lanes]);
         }
     }
 
     fn close(&mut self) -> Vec<Vec<f64>> {
-        self.0.iter_mut().map(std::mem::take).collect()
+        self.columns.iter_mut().map(std::mem::take).collect()
     }
 }

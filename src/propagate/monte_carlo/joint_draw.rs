@@ -237,7 +237,7 @@ impl JointSampler {
             let error = &mut errors[member];
             ops::combine(level, &self.rows[i], normals, error);
             match &self.law {
-                JointLaw::Normal(u) => error.0.iter_mut().for_each(|z| *z *= u[i]),
+                JointLaw::Normal(u) => ops::scale(level, u[i], error),
                 JointLaw::StudentT { scale, .. } => {
                     error
                         .0

@@ -7,13 +7,13 @@
 use gumption_lanes::bins::{BINS, Grid};
 use gumption_lanes::{Block, LANES};
 
-use super::cells::{Cell, Wanted, cell_of, for_each_pair};
+use super::cells::{Cell, Slack, Wanted, cell_of, for_each_pair};
 use super::engine::{Layout, Sink, Source, simulate};
 use super::interval::{Ranked, Ranks};
 use super::sieve::{MOST_KEPT, Sieve, keep_only};
 
 /// Values that are sorted without a look at finer counts.
-const SORTED: u64 = 1 << 18;
+const SORTED: u64 = 1 << 15;
 
 /// Consecutive values between two numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,7 +68,7 @@ impl Resolved {
         again: &impl Again,
     ) -> Self {
         let (mut cells, rows) = sieve.cells();
-        let needed = wanted.cells(&cells, 0.0);
+        let needed = wanted.cells(&cells, Slack::NONE);
         let chosen = rows.iter().zip(&needed).filter(|(_, needed)| **needed);
         let kept = sieve.kept(chosen.flat_map(|(row, _)| row.clone()));
         let mut runs = runs(&cells, &needed);
@@ -89,22 +89,24 @@ impl Resolved {
             if let Some(values) = values.as_ref().filter(|_| total <= SORTED) {
                 return Resolved::sorted(values, &runs, known, wanted.count, depth);
             }
-            cells = match &values {
+            let finer = match &values {
                 Some(values) => {
                     let mut finer = Finer::new(&runs);
                     values.iter().for_each(|value| finer.add(*value));
-                    finer.cells()
+                    finer
                 }
                 None => {
-                    let finer = again.show(|| Watch::new(output, Finer::new(&runs)));
-                    let sum = finer.into_iter().map(|watch| watch.keeper);
-                    let sum = sum.reduce(Finer::merged);
-                    sum.map_or(Vec::new(), |finer| finer.cells())
+                    let parts = again.show(|| Watch::new(output, Finer::new(&runs)));
+                    let parts = parts.into_iter().map(|watch| watch.keeper);
+                    parts
+                        .reduce(Finer::merged)
+                        .unwrap_or_else(|| Finer::new(&runs))
                 }
             };
+            cells = finer.cells();
             cells.append(&mut known);
             cells.sort_unstable_by_key(|cell| cell.below);
-            let needed = wanted.cells(&cells, 0.0);
+            let needed = wanted.cells(&cells, Slack::NONE);
             let pairs = cells.iter().zip(&needed);
             known = pairs
                 .filter(|(cell, needed)| **needed && cell.is_known())
@@ -117,7 +119,7 @@ impl Resolved {
                 .collect();
             runs = self::runs(&cells, &open);
             let left: u64 = runs.iter().map(|run| run.count).sum();
-            memory = values.map(|values| inside(&runs, &values));
+            memory = values.map(|values| finer.inside(&runs, values));
             if left > total / 2 {
                 // Finer counts would not help much further.
                 let values = memory.unwrap_or_else(|| gathered(&runs, output, again));
@@ -238,7 +240,12 @@ fn runs(cells: &[Cell], chosen: &[bool]) -> Vec<Run> {
 
 /// The run that holds a value; runs ascend.
 fn run_of(runs: &[Run], value: f64) -> Option<usize> {
-    let index = runs.partition_point(|run| run.high < value);
+    let index = if runs.len() <= FEW_RUNS {
+        // Without a branch on what cannot be foreseen.
+        runs.iter().map(|run| usize::from(run.high < value)).sum()
+    } else {
+        runs.partition_point(|run| run.high < value)
+    };
     let run = runs.get(index)?;
     (run.low <= value).then_some(index)
 }
@@ -325,6 +332,25 @@ impl Finer {
             *all = (all.0 + bin.0, all.1.min(bin.1), all.2.max(bin.2));
         }
         self
+    }
+
+    /// Those of the values that were added that lie in some `runs` of its cells.
+    fn inside(&self, runs: &[Run], mut values: Vec<f64>) -> Vec<f64> {
+        let mut runs = runs.iter().peekable();
+        let mut chosen = vec![[false; BINS]; self.runs.len()];
+        for (chosen, bins) in chosen.iter_mut().zip(&self.bins) {
+            let filled = chosen.iter_mut().zip(bins).filter(|(_, bin)| bin.0 > 0);
+            for (chosen, &(_, low, high)) in filled {
+                while runs.next_if(|run| run.high < low).is_some() {}
+                *chosen = runs
+                    .peek()
+                    .is_some_and(|run| run.low <= low && high <= run.high);
+            }
+        }
+        keep_only(&mut values, |value| {
+            run_of(&self.runs, value).is_some_and(|run| chosen[run][self.grids[run].bin(value)])
+        });
+        values
     }
 
     fn cells(&self) -> Vec<Cell> {

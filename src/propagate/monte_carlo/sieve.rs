@@ -10,10 +10,10 @@ use std::ops::RangeInclusive;
 
 use gumption_lanes::bins::{BINS, Grid};
 
-use super::cells::{Cell, Wanted};
+use super::cells::{Cell, Slack, Wanted};
 use super::histogram;
 use super::interval::{Ordered, Ranked};
-use super::strainer::{Gap, Strainer};
+use super::strainer::{Gap, Strained, Strainer};
 use crate::propagate::Histogram;
 
 /// Most values kept.
@@ -41,10 +41,16 @@ pub(super) struct Sieve {
 }
 
 impl Sieve {
-    /// An empty sieve for values like these; intervals are to hold a share p of them.
-    pub(super) fn new(sample: &[f64], p: f64) -> Self {
+    /// Orders values, of which there is at least one, as [`Sieve::new`] needs it; intervals are to hold a share
+    /// p of them.
+    pub(super) fn order(sample: &[f64], p: f64) -> Ordered {
+        Ordered::new(sample, depth(sample.len(), p), 1)
+    }
+
+    /// An empty sieve for values like these.
+    pub(super) fn new(sample: &Ordered, p: f64) -> Self {
         Sieve {
-            grid: grid(sample, p),
+            grid: grid(sample, depth(sample.count(), p)),
             counts: vec![0; BINS],
             keeps: vec![true; BINS],
             kept: Vec::new(),
@@ -61,19 +67,17 @@ impl Sieve {
     }
 
     /// Takes over what was counted.
-    pub(super) fn absorb(&mut self, strained: &Strainer) {
+    pub(super) fn absorb(&mut self, strained: Strained) {
         for (all, count) in self.counts.iter_mut().zip(strained.counts()) {
             *all += count;
         }
-        for (gap, taken) in self.gaps.iter().zip(strained.taken()) {
+        for (gap, taken) in self.gaps.iter().zip(strained.taken) {
             self.counts[*gap.bins.start()] += taken;
         }
-        let [low, high] = strained.range();
+        let [low, high] = strained.range;
         self.range = [self.range[0].min(low), self.range[1].max(high)];
-        match strained.picked() {
-            Some(picked) if self.kept.len() + picked.len() <= MOST_KEPT => {
-                self.kept.extend_from_slice(picked);
-            }
+        match strained.picked {
+            Some(picked) if self.kept.len() + picked.len() <= MOST_KEPT => self.kept.extend(picked),
             _ => self.keep_nothing(),
         }
     }
@@ -92,9 +96,7 @@ impl Sieve {
     /// Stops keeping what will not matter when more values have come.
     pub(super) fn plan(&mut self, wanted: &Wanted) {
         let (cells, rows) = self.cells();
-        let needed = wanted
-            .widened()
-            .cells(&cells, self.scatter_of_widths(wanted));
+        let needed = wanted.widened().cells(&cells, self.slack(wanted));
         // Bins between and beyond those that matter may be empty only as yet.
         let mut keeps = vec![false; BINS];
         let mut next = 0;
@@ -131,7 +133,7 @@ impl Sieve {
             }
             match gaps.last_mut() {
                 // Empty bins between are kept only where they lie beside others that are.
-                Some((count, gap)) if !self.keeps[*gap.start()..*row.end()].contains(&true) => {
+                Some((count, gap)) if !self.keeps[*gap.end()..*row.end()].contains(&true) => {
                     *count += cell.count;
                     *gap = *gap.start()..=*row.end();
                 }
@@ -149,14 +151,14 @@ impl Sieve {
         }
     }
 
-    /// By how much the widths of two candidates for the shortest interval may still change, one
-    /// against the other, over the root of the ranks between them: several standard errors of how many
-    /// values lie between their ends.
-    fn scatter_of_widths(&self, wanted: &Wanted) -> f64 {
+    /// By how much the widths of two candidates for the shortest interval may still change, one against the
+    /// other: several standard errors of how many values lie between their ends, and the bins in which their
+    /// ends will be when it is decided which of them are needed.
+    fn slack(&self, wanted: &Wanted) -> Slack {
         /// Bins over which a density is averaged.
         const AROUND: usize = 16;
         let Some(ranks) = wanted.shortest else {
-            return 0.0;
+            return Slack::NONE;
         };
         let place = |rank: usize| {
             let mut below = 0;
@@ -177,7 +179,10 @@ impl Sieve {
             });
             bins * self.grid.width() / count as f64
         });
-        6.0 * std::f64::consts::SQRT_2 * per_value[0].max(per_value[1])
+        Slack {
+            fixed: 2.0 * self.grid.width(),
+            per_root_of_ranks: 6.0 * std::f64::consts::SQRT_2 * per_value[0].max(per_value[1]),
+        }
     }
 
     /// Rows of bins that hold values, as cells, and their numbers: single ones, but for lumped ones.
@@ -258,14 +263,17 @@ pub(super) fn keep_only(values: &mut Vec<f64>, condition: impl Fn(f64) -> bool) 
     values.truncate(kept);
 }
 
+/// Values at either end of a sample that do not make its grid any wider.
+fn depth(count: usize, p: f64) -> usize {
+    let share = ((1.0 - p) / 16.0).min(0.002);
+    ((share * count as f64) as usize).max(1)
+}
+
 /// A grid over the middle of some values, wide enough for the ends of intervals and fine where they
 /// lie, however far away single values are.
-fn grid(sample: &[f64], p: f64) -> Grid {
-    let share = ((1.0 - p) / 16.0).min(0.002);
-    let depth = ((share * sample.len() as f64) as usize).max(1);
-    let ordered = Ordered::new(sample, depth, 1);
-    let [least, most] = ordered.range();
-    let (low, high) = (ordered.at(depth), ordered.at(ordered.count() + 1 - depth));
+fn grid(sample: &Ordered, depth: usize) -> Grid {
+    let [least, most] = sample.range();
+    let (low, high) = (sample.at(depth), sample.at(sample.count() + 1 - depth));
     let margin = 0.25 * (high - low);
     let (low, high) = ((low - margin).max(least), (high + margin).min(most));
     let width = (high - low) / (BINS - 1) as f64;
@@ -314,10 +322,10 @@ mod tests {
     #[test]
     fn spans_hold_exactly_the_numbers_of_their_bins() {
         let sample: Vec<f64> = (0..1000).map(|i| f64::from(i).sin()).collect();
-        let mut sieve = Sieve::new(&sample, 0.95);
+        let mut sieve = Sieve::new(&Sieve::order(&sample, 0.95), 0.95);
         let mut strainer = sieve.strainer();
         sample.iter().for_each(|x| strainer.take_one(*x));
-        sieve.absorb(&strainer);
+        sieve.absorb(strainer.finish());
         assert_eq!(
             (sieve.count(), sieve.kept(0..BINS).unwrap().len()),
             (1000, 1000)

@@ -53,7 +53,7 @@ const UNARY: [Unary; 30] = [
     ),
 ];
 
-const BINARY: [Binary; 18] = [
+const BINARY: [Binary; 19] = [
     ("add", add, |a, b| a + b),
     ("sub", sub, |a, b| a - b),
     ("mul", mul, |a, b| a * b),
@@ -94,6 +94,14 @@ const BINARY: [Binary; 18] = [
             axpy(l, 0.3, a, out)
         },
         |a, b| a.mul_add(0.3, b),
+    ),
+    (
+        "scale",
+        |l, a, _, out| {
+            *out = *a;
+            scale(l, 0.3, out)
+        },
+        |a, _| 0.3 * a,
     ),
 ];
 

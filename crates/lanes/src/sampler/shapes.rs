@@ -11,7 +11,7 @@
 //! | [`sin_half_turns`] | 5·10⁻¹⁶ |
 //! | [`exp2_m1`] | 3·10⁻¹⁵ |
 
-use crate::elementary::{INTEGER, horner, power_of_two};
+use crate::elementary::{INTEGER, horner};
 
 const ONE: u64 = 1.0_f64.to_bits();
 
@@ -141,10 +141,11 @@ pub(super) fn exp2_m1(x: f64) -> f64 {
         7.070_977_866_508_138e-9,
     ];
     let x = if x < 1020.0 { x } else { 1020.0 };
-    let k = (x + INTEGER) - INTEGER;
-    let rest = x - k;
+    // The integer next to x, which stands in the low bits too.
+    let shifted = x + INTEGER;
+    let rest = x - (shifted - INTEGER);
     // 2ᵏ(1 + p) − 1.
-    let scale = power_of_two(k);
+    let scale = f64::from_bits(shifted.to_bits().wrapping_add(1023) << 52);
     scale.mul_add(rest * horner(rest, SERIES), scale - 1.0)
 }
 

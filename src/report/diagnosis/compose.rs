@@ -11,7 +11,7 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::labels::spoken;
 use super::words::{
-    formula, name, name_of_atom, noise, p_found, probability, quantity, verdict, weighs,
+    formula, name, name_of_atom, noise, p_found, probability, quantity, tentative, verdict, weighs,
 };
 use super::{improvement, open};
 
@@ -168,9 +168,13 @@ fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Bl
             )
         });
         let places: Vec<String> = places.collect();
-        blocks.push(Block::Paragraph(match places.is_empty() {
+        let named = places.is_empty() || tentative(diagnosis, slot).is_some();
+        blocks.push(Block::Paragraph(match named {
             true => language
-                .pick("No name is certain here.", "此处没有确定的名称。")
+                .pick(
+                    "Named, but not with certainty: nothing without a name does as well, but the name may be the shape of another effect.",
+                    "有名称但不确定：未命名的影响都不如它，但它可能只是另一影响的形态。",
+                )
                 .to_owned(),
             false => language.pick(
                 format!("Unexplained: {}.", places.join("; ")),

@@ -78,26 +78,67 @@ pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
             format!("The model leaves out something that this recording cannot tell apart: {list}."),
             format!("模型有遗漏，但本记录无法区分：{list}。"),
         ),
-        Verdict::Partly if !names.is_empty() => language.pick(
-            format!("The model leaves out: {list}. Something without a name remains."),
-            format!("模型遗漏了：{list}。此外还有无法命名的部分。"),
-        ),
-        Verdict::Contested if !names.is_empty() => language.pick(
+        Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {
+            incomplete(diagnosis, &list, language)
+        }
+    }
+}
+
+/// The verdict where not all has a certain name; `list` are those that are.
+fn incomplete(diagnosis: &Diagnosis, list: &str, language: Language) -> String {
+    let (semicolon, colon) = (language.pick("; ", "；"), language.pick(": ", "："));
+    let tentative = tentatives(diagnosis, language).join(semicolon);
+    let places = places(diagnosis, language).join(semicolon);
+    let nameless = tentative.is_empty() || !places.is_empty();
+    let contested = diagnosis.examination.verdict == Verdict::Contested;
+    if list.is_empty() && tentative.is_empty() {
+        let places = if places.is_empty() {
+            places
+        } else {
+            colon.to_owned() + &places
+        };
+        return language.pick(
+            format!(
+                "Model and recording disagree, and nothing in the catalogue explains it{places}."
+            ),
+            format!("模型与记录不一致，且目录中没有可解释的原因{places}。"),
+        );
+    }
+    if list.is_empty() {
+        let besides = match places.is_empty() {
+            true => String::new(),
+            false => language.pick(
+                format!(" Unexplained besides: {places}."),
+                format!("此外未能解释：{places}。"),
+            ),
+        };
+        return language.pick(
+            format!(
+                "Model and recording disagree. Tentatively, the model leaves out: {tentative}."
+            ),
+            format!("模型与记录不一致。模型可能（未确定）遗漏了：{tentative}。"),
+        ) + &besides;
+    }
+    let mut sentence = match (contested && nameless, nameless) {
+        (true, _) => language.pick(
             format!("The model leaves out: {list}; or else something unknown that varies smoothly, which explains the recording as well."),
             format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释本记录。"),
         ),
-        Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {
-            let places = places(diagnosis, language);
-            let places = match &places[..] {
-                [] => String::new(),
-                places => language.pick(": ", "：").to_owned() + &places.join(language.pick("; ", "；")),
-            };
-            language.pick(
-                format!("Model and recording disagree, and nothing in the catalogue explains it{places}."),
-                format!("模型与记录不一致，且目录中没有可解释的原因{places}。"),
-            )
+        (false, true) => language.pick(
+            format!("The model leaves out: {list}. Something without a name remains."),
+            format!("模型遗漏了：{list}。此外还有无法命名的部分。"),
+        ),
+        (false, false) => {
+            language.pick(format!("The model leaves out: {list}."), format!("模型遗漏了：{list}。"))
         }
+    };
+    if !tentative.is_empty() {
+        sentence += &language.pick(
+            format!(" Tentatively also: {tentative}."),
+            format!("可能（未确定）还有：{tentative}。"),
+        );
     }
+    sentence
 }
 
 /// Whether an explanation without a name is likely enough to say a place.
@@ -106,10 +147,38 @@ pub(super) fn weighs(alternative: &Alternative) -> bool {
     alternative.probability >= LEAST
 }
 
-/// Where what is unexplained sits: what is likely enough; else the best there is.
+/// The name of a slot that is not certain, but far likelier than everything without a name.
+pub(super) fn tentative<'s>(diagnosis: &Diagnosis, slot: &'s Slot) -> Option<&'s Alternative> {
+    /// What has no name is out of question below this …
+    const UNLIKELY: f64 = 0.05;
+    /// … and a name is tentative from here on.
+    const LIKELY: f64 = 0.5;
+    let unlikely = slot.generic.iter().all(|one| one.probability < UNLIKELY);
+    // What only tells how the recording looks is no name beside something unexplained.
+    let describes = |one: &Alternative| {
+        let id = diagnosis.cells[one.candidate].effect.id.as_str();
+        matches!(id, "outlier" | "step" | "step-scale" | "wave")
+    };
+    let first = slot.named.first().filter(|one| one.probability > LIKELY);
+    let first = first.filter(|one| !describes(one));
+    first.filter(|_| slot.state == State::Unexplained && unlikely)
+}
+
+/// Names that are tentative, over all slots.
+fn tentatives(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
+    let slots = diagnosis.examination.slots.iter();
+    let names = slots
+        .filter_map(|slot| tentative(diagnosis, slot))
+        .map(|one| name(&diagnosis.cells[one.candidate], language));
+    distinct(names.collect())
+}
+
+/// Where what is unexplained sits: what is likely enough; else, where no name is tentative either, the best
+/// there is.
 fn places(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
     let slots = diagnosis.examination.slots.iter();
-    let unexplained = slots.filter(|slot| slot.state == State::Unexplained);
+    let unexplained =
+        slots.filter(|s| s.state == State::Unexplained && tentative(diagnosis, s).is_none());
     let found: Vec<&Alternative> = unexplained.filter_map(|s| s.generic.first()).collect();
     let likely = found.iter().copied().filter(|one| weighs(one));
     let mut likely: Vec<&Alternative> = likely.collect();

@@ -1,5 +1,6 @@
 //! Several bad rows at once are not bad rows: what is wrong at one position, or time and again, is an
-//! effect of its own, which no catalogue names.
+//! effect of its own, which no catalogue names; and a wave in time beside stronger effects is what their shape
+//! leaves.
 
 use super::catalogue::{Cell, Ground};
 use super::evidence::{Examination, State};
@@ -43,6 +44,17 @@ pub(super) fn nameless(
     {
         found.extend(outliers);
     }
+    let in_time = |slot: &usize| {
+        let first = examination.slots[*slot].named.first();
+        first.is_some_and(|one| cells[one.candidate].place.along == ground.along_time())
+    };
+    // The strongest stands first.
+    found.extend(
+        of_kind("wave")
+            .into_iter()
+            .filter(|slot| *slot > 0)
+            .filter(in_time),
+    );
     found
 }
 

@@ -436,7 +436,7 @@ pub(super) fn question(
             repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
             describes: matches!(
                 cell.effect.id.as_str(),
-                "outlier" | "step" | "step-scale" | "wave"
+                "outlier" | "step" | "step-scale" | "wave" | "level-shift" | "level-scale"
             ),
             odds: cell.odds,
         });

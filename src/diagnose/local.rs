@@ -1,6 +1,6 @@
 //! Several bad rows at once are not bad rows: what is wrong at one position, or time and again, is an
-//! effect of its own, which no catalogue names; a jump that is taken back is one that came and went; and a wave in time beside stronger effects is what their shape
-//! leaves.
+//! effect of its own, which no catalogue names; a jump that is taken back is something that came and went;
+//! and a wave in time beside stronger effects is what their shape leaves.
 
 use super::catalogue::{Cell, Ground};
 use super::evidence::{Examination, Slot, State};

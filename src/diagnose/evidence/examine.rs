@@ -70,30 +70,22 @@ pub fn examine(
     }
     let set = frame_of(&space, named);
     let explained = explained(&space, set.fit, set.basis.ncols());
-    let stands = rivalry.stands(named.len());
-    let contested = explanation.contested || (!named.is_empty() && !stands);
-    if contested || verdict(&slots, explained) == Verdict::Unexplained {
-        let mut kept = if contested { named.clone() } else { Vec::new() };
-        if explanation.contested {
-            let rival = search.best_with_generic().map_or(&[][..], |set| &set.named);
-            kept.retain(|block| rival.contains(block));
+    let kept = kept(&search, &explanation, &rivalry);
+    let before = match &kept {
+        Some(_) => Verdict::Contested,
+        None => verdict(&slots, explained),
+    };
+    match before {
+        Verdict::Contested | Verdict::Unexplained => {
+            doubt(&space, question, &mut slots, &kept.unwrap_or_default());
         }
-        if !stands {
-            kept.retain(|block| rivalry.kept.contains(block));
-        }
-        doubt(&space, question, &mut slots, &kept);
-    } else if verdict(&slots, explained) == Verdict::Partly {
-        let excess = space.z.norm_squared() - space.dof as f64;
-        for slot in &mut slots {
-            if !dominates(slot, excess) && describes(question, slot) {
-                slot.state = State::Unexplained;
-            }
-        }
+        Verdict::Partly => doubt_descriptions(&space, question, &mut slots),
+        Verdict::None | Verdict::Identified | Verdict::Ambiguous => {}
     }
     let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
         Verdict::None
-    } else if contested {
-        Verdict::Contested
+    } else if before == Verdict::Contested {
+        before
     } else {
         verdict(&slots, explained)
     };
@@ -154,6 +146,24 @@ fn explanation(search: &Search, generic_probability: f64) -> Explanation {
             None => by_name(&[], false),
         },
     }
+}
+
+/// Where something without a name competes with the named set: the effects that every such rival has as well.
+fn kept(search: &Search, explanation: &Explanation, rivalry: &Rivalry) -> Option<Vec<usize>> {
+    let named = &explanation.named;
+    let stands = named.is_empty() || rivalry.stands(named.len());
+    if stands && !explanation.contested {
+        return None;
+    }
+    let mut kept = named.clone();
+    if explanation.contested {
+        let rival = search.best_with_generic();
+        kept.retain(|block| rival.is_some_and(|set| set.named.contains(block)));
+    }
+    if !stands {
+        kept.retain(|block| rivalry.kept.contains(block));
+    }
+    Some(kept)
 }
 
 /// What is left beside named effects, when none of the competitors says where.
@@ -221,6 +231,16 @@ fn dominates(slot: &Slot, excess: f64) -> bool {
 fn describes(question: &Question, slot: &Slot) -> bool {
     let first = slot.named.first();
     first.is_some_and(|first| question.candidates[first.candidate].describes)
+}
+
+/// Beside something without a name, what only describes is tentative unless it is most of what was found.
+fn doubt_descriptions(space: &Space, question: &Question, slots: &mut [Slot]) {
+    let excess = space.z.norm_squared() - space.dof as f64;
+    for slot in slots {
+        if !dominates(slot, excess) && describes(question, slot) {
+            slot.state = State::Unexplained;
+        }
+    }
 }
 
 /// Names are tentative where something without a name may be most of what was found, or look like them.

@@ -379,7 +379,7 @@ fn a_venturi_has_an_exponent_of_its_own() {
     assert_eq!(first_names(&found), ["exponent"], "{found}");
     let (estimate, u) = size(&found);
     assert!(
-        (estimate + 0.06).abs() < 4.0 * u.max(1e-3),
+        (estimate + 0.01).abs() < 4.0 * u.max(1e-3),
         "{estimate} ± {u}"
     );
 }

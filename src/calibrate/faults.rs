@@ -21,8 +21,6 @@ codes! {
         "[positions] says what each label of a column stands for. A label that occurs in the recording must be there, and each label there must occur in the recording, unless it is among `optional`.";
     STATE_INPUT = "C0109", "a quantity of the set-up must be stated",
         "The procedure needs a value that only the laboratory knows: a resistor, the local acceleration of free fall, a rate. State it in the file with its uncertainty, or as a [constant].";
-    VALUE_MISSING = "C0110", "a value is missing in a point",
-        "A point of the experiment lacks a value that the right side of an equation needs.";
     TOO_FEW = "C0111", "there are too few points",
         "The parameters cannot be found from fewer readings than parameters. To tell their scatter from the residuals, there must be more.";
     SCATTER = "C0112", "the scatter of the readings is not known",

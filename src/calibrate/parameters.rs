@@ -119,6 +119,10 @@ impl Definer<'_> {
                 symbols.push(symbol(response.clone()));
             }
         }
+        // A quantity by itself: counts stay counts.
+        if let Some(same) = symbols.iter().find(|one| one.name == like.value.trim()) {
+            return Some(same.unit.difference());
+        }
         let text = format!("unit_sought = unit_sought_factor * (1 / ({}))", like.value);
         let unknown = ["unit_sought_factor".to_owned()];
         let found = outline(&text, &self.units).ok().and_then(|outline| {

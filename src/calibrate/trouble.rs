@@ -1,8 +1,10 @@
 //! Why an experiment gives no coefficients.
 
 use super::experiment::Words;
+use super::faults::{SCATTER, START, TOO_FEW};
 use super::identify::{Combination, combinations};
 use super::stack::Stack;
+use crate::fault::Code;
 use crate::least_squares::Failure;
 
 /// Why an experiment gives no coefficients.
@@ -65,6 +67,22 @@ pub enum Trouble {
 }
 
 impl Trouble {
+    /// The code under which `gumption explain` says more, where it does.
+    pub fn code(&self) -> Option<Code> {
+        match self {
+            Trouble::TooFew { .. } => Some(TOO_FEW),
+            Trouble::NoScatter { .. } => Some(SCATTER),
+            Trouble::NoStart { .. } => Some(START),
+            Trouble::InPart { trouble, .. } => trouble.code(),
+            Trouble::NoSamples
+            | Trouble::NoWeights { .. }
+            | Trouble::Undetermined { .. }
+            | Trouble::Undefined { .. }
+            | Trouble::NoConvergence { .. }
+            | Trouble::Unsolvable => None,
+        }
+    }
+
     pub(super) fn of(failure: Failure, stack: &Stack<'_>) -> Trouble {
         match failure {
             Failure::TooFewPoints { points, parameters } => Trouble::TooFew {

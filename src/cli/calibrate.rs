@@ -60,7 +60,7 @@ pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
 
 fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome {
     let why = report::calibration_trouble(trouble, lang);
-    output::warn(&format!("error: {}: {why}\n", file.display()));
+    output::no_result(file, trouble.code(), &why);
     Outcome::Negative
 }
 

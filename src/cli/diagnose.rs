@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use gumption::diagnose::case::{Case, Purpose};
-use gumption::diagnose::{self, Diagnosis};
-use gumption::report;
+use gumption::diagnose::{self, Diagnosis, Failure};
+use gumption::report::{self, Language};
 
 use super::form::Form;
 use super::progress::Steps;
@@ -41,12 +41,15 @@ pub(super) fn run(args: &Args) -> Outcome {
     drop(steps);
     match found {
         Ok(diagnosis) => written(args, &case, &diagnosis).max(beside(args, &case, &diagnosis)),
-        Err(failure) => output::complain(&format!(
-            "{}: {}",
-            args.case.display(),
-            report::diagnosis_failure(&case, &failure, args.form.lang)
-        )),
+        Err(failure) => failed(&args.case, &case, &failure, args.form.lang),
     }
+}
+
+/// Says why a case gives no result.
+pub(super) fn failed(path: &Path, case: &Case, failure: &Failure, lang: Language) -> Outcome {
+    let why = report::diagnosis_failure(case, failure, lang);
+    output::no_result(path, failure.code(), &why);
+    Outcome::BadInput
 }
 
 fn written(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {

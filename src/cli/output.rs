@@ -4,6 +4,7 @@ use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use gumption::budget::Rejection;
+use gumption::fault::Code;
 
 use super::Outcome;
 
@@ -22,6 +23,12 @@ pub(super) fn print(text: &str) -> Outcome {
 pub(super) fn complain(message: &str) -> Outcome {
     warn(&format!("error: {message}\n"));
     Outcome::BadInput
+}
+
+/// Says why a file that is right gives no result, with the code under which `gumption explain` says more.
+pub(super) fn no_result(path: &Path, code: Option<Code>, why: &str) {
+    let code = code.map_or(String::new(), |code| format!("[{}]", code.id));
+    warn(&format!("error{code}: {}: {why}\n", path.display()));
 }
 
 /// Shows the faults of a file.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use gumption::diagnose::case::{Case, Kind, Purpose, kind_of};
 use gumption::{diagnose, report};
 
+use super::diagnose::failed;
 use super::form::Form;
 use super::progress::Steps;
 use super::{Outcome, calibrate, output};
@@ -54,10 +55,6 @@ fn case(file: &Path, form: &Form) -> Outcome {
             || report::outlook_markdown(&case, &outlook, lang),
             |page| report::outlook_text(&case, &outlook, lang, page),
         ),
-        Err(failure) => output::complain(&format!(
-            "{}: {}",
-            file.display(),
-            report::diagnosis_failure(&case, &failure, lang)
-        )),
+        Err(failure) => failed(file, &case, &failure, lang),
     }
 }

@@ -1,6 +1,6 @@
 //! `gumption schema`: JSON Schema for editors and for readers of what the program writes.
 
-use gumption::{budget, calibrate, report};
+use gumption::{budget, calibrate, diagnose, report};
 
 use super::{Outcome, output};
 
@@ -21,6 +21,8 @@ enum Which {
     Result,
     /// Calibration files, and the files of plans
     Calibration,
+    /// Case files of `gumption diagnose`, `simulate` and `plan`
+    Case,
     /// The output of `gumption verify --json`
     Verification,
 }
@@ -31,6 +33,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Evaluation => report::schema(),
         Which::Result => budget::result_schema(),
         Which::Calibration => calibrate::schema(),
+        Which::Case => diagnose::case::schema(),
         Which::Verification => report::verification_schema(),
     };
     output::print(&format!("{schema:#}\n"))

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Failure, simulate};
-use gumption::report::{self, Language};
+use gumption::report::Language;
 
+use super::diagnose::failed;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -31,9 +32,6 @@ pub(super) fn run(args: &Args) -> Outcome {
             Some(path) => output::replace(path, &sheet.csv()),
             None => output::print(&sheet.csv()),
         },
-        Err(why) => {
-            let why = report::diagnosis_failure(&case, &Failure::Fit(why), Language::English);
-            output::complain(&format!("{}: {why}", args.case.display()))
-        }
+        Err(why) => failed(&args.case, &case, &Failure::Fit(why), Language::English),
     }
 }

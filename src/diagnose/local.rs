@@ -1,8 +1,9 @@
 //! Several bad rows at once are not bad rows: what is wrong at one position, or time and again, is an
-//! effect of its own, which no catalogue names.
+//! effect of its own, which no catalogue names; a jump that is taken back is something that came and went;
+//! and a wave in time beside stronger effects is what their shape leaves.
 
 use super::catalogue::{Cell, Ground};
-use super::evidence::{Examination, State};
+use super::evidence::{Examination, Slot, State};
 
 /// So many of them are no accidents any more.
 const MANY: usize = 3;
@@ -43,7 +44,40 @@ pub(super) fn nameless(
     {
         found.extend(outliers);
     }
+    let steps = of_kind("step");
+    if let [one, other] = steps[..]
+        && undone(&examination.slots[one], &examination.slots[other])
+    {
+        found.extend(steps);
+    }
+    let in_time = |slot: &usize| {
+        let first = examination.slots[*slot].named.first();
+        first.is_some_and(|one| cells[one.candidate].place.along == ground.along_time())
+    };
+    // The strongest stands first.
+    found.extend(
+        of_kind("wave")
+            .into_iter()
+            .filter(|slot| *slot > 0)
+            .filter(in_time),
+    );
     found
+}
+
+/// Whether one jump takes back another: something came and went.
+fn undone(one: &Slot, other: &Slot) -> bool {
+    /// Standard uncertainties by which their sum may differ from zero.
+    const FAR: f64 = 3.0;
+    let size = |slot: &Slot| {
+        let first = slot.named.first()?;
+        (first.estimate.len() == 1).then(|| (first.estimate[0], first.covariance[(0, 0)]))
+    };
+    match (size(one), size(other)) {
+        (Some((a, a_variance)), Some((b, b_variance))) => {
+            (a + b).abs() <= FAR * (a_variance + b_variance).max(0.0).sqrt()
+        }
+        _ => false,
+    }
 }
 
 /// Whether two rows have the same value of a column in which rows differ.

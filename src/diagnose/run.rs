@@ -11,6 +11,7 @@ use super::confirm::{self, Confirmation, Quality};
 use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Located, Prior, Question, Refusal, Shape, Verdict,
 };
+use super::faults::{NOT_FITTED, START, TOO_FEW};
 use super::fit::{Fit, NoFit};
 use super::frame::Frame;
 use super::held_out::{self, HeldOutQuality};
@@ -19,6 +20,7 @@ use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::place;
 use super::separation::{self, Known, Separating};
+use crate::fault::Code;
 
 /// Why a case could not be diagnosed.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +29,21 @@ pub enum Failure {
     Fit(NoFit),
     /// The statistics refused.
     Refused(Refusal),
+}
+
+impl Failure {
+    /// The code under which `gumption explain` says more, where it does.
+    pub fn code(&self) -> Option<Code> {
+        match self {
+            Failure::Fit(NoFit::NoStart) => Some(START),
+            Failure::Fit(NoFit::TooFew { .. }) | Failure::Refused(Refusal::NoFreedom { .. }) => {
+                Some(TOO_FEW)
+            }
+            Failure::Fit(NoFit::NoMinimum | NoFit::Undetermined(_))
+            | Failure::Refused(Refusal::Dependent { .. }) => Some(NOT_FITTED),
+            Failure::Refused(_) => None,
+        }
+    }
 }
 
 impl From<NoFit> for Failure {
@@ -419,7 +436,7 @@ pub(super) fn question(
             repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
             describes: matches!(
                 cell.effect.id.as_str(),
-                "outlier" | "step" | "step-scale" | "wave"
+                "outlier" | "step" | "step-scale" | "wave" | "level-shift" | "level-scale"
             ),
             odds: cell.odds,
         });

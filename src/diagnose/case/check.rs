@@ -5,7 +5,7 @@ use std::path::Path;
 use toml::de::DeTable;
 
 use super::tables::CaseTable;
-use super::{Case, Purpose, candidates, declared};
+use super::{Case, Purpose, candidates, columns, declared};
 use crate::budget::faults::{NOT_UTF8, UNREADABLE_FILE};
 use crate::budget::strings::StringMap;
 use crate::budget::table::{Reader, Stated, read_table};
@@ -89,6 +89,11 @@ impl Checker<'_> {
         let requests: Vec<Request> = present.map(|w| w.request.clone()).collect();
         let recorded = Recording::open(self.files, &csv_path, &requests, &self.units)?;
         let (mut columns, rows, left_out) = self.columns(&wanted, &recorded);
+        if rows == 0 {
+            self.faults
+                .push(columns::nothing_left(csv, &wanted, &recorded));
+            return Err(Rejection::new(name, self.text, self.faults));
+        }
         let declared = declared::with_points(&mut self, file, models, &mut columns, &constants);
         let noise = self.noise(file, &columns, declared.as_ref());
         let averaging = self.averaging(file, &columns);

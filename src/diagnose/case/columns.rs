@@ -7,7 +7,7 @@ use super::tables::{CaseTable, ColumnTable, RoleWord};
 use super::{Column, Data, Purpose};
 use crate::budget::table::Stated;
 use crate::budget::values::{Amount, OneOrMany};
-use crate::diagnose::faults::{MISSING, UNKNOWN_NAME};
+use crate::diagnose::faults::{MISSING, TOO_FEW, UNKNOWN_NAME};
 use crate::fault::{Fault, nearest};
 use crate::model::Symbol;
 use crate::quantity::Unit;
@@ -196,6 +196,40 @@ impl Checker<'_> {
             });
         }
         found
+    }
+}
+
+/// No row has all that the case declares: the column that lacks most of it.
+pub(super) fn nothing_left(
+    file: &Stated<String>,
+    wanted: &[Wanted],
+    recorded: &Recording,
+) -> Fault {
+    let lacks = |one: &Wanted| {
+        let numbers = recorded.numbers(&one.name).unwrap_or_default();
+        numbers.iter().filter(|x| !x.is_finite()).count()
+    };
+    let fault = Fault::new(
+        TOO_FEW,
+        file.span.clone(),
+        format!(
+            "no row of {} has a number in every declared column",
+            file.value
+        ),
+    )
+    .label("this recording");
+    let emptiest = wanted
+        .iter()
+        .filter(|one| one.present)
+        .max_by_key(|one| lacks(one));
+    match emptiest {
+        Some(one) if lacks(one) > 0 => fault.help(format!(
+            "`{}` has none in {} of {} rows; a column that does not matter may have the role \"ignore\"",
+            one.name,
+            lacks(one),
+            recorded.rows()
+        )),
+        _ => fault,
     }
 }
 

@@ -14,6 +14,8 @@ mod tables;
 
 use std::path::{Path, PathBuf};
 
+use serde_json::{Value, json};
+
 use crate::budget::table::KeyRow;
 use crate::budget::{Files, Rejection};
 use crate::equations::Equations;
@@ -358,6 +360,18 @@ pub fn kind_of(text: &str) -> Kind {
     } else {
         Kind::Unknown
     }
+}
+
+/// JSON Schema (draft-07) of case files, for editors.
+pub fn schema() -> Value {
+    use crate::budget::table::FromToml;
+    let mut schema = tables::CaseTable::schema();
+    if let Value::Object(entries) = &mut schema {
+        let draft = "http://json-schema.org/draft-07/schema#";
+        entries.insert("$schema".into(), json!(draft));
+        entries.insert("title".into(), json!("gumption case"));
+    }
+    schema
 }
 
 /// The reference of keys, table by table.

@@ -56,14 +56,6 @@ impl Checker<'_> {
             .as_ref()
             .map(|stated| stated.value.clone())
             .unwrap_or_default();
-        let texts = |list: &Option<Stated<Vec<Stated<String>>>>| {
-            list.as_ref().map(|list| {
-                list.value
-                    .iter()
-                    .map(|text| text.value.clone())
-                    .collect::<Vec<_>>()
-            })
-        };
         let alpha = table.alpha.as_ref().map_or(0.01, |alpha| alpha.value);
         if !(alpha > 0.0 && alpha < 0.5) {
             let span = table
@@ -81,15 +73,64 @@ impl Checker<'_> {
         }
         Settings {
             alpha,
-            catalogue: texts(&table.catalogue),
-            exclude: texts(&table.exclude).unwrap_or_default(),
-            seed: table.seed.as_ref().map_or(1, |seed| seed.value),
-            draws: table
-                .draws
+            catalogue: table.catalogue.as_ref().map(|list| self.in_catalogue(list)),
+            exclude: table
+                .exclude
                 .as_ref()
-                .map_or(2000, |draws| draws.value.clamp(200, 100_000) as usize),
+                .map_or_else(Vec::new, |list| self.in_catalogue(list)),
+            seed: table.seed.as_ref().map_or(1, |seed| seed.value),
+            draws: self.draws(&table),
             typical: self.typical(&table),
         }
+    }
+
+    /// Simulated recordings for the false-alarm rate: enough for alpha, and done in a reasonable time.
+    fn draws(&mut self, table: &DiagnosisTable) -> usize {
+        const RANGE: std::ops::RangeInclusive<u64> = 200..=100_000;
+        let Some(draws) = &table.draws else {
+            return 2000;
+        };
+        if !RANGE.contains(&draws.value) {
+            self.faults.push(
+                Fault::new(
+                    SETTING,
+                    draws.span.clone(),
+                    format!("draws = {} is too few or too many", draws.value),
+                )
+                .label(format!(
+                    "expected a number from {} to {}",
+                    RANGE.start(),
+                    RANGE.end()
+                )),
+            );
+        }
+        draws.value.min(*RANGE.end()) as usize
+    }
+
+    /// Names of families and effects, all of which the catalogue must have.
+    fn in_catalogue(&mut self, list: &Stated<Vec<Stated<String>>>) -> Vec<String> {
+        let known = || {
+            let all = effects().iter();
+            all.flat_map(|effect| [effect.id.as_str(), effect.family.as_str()])
+        };
+        for name in &list.value {
+            if known().any(|known| known == name.value) {
+                continue;
+            }
+            let fault = Fault::new(
+                UNKNOWN_NAME,
+                name.span.clone(),
+                format!("the catalogue has no family or effect {}", name.value),
+            )
+            .label("not known");
+            self.faults.push(match nearest(&name.value, known()) {
+                Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+                None => fault.help(
+                    "docs/diagnose.md lists the families; `gumption plan` lists the effects that a case can have",
+                ),
+            });
+        }
+        list.value.iter().map(|name| name.value.clone()).collect()
     }
 
     /// Shares of full scale, by the identifiers of effects.

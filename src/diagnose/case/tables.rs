@@ -53,7 +53,7 @@ table! {
         average: AverageEntry,
         /// Columns whose labels tell dwells: consecutive rows with the same labels are averaged.
         dwells: OneOrMany<String>,
-        /// Rows at the beginning of each dwell that are left out, while the instrument settles.
+        /// Rows at the beginning of each dwell that are left out, while the instrument settles; 0 if left out.
         settle_rows: u64,
     }
 }
@@ -172,7 +172,7 @@ table! {
         u: Amount,
         /// Standard uncertainty of an error that all rows share.
         u_common: Amount,
-        /// Of an output: the largest value that it can show, to which typical sizes of effects refer; the range of the recording if left out.
+        /// Of an output: the largest value that it can show, to which usual sizes of effects refer; the largest value of the model if left out.
         full_scale: Amount,
         /// Of an output: the step of its numbers (one unit of the last digit, one LSB).
         resolution: Amount,
@@ -349,13 +349,13 @@ table! {
     DiagnosisTable "[diagnosis]" {
         /// Probability of a false alarm; 0.01 if left out.
         alpha: f64,
-        /// Families of the catalogue that are considered; all if left out.
+        /// Families or effects of the catalogue that are considered; all if left out.
         catalogue: List<String>,
-        /// Effects or families that are not considered.
+        /// Families or effects that are not considered.
         exclude: List<String>,
-        /// Seed of the random numbers.
+        /// Seed of the random numbers; 1 if left out.
         seed: u64,
-        /// Simulated recordings without any effect, for the false-alarm rate.
+        /// Simulated recordings without any effect, for the false-alarm rate: 200 to 100000; 2000 if left out.
         draws: u64,
         /// By the identifier of an effect: the largest shift of the output that would not surprise, as a share of full scale.
         typical: Named<f64>,

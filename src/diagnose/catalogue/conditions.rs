@@ -189,7 +189,11 @@ fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &[f64], text: &s
             .times(sharpened(ground, time_constants(ground), &term))
         {
             let lagged = late(tau);
-            let text = format!("lag{text}[{tau} {unit}]", tau = figure(tau));
+            let inner = text
+                .strip_prefix('(')
+                .and_then(|text| text.strip_suffix(')'));
+            let inner = inner.unwrap_or(text);
+            let text = format!("lag({inner}, {tau} {unit})", tau = figure(tau));
             variants.push((
                 format!("τ = {tau} {unit}", tau = figure(tau)),
                 vec![(lagged, text)],

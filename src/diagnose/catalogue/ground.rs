@@ -252,9 +252,9 @@ impl<'f> Ground<'f> {
             numbers.windows(2).all(|pair| pair[0] <= pair[1])
                 || numbers.windows(2).all(|pair| pair[0] >= pair[1])
         };
-        let used = self.case().with_role(Role::Stimulus);
-        let used: Vec<usize> = used.filter(|column| self.in_model(*column)).collect();
-        self.clock.column.is_some() || !used.iter().any(sorted)
+        let applied = |column: &usize| self.case().columns[*column].role == Role::Stimulus;
+        let mut stimuli = self.numeric().into_iter().filter(applied);
+        self.clock.column.is_some() || !stimuli.any(|column| sorted(&column))
     }
 
     /// Seconds in a unit of the clock, where it is a time.

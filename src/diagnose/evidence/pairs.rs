@@ -1,5 +1,7 @@
 //! Two effects that mask each other: neither stands out alone, both together do.
 
+use std::collections::BTreeSet;
+
 use nalgebra::DMatrix;
 
 use super::closed_form::Scale;
@@ -78,18 +80,19 @@ impl Pairs {
             .fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The best pairs, as blocks of the space.
+    /// The best pairs, as blocks of the space: of any two candidates the best of their variants.
     pub(super) fn seeds(&self, space: &Space) -> Vec<[usize; 2]> {
         let values = self.values(space);
         let mut order: Vec<usize> = (0..values.len()).collect();
         order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
-        order
-            .into_iter()
+        let mut seen = BTreeSet::new();
+        let blocks = order.into_iter().map(|i| {
+            let pair = &self.pairs[i];
+            [self.blocks[pair.first], self.blocks[pair.second]]
+        });
+        blocks
+            .filter(|pair| seen.insert(pair.map(|block| space.blocks[block].candidate)))
             .take(SEEDS)
-            .map(|i| {
-                let pair = &self.pairs[i];
-                [self.blocks[pair.first], self.blocks[pair.second]]
-            })
             .collect()
     }
 

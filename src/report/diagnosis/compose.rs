@@ -9,8 +9,9 @@ use crate::report::language::Language;
 use crate::report::number::{NONE, aligned, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
+use super::labels::spoken;
 use super::words::{
-    name, name_of_atom, noise, p_found, probability, quantity, spoken, verdict, weighs,
+    formula, name, name_of_atom, noise, p_found, probability, quantity, tentative, verdict, weighs,
 };
 use super::{improvement, open};
 
@@ -121,7 +122,12 @@ fn located(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
     for (cell, located) in shown {
         table.push(vec![
             quantity(&cell.node, language).into(),
-            spoken(&format!("{} {}", cell.factor, cell.level), language).into(),
+            format!(
+                "{} {}",
+                spoken(&cell.factor, language),
+                spoken(&cell.level, language)
+            )
+            .into(),
             aligned(located.size, located.u, 2).into(),
             significant(located.u, 2).into(),
             significant(located.chi_squared, 3).into(),
@@ -143,7 +149,7 @@ fn slots(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
     for slot in &diagnosis.examination.slots {
         if blocks.is_empty() {
             blocks.push(Block::Section(
-                language.pick("What was left out", "遗漏的物理").into(),
+                language.pick("What was left out", "遗漏的物理效应").into(),
             ));
         }
         blocks.extend(slot_blocks(diagnosis, slot, language));
@@ -162,9 +168,13 @@ fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Bl
             )
         });
         let places: Vec<String> = places.collect();
-        blocks.push(Block::Paragraph(match places.is_empty() {
+        let named = places.is_empty() || tentative(diagnosis, slot).is_some();
+        blocks.push(Block::Paragraph(match named {
             true => language
-                .pick("No name is certain here.", "此处没有确定的名称。")
+                .pick(
+                    "Named, but not with certainty: nothing without a name does as well, but the name may be the shape of another effect.",
+                    "有名称但不确定：未命名的影响都不如它，但它可能只是另一影响的形态。",
+                )
                 .to_owned(),
             false => language.pick(
                 format!("Unexplained: {}.", places.join("; ")),
@@ -191,7 +201,7 @@ fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Bl
                 None => cell.words.fill(language.of(&cell.effect.prose)),
             };
             blocks.push(Block::Paragraph(prose));
-            blocks.push(Block::Formula(vec![cell.words.fill(&cell.effect.formula)]));
+            blocks.push(Block::Formula(vec![formula(diagnosis, alternative)]));
         }
     }
     blocks
@@ -215,7 +225,7 @@ fn headline(
             let kappa = significant(rival.kappa, 2);
             language.pick(
                 format!("; nearest rival {other}, κ = {kappa}"),
-                format!("；最接近的竞争解释为{other}，κ = {kappa}"),
+                format!("；最接近的竞争解释：{other}，κ = {kappa}"),
             )
         }
         None => String::new(),
@@ -225,7 +235,7 @@ fn headline(
     let probability = if only && alternative.probability > 0.999 {
         String::new()
     } else {
-        format!("{posterior} %, ")
+        format!("{posterior} %{}", language.pick(", ", "，"))
     };
     language.pick(
         format!("▸ {title}: {probability}strength λ = {lambda}{separate}"),

@@ -9,7 +9,8 @@ use crate::report::number::{aligned, freedom, significant};
 use crate::report::table::{ColumnKind, Table};
 use crate::special::chi_squared_sf;
 
-use super::words::{p_is, spoken};
+use super::labels::spoken;
+use super::words::p_is;
 
 /// Before and after.
 pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
@@ -85,7 +86,7 @@ fn qualities(
         ),
         (
             if after.is_some() {
-                language.pick("with the physics", "加入遗漏的物理")
+                language.pick("with the physics", "加入遗漏效应后")
             } else {
                 ""
             },
@@ -99,7 +100,8 @@ fn qualities(
         } else {
             format!(" / {}", response.unit.typeset())
         };
-        let label = |what: &str| format!("{what}, {}{unit}", response.name);
+        let label =
+            |what: &str| format!("{what}{}{}{unit}", language.pick(", ", "，"), response.name);
         table.push(vec![
             label(language.pick("residual RMS", "残差均方根")).into(),
             cell(before.residual.get(index).copied()).into(),
@@ -113,7 +115,7 @@ fn qualities(
             ]);
         }
         table.push(vec![
-            label(language.pick("error predicting held-out rows", "留出行的预测误差")).into(),
+            label(language.pick("error predicting held-out rows", "留出数据的预测误差")).into(),
             cell(before.held_out.get(index).copied()).into(),
             cell(after.and_then(|after| after.held_out.get(index).copied())).into(),
         ]);
@@ -245,7 +247,7 @@ pub(super) fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block
         ("u", ColumnKind::Numbers),
         (
             if diagnosis.adopted.is_some() {
-                language.pick("with the physics", "加入遗漏的物理")
+                language.pick("with the physics", "加入遗漏效应后")
             } else {
                 ""
             },

@@ -6,7 +6,7 @@ use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
 use crate::diagnose::{Diagnosis, Estimated, Omitted, Prediction, Quality};
 
-use super::words::{measure, name, name_of_atom, noise, verdict};
+use super::words::{formula, measure, name, name_of_atom, noise, verdict};
 use crate::report::language::Language;
 
 /// Name and version of the format.
@@ -129,7 +129,7 @@ fn alternative(diagnosis: &Diagnosis, alternative: &Alternative, language: Langu
         "name": name(cell, language),
         "family": cell.effect.family,
         "prose": cell.description.clone().unwrap_or_else(|| cell.words.fill(language.of(&cell.effect.prose))),
-        "formula": cell.words.fill(&cell.effect.formula),
+        "formula": formula(diagnosis, alternative),
         "node": cell.place.node,
         "along": cell.place.along,
         "probability": alternative.probability,

@@ -3,6 +3,7 @@
 mod compose;
 mod improvement;
 mod json;
+mod labels;
 mod open;
 mod outlook;
 mod plots;

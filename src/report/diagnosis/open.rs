@@ -180,7 +180,7 @@ pub(super) fn rivals(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
         language
             .pick(
                 "What this recording cannot tell apart, and what would",
-                "此记录不能区分的解释及所需的补充测量",
+                "本记录无法区分的解释及所需的补充测量",
             )
             .into(),
     )];

@@ -96,7 +96,7 @@ fn figure(
             format!(" / {}", declared.unit.typeset())
         };
         let title = |which: &str| format!("{}: {which}{unit}", declared.name);
-        let before = language.pick("residuals of the declared model", "声明模型的残差");
+        let before = language.pick("residuals of the declared model", "声明的模型的残差");
         panels.push(panel(
             &title(before),
             label,
@@ -107,7 +107,7 @@ fn figure(
         if let Some(adopted) = &diagnosis.adopted {
             let after = language.pick(
                 "residuals with the physics in the model",
-                "加入遗漏物理后的残差",
+                "加入遗漏效应后的残差",
             );
             panels.push(panel(
                 &title(after),
@@ -236,8 +236,21 @@ fn tick_label(tick: f64, step: f64) -> String {
         format!("{tick:.decimals$}")
     } else {
         let digits = exponent(tick * (1.0 + 1e-9)) - last_place + 1;
-        significant(tick, u8::try_from(digits).unwrap_or(1).max(1))
+        raised(&significant(tick, u8::try_from(digits).unwrap_or(1).max(1)))
     }
+}
+
+/// A power of ten as it is printed in a figure: `1×10⁶`.
+fn raised(text: &str) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let Some((number, exponent)) = text.split_once('^') else {
+        return text.to_owned();
+    };
+    let exponent = exponent.chars().map(|c| match c.to_digit(10) {
+        Some(digit) => RAISED[digit as usize],
+        None => '⁻',
+    });
+    number.chars().chain(exponent).collect()
 }
 
 fn escaped(text: &str) -> String {

@@ -5,6 +5,7 @@ use crate::diagnose::catalogue::{Cell, Text, Variation};
 use crate::diagnose::evidence::{Alternative, Refusal, Slot, State, Verdict};
 use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
 
+use super::labels::spoken;
 use crate::report::language::Language;
 use crate::report::number::{freedom, significant};
 
@@ -24,69 +25,6 @@ pub(super) fn name(cell: &Cell, language: Language) -> String {
 pub(super) fn label(variation: &Variation, language: Language) -> String {
     let label = variation.label.as_str();
     spoken(label.strip_suffix(" 1").unwrap_or(label), language)
-}
-
-/// Labels of variants and of places are formed in English; here the phrases in them in Chinese. A phrase
-/// that begins a label is replaced only there, since names of columns may contain it.
-const PHRASES: &[(&str, &str)] = &[
-    (", not in balance at the start", "，起始时未平衡"),
-    ("with its rate of change", "及其变化率"),
-    ("with a linear part", "含线性项"),
-    ("square alone", "仅平方项"),
-    ("with its square", "含平方项"),
-    ("with the root of time", "随时间平方根"),
-    ("slowing down", "逐渐减慢"),
-    ("several widths", "多种间隙宽度"),
-    ("two widths", "两种间隙宽度"),
-    (" % of the range", " % 量程"),
-    (" of the largest", " 倍最大值"),
-    ("on rising values only", "仅上升段"),
-    ("on falling values only", "仅下降段"),
-    ("widest in the middle", "中间最宽"),
-    ("levelling off, half at", "趋于饱和，半值点"),
-    ("at once", "即时"),
-    (" per turn", " 次每转"),
-    ("first half", "前半段"),
-    ("second half", "后半段"),
-    ("one row late", "晚一行"),
-    ("one row early", "早一行"),
-    (" to ", " 至 "),
-    (" and ", " 和 "),
-];
-
-/// Phrases with which a label begins.
-const BEGINNINGS: &[(&str, &str)] = &[
-    ("rows ", "行 "),
-    ("row ", "行 "),
-    ("period ", "周期 "),
-    ("width ", "宽度 "),
-    ("gap ", "间隙 "),
-    ("within ", "在此范围内 "),
-    ("above ", "高于 "),
-    ("below ", "低于 "),
-    ("by about ", "约 "),
-    ("step ", "步长 "),
-    ("from ", "起自 "),
-    ("at ", "位于 "),
-    ("bent", "弯曲"),
-    ("all", "全部"),
-];
-
-/// A label of a variant or a place in a language.
-pub(super) fn spoken(label: &str, language: Language) -> String {
-    if language.pick(true, false) {
-        return label.to_owned();
-    }
-    let mut text = label.to_owned();
-    for (english, chinese) in PHRASES {
-        text = text.replace(english, chinese);
-    }
-    for (english, chinese) in BEGINNINGS {
-        if let Some(rest) = text.strip_prefix(english) {
-            return format!("{chinese}{rest}");
-        }
-    }
-    text
 }
 
 /// A quantity of the model in a language: offset and scale have words, others their names.
@@ -112,11 +50,9 @@ pub(super) fn name_of_atom(diagnosis: &Diagnosis, atom: usize, language: Languag
     let (cell, variation) = diagnosis.atoms[atom];
     let cell = &diagnosis.cells[cell];
     let name = name(cell, language);
-    let label = label(&cell.variants[variation], language);
-    if label.is_empty() {
-        name
-    } else {
-        format!("{name} ({label})")
+    match label(&cell.variants[variation], language) {
+        label if label.is_empty() => name,
+        label => format!("{name} ({label})"),
     }
 }
 
@@ -140,28 +76,69 @@ pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
         Verdict::Identified => language.pick(format!("The model leaves out: {list}."), format!("模型遗漏了：{list}。")),
         Verdict::Ambiguous => language.pick(
             format!("The model leaves out something that this recording cannot tell apart: {list}."),
-            format!("模型有遗漏，但此记录不能区分：{list}。"),
+            format!("模型有遗漏，但本记录无法区分：{list}。"),
         ),
-        Verdict::Partly if !names.is_empty() => language.pick(
+        Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {
+            incomplete(diagnosis, &list, language)
+        }
+    }
+}
+
+/// The verdict where not all has a certain name; `list` are those that are.
+fn incomplete(diagnosis: &Diagnosis, list: &str, language: Language) -> String {
+    let (semicolon, colon) = (language.pick("; ", "；"), language.pick(": ", "："));
+    let tentative = tentatives(diagnosis, language).join(semicolon);
+    let places = places(diagnosis, language).join(semicolon);
+    let nameless = tentative.is_empty() || !places.is_empty();
+    let contested = diagnosis.examination.verdict == Verdict::Contested;
+    if list.is_empty() && tentative.is_empty() {
+        let places = if places.is_empty() {
+            places
+        } else {
+            colon.to_owned() + &places
+        };
+        return language.pick(
+            format!(
+                "Model and recording disagree, and nothing in the catalogue explains it{places}."
+            ),
+            format!("模型与记录不一致，且目录中没有可解释的原因{places}。"),
+        );
+    }
+    if list.is_empty() {
+        let besides = match places.is_empty() {
+            true => String::new(),
+            false => language.pick(
+                format!(" Unexplained besides: {places}."),
+                format!("此外未能解释：{places}。"),
+            ),
+        };
+        return language.pick(
+            format!(
+                "Model and recording disagree. Tentatively, the model leaves out: {tentative}."
+            ),
+            format!("模型与记录不一致。模型可能（未确定）遗漏了：{tentative}。"),
+        ) + &besides;
+    }
+    let mut sentence = match (contested && nameless, nameless) {
+        (true, _) => language.pick(
+            format!("The model leaves out: {list}; or else something unknown that varies smoothly, which explains the recording as well."),
+            format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释本记录。"),
+        ),
+        (false, true) => language.pick(
             format!("The model leaves out: {list}. Something without a name remains."),
             format!("模型遗漏了：{list}。此外还有无法命名的部分。"),
         ),
-        Verdict::Contested if !names.is_empty() => language.pick(
-            format!("The model leaves out: {list}; or else something unknown that varies smoothly, which explains the recording as well."),
-            format!("模型遗漏了：{list}；但某种平滑变化的未知影响同样可以解释此记录。"),
-        ),
-        Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {
-            let places = places(diagnosis, language);
-            let places = match &places[..] {
-                [] => String::new(),
-                places => language.pick(": ", "：").to_owned() + &places.join(language.pick("; ", "；")),
-            };
-            language.pick(
-                format!("Model and recording disagree, and nothing in the catalogue explains it{places}."),
-                format!("模型与记录不一致，且目录中没有可解释的原因{places}。"),
-            )
+        (false, false) => {
+            language.pick(format!("The model leaves out: {list}."), format!("模型遗漏了：{list}。"))
         }
+    };
+    if !tentative.is_empty() {
+        sentence += &language.pick(
+            format!(" Tentatively also: {tentative}."),
+            format!("可能（未确定）还有：{tentative}。"),
+        );
     }
+    sentence
 }
 
 /// Whether an explanation without a name is likely enough to say a place.
@@ -170,10 +147,38 @@ pub(super) fn weighs(alternative: &Alternative) -> bool {
     alternative.probability >= LEAST
 }
 
-/// Where what is unexplained sits: what is likely enough; else the best there is.
+/// The name of a slot that is not certain, but far likelier than everything without a name.
+pub(super) fn tentative<'s>(diagnosis: &Diagnosis, slot: &'s Slot) -> Option<&'s Alternative> {
+    /// What has no name is out of question below this …
+    const UNLIKELY: f64 = 0.05;
+    /// … and a name is tentative from here on.
+    const LIKELY: f64 = 0.5;
+    let unlikely = slot.generic.iter().all(|one| one.probability < UNLIKELY);
+    // What only tells how the recording looks is no name beside something unexplained.
+    let describes = |one: &Alternative| {
+        let id = diagnosis.cells[one.candidate].effect.id.as_str();
+        matches!(id, "outlier" | "step" | "step-scale" | "wave")
+    };
+    let first = slot.named.first().filter(|one| one.probability > LIKELY);
+    let first = first.filter(|one| !describes(one));
+    first.filter(|_| slot.state == State::Unexplained && unlikely)
+}
+
+/// Names that are tentative, over all slots.
+fn tentatives(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
+    let slots = diagnosis.examination.slots.iter();
+    let names = slots
+        .filter_map(|slot| tentative(diagnosis, slot))
+        .map(|one| name(&diagnosis.cells[one.candidate], language));
+    distinct(names.collect())
+}
+
+/// Where what is unexplained sits: what is likely enough; else, where no name is tentative either, the best
+/// there is.
 fn places(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
     let slots = diagnosis.examination.slots.iter();
-    let unexplained = slots.filter(|slot| slot.state == State::Unexplained);
+    let unexplained =
+        slots.filter(|s| s.state == State::Unexplained && tentative(diagnosis, s).is_none());
     let found: Vec<&Alternative> = unexplained.filter_map(|s| s.generic.first()).collect();
     let likely = found.iter().copied().filter(|one| weighs(one));
     let mut likely: Vec<&Alternative> = likely.collect();
@@ -205,6 +210,24 @@ pub(super) fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) 
         .map(|a| name(&diagnosis.cells[a.candidate], language))
         .collect();
     names.join(language.pick(" or ", " 或 "))
+}
+
+/// The formula of an explanation, without the lag where its best variant has none.
+pub(super) fn formula(diagnosis: &Diagnosis, alternative: &Alternative) -> String {
+    let cell = &diagnosis.cells[alternative.candidate];
+    let lags = alternative.variants.first().is_none_or(|variant| {
+        let (_, variation) = diagnosis.atoms[variant.atom];
+        let mut terms = cell.variants[variation].terms.iter();
+        terms.any(|term| term.text.contains("lag("))
+    });
+    let general = &cell.effect.formula;
+    match general.split_once("lag(") {
+        Some((before, rest)) if !lags => match rest.split_once(", τ)") {
+            Some((within, after)) => cell.words.fill(&format!("{before}({within}){after}")),
+            None => cell.words.fill(general),
+        },
+        _ => cell.words.fill(general),
+    }
 }
 
 /// Where the noise comes from.
@@ -351,24 +374,5 @@ pub fn failure(case: &Case, failure: &Failure, language: Language) -> String {
         }
         Failure::Refused(Refusal::Cancelled) => language.pick("stopped".to_owned(), "已中断".to_owned()),
         Failure::Refused(other) => other.to_string(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn labels_are_spoken_in_both_languages() {
-        for (label, chinese) in [
-            ("τ = 44 and 178 s", "τ = 44 和 178 s"),
-            ("rows 61 to 80", "行 61 至 80"),
-            ("width 15 % of the range", "宽度 15 % 量程"),
-            ("90 per turn", "90 次每转"),
-            ("place front", "place front"),
-        ] {
-            assert_eq!(spoken(label, Language::English), label);
-            assert_eq!(spoken(label, Language::Chinese), chinese);
-        }
     }
 }

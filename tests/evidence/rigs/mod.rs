@@ -64,6 +64,8 @@ impl Catalogue {
             },
             typical: None,
             repeats: false,
+            describes: false,
+            odds: 1.0,
         });
         self.candidates.len() - 1
     }

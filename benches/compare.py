@@ -136,6 +136,12 @@ def report(folder):
         for trials in TRIALS:
             if (model, trials, 1) in own:
                 print(row(model, trials, own, others, limits))
+    print("\n## Time to two stable digits\n")
+    print("Quasi-random points beside random trials of gumption, each until it guarantees estimate, u and both ends")
+    print("of the 95 % interval to two digits of u ([docs/monte-carlo.md](../docs/monte-carlo.md)).\n")
+    print("```text")
+    print(pathlib.Path(folder, "quasi.txt").read_text().strip())
+    print("```")
     print("\n## Models\n")
     for model, text in MODELS.items():
         print(f"- `{model}`: {text}")

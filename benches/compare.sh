@@ -16,7 +16,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cargo build --release --quiet --bin gumption
-cargo bench --bench limits --no-run --quiet
+cargo bench --bench limits --bench quasi --no-run --quiet
 
 # In turns, so that whatever else the machine does falls on all of them.
 for turn in 1 2; do
@@ -28,6 +28,8 @@ for turn in 1 2; do
             >>"$work/$peer.jsonl" 2>/dev/null || echo "$peer: not run" >&2
     done
 done
+
+cargo bench --bench quasi --quiet >"$work/quasi.txt"
 
 "$python" benches/compare.py report "$work" >"$work/performance.md"
 mv "$work/performance.md" reports/performance.md

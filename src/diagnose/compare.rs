@@ -4,7 +4,8 @@ use super::case::Case;
 use super::catalogue::{self, Ground};
 use super::evidence::Question;
 use super::frame::Frame;
-use super::run::{Failure, baseline, question, settings};
+use super::inquiry::{baseline, question, settings};
+use super::run::Failure;
 use super::{noise, rivals};
 
 /// A name that a method gives.

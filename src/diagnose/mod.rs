@@ -12,6 +12,7 @@
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
 //! | `held_out` | prediction of a recording that the fit has not seen |
 //! | `likeness` | what can stand in for something whose trace is known |
+//! | `inquiry` | candidates and recording as matrices, asked of `evidence` |
 //! | `result` | the parameters as the measurands of a budget |
 //! | [`rivals`] | methods in common use, to be compared with |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
@@ -30,6 +31,7 @@ mod fit;
 mod frame;
 mod held_out;
 mod improved;
+mod inquiry;
 mod likeness;
 mod local;
 mod noise;

@@ -8,8 +8,9 @@ use super::catalogue::{Cell, Ground, Variation};
 use super::evidence::{self, Baseline};
 use super::fit;
 use super::frame::Frame;
+use super::inquiry::baseline;
 use super::noise::Claimed;
-use super::run::{Adopted, baseline};
+use super::run::Adopted;
 use super::typical;
 
 /// An effect of the catalogue that is not in the model.

@@ -11,9 +11,10 @@ use super::evidence::{self, Atom, Baseline, Refusal, Shape};
 use super::extra::{Extra, extras};
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
+use super::inquiry::{baseline, question};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
-use super::run::{Estimated, Failure, baseline, estimates, question};
+use super::run::{Estimated, Failure, estimates};
 use super::separation::{self, Contender, Known};
 use super::typical::{self, Unified};
 

@@ -9,8 +9,8 @@ use super::evidence::{self, Action, Baseline, Worth};
 use super::extra::Extra;
 use super::fit::{self, Fit};
 use super::frame::Frame;
+use super::inquiry::baseline;
 use super::noise::{self, Claimed};
-use super::run::baseline;
 
 /// An explanation among others for the same mismatch.
 #[derive(Debug, Clone, PartialEq)]

@@ -30,3 +30,48 @@ fn outputs(rig: Rig) -> &'static [&'static str] {
         Rig::RateTable => &["wx", "wy", "wz"],
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::challenge::{Request, Scenario, challenge};
+
+    fn effect(scenario: &str) -> TrueEffect {
+        let all = Scenario::all();
+        let request = Request {
+            seed: 4,
+            scenario: all.into_iter().find(|one| one.name() == scenario),
+            ..Request::default()
+        };
+        challenge(&request).truth.effects.remove(0)
+    }
+
+    fn name(id: &str, label: &str) -> Name {
+        let variant = format!(r#"[{{"label":"{label}","share":1}}]"#);
+        let text = format!(r#"{{"id":"{id}","family":"","probability":1,"variants":{variant}}}"#);
+        serde_json::from_str(&text).unwrap()
+    }
+
+    #[test]
+    fn the_axis_that_is_stated_has_to_be_one_of_the_effect() {
+        let truth = TrueEffect {
+            axes: vec![1],
+            ..effect("triad+supply")
+        };
+        let said = |label| located(Rig::Triad, 0.1, &truth, &name("sensitivity", label));
+        assert_eq!(said("ay"), Some(true));
+        assert_eq!(said("ax, τ = 0.2 h"), Some(false));
+        assert_eq!(said(""), None);
+    }
+
+    #[test]
+    fn a_jump_is_placed_within_a_dwell() {
+        let truth = TrueEffect {
+            happened_h: Some(1.25),
+            ..effect("remount+knock")
+        };
+        let said = |label| located(Rig::Remount, 0.1, &truth, &name("step", label));
+        assert_eq!(said("at time = 1.3 h"), Some(true));
+        assert_eq!(said("at time = 1.9 h"), Some(false));
+    }
+}

@@ -11,7 +11,7 @@ use crate::challenge::truth::{TrueEffect, Truth};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Finding {
-    /// Named, and nothing else; or with names that are right as well.
+    /// Named, and nothing else.
     Unique,
     /// In a list of so many names.
     Listed(usize),
@@ -168,15 +168,16 @@ fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool)
     let slot = found.map(|at| &answer.effects[at]);
     let finding = match slot {
         Some(effect) if effect.state == State::Identified => Finding::Unique,
-        // Two right names for one physics, such as its first and its second order, are no alternative.
-        Some(effect) if effect.named.iter().all(|n| accepts(truth.physics, n)) => Finding::Unique,
         Some(effect) => Finding::Listed(effect.named.len()),
         None if open => Finding::Unexplained,
         None => Finding::Missed,
     };
     let right = |effect: &AnsweredEffect| {
-        let names = effect.named.iter().filter(|name| names(truth, name));
-        names.map(|name| name.probability).reduce(|a, b| a + b)
+        effect
+            .named
+            .iter()
+            .find(|name| names(truth, name))
+            .map(|name| name.probability)
     };
     let overclaimed = finding == Finding::Unique && aliases(truth).next().is_some();
     GradedEffect {
@@ -331,20 +332,6 @@ mod tests {
             (listed.effects[0].finding, listed.points),
             (Finding::Listed(2), 1.0)
         );
-    }
-
-    #[test]
-    fn two_right_names_are_as_good_as_one() {
-        let truth = truth("remount+vibration");
-        let orders: &[(&str, &str)] = &[
-            ("sensitivity", "vibration"),
-            ("sensitivity-quadratic", "vibration"),
-        ];
-        let right = grade(&truth, &answer("ambiguous", &[("ambiguous", orders)]));
-        assert_eq!(right.effects[0].finding, Finding::Unique);
-        let other: &[(&str, &str)] = &[("sensitivity", "vibration"), ("drift", "time")];
-        let listed = grade(&truth, &answer("ambiguous", &[("ambiguous", other)]));
-        assert_eq!(listed.effects[0].finding, Finding::Listed(2));
     }
 
     #[test]

@@ -4,10 +4,13 @@ mod common;
 
 use std::fmt::Write;
 
+use gumption::diagnose::case::{Case, Purpose};
+use gumption::diagnose::likenesses;
+use nalgebra::DVector;
 use serde_json::Value;
 
 use common::Noise;
-use common::cases::{diagnosed_with as diagnosed, named_apart as named};
+use common::cases::{diagnosed_with as diagnosed, folder, named_apart as named};
 
 #[test]
 fn two_harmonics_of_one_angle_are_two_effects() {
@@ -80,6 +83,101 @@ fn a_loop_on_the_way_down_is_hysteresis() {
     let case = "model = \"signal = a + b*pressure\"\n[columns]\nsignal = \"output\"\npressure = \"stimulus\"\n";
     let found = diagnosed("hysteresis", &rows, case);
     assert_eq!(named(&found)[0], ["hysteresis"], "{found}");
+}
+
+#[test]
+fn a_plain_square_of_what_goes_both_ways_is_no_hysteresis() {
+    let mut noise = Noise(13);
+    let mut rows = "mass [g],x [mm]\n".to_owned();
+    for _ in 0..3 {
+        for step in 0..20 {
+            let mass = f64::from(if step <= 10 { step } else { 20 - step }) * 10.0;
+            let x = 3.0 + 0.2 * mass + 5e-6 * mass * mass + 1e-3 * noise.normal();
+            let _ = writeln!(rows, "{mass},{x:.5}");
+        }
+    }
+    let case = "model = \"x = x0 + k*mass\"\n[columns]\nx = \"output\"\nmass = \"stimulus\"\n";
+    let found = diagnosed("spring", &rows, case);
+    assert_eq!(named(&found)[0], ["quadratic"], "{found}");
+}
+
+#[test]
+fn a_condition_whose_order_is_open_is_one_name() {
+    let mut noise = Noise(17);
+    let mut rows = "x [V],vibration [m/s^2],y [mV]\n".to_owned();
+    for row in 0..48 {
+        let x = f64::from(row % 6);
+        // Over this range a straight line is nearly the parabola.
+        let vibration = 1.0 + 0.5 * libm::sin(2.4 * f64::from(row));
+        let y = 1.0 + 2.0 * x + 0.02 * vibration * vibration + 6e-3 * noise.normal();
+        let _ = writeln!(rows, "{x},{vibration:.4},{y:.5}");
+    }
+    let case = "model = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nvibration = \"covariate\"\n";
+    let found = diagnosed("orders", &rows, case);
+    let first = &found["effects"][0];
+    assert_eq!(
+        (&first["state"], named(&found)[0].len()),
+        (&"identified".into(), 1),
+        "{found}"
+    );
+    let variants = first["named"][0]["variants"].as_array().unwrap();
+    for id in ["sensitivity", "sensitivity-quadratic"] {
+        assert!(
+            variants.iter().any(|variant| variant["id"] == id),
+            "{variants:?}"
+        );
+    }
+    let statement = found["statement"].as_str().unwrap();
+    assert!(statement.contains("its order is open"), "{statement}");
+}
+
+#[test]
+fn a_known_trace_is_held_beside_every_candidate() {
+    let mut noise = Noise(19);
+    let mut rows = "t [h],x [V],y [mV]\n".to_owned();
+    let course: Vec<(f64, f64)> = (0..40)
+        .map(|row| (0.1 * f64::from(row), f64::from(row * 7 % 9)))
+        .collect();
+    for (t, x) in &course {
+        let _ = writeln!(rows, "{t},{x},{:.5}", 1.0 + 2.0 * x + 1e-3 * noise.normal());
+    }
+    let folder = folder("likeness");
+    std::fs::write(folder.join("recording.csv"), rows).unwrap();
+    let file = folder.join("case.toml");
+    std::fs::write(&file, "recording = \"recording.csv\"\nmodel = \"y = a + b*x\"\n[columns]\nt = \"time\"\nx = \"stimulus\"\ny = \"output\"\n").unwrap();
+    let case = Case::load(&file, Purpose::Diagnosis).unwrap();
+    let trace =
+        |f: fn(f64, f64) -> f64| DVector::from_iterator(40, course.iter().map(|(t, x)| f(*t, *x)));
+    let (slope, square) = (trace(|t, _| 3.0 * t), trace(|_, x| 0.5 * x * x));
+    let nearest = |trace: &DVector<f64>, others: &[DVector<f64>]| {
+        let all = likenesses(&case, trace, others).unwrap();
+        all.into_iter().min_by(|a, b| {
+            (a.coefficients, a.left)
+                .partial_cmp(&(b.coefficients, b.left))
+                .unwrap()
+        })
+    };
+    let drift = nearest(&slope, &[]).unwrap();
+    assert_eq!((drift.pick.id.as_str(), drift.coefficients), ("drift", 1));
+    assert!(
+        drift.left < 1e-6 && (drift.size.unwrap() - 3.0).abs() < 1e-6,
+        "{drift:?}"
+    );
+    // Beside the drift the square is seen alone.
+    let curve = nearest(&square, std::slice::from_ref(&slope)).unwrap();
+    assert_eq!(curve.pick.id, "quadratic");
+    assert!(curve.left < 1e-6, "{curve:?}");
+    // What the declared parameters or the others hold has no likeness.
+    assert!(
+        likenesses(&case, &slope, std::slice::from_ref(&slope))
+            .unwrap()
+            .is_empty()
+    );
+    assert!(
+        likenesses(&case, &trace(|_, x| 4.0 * x), &[])
+            .unwrap()
+            .is_empty()
+    );
 }
 
 /// The names of the first effect with the label of its first variant.

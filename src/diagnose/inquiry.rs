@@ -152,6 +152,7 @@ pub(super) fn question(
             name: format!("{} {}", cell.effect.id, cell.words.x),
             family: cell.effect.family.clone(),
             place: cell.place.clone(),
+            cause: cause(cells, index),
             typical: cell.typical,
             repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
             describes: matches!(
@@ -183,6 +184,15 @@ pub(super) fn question(
         }
     }
     (candidates, atoms, places)
+}
+
+/// The cell that stands for the cause of one: that of which it is another order, or itself.
+fn cause(cells: &[Cell], index: usize) -> usize {
+    let cell = &cells[index];
+    let stands = |other: &Cell| {
+        cell.effect.order_of.as_ref() == Some(&other.effect.id) && other.place == cell.place
+    };
+    cells.iter().position(stands).unwrap_or(index)
 }
 
 /// Of which effects more than a trace is left beside the parameters. Less is what the curvature of the

@@ -58,9 +58,16 @@ pub fn likenesses(
     for other in others {
         add(&mut adopted, seen(other));
     }
-    let rest = beside(seen(trace), &adopted);
+    let own = seen(trace);
+    let alone = own.norm();
+    let rest = beside(own, &adopted);
     let whole = rest.norm();
-    if whole.is_nan() || whole <= 0.0 {
+    let column = DMatrix::from_column_slice(trace.len(), 1, trace.as_slice());
+    let absorbed = baseline
+        .visibilities(&column)
+        .iter()
+        .all(|share| *share <= DEPENDENT);
+    if absorbed || whole.is_nan() || whole * whole <= DEPENDENT * alone * alone {
         return Ok(Vec::new());
     }
     let of = |(atom, place): (&super::evidence::Atom, &(usize, usize))| {

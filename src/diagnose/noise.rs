@@ -348,7 +348,8 @@ pub fn spread_out(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         let scale = (own.component_div(&u).norm_squared() / (blocks as f64 * share)).sqrt();
         u *= scale;
         let at_level = u[0] / spread.at(values[0]);
-        claimed.growth.push(Some(spread.growth(at_level)));
+        let unit = frame.case.responses[response].unit.typeset();
+        claimed.growth.push(Some(spread.growth(at_level, unit)));
     }
     claimed
 }

@@ -181,10 +181,12 @@ mod tests {
         ];
         let candidates: Vec<Candidate> = columns
             .iter()
-            .map(|(name, _)| Candidate {
+            .enumerate()
+            .map(|(index, (name, _))| Candidate {
                 name: (*name).into(),
                 family: String::new(),
                 place: Place::default(),
+                cause: index,
                 typical: None,
                 repeats: false,
                 describes: false,

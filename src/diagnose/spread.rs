@@ -24,10 +24,12 @@ const SHARES: [f64; 15] = [
 ];
 
 /// Noise of one response that grows with the reading: u² = a² + (b·y)².
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Growth {
-    /// a, in the unit of the response.
+    /// a.
     pub constant: f64,
+    /// Its unit, that of the response.
+    pub unit: String,
     /// b.
     pub proportional: f64,
 }
@@ -48,9 +50,10 @@ impl Spread {
         (1.0 - self.share + self.share * part * part).sqrt()
     }
 
-    /// With the standard uncertainty where [`Spread::at`] is one.
-    pub fn growth(&self, scale: f64) -> Growth {
+    /// With the standard uncertainty where [`Spread::at`] is one, in the unit of the response.
+    pub fn growth(&self, scale: f64, unit: String) -> Growth {
         Growth {
+            unit,
             constant: scale * (1.0 - self.share).sqrt(),
             proportional: scale * self.share.sqrt() / self.level,
         }

@@ -65,6 +65,9 @@ pub struct Name {
 /// A variant of a name.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Variant {
+    /// Identifier of its effect: that of the name, or of the same cause in another order.
+    #[serde(default)]
+    pub id: String,
     /// What distinguishes it.
     pub label: String,
     /// Share of the probability.

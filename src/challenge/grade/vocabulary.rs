@@ -2,15 +2,23 @@
 //! function of the same quantities, either name is right: a saturation far below its rails is a cubic
 //! error, a resistor in its own heat is one as well.
 
-use super::answer::Name;
+use super::answer::{Name, Variant};
 use crate::challenge::effect::Physics;
 
 /// Whether a name is right for a physics.
 pub fn accepts(physics: Physics, name: &Name) -> bool {
     accepted(physics).iter().any(|(id, along)| {
-        name.id == *id
+        (name.id == *id || holds(name, id))
             && (along.is_empty() || along.iter().any(|column| mentions(&name.along, column)))
     })
+}
+
+/// Whether a name leaves open that it is an effect in another order.
+fn holds(name: &Name, id: &str) -> bool {
+    /// An order with less than this share is ruled out.
+    const OPEN: f64 = 0.01;
+    let order = |variant: &Variant| variant.id == id && variant.share >= OPEN;
+    name.variants.iter().any(order)
 }
 
 /// Identifiers of the catalogue that can be right for a physics.

@@ -18,6 +18,9 @@ const LENGTH: f64 = 0.2;
 /// Cosines of a smooth curve.
 const COSINES: usize = 8;
 
+/// A curve of fewer cosines is as good as a straight line.
+const LEAST: usize = 3;
+
 /// One smooth curve for each column and for the time, levels of what has few values, and scatter.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
@@ -97,20 +100,22 @@ fn distinct(x: &[f64]) -> Vec<f64> {
 type Feature = (Vec<f64>, f64);
 
 fn smooth(ground: &Ground<'_>, node: Node, name: &str, course: &[f64]) -> Option<Cell> {
+    let features = waves(course);
+    (features.len() >= LEAST).then(|| generic(ground, "smooth", node, name, &features))
+}
+
+/// Cosines over the range of a course, fewer where it has few values.
+fn waves(course: &[f64]) -> Vec<Feature> {
     let (least, most) = range(course);
     let count = COSINES.min(distinct(course).len() - 1);
-    if count < 3 {
-        return None;
-    }
-    let features = (1..=count).map(|k| {
+    let feature = |k: usize| {
         let wave = |x: f64| libm::cos(PI * k as f64 * (x - least) / (most - least));
         // Spectrum of a Gaussian process with a squared exponential kernel on the unit interval.
         let frequency = PI * k as f64 * LENGTH;
         let variance = libm::exp(-frequency * frequency / 2.0).max(1e-3);
         (map(course, wave), variance)
-    });
-    let features: Vec<Feature> = features.collect();
-    Some(generic(ground, "smooth", node, name, &features))
+    };
+    (1..=count).map(feature).collect()
 }
 
 /// A value of its own at each value of a column that comes again and again.
@@ -154,6 +159,39 @@ fn at_levels(ground: &Ground<'_>, node: Node, name: &str, features: &[Feature]) 
     cell
 }
 
+/// A smooth curve over the signal of each of some responses: errors of shape that no power has.
+pub(super) fn over_signals(ground: &Ground<'_>, signals: &[(usize, &[f64])]) -> Vec<Variation> {
+    let own = signals
+        .iter()
+        .map(|(response, signal)| (*response, waves(signal)));
+    let own: Vec<_> = own.filter(|(_, waves)| waves.len() >= LEAST).collect();
+    let name = |response: usize| ground.case().responses[response].name.as_str();
+    let each = own
+        .iter()
+        .map(|one| (name(one.0), std::slice::from_ref(one)));
+    let several = (own.len() > 1).then_some(("", &own[..]));
+    let variation = |(label, of): (&str, &[(usize, Vec<Feature>)])| {
+        let features = of
+            .iter()
+            .flat_map(|(response, waves)| waves.iter().map(move |wave| (response, wave)));
+        let (terms, spectrum) = features
+            .map(|(response, (wave, variance))| {
+                let term = Term::new(Node::Output, wave.clone(), String::new());
+                (term.on(*response), *variance)
+            })
+            .unzip();
+        unnamed(label, terms, spectrum)
+    };
+    each.chain(several).map(variation).collect()
+}
+
+fn unnamed(label: &str, terms: Vec<Term>, spectrum: Vec<f64>) -> Variation {
+    Variation {
+        spectrum: Some(spectrum),
+        ..Variation::of(label, terms)
+    }
+}
+
 /// On one response, and on each of them in its own way; an error of a column reaches all.
 fn generic(ground: &Ground<'_>, id: &str, node: Node, along: &str, features: &[Feature]) -> Cell {
     let term = |(modifier, _): &Feature| Term::new(node, modifier.clone(), String::new());
@@ -162,10 +200,7 @@ fn generic(ground: &Ground<'_>, id: &str, node: Node, along: &str, features: &[F
     let responses = &ground.case().responses;
     let mut variants = Vec::new();
     let mut add = |label: &str, terms: Vec<Term>, spectrum: Vec<f64>| {
-        variants.push(Variation {
-            spectrum: Some(spectrum),
-            ..Variation::of(label, terms)
-        });
+        variants.push(unnamed(label, terms, spectrum));
     };
     if responses.len() == 1 || matches!(node, Node::Column(_)) || features.is_empty() {
         add("", features.iter().map(term).collect(), variances.collect());

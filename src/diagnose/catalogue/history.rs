@@ -57,7 +57,9 @@ fn loops(x: &[f64], way: &[f64], label: &str) -> Vec<Variation> {
         square = figure(half * half)
     );
     let direction = format!("direction({label})");
-    let on_one = |sign: f64| map2(&wide, way, |wide, way| wide * (1.0 + sign * way) / 2.0);
+    // Falling values with the opposite sign: no mixture of the two with sizes of one sign is a parabola
+    // without a loop.
+    let on_one = |sign: f64| map2(&wide, way, |wide, way| wide * (sign + way) / 2.0);
     let simple = [
         ("", way.to_vec(), direction.clone()),
         (
@@ -73,7 +75,7 @@ fn loops(x: &[f64], way: &[f64], label: &str) -> Vec<Variation> {
         (
             "on falling values only, widest in the middle",
             on_one(-1.0),
-            format!("[falling]*{shape}"),
+            format!("-[falling]*{shape}"),
         ),
     ];
     let simple = simple

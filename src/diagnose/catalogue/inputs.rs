@@ -4,10 +4,11 @@
 //! The signal of a response, what its model gives besides constant terms, is the input of its axis in units
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
+use super::generics::over_signals;
 use super::ground::{Ground, Node, varies};
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, figure, held_lag, lag, largest, map, map2, play, range, rate,
+    correlation, creeps, figure, held_lag, lag, largest, map, map2, play_by_way_of, range, rate,
 };
 use super::response::time_constants;
 use super::{Cell, Modifier, Term, Variation, Words};
@@ -26,6 +27,18 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells.extend(memory(ground, &inputs));
     cells.retain(|cell| !cell.variants.is_empty());
     cells
+}
+
+/// What follows the inputs smoothly and has no name.
+pub(super) fn unnamed(ground: &Ground<'_>) -> Option<Cell> {
+    let inputs = inputs(ground);
+    let signals: Vec<(usize, &[f64])> = inputs.iter().map(|i| (i.response, &i.own[..])).collect();
+    let variants = over_signals(ground, &signals);
+    let words = Words {
+        p: ground.name(Node::Output),
+        ..words(ground, &inputs)
+    };
+    (!variants.is_empty()).then(|| Cell::new("smooth", words, place(ground), variants))
 }
 
 /// What a response takes in.
@@ -166,23 +179,25 @@ fn cell(ground: &Ground<'_>, inputs: &[Input], id: &str, laws: Vec<Shaped<'_>>) 
             add("", inputs.iter().flat_map(terms).collect());
         }
     }
-    let names: Vec<&str> = inputs
-        .iter()
-        .map(|input| case.responses[input.response].name.as_str())
-        .collect();
-    Cell::new(
-        id,
-        Words {
-            x: format!("signal({})", names.join(", ")),
-            y: ground.output(),
-            ..Words::default()
-        },
-        Place {
-            node: ground.name(Node::Output),
-            along: along(ground),
-        },
-        variants,
-    )
+    let (words, place) = (words(ground, inputs), place(ground));
+    Cell::new(id, words, place, variants)
+}
+
+fn words(ground: &Ground<'_>, inputs: &[Input]) -> Words {
+    let name = |input: &Input| ground.case().responses[input.response].name.as_str();
+    let names: Vec<&str> = inputs.iter().map(name).collect();
+    Words {
+        x: format!("signal({})", names.join(", ")),
+        y: ground.output(),
+        ..Words::default()
+    }
+}
+
+fn place(ground: &Ground<'_>) -> Place {
+    Place {
+        node: ground.name(Node::Output),
+        along: along(ground),
+    }
 }
 
 /// The columns that inputs are formed from.
@@ -350,7 +365,10 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
 /// Loops of a body with inner friction: one play, or several of growing width in parallel.
 fn loops() -> Vec<Shaped<'static>> {
     const WIDTHS: [f64; 5] = [0.1, 0.3, 0.6, 1.0, 1.5];
-    let behind = |own: &[f64], width: f64| map2(own, &play(own, width), |s, behind| s - behind);
+    let behind = |input: &Input, width: f64| {
+        let played = play_by_way_of(&input.own, &input.came, width);
+        map2(&input.own, &played, |s, behind| s - behind)
+    };
     let one = WIDTHS.map(|width| {
         Shaped::plain(&format!("width {width}"), move |input: &Input| {
             let (least, most) = range(&input.own);
@@ -358,13 +376,13 @@ fn loops() -> Vec<Shaped<'static>> {
                 return Vec::new();
             }
             let text = format!("(signal - play(signal, {width}))");
-            vec![(behind(&input.own, width), text)]
+            vec![(behind(input, width), text)]
         })
     });
     let many = Shaped::plain("several widths", move |input: &Input| {
         let mut sum = vec![0.0; input.own.len()];
         for width in WIDTHS {
-            sum = map2(&sum, &behind(&input.own, width), |sum, one| sum + one);
+            sum = map2(&sum, &behind(input, width), |sum, one| sum + one);
         }
         vec![(
             map(&sum, |sum| sum / WIDTHS.len() as f64),

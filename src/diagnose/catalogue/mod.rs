@@ -82,6 +82,8 @@ pub struct Effect {
     pub typical: String,
     /// The size that it must have if it is there at all.
     pub exact: Option<f64>,
+    /// The effect of which this is another order: the cause is the same.
+    pub order_of: Option<String>,
 }
 
 impl Effect {
@@ -332,6 +334,7 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = distinct(cells);
     ground.finer.prune(&mut cells);
     cells.extend(generics::cells(ground));
+    cells.extend(inputs::unnamed(ground));
     cells
 }
 

@@ -68,6 +68,9 @@ pub fn examine(
     if leftover < LEFT {
         slots.push(nameless());
     }
+    if let Some(generic) = generic {
+        misshapen(&space, question, generic, &mut slots);
+    }
     let set = frame_of(&space, named);
     let explained = explained(&space, set.fit, set.basis.ncols());
     let kept = kept(&search, &explanation, &rivalry);
@@ -262,6 +265,19 @@ fn doubt(space: &Space, question: &Question, slots: &mut [Slot], kept: &[usize])
             alone >= DOMINANT * excess || dominates(slot, excess)
         };
         if !firm || describes(question, slot) || slot.generic_share > DOUBTFUL {
+            slot.state = State::Unexplained;
+        }
+    }
+}
+
+/// What remains without a name at the very place of a named effect is a part of it that its formula does not
+/// have: the name is tentative.
+fn misshapen(space: &Space, question: &Question, generic: usize, slots: &mut [Slot]) {
+    let place = |candidate: usize| &question.candidates[candidate].place;
+    let open = place(space.blocks[generic].candidate);
+    for slot in slots {
+        let first = slot.named.first();
+        if !open.along.is_empty() && first.is_some_and(|first| place(first.candidate) == open) {
             slot.state = State::Unexplained;
         }
     }

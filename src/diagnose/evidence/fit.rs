@@ -56,7 +56,7 @@ pub(super) fn estimate(space: &Space, question: &Question, rest: &Frame, block: 
 }
 
 /// What is left of an effect after its nearest rival is fitted in its place; rivals are named atoms of
-/// candidates other than its own and those of the set.
+/// causes other than its own, and not of the set.
 pub(super) fn nearest(
     space: &Space,
     question: &Question,
@@ -73,7 +73,9 @@ pub(super) fn nearest(
         .rests
         .iter()
         .map(|rival| (rival, &space.blocks[rival.block]))
-        .filter(|(rival, block)| rival.kind == Kind::Named && block.candidate != own)
+        .filter(|(rival, block)| {
+            rival.kind == Kind::Named && !question.same_cause(block.candidate, own)
+        })
         .map(|(rival, block)| {
             let explained = beside.components(rival, &components).norm_squared();
             let kappa = (whole - explained).max(0.0).sqrt() / estimate.sigma;

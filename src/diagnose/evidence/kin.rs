@@ -30,8 +30,10 @@ const PAIRED: usize = 10;
 const DIRECTIONS: usize = 4;
 /// A direction of a mixture of which less than this (squared) is left is not counted.
 const FAINT: f64 = 1e-4;
-/// λ beside the mixtures of the stronger effects from which on a weaker one is an effect.
+/// λ beside the mixtures of the stronger effects from which on a weaker one is an effect …
 const APART: f64 = 5.0;
+/// … and from which on one that only describes (a bad row, a jump) is: any misfit has a worst row.
+const DESCRIBED_APART: f64 = 8.0;
 
 /// Candidates that have to be on the list of a slot whose most probable block has this estimate.
 pub(super) fn listed(
@@ -50,7 +52,7 @@ pub(super) fn listed(
     let mut shares: std::collections::BTreeMap<usize, Vec<(f64, usize)>> = Default::default();
     for rival in beside.rests.iter().filter(|rest| rest.kind == Kind::Named) {
         let candidate = space.blocks[rival.block].candidate;
-        if candidate != own.candidate {
+        if !question.same_cause(candidate, own.candidate) {
             let share = beside.components(rival, &along).norm_squared() / whole;
             if share > PART {
                 shares
@@ -117,7 +119,11 @@ pub(super) fn shapes(space: &Space, question: &Question, strongest_first: &[usiz
     let mut found = Vec::new();
     for (place, &index) in strongest_first.iter().enumerate() {
         let block = &space.blocks[index];
-        if place > 0 && lambda(space, block, &basis) < APART {
+        let apart = match question.candidates[block.candidate].describes {
+            true => DESCRIBED_APART,
+            false => APART,
+        };
+        if place > 0 && lambda(space, block, &basis) < apart {
             found.push(index);
             continue;
         }
@@ -247,6 +253,7 @@ mod tests {
                 name: name.into(),
                 family: String::new(),
                 place: Place::default(),
+                cause: candidates.len(),
                 typical: None,
                 repeats: false,
                 describes: false,

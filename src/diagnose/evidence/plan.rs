@@ -231,10 +231,12 @@ mod tests {
     fn plan(tumble: &Tumble) -> Plan {
         let candidates: Vec<Candidate> = LAWS
             .iter()
-            .map(|(name, _)| Candidate {
+            .enumerate()
+            .map(|(index, (name, _))| Candidate {
                 name: (*name).into(),
                 family: String::new(),
                 place: Place::default(),
+                cause: index,
                 typical: None,
                 repeats: false,
                 describes: false,

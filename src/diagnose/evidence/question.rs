@@ -22,6 +22,9 @@ pub struct Candidate {
     pub family: String,
     /// Quantity and covariate.
     pub place: Place,
+    /// The candidate that stands for its cause, itself as a rule: orders of one dependence (proportional,
+    /// square) are one answer.
+    pub cause: usize,
     /// Standard deviation of the size of the effect in instruments of this kind, per column in the units
     /// of the atom's coefficients. Used for what was not adopted, and for warnings, not for naming.
     pub typical: Option<f64>,
@@ -156,6 +159,13 @@ pub enum Refusal {
     },
     /// The caller asked to stop.
     Cancelled,
+}
+
+impl Question<'_> {
+    /// Whether two candidates are one cause, perhaps in different orders.
+    pub(super) fn same_cause(&self, one: usize, other: usize) -> bool {
+        self.candidates[one].cause == self.candidates[other].cause
+    }
 }
 
 impl Shape {

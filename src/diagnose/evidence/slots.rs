@@ -18,7 +18,7 @@ use super::space::{Frame, Space};
 const CREDIBLE: f64 = 0.95;
 /// Probability from which on a name stands alone: posteriors between the two are right less often than they
 /// say, because catalogues have gaps.
-const ALONE: f64 = 0.99;
+const ALONE: f64 = 0.975;
 /// A slot in which generics have this probability has no name.
 const NAMELESS: f64 = 0.3;
 /// Generics, and tentative names, that are listed at most.
@@ -65,7 +65,7 @@ pub(super) fn slot(
     let (by_name, by_generic) = (total(Kind::Named), total(Kind::Generic));
     let all = log_sum([by_name, by_generic].into_iter());
     let generic_share = libm::exp(by_generic - all);
-    let ranked = ranking(space, &scores, Kind::Named, by_name);
+    let ranked = ranking(space, question, &scores, Kind::Named, by_name);
     let family = family(question, &ranked);
     let list = listed(space, question, &rest, ranked);
     let state = match member {
@@ -86,7 +86,7 @@ pub(super) fn slot(
             .take(most)
             .map(|ranked| alternative(space, question, &rest, ranked, 1.0 - generic_share))
             .collect(),
-        generic: ranking(space, &scores, Kind::Generic, all)
+        generic: ranking(space, question, &scores, Kind::Generic, all)
             .into_iter()
             .take(LISTED)
             .map(unnamed)
@@ -112,30 +112,38 @@ pub(super) fn replacements(
     beside.rests.iter().filter_map(score).collect()
 }
 
-/// A candidate with its probability and its blocks.
+/// A cause with its probability and its blocks, of all its orders.
 struct Ranked {
+    /// The candidate of the first block.
     candidate: usize,
     probability: f64,
     /// Blocks with their atoms and shares, most probable first.
     blocks: Vec<(usize, Variant)>,
 }
 
-/// Candidates of a kind, most probable first; `whole` is the logarithm that probabilities refer to.
-fn ranking(space: &Space, scores: &[(usize, f64)], kind: Kind, whole: f64) -> Vec<Ranked> {
+/// Causes of a kind, most probable first; `whole` is the logarithm that probabilities refer to.
+fn ranking(
+    space: &Space,
+    question: &Question,
+    scores: &[(usize, f64)],
+    kind: Kind,
+    whole: f64,
+) -> Vec<Ranked> {
     let mut groups: BTreeMap<usize, Vec<(usize, f64)>> = BTreeMap::new();
     for (block, score) in scores {
         if space.blocks[*block].kind() == kind {
-            let candidate = space.blocks[*block].candidate;
-            groups.entry(candidate).or_default().push((*block, *score));
+            let candidate = &question.candidates[space.blocks[*block].candidate];
+            let of_cause = groups.entry(candidate.cause).or_default();
+            of_cause.push((*block, *score));
         }
     }
     let mut ranked: Vec<Ranked> = groups
-        .into_iter()
-        .map(|(candidate, mut scores)| {
+        .into_values()
+        .map(|mut scores| {
             let sum = log_sum(scores.iter().map(|(_, score)| *score));
             scores.sort_by(|a, b| b.1.total_cmp(&a.1));
             Ranked {
-                candidate,
+                candidate: space.blocks[scores[0].0].candidate,
                 probability: libm::exp(sum - whole),
                 blocks: scores
                     .into_iter()
@@ -168,12 +176,13 @@ fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>)
         &estimate(space, question, rest, winner),
     );
     let alone = ranked[0].probability >= ALONE;
+    let describes = |ranked: &Ranked| question.candidates[ranked.candidate].describes;
     let mut sum = 0.0;
     ranked
         .into_iter()
         .enumerate()
         .filter(|(place, candidate)| {
-            let wanted = sum < CREDIBLE || (*place == 1 && !alone);
+            let wanted = sum < CREDIBLE || (*place == 1 && !alone && !describes(candidate));
             sum += candidate.probability;
             wanted || kin.contains(&candidate.candidate)
         })
@@ -191,7 +200,7 @@ pub(super) fn contest(
     slot: &mut Slot,
 ) {
     let own = space.blocks[block].candidate;
-    let Some((probability, set)) = search.without(space, own) else {
+    let Some((probability, set)) = search.without(space, question, own) else {
         return;
     };
     if slot.state != State::Identified || probability < 1.0 - ALONE {
@@ -199,9 +208,7 @@ pub(super) fn contest(
     }
     let other = |block: &usize| {
         let candidate = space.blocks[*block].candidate;
-        named
-            .iter()
-            .all(|b| space.blocks[*b].candidate != candidate)
+        (named.iter()).all(|b| !question.same_cause(space.blocks[*b].candidate, candidate))
     };
     for block in set.named.iter().copied().filter(other) {
         let rest: Vec<usize> = set.named.iter().copied().filter(|b| *b != block).collect();

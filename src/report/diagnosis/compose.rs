@@ -11,7 +11,8 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::labels::spoken;
 use super::words::{
-    formula, name, name_of_atom, noise, p_found, probability, quantity, tentative, verdict, weighs,
+    formula, name, name_of_atom, noise, orders, p_found, probability, quantity, tentative, verdict,
+    weighs,
 };
 use super::{improvement, open};
 
@@ -217,7 +218,7 @@ fn headline(
     let title = match alternative.variants.first() {
         Some(variant) => name_of_atom(diagnosis, variant.atom, language),
         None => name(&diagnosis.cells[alternative.candidate], language),
-    };
+    } + &orders(diagnosis, alternative, language);
     let posterior = percent(alternative.probability);
     let separate = match &alternative.nearest {
         Some(rival) => {

@@ -134,8 +134,9 @@ fn alternative(diagnosis: &Diagnosis, alternative: &Alternative, language: Langu
         "along": cell.place.along,
         "probability": alternative.probability,
         "variants": alternative.variants.iter().take(5).map(|variant| {
-            let (_, variation) = diagnosis.atoms[variant.atom];
-            json!({ "label": cell.variants[variation].label, "share": variant.share })
+            let (cell, variation) = diagnosis.atoms[variant.atom];
+            let cell = &diagnosis.cells[cell];
+            json!({ "id": cell.effect.id, "label": cell.variants[variation].label, "share": variant.share })
         }).collect::<Vec<_>>(),
         "size": alternative.estimate.iter().map(|x| finite(*x)).collect::<Vec<_>>(),
         "u": alternative.covariance.diagonal().iter().map(|x| finite(x.sqrt())).collect::<Vec<_>>(),

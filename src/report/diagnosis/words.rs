@@ -1,5 +1,7 @@
 //! Sentences and names of a diagnosis.
 
+use std::collections::BTreeMap;
+
 use crate::diagnose::case::Case;
 use crate::diagnose::catalogue::{Cell, Text, Variation};
 use crate::diagnose::evidence::{Alternative, Refusal, Slot, State, Verdict};
@@ -7,7 +9,7 @@ use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
 
 use super::labels::spoken;
 use crate::report::language::Language;
-use crate::report::number::{freedom, significant};
+use crate::report::number::{freedom, percent, significant};
 
 impl Language {
     /// The text of this language.
@@ -207,16 +209,47 @@ pub(super) fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) 
     let names: Vec<String> = slot
         .named
         .iter()
-        .map(|a| name(&diagnosis.cells[a.candidate], language))
+        .map(|a| name(&diagnosis.cells[a.candidate], language) + &orders(diagnosis, a, language))
         .collect();
     names.join(language.pick(" or ", " 或 "))
+}
+
+/// That the order of a cause is open, where it is: what else than the name may hold.
+pub(super) fn orders(
+    diagnosis: &Diagnosis,
+    alternative: &Alternative,
+    language: Language,
+) -> String {
+    /// Orders of less than this share are out of the question.
+    const SHARE: f64 = 0.01;
+    let mut shares: BTreeMap<usize, f64> = BTreeMap::new();
+    for variant in &alternative.variants {
+        *shares.entry(diagnosis.atoms[variant.atom].0).or_default() += variant.share;
+    }
+    shares.remove(&alternative.candidate);
+    let others = shares.into_iter().filter(|(_, share)| *share >= SHARE);
+    let others: Vec<String> = others
+        .map(|(cell, share)| {
+            let name = name(&diagnosis.cells[cell], language);
+            format!("{name} {} %", percent(share))
+        })
+        .collect();
+    if others.is_empty() {
+        return String::new();
+    }
+    let others = others.join(language.pick(", ", "，"));
+    language.pick(
+        format!(" (its order is open: {others})"),
+        format!("（阶次未定：{others}）"),
+    )
 }
 
 /// The formula of an explanation, without the lag where its best variant has none.
 pub(super) fn formula(diagnosis: &Diagnosis, alternative: &Alternative) -> String {
     let cell = &diagnosis.cells[alternative.candidate];
     let lags = alternative.variants.first().is_none_or(|variant| {
-        let (_, variation) = diagnosis.atoms[variant.atom];
+        let (cell, variation) = diagnosis.atoms[variant.atom];
+        let cell = &diagnosis.cells[cell];
         let mut terms = cell.variants[variation].terms.iter();
         terms.any(|term| term.text.contains("lag("))
     });
@@ -305,11 +338,12 @@ fn growth(claimed: &Claimed, language: Language) -> String {
         .iter()
         .flatten()
         .map(|growth| {
-            format!(
-                "u² = {}² + ({} % · y)²",
-                significant(growth.constant, 2),
-                significant(100.0 * growth.proportional, 2)
-            )
+            let constant = significant(growth.constant, 2);
+            let proportional = significant(100.0 * growth.proportional, 2);
+            match growth.unit.as_str() {
+                "" | "1" => format!("u² = {constant}² + ({proportional} % · y)²"),
+                unit => format!("u² = ({constant} {unit})² + ({proportional} % · y)²"),
+            }
         })
         .collect();
     if grows.is_empty() {

@@ -62,6 +62,7 @@ impl Catalogue {
                 node: node.into(),
                 along: along.into(),
             },
+            cause: self.candidates.len(),
             typical: None,
             repeats: false,
             describes: false,

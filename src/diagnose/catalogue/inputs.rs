@@ -8,7 +8,7 @@ use super::generics::over_signals;
 use super::ground::{Ground, Node, varies};
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, figure, held_lag, lag, largest, map, map2, play_by_way_of, range, rate,
+    correlation, creeps, figure, held_lag, lag, largest, map, map2, play_from, range, rate,
 };
 use super::response::time_constants;
 use super::{Cell, Modifier, Term, Variation, Words};
@@ -366,7 +366,8 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
 fn loops() -> Vec<Shaped<'static>> {
     const WIDTHS: [f64; 5] = [0.1, 0.3, 0.6, 1.0, 1.5];
     let behind = |input: &Input, width: f64| {
-        let played = play_by_way_of(&input.own, &input.came, width);
+        // At rest there was no input.
+        let played = play_from(0.0, &input.own, &input.came, width);
         map2(&input.own, &played, |s, behind| s - behind)
     };
     let one = WIDTHS.map(|width| {

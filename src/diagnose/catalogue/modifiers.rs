@@ -118,14 +118,15 @@ pub fn direction(x: &[f64]) -> Vec<f64> {
 
 /// Play of width `w`: what follows `x` only when `x` reaches the end of the gap.
 pub fn play(x: &[f64], w: f64) -> Vec<f64> {
-    play_by_way_of(x, &[], w)
+    play_from(x.first().copied().unwrap_or(0.0), x, &[], w)
 }
 
-/// Play of width `w` where some rows were reached by way of another value: `came` as in [`held_lag`].
-pub fn play_by_way_of(x: &[f64], came: &[Option<(f64, f64)>], w: f64) -> Vec<f64> {
+/// Play of width `w` that begins in the middle of its gap at a value; some rows were reached by way of
+/// another value: `came` as in [`held_lag`].
+pub fn play_from(start: f64, x: &[f64], came: &[Option<(f64, f64)>], w: f64) -> Vec<f64> {
     let by_way_of = |row: usize| came.get(row).copied().flatten().map(|(from, _)| from);
     let mut out = Vec::with_capacity(x.len());
-    let mut now = by_way_of(0).or(x.first().copied()).unwrap_or(0.0);
+    let mut now = start;
     for (row, value) in x.iter().enumerate() {
         for push in by_way_of(row).into_iter().chain([*value]) {
             now = now.clamp(push - w / 2.0, push + w / 2.0);

@@ -23,7 +23,7 @@ const CONTESTED: f64 = 0.9;
 /// Less than this probability of what is left beside named effects means that something is left.
 const LEFT: f64 = 0.01;
 /// Beside something without a name, a name holds if its effect is this share of the excess χ² …
-const DOMINANT: f64 = 0.5;
+const DOMINANT: f64 = 0.6;
 /// … and nothing without a name in its place has more than this probability.
 const DOUBTFUL: f64 = 0.1;
 /// Named effects beside an unexplained one count if they explain this share of the excess χ².

@@ -19,8 +19,10 @@ const CREDIBLE: f64 = 0.95;
 /// Probability from which on a name stands alone: posteriors between the two are right less often than they
 /// say, because catalogues have gaps.
 const ALONE: f64 = 0.975;
-/// A slot in which generics have this probability has no name.
+/// A slot in which generics have this probability has no name …
 const NAMELESS: f64 = 0.3;
+/// … and one in which they have this has no unique name.
+const DOUBTFUL: f64 = 0.1;
 /// Generics, and tentative names, that are listed at most.
 const LISTED: usize = 3;
 
@@ -71,6 +73,7 @@ pub(super) fn slot(
     let state = match member {
         Member::Generic(_) => State::Unexplained,
         Member::Named(_) if generic_share >= NAMELESS => State::Unexplained,
+        Member::Named(_) if list.len() == 1 && generic_share >= DOUBTFUL => State::Unexplained,
         Member::Named(_) if list.len() == 1 => State::Identified,
         Member::Named(_) => State::Ambiguous,
     };

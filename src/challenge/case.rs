@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::files::{CaseFile, case_file, recordings};
+use super::further::Further;
 use super::random::{Random, Stream};
 use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge, Scenario, draw};
@@ -24,6 +25,8 @@ pub struct Request {
     pub scenario: Option<Scenario>,
     /// How the noise is claimed.
     pub noise: Option<NoiseKnowledge>,
+    /// What is measured after the calibration, if the rig can do it.
+    pub further: Option<Further>,
 }
 
 /// A case that is sealed.
@@ -40,14 +43,15 @@ pub struct SealedCase {
 /// Makes a sealed case.
 pub fn challenge(request: &Request) -> SealedCase {
     let drawn = drawn(request);
+    let further = (request.further).filter(|what| what.is_possible(drawn.setup.rig));
     let mut truth = Truth::of(&drawn, &salt(request.seed, request.entropy));
-    let mut files = recordings(&drawn);
+    let mut files = recordings(&drawn, further);
     truth.files = files
         .iter()
         .map(|file| (file.name.into(), seal(&file.text)))
         .collect();
     let truth_text = truth.text();
-    files.insert(0, case_file(&drawn, &seal(&truth_text)));
+    files.insert(0, case_file(&drawn, further, &seal(&truth_text)));
     SealedCase {
         files,
         truth,
@@ -166,7 +170,7 @@ mod tests {
                     ..Request::default()
                 };
                 let drawn = draw(scenario, NoiseKnowledge::Stated, request.seed);
-                case_file(&drawn, "").text
+                case_file(&drawn, None, "").text
             };
             let null = Scenario {
                 class: Class::Null,

@@ -30,8 +30,10 @@ pub enum Measure {
     Set {
         /// The column.
         column: String,
-        /// Value and unit.
-        value: String,
+        /// The value.
+        value: f64,
+        /// Its unit.
+        unit: String,
     },
     /// The same at values half way between those of a column.
     Between {
@@ -82,11 +84,11 @@ pub fn extras(case: &Case) -> Vec<Extra> {
             (Data::Numbers(numbers), Role::Angle | Role::Stimulus) if used(case, index) => {
                 let levels = levels(numbers);
                 if is_angle(column) && levels.len() <= MOUNTS {
-                    for (value, text) in mountings(case, index, &levels) {
-                        let column = name.clone();
+                    for value in mountings(case, index, &levels) {
                         let measure = Measure::Set {
-                            column,
-                            value: text,
+                            column: name.clone(),
+                            value,
+                            unit: column.unit.typeset(),
                         };
                         changed(measure, 2.0, Data::Numbers(vec![value; numbers.len()]));
                     }
@@ -159,7 +161,7 @@ fn between(x: f64, levels: &[f64]) -> f64 {
 }
 
 /// Mountings that were not used: turned by an eighth, a quarter, half a turn.
-fn mountings(case: &Case, column: usize, levels: &[f64]) -> Vec<(f64, String)> {
+fn mountings(case: &Case, column: usize, levels: &[f64]) -> Vec<f64> {
     let unit = &case.columns[column].unit;
     let Ok(degree) = UnitTable::default().parse("°") else {
         return Vec::new();
@@ -167,22 +169,12 @@ fn mountings(case: &Case, column: usize, levels: &[f64]) -> Vec<(f64, String)> {
     let Some(conversion) = degree.conversion_to(unit) else {
         return Vec::new();
     };
-    let turned = [45.0, 90.0, 180.0].map(|angle| (levels[0] + conversion.apply(angle), angle));
-    let near = |value: f64| {
+    let turned = [45.0, 90.0, 180.0].map(|angle| levels[0] + conversion.apply(angle));
+    let near = |value: &f64| {
         let same = 1e-6 * conversion.apply(360.0);
         levels.iter().any(|level| (level - value).abs() < same)
     };
-    turned
-        .into_iter()
-        .filter(|(value, _)| !near(*value))
-        .map(|(value, _)| {
-            let shown = super::catalogue::modifiers::figure(value);
-            (
-                value,
-                format!("{shown} {}", unit.typeset()).trim().to_owned(),
-            )
-        })
-        .collect()
+    turned.into_iter().filter(|value| !near(value)).collect()
 }
 
 #[cfg(test)]

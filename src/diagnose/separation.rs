@@ -5,12 +5,13 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, NoiseClaim};
 use super::catalogue::{self, Cell, Ground, Variation, Words};
-use super::evidence::{self, Action, Baseline, Worth};
+use super::evidence::{self, Action, Baseline, Standing, Worth};
 use super::extra::Extra;
 use super::fit::{self, Fit};
 use super::frame::Frame;
 use super::inquiry::baseline;
 use super::noise::{self, Claimed};
+use crate::special::normal_quantile;
 
 /// An explanation among others for the same mismatch.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,65 +20,206 @@ pub struct Contender {
     id: String,
     /// What its texts speak of.
     words: Words,
-    /// Its variant.
+    /// What it may look like, the most probable first.
+    likely: Vec<Likely>,
+}
+
+/// A variant that an explanation may have.
+#[derive(Debug, Clone, PartialEq)]
+struct Likely {
+    /// Its label.
     label: String,
     /// The value of its continuous parameter.
     shape: Option<f64>,
-    /// Its coefficients.
-    size: DVector<f64>,
+    /// What is seen of it in the recording, a column for each of the sizes that it may have.
+    seen: DMatrix<f64>,
 }
 
+/// Sizes and shapes for which a promise is formed.
+const DRAWS: usize = 40;
+
 impl Contender {
-    /// A variation of a cell with coefficients.
-    pub(super) fn new(cell: &Cell, variation: &Variation, size: DVector<f64>) -> Contender {
+    /// A variation of a cell with coefficients; those that are not finite count as zero.
+    pub(super) fn new(
+        recorded: &Recorded<'_>,
+        cell: &Cell,
+        variation: &Variation,
+        sizes: &DMatrix<f64>,
+    ) -> Contender {
+        let sizes = sizes.map(|x| if x.is_finite() { x } else { 0.0 });
+        let columns = variation.columns(recorded.ground);
         Contender {
             id: cell.effect.id.clone(),
             words: cell.words.clone(),
-            label: variation.label.clone(),
-            shape: value(variation),
-            size,
+            likely: vec![Likely {
+                label: variation.label.clone(),
+                shape: value(variation),
+                seen: recorded.baseline.project(&columns) * sizes,
+            }],
         }
     }
 
-    /// Its columns in another design; nothing where the design has no such effect.
-    fn columns(&self, ground: &Ground<'_>, cells: &[Cell]) -> Option<DMatrix<f64>> {
-        let variation = self.variation(cells)?;
-        let columns = variation.columns(ground);
-        let usable = columns.ncols() == self.size.len() && columns.iter().all(|x| x.is_finite());
-        usable.then_some(columns)
+    /// The same where it may have other variants too: some of the sizes are theirs, by their shares.
+    fn with(mut self, recorded: &Recorded<'_>, variations: &[(&Variation, f64)]) -> Contender {
+        let Some(first) = self.likely.first_mut() else {
+            return self;
+        };
+        let whole: f64 = variations.iter().map(|(_, share)| share).sum();
+        let seen = std::mem::take(&mut first.seen);
+        let mut bound = 0.0;
+        let mut begin = 0;
+        let mut likely = Vec::new();
+        for (variation, share) in variations {
+            bound += share / whole;
+            let end = (bound * seen.ncols() as f64).round() as usize;
+            let end = end.clamp(begin, seen.ncols());
+            if end == begin {
+                continue;
+            }
+            let own = seen.columns(begin, end - begin).into_owned();
+            let columns = recorded
+                .baseline
+                .project(&variation.columns(recorded.ground));
+            likely.push(Likely {
+                label: variation.label.clone(),
+                shape: value(variation),
+                seen: fitted(&columns, &own).map_or(own, |sizes| columns * sizes),
+            });
+            begin = end;
+        }
+        self.likely = likely;
+        self
     }
 
-    /// The same variation in another design. A grid that follows the rows may have another step there: what
-    /// is nearest to it, or else its middle, then stands for it.
-    fn variation<'c>(&self, cells: &'c [Cell]) -> Option<&'c Variation> {
-        // Each harmonic of an angle is a cell of its own.
+    /// What it does in another design and what it may take up there; nothing where the design has no such
+    /// effect.
+    fn standing(&self, recorded: &Recorded<'_>, longer: &Longer<'_>) -> Option<Standing> {
         let alike = || {
-            let of = cells.iter();
-            of.filter(|cell| cell.effect.id == self.id && cell.words == self.words)
+            let of = longer.cells.iter();
+            of.filter(|cell| self.is(cell))
+                .flat_map(|cell| &cell.variants)
         };
-        let mut all = alike().flat_map(|cell| &cell.variants);
+        let variants: Vec<DMatrix<f64>> = alike()
+            .map(|variation| variation.columns(&longer.ground))
+            .filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
+            .collect();
+        let before: Vec<DMatrix<f64>> = variants
+            .iter()
+            .map(|columns| {
+                recorded
+                    .baseline
+                    .project(&longer.recorded(recorded, columns))
+            })
+            .collect();
+        let effects = self.likely.iter().map(|likely| {
+            let ranked = before.iter().zip(&variants).filter_map(|(before, whole)| {
+                let sizes = fitted(before, &likely.seen)?;
+                let left = (&likely.seen - before * &sizes).norm_squared();
+                Some((left, whole, sizes))
+            });
+            let (_, whole, sizes) = ranked.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some(whole * sizes)
+        });
+        let effects: Option<Vec<DMatrix<f64>>> = effects.collect();
+        let columns: Vec<_> = effects?
+            .iter()
+            .flat_map(|part| {
+                part.column_iter()
+                    .map(|c| c.into_owned())
+                    .collect::<Vec<_>>()
+            })
+            .collect();
+        (!columns.is_empty()).then(|| Standing {
+            effects: DMatrix::from_columns(&columns),
+            variants,
+        })
+    }
+
+    fn is(&self, cell: &Cell) -> bool {
+        // Each harmonic of an angle is a cell of its own.
+        cell.effect.id == self.id && cell.words == self.words
+    }
+
+    /// The columns of its variation in another design. A grid that follows the rows may have another step
+    /// there: what is nearest to it, or else its middle, then stands for it.
+    fn columns(&self, longer: &Longer<'_>) -> Option<DMatrix<f64>> {
+        let own = self.likely.first()?;
+        let cell = longer.cells.iter().find(|cell| self.is(cell))?;
+        let same = cell.variants.iter().find(|v| v.label == own.label);
         let nearest = || {
-            let own = self.shape?;
-            let usable = alike().flat_map(|cell| &cell.variants);
-            let usable = usable.filter(|other| other.coefficients() == self.size.len());
+            let own = own.shape?;
             let far = |other: &Variation| value(other).map(|value| (value - own).abs());
-            let ranked = usable.filter_map(|other| Some((far(other)?, other)));
-            ranked
-                .min_by(|a, b| a.0.total_cmp(&b.0))
-                .map(|(_, other)| other)
+            let ranked = cell.variants.iter();
+            let ranked = ranked.filter_map(|other| Some((far(other)?, other)));
+            let nearest = ranked.min_by(|a, b| a.0.total_cmp(&b.0));
+            nearest.map(|(_, other)| other)
         };
-        let middle = || {
-            let cell = alike().next()?;
-            cell.variants.get(cell.variants.len() / 2)
-        };
-        all.find(|variation| variation.label == self.label)
+        let middle = || cell.variants.get(cell.variants.len() / 2);
+        let columns = same
             .or_else(nearest)
-            .or_else(middle)
+            .or_else(middle)?
+            .columns(&longer.ground);
+        columns.iter().all(|x| x.is_finite()).then_some(columns)
     }
 }
 
 fn value(variation: &Variation) -> Option<f64> {
     Some(variation.shape.as_ref()?.value)
+}
+
+/// The sizes with which columns come nearest to effects.
+fn fitted(columns: &DMatrix<f64>, effects: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    // Columns of unit length: their units may be very different.
+    let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
+    let most = lengths.iter().copied().fold(0.0, f64::max);
+    if most == 0.0 {
+        return None;
+    }
+    let scale = |length: &f64| if *length > 0.0 { 1.0 / length } else { 0.0 };
+    let scales: Vec<f64> = lengths.iter().map(scale).collect();
+    let mut unit = columns.clone();
+    for (mut column, scale) in unit.column_iter_mut().zip(&scales) {
+        column *= *scale;
+    }
+    let mut sizes = unit.svd(true, true).solve(effects, 1e-9).ok()?;
+    for (mut row, scale) in sizes.row_iter_mut().zip(&scales) {
+        row *= *scale;
+    }
+    Some(sizes)
+}
+
+/// Sizes that an estimate allows, itself first: quantiles of a normal distribution, by a Halton sequence.
+fn sizes(estimate: &DVector<f64>, covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+    let estimate = estimate.map(finite);
+    let spread = covariance.map(finite).symmetric_eigen();
+    let widths = spread.eigenvalues.map(|variance| variance.max(0.0).sqrt());
+    let root = &spread.eigenvectors * DMatrix::from_diagonal(&widths);
+    let normals = DMatrix::from_fn(estimate.len(), DRAWS, |k, draw| {
+        if draw == 0 {
+            0.0
+        } else {
+            normal_quantile(halton(draw, PRIMES[k % PRIMES.len()]))
+        }
+    });
+    let mut sizes = root * normals;
+    for mut column in sizes.column_iter_mut() {
+        column += &estimate;
+    }
+    sizes
+}
+
+const PRIMES: [usize; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
+
+/// The digits of a number in a base, mirrored at the point.
+fn halton(mut number: usize, base: usize) -> f64 {
+    let (mut value, mut part) = (0.0, 1.0);
+    while number > 0 {
+        part /= base as f64;
+        value += part * (number % base) as f64;
+        number /= base;
+    }
+    value
 }
 
 /// What is known of a case before a further measurement.
@@ -86,6 +228,31 @@ pub(super) struct Known<'k> {
     pub frame: &'k Frame<'k>,
     pub fit: &'k Fit,
     pub claimed: &'k Claimed,
+}
+
+/// A recording with what its residuals are examined by.
+pub(super) struct Recorded<'r> {
+    pub known: &'r Known<'r>,
+    pub ground: &'r Ground<'r>,
+    pub baseline: &'r Baseline,
+}
+
+/// The recording together with a further measurement.
+struct Longer<'l> {
+    ground: Ground<'l>,
+    cells: Vec<Cell>,
+}
+
+impl Longer<'_> {
+    /// The observations of the recording alone.
+    fn recorded(&self, recorded: &Recorded<'_>, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let frame = self.ground.frame;
+        let (own, all) = (recorded.known.frame.blocks.len(), frame.blocks.len());
+        let places: Vec<usize> = (0..frame.case.responses.len())
+            .flat_map(|response| (0..own).map(move |block| response * all + block))
+            .collect();
+        columns.select_rows(&places)
+    }
 }
 
 /// What one further measurement gives.
@@ -98,13 +265,15 @@ pub(super) struct Design {
 
 /// Examines the recording together with a further measurement.
 pub(super) fn design(
-    known: &Known<'_>,
+    recorded: &Recorded<'_>,
     extra: &Extra,
     sets: &[Vec<Contender>],
     asked: &[Contender],
 ) -> Option<Design> {
+    let known = recorded.known;
     let case = known.case.followed_by(&extra.rows);
-    let frame = Frame::new(&case);
+    let mut frame = Frame::new(&case);
+    frame.blocks = blocks(known, extra);
     let fit = fit::at(&frame, unknowns(known, &frame));
     if !fit.jacobian.iter().all(|x| x.is_finite()) {
         return None;
@@ -113,15 +282,22 @@ pub(super) fn design(
         residuals: DVector::zeros(frame.observations()),
         ..fit
     };
-    let ground = Ground::new(&frame, &fit);
+    let ground = Ground::new(&frame, &fit).refined(recorded.ground.finer.clone());
     let cells = catalogue::cells(&ground);
+    let longer = Longer { ground, cells };
     let baseline = baseline(&frame, &fit, &noise_of(known, &frame, &fit)).ok()?;
-    let worths = sets
-        .iter()
-        .map(|set| worth(&ground, &cells, &baseline, extra, set))
-        .collect();
+    let worths = sets.iter().map(|set| {
+        let contenders = set.iter().map(|one| one.standing(recorded, &longer));
+        let action = Action {
+            cost: extra.cost,
+            baseline: &baseline,
+            contenders: contenders.collect::<Option<Vec<Standing>>>()?,
+        };
+        evidence::separate(&[action]).ok()?.pop()
+    });
+    let worths = worths.collect();
     let visibility = |one: &Contender| {
-        let columns = one.columns(&ground, &cells)?;
+        let columns = one.columns(&longer)?;
         let of = columns
             .column_iter()
             .map(|column| baseline.visibility(&column.into_owned()));
@@ -133,23 +309,12 @@ pub(super) fn design(
     })
 }
 
-fn worth(
-    ground: &Ground<'_>,
-    cells: &[Cell],
-    baseline: &Baseline,
-    extra: &Extra,
-    set: &[Contender],
-) -> Option<Worth> {
-    let columns: Option<Vec<DMatrix<f64>>> =
-        set.iter().map(|one| one.columns(ground, cells)).collect();
-    let action = Action {
-        name: String::new(),
-        cost: extra.cost,
-        baseline,
-        columns: columns?,
-    };
-    let sizes: Vec<DVector<f64>> = set.iter().map(|one| one.size.clone()).collect();
-    evidence::separate(&sizes, &[action]).ok()?.pop()
+/// The blocks of the recording, and after them those that the further rows have by themselves.
+fn blocks(known: &Known<'_>, extra: &Extra) -> Vec<Vec<usize>> {
+    let alone = known.case.with(&extra.rows);
+    let further = Frame::new(&alone).blocks.into_iter();
+    let further = further.map(|rows| rows.into_iter().map(|row| row + known.case.rows).collect());
+    known.frame.blocks.iter().cloned().chain(further).collect()
 }
 
 /// Values of the unknowns in another design; a label that is new there begins with the value of the first.
@@ -211,38 +376,37 @@ const CLOSE: f64 = 4.0;
 /// For each slot with several explanations, or with one that has a close rival, the further measurements
 /// that tell them apart.
 pub(super) fn separating(
-    known: &Known<'_>,
-    ground: &Ground<'_>,
+    recorded: &Recorded<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
-    baseline: &Baseline,
     slots: &[evidence::Slot],
 ) -> Vec<Separating> {
+    let of_atom = |atom: usize| {
+        let (cell, variation) = places[atom];
+        (cell, &cells[cell].variants[variation])
+    };
     let mut found = Vec::new();
     for (slot, of) in slots.iter().enumerate() {
         let mut rivals = Vec::new();
         let mut set: Vec<Contender> = Vec::new();
         for alternative in of.named.iter().take(CONTENDERS) {
-            let Some(variant) = alternative.variants.first() else {
+            let variants: Vec<(&Variation, f64)> = (alternative.variants.iter())
+                .map(|variant| (of_atom(variant.atom).1, variant.share))
+                .collect();
+            let Some((variation, _)) = variants.first() else {
                 continue;
             };
-            let (cell, variation) = places[variant.atom];
-            let variation = &cells[cell].variants[variation];
-            set.push(Contender::new(
-                &cells[cell],
-                variation,
-                alternative.estimate.clone(),
-            ));
+            let cell = alternative.candidate;
+            let sizes = sizes(&alternative.estimate, &alternative.covariance);
+            let one = Contender::new(recorded, &cells[cell], variation, &sizes);
+            set.push(one.with(recorded, &variants));
             rivals.push(cell);
         }
         let nearest = of.named.first().and_then(|first| first.nearest.as_ref());
         if let (1, Some(rival)) = (set.len(), nearest.filter(|r| r.alias || r.kappa < CLOSE)) {
-            let (cell, variation) = places[rival.atom];
-            let variation = &cells[cell].variants[variation];
-            if let Some(size) = likened(ground, cells, baseline, &set[0], variation) {
-                set.push(Contender::new(&cells[cell], variation, size));
-                rivals.push(cell);
-            }
+            let (cell, variation) = of_atom(rival.atom);
+            set.extend(likened(recorded, &set[0], &cells[cell], variation));
+            rivals.push(cell);
         }
         if set.len() < 2 {
             continue;
@@ -253,11 +417,11 @@ pub(super) fn separating(
     if found.is_empty() {
         return Vec::new();
     }
-    let all = super::extra::extras(known.case);
+    let all = super::extra::extras(recorded.known.case);
     let sets: Vec<Vec<Contender>> = found.iter().map(|(.., set)| set.clone()).collect();
     let designs: Vec<Option<Design>> = all
         .iter()
-        .map(|extra| design(known, extra, &sets, &[]))
+        .map(|extra| design(recorded, extra, &sets, &[]))
         .collect();
     found
         .into_iter()
@@ -280,16 +444,17 @@ pub(super) fn separating(
         .collect()
 }
 
-/// The size with which a variation does what a contender does, as far as it can.
+/// A variation that does what a contender does, as far as it can.
 fn likened(
-    ground: &Ground<'_>,
-    cells: &[Cell],
-    baseline: &Baseline,
+    recorded: &Recorded<'_>,
     contender: &Contender,
+    cell: &Cell,
     variation: &Variation,
-) -> Option<DVector<f64>> {
-    let size = contender.size.map(|x| if x.is_finite() { x } else { 0.0 });
-    let effect = baseline.project(&contender.columns(ground, cells)?) * size;
-    let rival = baseline.project(&variation.columns(ground));
-    rival.svd(true, true).solve(&effect, 1e-9).ok()
+) -> Option<Contender> {
+    let seen = &contender.likely.first()?.seen;
+    let columns = recorded
+        .baseline
+        .project(&variation.columns(recorded.ground));
+    let sizes = fitted(&columns, seen)?;
+    Some(Contender::new(recorded, cell, variation, &sizes))
 }

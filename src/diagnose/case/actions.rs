@@ -191,9 +191,9 @@ impl Checker<'_> {
 }
 
 /// The rows of a recording once more, in the same order or the last one first: what was applied is that
-/// of the row, times go on, and conditions follow the same course as before.
+/// of the row, times go on, runs are new ones, and conditions follow the same course as before.
 pub(in crate::diagnose) fn repeated(recorded: &Rows, columns: &[Column], reversed: bool) -> Rows {
-    use super::tables::RoleWord::{Count, Covariate, Order, Time, Uncertainty};
+    use super::tables::RoleWord::{Count, Covariate, Order, Run, Time, Uncertainty};
     let count = recorded.count;
     let forth: Vec<usize> = (0..count).collect();
     let places: Vec<usize> = if reversed {
@@ -206,8 +206,23 @@ pub(in crate::diagnose) fn repeated(recorded: &Rows, columns: &[Column], reverse
         match column.role {
             Time | Order => *data = continued(column, count).unwrap_or(Data::Absent),
             Covariate | Count | Uncertainty => *data = own.clone(),
+            Run => renewed(data),
             _ => {}
         }
     }
     rows
+}
+
+/// Other names for runs: numbers go on, and what is no number is primed.
+fn renewed(data: &mut Data) {
+    let Data::Labels(labels) = data else { return };
+    let numbers: Option<Vec<i64>> = labels.levels.iter().map(|l| l.parse().ok()).collect();
+    let most = numbers.as_ref().and_then(|all| all.iter().max().copied());
+    let next = |at: usize, level: &str| match most.and_then(|most| most.checked_add(1 + at as i64))
+    {
+        Some(number) => number.to_string(),
+        None => format!("{level}′"),
+    };
+    let levels = labels.levels.iter().enumerate();
+    labels.levels = levels.map(|(at, level)| next(at, level)).collect();
 }

@@ -8,7 +8,8 @@
 //! `--each N` cases of every scenario and `--nulls N` cases without any effect; `--threads N`;
 //! `--only TEXT` keeps scenarios whose name contains the text; `--resume` keeps what the file holds
 //! already; `--tables` only draws the tables anew; `--first-seed N` takes other cases, to develop with;
-//! `--alone` leaves out the methods to compare with; `--show` prints every answer.
+//! `--alone` leaves out the methods to compare with; `--singles` keeps whole cases with one effect;
+//! `--show` prints every answer.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -37,6 +38,7 @@ struct Options {
     tables: bool,
     first_seed: u64,
     alone: bool,
+    singles: bool,
     show: bool,
 }
 
@@ -51,6 +53,7 @@ fn options() -> Result<Options, String> {
         tables: false,
         first_seed: FIRST_SEED,
         alone: false,
+        singles: false,
         show: false,
     };
     let mut arguments = std::env::args().skip(1);
@@ -69,6 +72,7 @@ fn options() -> Result<Options, String> {
             "--resume" => options.resume = true,
             "--first-seed" => options.first_seed = number(value()?)? as u64,
             "--alone" => options.alone = true,
+            "--singles" => options.singles = true,
             "--show" => options.show = true,
             "--tables" => options.tables = true,
             other => return Err(format!("`{other}` is not known")),
@@ -114,6 +118,7 @@ impl<'a> Study<'a> {
         let trials: Vec<Trial> = trials(options.first_seed, options.each, options.nulls)
             .into_iter()
             .filter(|trial| trial.scenario.name().contains(&options.only))
+            .filter(|trial| trial.is_single() || !options.singles)
             .collect();
         let kept = match std::fs::read_to_string(options.out.join("diagnosis.csv")) {
             Ok(text) if options.resume => read(&text),
@@ -284,12 +289,12 @@ fn followed(trial: &Trial, further: Further, folder: &Path, options: &Options) -
     let sealed = trial.longer_case(further);
     let said = handed_out(trial, &sealed, folder).and_then(|case| said(&case));
     match said {
-        Ok(Said { answer, .. }) => {
+        Ok(Said { answer, advice }) => {
             if options.show {
                 eprintln!("  {further}: {}", shown(trial, &answer));
             }
             let graded = grade::grade(&sealed.truth, &answer);
-            Some(Sequel::Made(further, decision(&graded)))
+            Some(Sequel::Made(further, decision(&graded, &answer, &advice)))
         }
         Err(why) => {
             eprintln!("{} {} {further}: {why}", trial.scenario.name(), trial.seed);

@@ -79,6 +79,8 @@ pub struct Promise {
 const SEPARATED: f64 = 5.0;
 /// Strength of the effects for which further measurements are judged.
 const STRENGTH: f64 = 8.0;
+/// Before anything is recorded, one of two is as probable as the other.
+const EVEN: f64 = 0.5;
 /// More than a trace of an effect shows.
 const VISIBLE: f64 = 0.01;
 
@@ -308,7 +310,13 @@ fn contenders(
         let sum = recorded.baseline.project(&columns).column_sum().norm();
         let size = if sum > 0.0 { STRENGTH / sum } else { 0.0 };
         let sizes = DMatrix::from_element(count, 1, size);
-        Some(Contender::new(recorded, &cells[cell], variation, &sizes))
+        Some(Contender::new(
+            recorded,
+            &cells[cell],
+            variation,
+            &sizes,
+            EVEN,
+        ))
     };
     [a, b].into_iter().filter_map(of).collect()
 }
@@ -327,14 +335,16 @@ impl Contenders<'_> {
             .map(|line| {
                 let variation = &cells[line.cell].variants[line.variation];
                 let sizes = DMatrix::from_element(variation.coefficients(), 1, 1.0);
-                Contender::new(recorded, &cells[line.cell], variation, &sizes)
+                Contender::new(recorded, &cells[line.cell], variation, &sizes, EVEN)
             })
             .collect();
         let design = separation::design(recorded, extra, &self.sets, &asked)?;
-        let apart = |worth: &Option<evidence::Worth>| {
-            worth.as_ref().is_some_and(|worth| worth.kappa >= SEPARATED)
+        let apart = |apart: &Option<evidence::Apart>| {
+            apart
+                .as_ref()
+                .is_some_and(|apart| apart.least() >= SEPARATED)
         };
-        let resolved = design.worths.iter().enumerate();
+        let resolved = design.aparts.iter().enumerate();
         let revealed = design.visibilities.iter().zip(&self.hidden);
         Some(Promise {
             extra: extra.clone(),

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, NoiseClaim};
 use super::catalogue::{self, Cell, Ground, Variation, Words};
-use super::evidence::{self, Action, Baseline, Standing, Worth};
+use super::evidence::{self, Apart, Baseline, Prospects, Standing, Worth};
 use super::extra::Extra;
 use super::fit::{self, Fit};
 use super::frame::Frame;
@@ -20,6 +20,8 @@ pub struct Contender {
     id: String,
     /// What its texts speak of.
     words: Words,
+    /// Its posterior probability.
+    probability: f64,
     /// What it may look like, the most probable first.
     likely: Vec<Likely>,
 }
@@ -45,12 +47,14 @@ impl Contender {
         cell: &Cell,
         variation: &Variation,
         sizes: &DMatrix<f64>,
+        probability: f64,
     ) -> Contender {
         let sizes = sizes.map(|x| if x.is_finite() { x } else { 0.0 });
         let columns = variation.columns(recorded.ground);
         Contender {
             id: cell.effect.id.clone(),
             words: cell.words.clone(),
+            probability,
             likely: vec![Likely {
                 label: variation.label.clone(),
                 shape: value(variation),
@@ -91,18 +95,19 @@ impl Contender {
         self
     }
 
-    /// What it does in another design and what it may take up there; nothing where the design has no such
-    /// effect.
+    /// How it stands in the recording.
+    fn before(&self, recorded: &Recorded<'_>, cells: &[Cell]) -> Standing {
+        let variants = self.variants(recorded.ground, cells).into_iter();
+        let seen = |columns: DMatrix<f64>| visible(recorded.baseline, columns);
+        Standing {
+            effects: side_by_side(self.likely.iter().map(|likely| likely.seen.clone())),
+            variants: variants.filter_map(seen).collect(),
+        }
+    }
+
+    /// How it stands in another design; nothing where the design has no such effect.
     fn standing(&self, recorded: &Recorded<'_>, longer: &Longer<'_>) -> Option<Standing> {
-        let alike = || {
-            let of = longer.cells.iter();
-            of.filter(|cell| self.is(cell))
-                .flat_map(|cell| &cell.variants)
-        };
-        let variants: Vec<DMatrix<f64>> = alike()
-            .map(|variation| variation.columns(&longer.ground))
-            .filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
-            .collect();
+        let variants = self.variants(&longer.ground, &longer.cells);
         let before: Vec<DMatrix<f64>> = variants
             .iter()
             .map(|columns| {
@@ -111,6 +116,7 @@ impl Contender {
                     .project(&longer.recorded(recorded, columns))
             })
             .collect();
+        // The variant there that does the same to the rows of the recording.
         let effects = self.likely.iter().map(|likely| {
             let ranked = before.iter().zip(&variants).filter_map(|(before, whole)| {
                 let sizes = fitted(before, &likely.seen)?;
@@ -118,21 +124,26 @@ impl Contender {
                 Some((left, whole, sizes))
             });
             let (_, whole, sizes) = ranked.min_by(|a, b| a.0.total_cmp(&b.0))?;
-            Some(whole * sizes)
+            Some(longer.baseline.project(&(whole * sizes)))
         });
         let effects: Option<Vec<DMatrix<f64>>> = effects.collect();
-        let columns: Vec<_> = effects?
-            .iter()
-            .flat_map(|part| {
-                part.column_iter()
-                    .map(|c| c.into_owned())
-                    .collect::<Vec<_>>()
-            })
-            .collect();
-        (!columns.is_empty()).then(|| Standing {
-            effects: DMatrix::from_columns(&columns),
-            variants,
+        let variants = variants.iter().cloned();
+        Some(Standing {
+            effects: side_by_side(effects?.into_iter()),
+            variants: variants
+                .filter_map(|columns| visible(&longer.baseline, columns))
+                .collect(),
         })
+    }
+
+    /// Columns of all variants that it has among some cells.
+    fn variants(&self, ground: &Ground<'_>, cells: &[Cell]) -> Vec<DMatrix<f64>> {
+        let alike = cells.iter().filter(|cell| self.is(cell));
+        alike
+            .flat_map(|cell| &cell.variants)
+            .map(|variation| variation.columns(ground))
+            .filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
+            .collect()
     }
 
     fn is(&self, cell: &Cell) -> bool {
@@ -237,10 +248,31 @@ pub(super) struct Recorded<'r> {
     pub baseline: &'r Baseline,
 }
 
+/// Columns as they are seen, without those that the parameters absorb.
+fn visible(baseline: &Baseline, columns: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    /// What is left of less is rounding.
+    const ABSORBED: f64 = 1e-12;
+    let shares = baseline.visibilities(&columns);
+    let kept: Vec<usize> = (0..columns.ncols())
+        .filter(|column| shares[*column] > ABSORBED)
+        .collect();
+    (!kept.is_empty()).then(|| baseline.project(&columns.select_columns(&kept)))
+}
+
+fn side_by_side(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
+    let parts: Vec<DMatrix<f64>> = parts.collect();
+    let columns: Vec<_> = parts.iter().flat_map(|part| part.column_iter()).collect();
+    if columns.is_empty() {
+        return DMatrix::zeros(0, 0);
+    }
+    DMatrix::from_columns(&columns)
+}
+
 /// The recording together with a further measurement.
 struct Longer<'l> {
     ground: Ground<'l>,
     cells: Vec<Cell>,
+    baseline: Baseline,
 }
 
 impl Longer<'_> {
@@ -257,8 +289,8 @@ impl Longer<'_> {
 
 /// What one further measurement gives.
 pub(super) struct Design {
-    /// For each set of contenders how far they then stay apart; nothing where this cannot be said.
-    pub worths: Vec<Option<Worth>>,
+    /// For each set of contenders how far they then are apart; nothing where this cannot be said.
+    pub aparts: Vec<Option<Apart>>,
     /// For each of the asked effects the share that the parameters do not absorb then.
     pub visibilities: Vec<Option<f64>>,
 }
@@ -284,27 +316,27 @@ pub(super) fn design(
     };
     let ground = Ground::new(&frame, &fit).refined(recorded.ground.finer.clone());
     let cells = catalogue::cells(&ground);
-    let longer = Longer { ground, cells };
     let baseline = baseline(&frame, &fit, &noise_of(known, &frame, &fit)).ok()?;
-    let worths = sets.iter().map(|set| {
+    let longer = Longer {
+        ground,
+        cells,
+        baseline,
+    };
+    let aparts = sets.iter().map(|set| {
         let contenders = set.iter().map(|one| one.standing(recorded, &longer));
-        let action = Action {
-            cost: extra.cost,
-            baseline: &baseline,
-            contenders: contenders.collect::<Option<Vec<Standing>>>()?,
-        };
-        evidence::separate(&[action]).ok()?.pop()
+        let contenders: Option<Vec<Standing>> = contenders.collect();
+        evidence::apart(&contenders?).ok()
     });
-    let worths = worths.collect();
+    let aparts = aparts.collect();
     let visibility = |one: &Contender| {
         let columns = one.columns(&longer)?;
         let of = columns
             .column_iter()
-            .map(|column| baseline.visibility(&column.into_owned()));
+            .map(|column| longer.baseline.visibility(&column.into_owned()));
         Some(of.fold(1.0, f64::min))
     };
     Some(Design {
-        worths,
+        aparts,
         visibilities: asked.iter().map(visibility).collect(),
     })
 }
@@ -362,6 +394,8 @@ pub struct Separating {
     pub slot: usize,
     /// Candidates that stand against each other.
     pub rivals: Vec<usize>,
+    /// A number for each of them; those that share one say the same of every measurement that is known here.
+    pub classes: Vec<usize>,
     /// Separability of the two that are most alike, as it is.
     pub kappa: f64,
     /// Further measurements with what they are worth, the most useful for its cost first.
@@ -369,7 +403,7 @@ pub struct Separating {
 }
 
 /// More contenders take long and help nobody.
-const CONTENDERS: usize = 4;
+const CONTENDERS: usize = 6;
 /// Rivals of which more is left are told apart as it is.
 const CLOSE: f64 = 4.0;
 
@@ -398,7 +432,8 @@ pub(super) fn separating(
             };
             let cell = alternative.candidate;
             let sizes = sizes(&alternative.estimate, &alternative.covariance);
-            let one = Contender::new(recorded, &cells[cell], variation, &sizes);
+            let p = alternative.probability;
+            let one = Contender::new(recorded, &cells[cell], variation, &sizes, p);
             set.push(one.with(recorded, &variants));
             rivals.push(cell);
         }
@@ -412,36 +447,78 @@ pub(super) fn separating(
             continue;
         }
         let kappa = nearest.map_or(0.0, |rival| rival.kappa);
-        found.push((slot, rivals, kappa, set));
+        let all: f64 = of
+            .named
+            .iter()
+            .map(|alternative| alternative.probability)
+            .sum();
+        found.push((slot, rivals, kappa, set, all));
     }
     if found.is_empty() {
         return Vec::new();
     }
     let all = super::extra::extras(recorded.known.case);
-    let sets: Vec<Vec<Contender>> = found.iter().map(|(.., set)| set.clone()).collect();
+    let sets: Vec<Vec<Contender>> = found.iter().map(|(.., set, _)| set.clone()).collect();
     let designs: Vec<Option<Design>> = all
         .iter()
         .map(|extra| design(recorded, extra, &sets, &[]))
         .collect();
-    found
-        .into_iter()
-        .enumerate()
-        .map(|(at, (slot, rivals, kappa, _))| {
-            let of = all.iter().zip(&designs).filter_map(|(extra, design)| {
-                let worth = design.as_ref()?.worths.get(at)?.clone()?;
-                Some((extra.clone(), worth))
+    let mut separating = Vec::new();
+    for (at, (slot, rivals, kappa, set, all_listed)) in found.into_iter().enumerate() {
+        let standing: Vec<Standing> = (set.iter())
+            .map(|one| one.before(recorded, cells))
+            .collect();
+        let Ok(before) = evidence::apart(&standing) else {
+            continue;
+        };
+        let after: Vec<(&Extra, &Apart)> = (all.iter().zip(&designs))
+            .filter_map(|(extra, design)| Some((extra, design.as_ref()?.aparts[at].as_ref()?)))
+            .collect();
+        let classes = classes(set.len(), &before, &after);
+        let probabilities: Vec<f64> = set.iter().map(|one| one.probability).collect();
+        let prospects = Prospects {
+            before: &before,
+            probabilities: &probabilities,
+            classes: &classes,
+        };
+        // Of what a list holds beside these nothing is promised.
+        let examined = (probabilities.iter().sum::<f64>() / all_listed).min(1.0);
+        let mut extras: Vec<(Extra, Worth)> = if classes.iter().all(|class| *class == 0) {
+            Vec::new()
+        } else {
+            let worths = after.iter();
+            let worths = worths.map(|(extra, apart)| {
+                let mut worth = apart.worth(&prospects);
+                worth.resolved *= examined;
+                ((*extra).clone(), worth)
             });
-            let mut extras: Vec<(Extra, Worth)> = of.collect();
-            let value = |(extra, worth): &(Extra, Worth)| worth.kappa.min(5.0) / extra.cost;
-            extras.sort_by(|a, b| value(b).total_cmp(&value(a)));
-            Separating {
-                slot,
-                rivals,
-                kappa,
-                extras,
-            }
-        })
-        .collect()
+            worths.collect()
+        };
+        let value = |(extra, worth): &(Extra, Worth)| worth.kappa.min(5.0) / extra.cost;
+        extras.sort_by(|a, b| value(b).total_cmp(&value(a)));
+        separating.push(Separating {
+            slot,
+            rivals,
+            classes,
+            kappa,
+            extras,
+        });
+    }
+    separating
+}
+
+/// A number for each of so many explanations; the same for those that neither the recording nor any further
+/// measurement tells apart.
+fn classes(count: usize, before: &Apart, after: &[(&Extra, &Apart)]) -> Vec<usize> {
+    let alike =
+        |a: usize, b: usize| before.alike(a, b) && after.iter().all(|(_, apart)| apart.alike(a, b));
+    let mut classes = Vec::new();
+    for one in 0..count {
+        let same = (0..one).find(|other| alike(one, *other));
+        let next = classes.iter().max().map_or(0, |most: &usize| most + 1);
+        classes.push(same.map_or(next, |other| classes[other]));
+    }
+    classes
 }
 
 /// A variation that does what a contender does, as far as it can.
@@ -456,5 +533,9 @@ fn likened(
         .baseline
         .project(&variation.columns(recorded.ground));
     let sizes = fitted(&columns, seen)?;
-    Some(Contender::new(recorded, cell, variation, &sizes))
+    // It is not in the list: less probable than whatever is.
+    Some(Contender::new(recorded, cell, variation, &sizes, UNLISTED))
 }
+
+/// The most that an explanation has which is not listed.
+const UNLISTED: f64 = 0.01;

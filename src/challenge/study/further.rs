@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::report::{Study, table};
 use super::trial::Trial;
 use crate::challenge::further::Further;
-use crate::challenge::grade::{self, Answer, Finding, Graded};
+use crate::challenge::grade::{self, Answer, Finding, Graded, GradedEffect};
 use crate::challenge::rig::Rig;
 use crate::challenge::truth::Truth;
 
@@ -28,6 +28,8 @@ pub struct Advice {
 struct ForEffect {
     /// Place among the effects.
     effect: usize,
+    /// Numbers of its names; those that share one say the same of every measurement.
+    classes: Vec<usize>,
     /// The best first.
     measurements: Vec<Measurement>,
 }
@@ -66,6 +68,8 @@ impl Measure {
 /// What became of a list for which a further measurement was asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Sequel {
+    /// All names of the list say the same of every measurement.
+    Same,
     /// No measurement promises to decide.
     Unpromised,
     /// Only such as the simulator cannot make.
@@ -79,6 +83,8 @@ pub enum Sequel {
 pub enum Decision {
     /// The right name, alone.
     Resolved,
+    /// The right name, and others that say the same of every measurement.
+    Class,
     /// Still a list with the right name.
     Listed,
     /// A wrong name, alone.
@@ -116,13 +122,13 @@ pub fn request(
     if !asked {
         return Request::None;
     }
-    let right = |at: usize| {
-        let mut names = answer.effects.get(at).into_iter().flat_map(|e| &e.named);
-        names.any(|name| grade::accepts(effect.truth.physics, name))
+    let Some(list) = advice.on(effect, answer) else {
+        return Request::InVain(Sequel::Unpromised);
     };
-    let lists = advice.separating.iter().filter(|list| right(list.effect));
-    let promising: Vec<&Measurement> = lists
-        .flat_map(|list| &list.measurements)
+    if list.is_one_class(answer) {
+        return Request::InVain(Sequel::Same);
+    }
+    let promising: Vec<&Measurement> = (list.measurements.iter())
         .filter(|one| one.resolved.is_some_and(|p| p >= PROMISED))
         .collect();
     let possible = promising.iter().find_map(|one| one.measure.on(truth.rig));
@@ -134,20 +140,52 @@ pub fn request(
 }
 
 /// What a graded answer to the longer recording says.
-pub fn decision(graded: &Graded) -> Decision {
+pub fn decision(graded: &Graded, answer: &Answer, advice: &Advice) -> Decision {
+    let Some(effect) = graded.effects.first() else {
+        return Decision::Unnamed;
+    };
     if !graded.wrong_names.is_empty() {
         return Decision::Wrong;
     }
-    match graded.effects.first().map(|effect| effect.finding) {
-        Some(Finding::Unique) => Decision::Resolved,
-        Some(Finding::Listed(_)) => Decision::Listed,
-        _ => Decision::Unnamed,
+    let same = || {
+        let list = advice.on(effect, answer);
+        list.is_some_and(|list| list.is_one_class(answer))
+    };
+    match effect.finding {
+        Finding::Unique => Decision::Resolved,
+        Finding::Listed(_) if same() => Decision::Class,
+        Finding::Listed(_) => Decision::Listed,
+        Finding::Unexplained | Finding::Missed => Decision::Unnamed,
+    }
+}
+
+impl Advice {
+    /// What is said of the list that holds the right name.
+    fn on(&self, effect: &GradedEffect, answer: &Answer) -> Option<&ForEffect> {
+        let right = |list: &&ForEffect| {
+            let mut names = answer
+                .effects
+                .get(list.effect)
+                .into_iter()
+                .flat_map(|e| &e.named);
+            names.any(|name| grade::accepts(effect.truth.physics, name))
+        };
+        self.separating.iter().find(right)
+    }
+}
+
+impl ForEffect {
+    /// Whether all names of the list say the same of every measurement.
+    fn is_one_class(&self, answer: &Answer) -> bool {
+        let listed = answer.effects.get(self.effect).map_or(0, |e| e.named.len());
+        listed == self.classes.len() && self.classes.iter().all(|class| *class == 0)
     }
 }
 
 impl Decision {
-    const ALL: [(Decision, &'static str); 4] = [
+    const ALL: [(Decision, &'static str); 5] = [
         (Decision::Resolved, "resolved"),
+        (Decision::Class, "class"),
         (Decision::Listed, "list"),
         (Decision::Wrong, "wrong"),
         (Decision::Unnamed, "unnamed"),
@@ -159,13 +197,14 @@ impl Sequel {
     pub(super) fn decision(self) -> Option<Decision> {
         match self {
             Sequel::Made(_, decision) => Some(decision),
-            Sequel::Unpromised | Sequel::Impossible => None,
+            Sequel::Same | Sequel::Unpromised | Sequel::Impossible => None,
         }
     }
 
     /// The word in the file: `mount=90:resolved`, `unpromised`, `impossible`.
     pub(super) fn word(self) -> String {
         match self {
+            Sequel::Same => "same".into(),
             Sequel::Unpromised => "unpromised".into(),
             Sequel::Impossible => "impossible".into(),
             Sequel::Made(further, decision) => {
@@ -181,6 +220,7 @@ impl Sequel {
     /// The sequel of a word; nothing for one that is none.
     pub(super) fn of_word(word: &str) -> Option<Sequel> {
         match word {
+            "same" => Some(Sequel::Same),
             "unpromised" => Some(Sequel::Unpromised),
             "impossible" => Some(Sequel::Impossible),
             _ => {
@@ -218,6 +258,10 @@ impl Study<'_> {
             })
             .collect();
         let without = [
+            (
+                Sequel::Same,
+                "none: all names say the same of every measurement",
+            ),
             (Sequel::Unpromised, "none that promises it"),
             (Sequel::Impossible, "one that the simulator cannot make"),
         ];
@@ -239,6 +283,7 @@ impl Study<'_> {
                 "recommended",
                 "lists",
                 "then named rightly",
+                "or with names that say the same",
                 "still listed",
                 "a wrong name",
                 "no name",
@@ -254,7 +299,7 @@ mod tests {
 
     #[test]
     fn the_best_measurement_that_can_be_made_is_taken() {
-        let text = r#"{"separating": [{"effect": 0, "rivals": [], "kappa": 0.1, "measurements": [
+        let text = r#"{"separating": [{"effect": 0, "rivals": [], "classes": [0, 1], "kappa": 0.1, "measurements": [
             {"name": "a", "measure": {"kind": "opposite", "column": "temperature"}, "resolved": 0.99},
             {"name": "b", "measure": {"kind": "set", "column": "mount", "value": 45.0, "unit": "°"}, "resolved": 0.4},
             {"name": "c", "measure": {"kind": "set", "column": "mount", "value": 90.0, "unit": "°"}, "resolved": 0.99},

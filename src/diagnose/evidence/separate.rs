@@ -2,117 +2,156 @@
 
 use nalgebra::DMatrix;
 
-use super::baseline::Baseline;
-use super::fit::resolved;
 use super::question::Refusal;
+use crate::special::normal_cdf;
 
-/// An experiment with extra rows: the recording at hand together with a measurement that may follow.
-#[derive(Debug, Clone)]
-pub struct Action<'a> {
-    /// What it costs, in any unit; 1 if costs do not matter.
-    pub cost: f64,
-    /// The design with the extra rows; its residuals do not matter.
-    pub baseline: &'a Baseline,
-    /// The rival explanations in this design.
-    pub contenders: Vec<Standing>,
-}
-
-/// An explanation in a design.
+/// A rival explanation in a design, as it is seen beside the fitted parameters
+/// ([`Baseline::project`](super::Baseline::project)).
 #[derive(Debug, Clone)]
 pub struct Standing {
-    /// What it does to all rows if it is the truth: first with its most probable size and shape, then with
-    /// others that the recording at hand allows, each as probable as the others.
+    /// What it does if it is the truth: first with its most probable size and shape, then with others that the
+    /// recording at hand allows, each as probable as the others.
     pub effects: DMatrix<f64>,
     /// Columns of each of its variants: with these it takes up what another does.
     pub variants: Vec<DMatrix<f64>>,
 }
 
-/// What an action is worth.
+/// How far rival explanations are apart in a design.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Apart {
+    /// What the second leaves of the first, for each of the effects that this may have.
+    left: Vec<Vec<Vec<f64>>>,
+    /// Lengths of the effects.
+    whole: Vec<Vec<f64>>,
+}
+
+/// What a further measurement is worth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Worth {
-    /// Index of the action.
-    pub action: usize,
     /// Separability of the two contenders that stay most alike, at their most probable sizes.
     pub kappa: f64,
     /// These two.
     pub pair: (usize, usize),
-    /// Probability that the truth then reaches a posterior of 95 %, for the contender that has most to fear:
-    /// the mean over the sizes and shapes that it may have.
+    /// Probability that the truth then stands alone, with a posterior of 99 %.
     pub resolved: f64,
-    /// How often the action has to be done for κ = 5; ∞ if it never helps.
+    /// How often it has to be done for κ = 5; ∞ if it never helps.
     pub repeats: f64,
+}
+
+/// What is known of rival explanations from the recording at hand.
+#[derive(Debug, Clone, Copy)]
+pub struct Prospects<'p> {
+    /// How far they are apart in it.
+    pub before: &'p Apart,
+    /// Their posterior probabilities.
+    pub probabilities: &'p [f64],
+    /// A number for each; those that no measurement tells apart share one, and are not asked to be.
+    pub classes: &'p [usize],
 }
 
 /// Separability with which rivals are told apart nearly always.
 const SEPARATED: f64 = 5.0;
+/// No number of repetitions helps below this separability.
+const NOTHING: f64 = 1e-6;
+/// Explanations are the same where less than this share of either is left.
+const SAME: f64 = 0.01;
+/// Log odds of a name that stands alone.
+const ALONE: f64 = 4.595_119_850_134_59;
 
-/// Actions, the most useful for its cost first: by the separability of the pair that stays most alike,
-/// up to 5, over the cost.
+/// Holds explanations against one another in a design.
 ///
 /// # Errors
 ///
-/// Fewer than two contenders, or columns that do not fit their baseline.
-pub fn separate(actions: &[Action]) -> Result<Vec<Worth>, Refusal> {
-    let mut worths = actions
-        .iter()
-        .enumerate()
-        .map(|(index, action)| worth(index, action))
-        .collect::<Result<Vec<Worth>, Refusal>>()?;
-    let value = |worth: &Worth| worth.kappa.min(SEPARATED) / actions[worth.action].cost;
-    worths.sort_by(|a, b| value(b).total_cmp(&value(a)));
-    Ok(worths)
-}
-
-fn worth(index: usize, action: &Action) -> Result<Worth, Refusal> {
-    if action.contenders.len() < 2 {
+/// Fewer than two contenders, or matrices that do not belong together.
+pub fn apart(contenders: &[Standing]) -> Result<Apart, Refusal> {
+    let Some(first) = contenders.first().filter(|_| contenders.len() > 1) else {
+        return Err(Refusal::Sizes { what: "contenders" });
+    };
+    let (rows, draws) = first.effects.shape();
+    let fits = |one: &Standing| {
+        one.effects.shape() == (rows, draws) && one.variants.iter().all(|v| v.nrows() == rows)
+    };
+    if draws == 0 || !contenders.iter().all(fits) {
         return Err(Refusal::Sizes { what: "contenders" });
     }
-    let rows = action.baseline.rows();
-    let fits = |one: &Standing| {
-        let mut columns = one.variants.iter().chain([&one.effects]);
-        columns.all(|columns| columns.nrows() == rows) && one.effects.ncols() > 0
-    };
-    if !action.contenders.iter().all(fits) {
-        return Err(Refusal::Sizes { what: "action" });
-    }
-    let spans: Vec<Vec<DMatrix<f64>>> = action
-        .contenders
+    let spans: Vec<Vec<DMatrix<f64>>> = contenders
         .iter()
-        .map(|one| {
-            let seen = one.variants.iter().map(|v| action.baseline.project(v));
-            seen.map(basis).collect()
-        })
+        .map(|one| one.variants.iter().cloned().map(basis).collect())
         .collect();
-    let mut nearest = (f64::INFINITY, (0, 1));
-    let mut least = 1.0_f64;
-    for (a, truth) in action.contenders.iter().enumerate() {
-        let seen = action.baseline.project(&truth.effects);
-        // What the nearest of all rivals leaves of each effect.
-        let mut kappas = vec![f64::INFINITY; seen.ncols()];
-        for (b, variants) in spans.iter().enumerate().filter(|(b, _)| *b != a) {
-            let left = left(&seen, variants);
-            if left[0] < nearest.0 {
-                nearest = (left[0], (a, b));
-            }
-            for (kappa, left) in kappas.iter_mut().zip(left) {
-                *kappa = kappa.min(left);
-            }
-        }
-        let sum: f64 = kappas.iter().map(|kappa| resolved(*kappa)).sum();
-        least = least.min(sum / kappas.len() as f64);
-    }
-    let kappa = nearest.0;
-    Ok(Worth {
-        action: index,
-        kappa,
-        pair: nearest.1,
-        resolved: least,
-        repeats: if kappa > ALIKE {
-            (SEPARATED / kappa).powi(2).max(1.0)
-        } else {
-            f64::INFINITY
-        },
+    let lengths = |one: &Standing| one.effects.column_iter().map(|e| e.norm()).collect();
+    let by_all = |one: &Standing| spans.iter().map(|span| left(&one.effects, span)).collect();
+    Ok(Apart {
+        left: contenders.iter().map(by_all).collect(),
+        whole: contenders.iter().map(lengths).collect(),
     })
+}
+
+impl Apart {
+    /// Whether two explanations say the same here.
+    pub fn alike(&self, a: usize, b: usize) -> bool {
+        self.left[a][b][0] <= SAME * self.whole[a][0]
+            && self.left[b][a][0] <= SAME * self.whole[b][0]
+    }
+
+    /// Separability of the two that are most alike, at their most probable sizes.
+    pub fn least(&self) -> f64 {
+        let pairs = (0..self.left.len()).flat_map(|a| (0..a).flat_map(move |b| [(a, b), (b, a)]));
+        pairs
+            .map(|(a, b)| self.left[a][b][0])
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// What the measurement is worth with which explanations are as far apart as this.
+    ///
+    /// If `a` is the truth, what is still to be recorded adds to its log odds over `b` on average half of what
+    /// κ² gains, with a variance of the whole of it.
+    pub fn worth(&self, prospects: &Prospects<'_>) -> Worth {
+        let mut nearest = (f64::INFINITY, (0, 1));
+        let (mut resolved, mut whole) = (0.0, 0.0);
+        for a in 0..self.left.len() {
+            let mut doubts = vec![0.0; self.whole[a].len()];
+            for b in (0..self.left.len()).filter(|b| prospects.classes[a] != prospects.classes[*b])
+            {
+                if self.left[a][b][0] < nearest.0 {
+                    nearest = (self.left[a][b][0], (a, b));
+                }
+                let odds = log_odds(prospects.probabilities[a], prospects.probabilities[b]);
+                let kappas = self.left[a][b].iter().zip(&prospects.before.left[a][b]);
+                for (doubt, (after, before)) in doubts.iter_mut().zip(kappas) {
+                    *doubt += 1.0 - decided(odds, after * after - before * before);
+                }
+            }
+            let sure: f64 = doubts.iter().map(|doubt| (1.0 - doubt).max(0.0)).sum();
+            resolved += prospects.probabilities[a] * sure / doubts.len() as f64;
+            whole += prospects.probabilities[a];
+        }
+        let kappa = nearest.0;
+        Worth {
+            kappa,
+            pair: nearest.1,
+            resolved: if whole > 0.0 { resolved / whole } else { 0.0 },
+            repeats: if kappa > NOTHING {
+                (SEPARATED / kappa).powi(2).max(1.0)
+            } else {
+                f64::INFINITY
+            },
+        }
+    }
+}
+
+/// Finite even where one of both is as good as excluded.
+fn log_odds(a: f64, b: f64) -> f64 {
+    const LEAST: f64 = 1e-4;
+    libm::log(a.max(LEAST) / b.max(LEAST))
+}
+
+/// Probability that the truth comes to stand alone, from its log odds and what κ² gains.
+fn decided(odds: f64, gain: f64) -> f64 {
+    if gain > NOTHING {
+        normal_cdf((odds + 0.5 * gain - ALONE) / gain.sqrt())
+    } else {
+        f64::from(u8::from(odds >= ALONE))
+    }
 }
 
 /// Length of what the best of some variants leaves of each effect.
@@ -144,18 +183,16 @@ fn basis(mut columns: DMatrix<f64>) -> DMatrix<f64> {
     svd.u.unwrap_or_default().select_columns(&kept)
 }
 
-/// No number of repetitions helps below this separability.
-const ALIKE: f64 = 1e-6;
-
 #[cfg(test)]
 mod tests {
-    use super::super::baseline::Prior;
-    use super::super::noise::{Covariance, Noise};
-    use super::*;
     use nalgebra::DVector;
 
-    /// Twelve positions in each mount: the baseline, and K2 and encoder eccentricity (1/rev cosine).
-    fn design(mounts: &[f64]) -> (Baseline, Vec<DMatrix<f64>>) {
+    use super::super::baseline::{Baseline, Prior};
+    use super::super::noise::{Covariance, Noise};
+    use super::*;
+
+    /// Twelve positions in each mount: K2 and encoder eccentricity (1/rev cosine), seen beside the baseline.
+    fn design(mounts: &[f64]) -> [DMatrix<f64>; 2] {
         let mut angles = Vec::new();
         for mount in mounts {
             angles.extend((0..12).map(|k| {
@@ -174,90 +211,97 @@ mod tests {
         let noise = Noise::known(Covariance::Diagonal(DVector::from_element(n, 1.0)));
         let baseline =
             Baseline::new(&jacobian, &DVector::zeros(n), &noise, &Prior::none(3)).unwrap();
-        let effects = [
+        [
             column(&|a, _| a.sin().powi(2)),
             column(&|a, h| a.cos() * h.cos()),
-        ];
-        let columns = effects
-            .iter()
-            .map(|e| DMatrix::from_columns(std::slice::from_ref(e)));
-        (baseline, columns.collect())
+        ]
+        .map(|effect| baseline.project(&DMatrix::from_columns(&[effect])))
+    }
+
+    fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Apart {
+        let of = |column: &DMatrix<f64>| Standing {
+            effects: column * DMatrix::from_row_slice(1, sizes.len(), sizes),
+            variants: vec![column.clone()],
+        };
+        let standing: Vec<Standing> = columns.iter().map(of).collect();
+        apart(&standing).unwrap()
+    }
+
+    fn worth(mounts: &[f64], sizes: &[f64], probabilities: [f64; 2]) -> Worth {
+        let before = held(&design(&mounts[..1]), sizes);
+        held(&design(mounts), sizes).worth(&Prospects {
+            before: &before,
+            probabilities: &probabilities,
+            classes: &[0, 1],
+        })
     }
 
     #[test]
     fn a_remount_separates_what_repetition_does_not() {
-        let designs = [
-            ("repeat", design(&[0.0, 0.0])),
-            ("+45", design(&[0.0, 45.0])),
-            ("+90", design(&[0.0, 90.0])),
-            ("+180", design(&[0.0, 180.0])),
-        ];
-        let actions: Vec<Action> = designs
-            .iter()
-            .map(|(_, (baseline, columns))| Action {
-                cost: 1.0,
-                baseline,
-                contenders: (columns.iter())
-                    .map(|column| Standing {
-                        effects: column.clone(),
-                        variants: vec![column.clone()],
-                    })
-                    .collect(),
-            })
-            .collect();
-        let worths = separate(&actions).unwrap();
-        let order: Vec<&str> = worths.iter().map(|w| designs[w.action].0).collect();
-        assert_eq!(order, ["+180", "+90", "+45", "repeat"]);
-        let last = worths.last().unwrap();
-        assert!(last.kappa < 1e-6 && last.repeats == f64::INFINITY && last.resolved < 1e-3);
+        let kappa = |mount: f64| worth(&[0.0, mount], &[1.0], [0.5, 0.5]).kappa;
+        assert!(kappa(180.0) > kappa(90.0) && kappa(90.0) > kappa(45.0) && kappa(45.0) > 0.1);
+        let again = worth(&[0.0, 0.0], &[1.0], [0.5, 0.5]);
+        assert!(again.kappa < 1e-6 && again.repeats == f64::INFINITY && again.resolved < 1e-3);
         // Half of the rows turn their sign: with signals of ½cos 2α each, 24 rows and the fit of the
         // common part κ² = 24/8.
-        assert!(
-            (worths[0].kappa - 3.0_f64.sqrt()).abs() < 1e-9,
-            "{}",
-            worths[0].kappa
-        );
+        assert!((kappa(180.0) - 3.0_f64.sqrt()).abs() < 1e-9);
     }
 
     #[test]
     fn a_size_that_is_hardly_known_promises_less() {
-        let (baseline, columns) = design(&[0.0, 180.0]);
-        let promised = |sizes: &[f64]| {
-            let contenders = columns.iter().map(|column| Standing {
-                effects: DMatrix::from_fn(column.nrows(), sizes.len(), |i, j| {
-                    column[(i, 0)] * sizes[j]
-                }),
-                variants: vec![column.clone()],
-            });
-            let action = Action {
-                cost: 1.0,
-                baseline: &baseline,
-                contenders: contenders.collect(),
-            };
-            separate(&[action]).unwrap()[0].resolved
-        };
-        assert!(promised(&[4.0]) > 0.99);
+        let promised = |sizes: &[f64]| worth(&[0.0, 180.0], sizes, [0.5, 0.5]).resolved;
+        assert!(promised(&[4.0]) > 0.95);
         assert!(promised(&[4.0, 0.5, 7.5]) < 0.7);
     }
 
     #[test]
+    fn what_is_nearly_sure_needs_little_more() {
+        let promised = |p: f64| worth(&[0.0, 180.0], &[1.6], [p, 1.0 - p]).resolved;
+        assert!(promised(0.98) > 0.8 && promised(0.5) < 0.4);
+    }
+
+    #[test]
     fn a_rival_with_more_variants_is_nearer() {
-        let (baseline, columns) = design(&[0.0, 180.0]);
-        let alone = |variants: Vec<DMatrix<f64>>| {
-            let standing = |at: usize, variants: Vec<DMatrix<f64>>| Standing {
-                effects: 5.0 * &columns[at],
+        let [own, other] = design(&[0.0, 180.0]);
+        let left = |variants: Vec<DMatrix<f64>>| {
+            let standing = |column: &DMatrix<f64>, variants| Standing {
+                effects: 5.0 * column,
                 variants,
             };
-            let contenders = vec![standing(0, vec![columns[0].clone()]), standing(1, variants)];
-            let action = Action {
-                cost: 1.0,
-                baseline: &baseline,
-                contenders,
-            };
-            separate(&[action]).unwrap()[0].kappa
+            let both = [
+                standing(&own, vec![own.clone()]),
+                standing(&other, variants),
+            ];
+            apart(&both).unwrap().left[0][1][0]
         };
-        let mixed = &columns[0] + 0.1 * &columns[1];
-        assert!(alone(vec![columns[1].clone()]) > 5.0);
-        assert!(alone(vec![columns[1].clone(), mixed]) < 1.0);
+        let mixed = &own + 0.1 * &other;
+        assert!(left(vec![other.clone()]) > 5.0);
+        assert!(left(vec![other.clone(), mixed]) < 1.0);
+    }
+
+    #[test]
+    fn one_class_is_not_asked_to_be_told_apart() {
+        let [own, other] = design(&[0.0, 180.0]);
+        let three = [own.clone(), -&own, other];
+        let apart = held(&three, &[4.0]);
+        assert!(apart.alike(0, 1) && !apart.alike(0, 2));
+        let before = held(
+            &[
+                design(&[0.0])[0].clone(),
+                -&design(&[0.0])[0],
+                design(&[0.0])[1].clone(),
+            ],
+            &[4.0],
+        );
+        let resolved = |classes: &[usize]| {
+            let probabilities = [0.3, 0.3, 0.4];
+            let prospects = Prospects {
+                before: &before,
+                probabilities: &probabilities,
+                classes,
+            };
+            apart.worth(&prospects).resolved
+        };
+        assert!(resolved(&[0, 1, 2]) < 0.5 && resolved(&[0, 0, 2]) > 0.9);
     }
 }

@@ -70,6 +70,7 @@ pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
         "separating": diagnosis.separating.iter().map(|of| json!({
             "effect": of.slot,
             "rivals": of.rivals.iter().map(|cell| name(&diagnosis.cells[*cell], language)).collect::<Vec<_>>(),
+            "classes": of.classes,
             "kappa": finite(of.kappa),
             "measurements": of.extras.iter().map(|(extra, worth)| json!({
                 "name": measure(&extra.measure, language),

@@ -7,15 +7,16 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Observed};
 use super::catalogue::{self, Cell, Ground};
+use super::contender::Contender;
 use super::evidence::{self, Atom, Refusal, Shape};
 use super::extra::{Extra, extras};
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
 use super::inquiry::{baseline, question};
+use super::longer::{Known, Recorded, examined};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::run::{Estimated, Failure, estimates};
-use super::separation::{self, Contender, Known, Recorded};
 use super::typical::{self, Unified};
 
 /// What an experiment can see and tell apart. Sizes of effects are the largest shifts of the output.
@@ -338,18 +339,23 @@ impl Contenders<'_> {
                 Contender::new(recorded, &cells[line.cell], variation, &sizes, EVEN)
             })
             .collect();
-        let design = separation::design(recorded, extra, &self.sets, &asked)?;
-        let apart = |apart: &Option<evidence::Apart>| {
-            apart
-                .as_ref()
-                .is_some_and(|apart| apart.least() >= SEPARATED)
-        };
-        let resolved = design.aparts.iter().enumerate();
-        let revealed = design.visibilities.iter().zip(&self.hidden);
+        let apart =
+            |apart: Option<evidence::Apart>| apart.is_some_and(|apart| apart.least() >= SEPARATED);
+        let (aparts, shares): (Vec<bool>, Vec<Option<f64>>) =
+            examined(recorded, extra, |longer| {
+                let aparts = self
+                    .sets
+                    .iter()
+                    .map(|set| apart(longer.apart(recorded, set)));
+                let shares = asked.iter().map(|one| one.visibility(longer));
+                (aparts.collect(), shares.collect())
+            })?;
+        let resolved = aparts.iter().enumerate();
+        let revealed = shares.iter().zip(&self.hidden);
         Some(Promise {
             extra: extra.clone(),
             resolved: resolved
-                .filter(|(_, w)| apart(w))
+                .filter(|(_, apart)| **apart)
                 .map(|(at, _)| at)
                 .collect(),
             revealed: revealed

@@ -15,10 +15,11 @@ use super::frame::Frame;
 use super::held_out::{self, HeldOutQuality};
 use super::inquiry::{Inquiry, TRACE, adopted_fit, baseline, settings};
 use super::local;
+use super::longer::{Known, Recorded};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::place;
-use super::separation::{self, Known, Recorded, Separating};
+use super::separation::{self, Separating};
 use crate::fault::Code;
 
 /// Why a case could not be diagnosed.

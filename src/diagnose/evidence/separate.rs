@@ -47,6 +47,9 @@ pub struct Prospects<'p> {
     pub probabilities: &'p [f64],
     /// A number for each; those that no measurement tells apart share one, and are not asked to be.
     pub classes: &'p [usize],
+    /// For each the probability that something comes to stand beside it that is none of them
+    /// ([`doubt`]).
+    pub outside: &'p [f64],
 }
 
 /// Separability with which rivals are told apart nearly always.
@@ -74,14 +77,21 @@ pub fn apart(contenders: &[Standing]) -> Result<Apart, Refusal> {
     if draws == 0 || !contenders.iter().all(fits) {
         return Err(Refusal::Sizes { what: "contenders" });
     }
-    let spans: Vec<Vec<DMatrix<f64>>> = contenders
-        .iter()
-        .map(|one| one.variants.iter().cloned().map(basis).collect())
-        .collect();
     let lengths = |one: &Standing| one.effects.column_iter().map(|e| e.norm()).collect();
-    let by_all = |one: &Standing| spans.iter().map(|span| left(&one.effects, span)).collect();
+    let effects: Vec<DMatrix<f64>> = contenders.iter().map(|one| one.effects.clone()).collect();
+    let columns: Vec<_> = effects.iter().flat_map(|e| e.column_iter()).collect();
+    let all = DMatrix::from_columns(&columns);
+    // What each leaves of all effects, then by effect.
+    let by_rival: Vec<Vec<f64>> = contenders
+        .iter()
+        .map(|rival| left(&all, rival.variants.iter().cloned()))
+        .collect();
+    let of = |a: usize| -> Vec<Vec<f64>> {
+        let own = |left: &Vec<f64>| left[a * draws..(a + 1) * draws].to_vec();
+        by_rival.iter().map(own).collect()
+    };
     Ok(Apart {
-        left: contenders.iter().map(by_all).collect(),
+        left: (0..contenders.len()).map(of).collect(),
         whole: contenders.iter().map(lengths).collect(),
     })
 }
@@ -109,7 +119,7 @@ impl Apart {
         let mut nearest = (f64::INFINITY, (0, 1));
         let (mut resolved, mut whole) = (0.0, 0.0);
         for a in 0..self.left.len() {
-            let mut doubts = vec![0.0; self.whole[a].len()];
+            let mut doubts = vec![prospects.outside[a]; self.whole[a].len()];
             for b in (0..self.left.len()).filter(|b| prospects.classes[a] != prospects.classes[*b])
             {
                 if self.left[a][b][0] < nearest.0 {
@@ -139,6 +149,19 @@ impl Apart {
     }
 }
 
+/// Probability that an explanation which is not in the list comes to stand beside one of it, if this is the
+/// truth: from what it leaves of it in the recording and in the longer one. That it is not in the list is
+/// either by what it leaves, or by chance; then at least it was left out.
+pub fn doubt(before: f64, after: f64) -> f64 {
+    let by_what_is_left = decided(0.0, after * after);
+    let left_out = if after > before {
+        decided(ALONE, after * after - before * before)
+    } else {
+        0.0
+    };
+    1.0 - by_what_is_left.max(left_out)
+}
+
 /// Finite even where one of both is as good as excluded.
 fn log_odds(a: f64, b: f64) -> f64 {
     const LEAST: f64 = 1e-4;
@@ -154,11 +177,11 @@ fn decided(odds: f64, gain: f64) -> f64 {
     }
 }
 
-/// Length of what the best of some variants leaves of each effect.
-fn left(effects: &DMatrix<f64>, variants: &[DMatrix<f64>]) -> Vec<f64> {
+/// Length of what the best of some variants leaves of each effect, all of them seen beside the parameters.
+pub fn left(effects: &DMatrix<f64>, variants: impl IntoIterator<Item = DMatrix<f64>>) -> Vec<f64> {
     let mut least: Vec<f64> = effects.column_iter().map(|e| e.norm_squared()).collect();
-    for basis in variants {
-        let rest = effects - basis * basis.tr_mul(effects);
+    for basis in variants.into_iter().map(basis) {
+        let rest = effects - &basis * basis.tr_mul(effects);
         for (least, rest) in least.iter_mut().zip(rest.column_iter()) {
             *least = least.min(rest.norm_squared());
         }
@@ -233,6 +256,7 @@ mod tests {
             before: &before,
             probabilities: &probabilities,
             classes: &[0, 1],
+            outside: &[0.0, 0.0],
         })
     }
 
@@ -280,6 +304,14 @@ mod tests {
     }
 
     #[test]
+    fn what_is_not_listed_may_come_to_stand_beside_it() {
+        // Far away it does not; near, and no further away than before, it does; what was left out is likely
+        // to stay out.
+        assert!(doubt(6.0, 9.0) < 1e-3 && doubt(4.0, 3.0) > 0.4);
+        assert!(doubt(2.0, 4.0) < doubt(4.0, 4.0));
+    }
+
+    #[test]
     fn one_class_is_not_asked_to_be_told_apart() {
         let [own, other] = design(&[0.0, 180.0]);
         let three = [own.clone(), -&own, other];
@@ -299,6 +331,7 @@ mod tests {
                 before: &before,
                 probabilities: &probabilities,
                 classes,
+                outside: &[0.0; 3],
             };
             apart.worth(&prospects).resolved
         };

@@ -76,6 +76,11 @@ impl Setting {
         }
     }
 
+    /// Whether a calibration goes all the way round.
+    pub(super) fn is_circle(self) -> bool {
+        matches!(self, Setting::Head | Setting::Azimuth)
+    }
+
     /// Its place in a pose.
     pub(super) fn of(self, pose: &mut Pose) -> &mut f64 {
         match self {

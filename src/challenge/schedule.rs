@@ -311,17 +311,25 @@ fn side(forwards: bool) -> f64 {
     if forwards { 1.0 } else { -1.0 }
 }
 
-/// Every value of a setting half way to the next one; the last goes half way back.
+/// Every value of a setting half way to the next one; the last goes on likewise on a whole circle of them,
+/// and else a quarter back.
 fn between(stays: &mut [(usize, f64, Pose)], setting: Setting) {
     let mut levels: Vec<f64> = stays.iter_mut().map(|(.., to)| *setting.of(to)).collect();
     levels.sort_by(f64::total_cmp);
     levels.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    let next = |value: f64| {
+        let at = levels.iter().position(|level| *level >= value - 1e-9);
+        let at = at.unwrap_or(0);
+        let step = levels[at] - levels[at.saturating_sub(1)];
+        match levels.get(at + 1) {
+            Some(next) => 0.5 * (levels[at] + next),
+            None if setting.is_circle() => levels[at] + 0.5 * step,
+            None => levels[at] - 0.25 * step,
+        }
+    };
     for (.., to) in stays {
         let value = setting.of(to);
-        let own = levels.iter().position(|level| *level >= *value - 1e-9);
-        let own = own.unwrap_or(0);
-        let other = levels.get(own + 1).or(levels.get(own.saturating_sub(1)));
-        *value = 0.5 * (levels[own] + other.unwrap_or(value));
+        *value = next(*value);
     }
 }
 

@@ -93,7 +93,8 @@ pub fn extras(case: &Case) -> Vec<Extra> {
                         changed(measure, 2.0, Data::Numbers(vec![value; numbers.len()]));
                     }
                 } else if (3..=LEVELS).contains(&levels.len()) {
-                    let between = numbers.iter().map(|x| between(*x, &levels)).collect();
+                    let turn = turn(column);
+                    let between = numbers.iter().map(|x| between(*x, &levels, turn)).collect();
                     changed(
                         Measure::Between { column: name },
                         1.0,
@@ -151,13 +152,29 @@ fn levels(numbers: &[f64]) -> Vec<f64> {
     levels
 }
 
-/// Half way to the next level; the last one goes half way back.
-fn between(x: f64, levels: &[f64]) -> f64 {
-    let above = levels.iter().position(|level| *level >= x).unwrap_or(0);
-    match levels.get(above + 1) {
-        Some(next) => 0.5 * (levels[above] + next),
-        None => 0.5 * (levels[above] + levels[above.saturating_sub(1)]),
+/// Half way to the next level. The last goes on likewise on a circle of levels, and else a quarter back, so
+/// that no two become the same.
+fn between(x: f64, levels: &[f64], turn: Option<f64>) -> f64 {
+    let at = levels.iter().position(|level| *level >= x).unwrap_or(0);
+    if let Some(next) = levels.get(at + 1) {
+        return 0.5 * (levels[at] + next);
     }
+    let before = levels[at.saturating_sub(1)];
+    let step = levels[at] - before;
+    let closing = turn.map(|turn| levels[0] + turn - levels[at]);
+    match closing.filter(|closing| *closing > 0.0 && *closing < 1.5 * step) {
+        Some(closing) => levels[at] + 0.5 * closing,
+        None => levels[at] - 0.25 * step,
+    }
+}
+
+/// A whole turn in the unit of a column of angles.
+fn turn(column: &Column) -> Option<f64> {
+    if !is_angle(column) {
+        return None;
+    }
+    let degree = UnitTable::default().parse("°").ok()?;
+    Some(degree.conversion_to(&column.unit)?.apply(360.0))
 }
 
 /// Mountings that were not used: turned by an eighth, a quarter, half a turn.
@@ -185,7 +202,10 @@ mod tests {
     fn values_between_levels() {
         let levels = levels(&[20.0, 0.0, 10.0, 10.0]);
         assert_eq!(levels, [0.0, 10.0, 20.0]);
-        assert_eq!(between(0.0, &levels), 5.0);
-        assert_eq!(between(20.0, &levels), 15.0);
+        assert_eq!(between(0.0, &levels, None), 5.0);
+        assert_eq!(between(20.0, &levels, None), 17.5);
+        let circle = [0.0, 90.0, 180.0, 270.0];
+        assert_eq!(between(270.0, &circle, Some(360.0)), 315.0);
+        assert_eq!(between(20.0, &levels, Some(360.0)), 17.5);
     }
 }

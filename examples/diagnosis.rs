@@ -96,7 +96,8 @@ fn save_tables(out: &Path) -> Result<(), String> {
         `gumption challenge` (docs/challenge.md). λ is the visible strength of an effect in standard \
         deviations, κ what its nearest rival leaves of it: both from twin runs of the simulator, with and \
         without the effect, and the rivals are every other effect of the simulator and every wrong candidate \
-        of the catalogue that has no more coefficients than the right one. \
+        of the catalogue that has at most one coefficient more than the right one (a wave has a phase where \
+        a power has none): what gives the same recording has to be listed. \
         Every case is a line of diagnosis.csv.";
     std::fs::write(out.join("diagnosis.md"), report(&read(&lines), made)).map_err(|e| e.to_string())
 }
@@ -303,8 +304,8 @@ fn followed(trial: &Trial, further: Further, folder: &Path, options: &Options) -
     }
 }
 
-/// What twin runs say of each concealed effect. A wrong candidate is a rival if it has no more coefficients
-/// than the right one.
+/// What twin runs say of each concealed effect. A wrong candidate is a rival if it has at most one
+/// coefficient more than the right one, as a wave has a phase where a power has none.
 fn twins(
     trial: &Trial,
     sealed: &SealedCase,
@@ -327,7 +328,9 @@ fn twins(
             all.iter().partition(|likeness| right(&likeness.pick));
         let best = own.iter().min_by(|a, b| a.left.total_cmp(&b.left));
         let coefficients = best.map_or(USUAL, |best| best.coefficients);
-        let rivals = wrong.iter().filter(|l| l.coefficients <= coefficients);
+        let rivals = wrong
+            .iter()
+            .filter(|l| l.coefficients <= coefficients.saturating_add(1));
         let truth = &sealed.truth.effects[at];
         let unique = (answer.effects.iter())
             .filter(|effect| effect.state == State::Identified)

@@ -118,7 +118,11 @@ impl Record {
     pub fn complete(&mut self, twins: &[Twin]) {
         for (outcome, twin) in self.outcomes.iter_mut().zip(twins) {
             outcome.kappa = outcome.kappa.min(outcome.lambda * twin.nearest);
-            outcome.deviation = twin.deviation.unwrap_or(f64::NAN);
+            // Beside a list of the right name the size is of a part of the effect.
+            let whole = twin
+                .deviation
+                .filter(|_| outcome.finding == word(Finding::Unique));
+            outcome.deviation = whole.unwrap_or(f64::NAN);
             outcome.located = twin.located;
         }
     }

@@ -156,3 +156,16 @@ fn reasons_have_codes() {
         assert!(known, "{text}");
     }
 }
+
+#[test]
+fn a_wrong_role_does_not_hide_wrong_settings() {
+    let folder = folder("role-and-settings");
+    let case = CASE
+        .replace("t = \"time\"", "t = \"tiem\"")
+        .replace("draws = 200", "draws = 200\nexclude = [\"drfit\"]");
+    let (good, text) = &said(&folder, &case, &recording(|_, _| None))[0];
+    assert!(!good);
+    for hint in ["did you mean \"time\"?", "did you mean \"drift\"?"] {
+        assert!(text.contains(hint), "{hint} is missing in\n{text}");
+    }
+}

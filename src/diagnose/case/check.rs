@@ -81,6 +81,8 @@ impl Checker<'_> {
         let csv_path = self.folder.join(&csv.value);
         let headings = self.headings(&csv_path, csv)?;
         let constants = self.constants(file);
+        // They need no column: what is wrong in them is told beside wrong columns.
+        let settings = self.settings(file);
         let wanted = self.wanted(file, models, &headings, &constants);
         if !self.faults.is_empty() {
             return Err(Rejection::new(name, self.text, self.faults));
@@ -97,7 +99,6 @@ impl Checker<'_> {
         let declared = declared::with_points(&mut self, file, models, &mut columns, &constants);
         let noise = self.noise(file, &columns, declared.as_ref());
         let averaging = self.averaging(file, &columns);
-        let settings = self.settings(file);
         let actions = self.actions(file, &columns, rows);
         let held_out = self.held_out(file, &columns);
         let candidates = match &declared {

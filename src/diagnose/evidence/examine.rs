@@ -26,8 +26,10 @@ const LEFT: f64 = 0.01;
 const DOMINANT: f64 = 0.6;
 /// … and nothing without a name in its place has more than this probability.
 const DOUBTFUL: f64 = 0.1;
-/// Named effects beside an unexplained one count if they explain this share of the excess χ².
+/// Named effects beside an unexplained one count if they explain this share of the excess χ² …
 const MOST: f64 = 0.8;
+/// … and a single one if it explains this share.
+const NEARLY_ALL: f64 = 0.95;
 
 /// Examines a recording: detection, naming, verdict.
 ///
@@ -82,7 +84,12 @@ pub fn examine(
         Verdict::Contested | Verdict::Unexplained => {
             doubt(&space, question, &mut slots, &kept.unwrap_or_default());
         }
-        Verdict::Partly => doubt_descriptions(&space, question, &mut slots),
+        Verdict::Partly => {
+            doubt_descriptions(&space, question, &mut slots);
+            if explained < NEARLY_ALL {
+                doubt_single(&mut slots);
+            }
+        }
         Verdict::None | Verdict::Identified | Verdict::Ambiguous => {}
     }
     let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
@@ -222,6 +229,15 @@ fn slots(
         }
     }
     slots.into_iter().map(|(_, slot)| slot).collect()
+}
+
+/// A single name beside which something remains may be the next of kin of what is there.
+fn doubt_single(slots: &mut [Slot]) {
+    let has_name = |slot: &&mut Slot| slot.state != State::Unexplained;
+    let named: Vec<&mut Slot> = slots.iter_mut().filter(has_name).collect();
+    if let Ok([single]) = <[&mut Slot; 1]>::try_from(named) {
+        single.state = State::Unexplained;
+    }
 }
 
 /// Whether an effect is most of the excess of χ².

@@ -39,6 +39,7 @@ pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
         "effects": examination.slots.iter().map(|slot| effect(diagnosis, slot, language)).collect::<Vec<_>>(),
         "explained": finite(examination.explained),
         "generic_probability": finite(examination.generic_probability),
+        "margin": finite(examination.margin),
         "before": quality(&diagnosis.before),
         "after": diagnosis.adopted.as_ref().map(|adopted| quality(&adopted.quality)),
         "parameters": estimates(&diagnosis.unknowns),

@@ -122,7 +122,7 @@ fn diagnosed(trial: &Trial, sealed: &SealedCase) -> (Answer, Advice) {
 
 #[test]
 fn a_remount_tells_the_second_order_from_an_eccentric_circle() {
-    let trial = trial("tumble+second-order", 5_300_001);
+    let trial = trial("tumble+second-order", 80_510_001);
     let sealed = trial.case();
     let (answer, advice) = diagnosed(&trial, &sealed);
     let names = |answer: &Answer| -> Vec<String> {

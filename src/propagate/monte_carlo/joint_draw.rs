@@ -27,9 +27,9 @@ pub(super) struct JointDraw<'b> {
     level: Level,
     /// How each component is drawn; `None` for members of groups and for what no input uses.
     alone: Vec<Option<Sampler>>,
-    /// Per input the component that it consists of, if no other input has it.
-    single: Vec<Option<usize>>,
-    /// Whether a component is one of these.
+    /// Per input.
+    ways: Vec<Way>,
+    /// Whether a component is drawn only where it becomes the value of an input.
     with_input: Vec<bool>,
     groups: Vec<JointSampler>,
     /// Streams of a chunk: one per component, then one per group.
@@ -57,21 +57,31 @@ impl<'b> JointDraw<'b> {
                 (used[i] && !grouped(i)).then(|| sampler(&component.distribution))
             })
             .collect();
-        let single = single_components(inputs, &alone);
+        let ways = ways(inputs, &alone, groups);
         let mut with_input = vec![false; components.len()];
-        single.iter().flatten().for_each(|i| with_input[*i] = true);
+        let mut straight = vec![None; components.len()];
+        for ((way, input), place) in ways.iter().zip(inputs).zip(0..) {
+            match (way, input.terms.as_slice()) {
+                (Way::Alone(component), _) => with_input[*component] = true,
+                (Way::WithGroup, [term]) => {
+                    let scale = [term.coefficient, input.estimate];
+                    straight[term.component] = Some(Straight { place, scale });
+                }
+                _ => {}
+            }
+        }
         let joint = groups
             .iter()
             .zip(components.len()..)
             .filter(|(group, _)| group.members.iter().any(|&member| used[member]))
-            .map(|(group, stream)| JointSampler::new(components, group, stream))
+            .map(|(group, stream)| JointSampler::new(components, group, stream, &straight))
             .collect();
         JointDraw {
             inputs,
             seed,
             level: level(),
             alone,
-            single,
+            ways,
             with_input,
             groups: joint,
             streams: (components.len() + groups.len()) as u64,
@@ -110,14 +120,17 @@ impl<'b> JointDraw<'b> {
             sampler.fill(self.level, &mut generators[i], &mut errors[i]);
         }
         for group in &self.groups {
-            group.draw(self.level, scratch);
+            group.draw(self.level, scratch, inputs);
         }
-        for ((input, single), block) in self.inputs.iter().zip(&self.single).zip(inputs) {
-            let sampler = single.and_then(|i| Some((i, self.alone[i].as_ref()?)));
-            match (sampler, input.terms.as_slice()) {
-                (Some((i, sampler)), [term]) => {
+        for ((input, way), block) in self.inputs.iter().zip(&self.ways).zip(inputs) {
+            match (way, input.terms.as_slice()) {
+                (Way::WithGroup, _) => {}
+                (Way::Alone(component), [term]) => {
                     let scale = [term.coefficient, input.estimate];
-                    sampler.fill_scaled(self.level, &mut scratch.generators[i], scale, block);
+                    let generator = &mut scratch.generators[*component];
+                    if let Some(sampler) = &self.alone[*component] {
+                        sampler.fill_scaled(self.level, generator, scale, block);
+                    }
                 }
                 _ => self.sum(input, &scratch.errors, block),
             }
@@ -149,17 +162,39 @@ impl<'b> JointDraw<'b> {
     }
 }
 
-/// Per input the component that makes it up alone, is drawn alone, and belongs to no other input.
-fn single_components(inputs: &[Input], alone: &[Option<Sampler>]) -> Vec<Option<usize>> {
+/// How the values of an input come about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Way {
+    /// One component makes it up that is drawn alone and belongs to no other input.
+    Alone(usize),
+    /// Likewise, but the component is drawn with others, which are normal.
+    WithGroup,
+    /// The sum of its components.
+    Summed,
+}
+
+fn ways(inputs: &[Input], alone: &[Option<Sampler>], groups: &[Group]) -> Vec<Way> {
     let mut uses = vec![0; alone.len()];
     for term in inputs.iter().flat_map(|input| &input.terms) {
         uses[term.component] += 1;
     }
-    let single = |input: &Input| match input.terms.as_slice() {
-        [term] => Some(term.component).filter(|i| uses[*i] == 1 && alone[*i].is_some()),
-        _ => None,
+    let normal: Vec<&Group> = groups
+        .iter()
+        .filter(|group| matches!(group.law, Law::Normal))
+        .collect();
+    let in_group = |component| {
+        let mut groups = normal.iter();
+        groups.any(|group| group.members.contains(&component))
     };
-    inputs.iter().map(single).collect()
+    let way = |input: &Input| match input.terms.as_slice() {
+        [term] if uses[term.component] == 1 => match alone[term.component] {
+            Some(_) => Way::Alone(term.component),
+            None if term.coefficient != 0.0 && in_group(term.component) => Way::WithGroup,
+            None => Way::Summed,
+        },
+        _ => Way::Summed,
+    };
+    inputs.iter().map(way).collect()
 }
 
 /// What a thread needs to draw.
@@ -177,6 +212,16 @@ struct JointSampler {
     /// The rows of the triangular factor, up to the diagonal.
     rows: Vec<Vec<f64>>,
     law: JointLaw,
+    /// Per member the input that it makes up alone.
+    straight: Vec<Option<Straight>>,
+}
+
+/// An input that a component makes up alone.
+#[derive(Debug, Clone, Copy)]
+struct Straight {
+    place: usize,
+    /// Coefficient and estimate.
+    scale: [f64; 2],
 }
 
 enum JointLaw {
@@ -192,7 +237,12 @@ enum JointLaw {
 }
 
 impl JointSampler {
-    fn new(components: &[Component], group: &Group, stream: usize) -> Self {
+    fn new(
+        components: &[Component],
+        group: &Group,
+        stream: usize,
+        straight: &[Option<Straight>],
+    ) -> Self {
         let members = || group.members.iter().map(|&member| &components[member]);
         let (law, correlation) = match &group.law {
             Law::Normal => (
@@ -216,11 +266,12 @@ impl JointSampler {
             members: group.members.clone(),
             rows: rows(&lower_factor(correlation)),
             law,
+            straight: group.members.iter().map(|i| straight[*i]).collect(),
         }
     }
 
-    /// Draws the members' next block.
-    fn draw(&self, level: Level, scratch: &mut Scratch) {
+    /// Draws the members' next block, or that of the inputs that they make up.
+    fn draw(&self, level: Level, scratch: &mut Scratch, inputs: &mut [Block]) {
         let Scratch {
             generators,
             errors,
@@ -234,8 +285,15 @@ impl JointSampler {
             mix(level, &mut generators[stream], dof, mixing);
         }
         for (i, &member) in self.members.iter().enumerate() {
+            let row = &self.rows[i];
+            if let (JointLaw::Normal(u), Some(input)) = (&self.law, self.straight[i]) {
+                let [coefficient, estimate] = input.scale;
+                let scale = [u[i], coefficient, estimate];
+                ops::combine_affine(level, row, normals, scale, &mut inputs[input.place]);
+                continue;
+            }
             let error = &mut errors[member];
-            ops::combine(level, &self.rows[i], normals, error);
+            ops::combine(level, row, normals, error);
             match &self.law {
                 JointLaw::Normal(u) => ops::scale(level, u[i], error),
                 JointLaw::StudentT { scale, .. } => {

@@ -162,9 +162,9 @@ impl Question<'_> {
         if let Some(output) = moments.iter().position(|m| m.count() < 2) {
             return Err(output);
         }
-        let held = collector.into_held();
+        let mut held = collector.into_held();
         let (outputs, verdicts): (Vec<_>, Vec<_>) = (0..moments.len())
-            .map(|output| self.summary(output, &held, &moments[output], &redraw))
+            .map(|output| self.summary(output, &mut held, &moments[output], &redraw))
             .unzip();
         let joint = held
             .joint_moments()
@@ -248,7 +248,7 @@ impl Question<'_> {
     fn summary<S: Source>(
         &self,
         output: usize,
-        held: &Held,
+        held: &mut Held,
         moments: &Moments,
         redraw: &Redraw<S>,
     ) -> (MonteCarlo, Verdict) {
@@ -263,7 +263,7 @@ impl Question<'_> {
                 self.results(moments, &ordered, picture, self.heavy[output].as_ref())
             }
             Held::Sieved(sieved) => {
-                let sieve = &sieved.sieves[output];
+                let sieve = &mut sieved.sieves[output];
                 let count = sieve.count();
                 let depth = self.depth(count as usize);
                 let resolved = Resolved::new(sieve, &self.wanted(count), depth, output, redraw);

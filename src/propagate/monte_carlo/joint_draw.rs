@@ -16,6 +16,7 @@ use nalgebra::DMatrix;
 
 use super::factor::lower_factor;
 use super::sampler::sampler;
+use super::ways::{self, Straight, Way};
 use crate::budget::{Component, Group, Input, Law};
 use crate::distribution::Distribution;
 use crate::special::{normal_cdf, normal_sf};
@@ -57,19 +58,15 @@ impl<'b> JointDraw<'b> {
                 (used[i] && !grouped(i)).then(|| sampler(&component.distribution))
             })
             .collect();
-        let ways = ways(inputs, &alone, groups);
+        let drawn_alone: Vec<bool> = alone.iter().map(Option::is_some).collect();
+        let ways = ways::ways(inputs, &drawn_alone, groups);
         let mut with_input = vec![false; components.len()];
-        let mut straight = vec![None; components.len()];
-        for ((way, input), place) in ways.iter().zip(inputs).zip(0..) {
-            match (way, input.terms.as_slice()) {
-                (Way::Alone(component), _) => with_input[*component] = true,
-                (Way::WithGroup, [term]) => {
-                    let scale = [term.coefficient, input.estimate];
-                    straight[term.component] = Some(Straight { place, scale });
-                }
-                _ => {}
+        for way in &ways {
+            if let Way::Alone(component) = way {
+                with_input[*component] = true;
             }
         }
+        let straight = ways::straight(inputs, &ways, components.len());
         let joint = groups
             .iter()
             .zip(components.len()..)
@@ -162,41 +159,6 @@ impl<'b> JointDraw<'b> {
     }
 }
 
-/// How the values of an input come about.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Way {
-    /// One component makes it up that is drawn alone and belongs to no other input.
-    Alone(usize),
-    /// Likewise, but the component is drawn with others, which are normal.
-    WithGroup,
-    /// The sum of its components.
-    Summed,
-}
-
-fn ways(inputs: &[Input], alone: &[Option<Sampler>], groups: &[Group]) -> Vec<Way> {
-    let mut uses = vec![0; alone.len()];
-    for term in inputs.iter().flat_map(|input| &input.terms) {
-        uses[term.component] += 1;
-    }
-    let normal: Vec<&Group> = groups
-        .iter()
-        .filter(|group| matches!(group.law, Law::Normal))
-        .collect();
-    let in_group = |component| {
-        let mut groups = normal.iter();
-        groups.any(|group| group.members.contains(&component))
-    };
-    let way = |input: &Input| match input.terms.as_slice() {
-        [term] if uses[term.component] == 1 => match alone[term.component] {
-            Some(_) => Way::Alone(term.component),
-            None if term.coefficient != 0.0 && in_group(term.component) => Way::WithGroup,
-            None => Way::Summed,
-        },
-        _ => Way::Summed,
-    };
-    inputs.iter().map(way).collect()
-}
-
 /// What a thread needs to draw.
 pub(super) struct Scratch {
     generators: Vec<Generator>,
@@ -214,14 +176,6 @@ struct JointSampler {
     law: JointLaw,
     /// Per member the input that it makes up alone.
     straight: Vec<Option<Straight>>,
-}
-
-/// An input that a component makes up alone.
-#[derive(Debug, Clone, Copy)]
-struct Straight {
-    place: usize,
-    /// Coefficient and estimate.
-    scale: [f64; 2],
 }
 
 enum JointLaw {
@@ -444,6 +398,24 @@ mod tests {
             assert!((correlation(&x[0], &x[1]) - r).abs() < 0.006, "{r}");
             assert!((covariance(&x[1], &x[1]).sqrt() - 0.1).abs() < 0.001);
         }
+    }
+
+    #[test]
+    fn members_that_make_up_an_input_alone_are_drawn_the_same() {
+        let components = [normal("a", 2.0), normal("b", 0.1), normal("unused", 1.0)];
+        let group = || [group(Law::Normal, 0.4)];
+        let straight = [input(1.0, &[(0, 1.0)]), input(2.0, &[(1, 1.0)])];
+        let nothing = (2, 0.0);
+        let summed = [
+            input(1.0, &[(0, 1.0), nothing]),
+            input(2.0, &[(1, 1.0), nothing]),
+        ];
+        let expected = sample(&summed, &components, &group(), 1);
+        assert_eq!(sample(&straight, &components, &group(), 1), expected);
+        // One of them belongs to two inputs.
+        let both = [straight[0].clone(), input(0.0, &[(0, 1.0), (1, 1.0)])];
+        let found = sample(&both, &components, &group(), 1);
+        assert_eq!(found[0], expected[0]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | [`joint_draw`] | trials of the input quantities, correlated as the budget says |
+//! | [`ways`] | how the values of an input come about |
 //! | [`budget_source`] | trials of the model |
 //! | [`engine`] | chunks of trials shared among threads, handed on in order |
 //! | [`collect`] | the first trials kept, the others counted and summed |
@@ -44,6 +45,7 @@ mod sampler;
 mod samples;
 mod sieve;
 mod strainer;
+mod ways;
 
 use nalgebra::DMatrix;
 

@@ -370,7 +370,8 @@ impl Finer {
     }
 
     fn cells(&self) -> Vec<Cell> {
-        let mut cells = Vec::new();
+        let filled = self.bins.iter().flatten().filter(|(count, ..)| *count > 0);
+        let mut cells = Vec::with_capacity(filled.count());
         for (run, bins) in self.runs.iter().zip(&self.bins) {
             let mut below = run.below;
             for &(count, low, high) in bins.iter().filter(|(count, ..)| *count > 0) {

@@ -214,8 +214,9 @@ impl Sieve {
     /// Rows of bins that hold values, as cells, and their numbers: single ones, but for lumped ones.
     pub(super) fn cells(&self) -> (Vec<Cell>, Vec<RangeInclusive<usize>>) {
         let mut below = 0;
-        let mut cells = Vec::new();
-        let mut rows = Vec::new();
+        let filled = self.counts.iter().filter(|count| **count > 0).count();
+        let mut cells = Vec::with_capacity(filled);
+        let mut rows = Vec::with_capacity(filled);
         let mut next = 0;
         while next < BINS {
             let first = next;

@@ -110,7 +110,7 @@ fn graded(scenario: &str, seed: u64) -> Graded {
 fn diagnosed(trial: &Trial, sealed: &SealedCase) -> (Answer, Advice) {
     let seed = trial.seed;
     let folder = folder(&format!("concealed-{seed}"));
-    trial.write(&sealed, &folder).unwrap();
+    trial.write(sealed, &folder).unwrap();
     let case = Case::load(&folder.join("CASE.toml"), Purpose::Diagnosis)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
     let diagnosis = diagnose(&case, &|_| ControlFlow::Continue(())).unwrap();

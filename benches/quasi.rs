@@ -99,7 +99,10 @@ fn line(name: &str, text: &str) {
         trials(&quasi),
         plain / time,
         match quasi.and_then(|run| run.quasi) {
-            Some(Quasi::Used(run)) => run.averaged.unwrap_or_else(|| "none".to_string()),
+            Some(Quasi::Used(run)) => match run.averaged.as_slice() {
+                [] => "none".to_string(),
+                names => names.join(", "),
+            },
             Some(Quasi::Refused(why)) => format!("refused: {why:?}"),
             None => String::new(),
         }

@@ -30,24 +30,29 @@ pub enum Kernel {
     },
 }
 
-/// Values a + bE of 256 points.
+/// How the value depends on the last quantity E at 256 points: a + bE, or a + bE + cE².
 #[derive(Debug, Clone, Copy)]
-pub struct Lines<'a> {
+pub struct Paths<'a> {
     /// a
     pub start: &'a Block,
-    /// b, nowhere zero.
+    /// b
     pub slope: &'a Block,
+    /// c; without it b is nowhere zero, with it not where c is.
+    pub bend: Option<&'a Block>,
 }
 
 impl Kernel {
     /// Adds to each sum P(Y ≤ y) and the density at y of every point.
-    pub fn add(&self, level: Level, lines: Lines<'_>, at: &[f64], sums: &mut [[f64; 2]]) {
+    ///
+    /// The density at y near the vertex of a parabola is bounded; that of the mean over points has no pole.
+    pub fn add(&self, level: Level, paths: Paths<'_>, at: &[f64], sums: &mut [[f64; 2]]) {
         match self {
             Kernel::Uniform { lower, upper } => {
                 let density = 1.0 / (upper - lower);
                 add(
                     level,
-                    lines,
+                    self.reach(),
+                    paths,
                     at,
                     sums,
                     #[inline(always)]
@@ -62,7 +67,8 @@ impl Kernel {
             Kernel::Bounded(curve) => {
                 add(
                     level,
-                    lines,
+                    self.reach(),
+                    paths,
                     at,
                     sums,
                     #[inline(always)]
@@ -73,7 +79,8 @@ impl Kernel {
                 let square = width * width;
                 add(
                     level,
-                    lines,
+                    self.reach(),
+                    paths,
                     at,
                     sums,
                     #[inline(always)]
@@ -86,29 +93,80 @@ impl Kernel {
             }
         }
     }
+
+    /// The largest |E|.
+    pub fn reach(&self) -> f64 {
+        let [lower, upper] = match self {
+            Kernel::Uniform { lower, upper } => [*lower, *upper],
+            Kernel::Bounded(curve) => curve.range(),
+            Kernel::Unbounded { .. } => return f64::INFINITY,
+        };
+        lower.abs().max(upper.abs())
+    }
 }
 
 /// Sums that run side by side, in an order that no instruction set changes.
 const WIDTH: usize = 8;
 
+/// Lanes in rows.
+type Rows = [[f64; WIDTH]; LANES / WIDTH];
+
+#[inline(always)]
+fn rows(block: &Block) -> &[[f64; WIDTH]] {
+    block.0.as_chunks::<WIDTH>().0
+}
+
 #[inline(always)]
 fn add(
     level: Level,
-    lines: Lines<'_>,
+    reach: f64,
+    paths: Paths<'_>,
+    at: &[f64],
+    sums: &mut [[f64; 2]],
+    kernel: impl Fn(f64) -> [f64; 2],
+) {
+    let Paths { start, slope, bend } = paths;
+    match bend {
+        None => straight(level, [start, slope], at, sums, kernel),
+        Some(bend) if turns_beyond(level, [slope, bend], reach) => {
+            one_branch(level, [start, slope, bend], at, sums, kernel);
+        }
+        Some(bend) => two_branches(level, [start, slope, bend], at, sums, kernel),
+    }
+}
+
+/// Whether every parabola has its vertex beyond the reach of E.
+fn turns_beyond(level: Level, [slope, bend]: [&Block; 2], reach: f64) -> bool {
+    dispatch!(level, _ => {
+        let mut beyond = [true; WIDTH];
+        for (slope, bend) in rows(slope).iter().zip(rows(bend)) {
+            for lane in 0..WIDTH {
+                beyond[lane] &= slope[lane].abs() > 2.0 * reach * bend[lane].abs();
+            }
+        }
+        beyond.iter().all(|lane| *lane)
+    })
+}
+
+#[inline(always)]
+fn straight(
+    level: Level,
+    [start, slope]: [&Block; 2],
     at: &[f64],
     sums: &mut [[f64; 2]],
     kernel: impl Fn(f64) -> [f64; 2],
 ) {
     dispatch!(level, _ => {
-        let mut inverse = [0.0; LANES];
-        for (inverse, slope) in inverse.iter_mut().zip(&lines.slope.0) {
-            *inverse = 1.0 / slope;
+        let mut inverse: Rows = [[0.0; WIDTH]; LANES / WIDTH];
+        for (inverse, slope) in inverse.iter_mut().zip(rows(slope)) {
+            for lane in 0..WIDTH {
+                inverse[lane] = 1.0 / slope[lane];
+            }
         }
         for (y, sum) in at.iter().zip(sums) {
             let mut below = [0.0; WIDTH];
             let mut density = [0.0; WIDTH];
-            let starts = lines.start.0.as_chunks::<WIDTH>().0;
-            for (starts, inverses) in starts.iter().zip(inverse.as_chunks::<WIDTH>().0) {
+            for (starts, inverses) in rows(start).iter().zip(&inverse) {
                 for lane in 0..WIDTH {
                     let inverse = inverses[lane];
                     let [p, slope] = kernel((y - starts[lane]) * inverse);
@@ -123,18 +181,102 @@ fn add(
     })
 }
 
-/// Sums over 256 points of the expectations of ((Y − origin)·scale)ᵏ, k = 1 to 4, for an E with these central
-/// moments of second, third and fourth order and expectation zero.
+/// The root of the discriminant b² − 4c(a − y), and b more than that.
+#[inline(always)]
+fn discriminant(y: f64, [a, b, c]: [f64; 3]) -> [f64; 2] {
+    let square = b.mul_add(b, 4.0 * c * (y - a));
+    let root = (if square > 0.0 { square } else { 0.0 }).sqrt();
+    [root, b + root.copysign(b)]
+}
+
+/// As [`straight`], with the root of the parabola that is within reach.
+#[inline(always)]
+fn one_branch(
+    level: Level,
+    [start, slope, bend]: [&Block; 3],
+    at: &[f64],
+    sums: &mut [[f64; 2]],
+    kernel: impl Fn(f64) -> [f64; 2],
+) {
+    dispatch!(level, _ => for (y, sum) in at.iter().zip(sums) {
+        let mut below = [0.0; WIDTH];
+        let mut density = [0.0; WIDTH];
+        for ((starts, slopes), bends) in rows(start).iter().zip(rows(slope)).zip(rows(bend)) {
+            for lane in 0..WIDTH {
+                let (a, b) = (starts[lane], slopes[lane]);
+                let [root, twice] = discriminant(*y, [a, b, bends[lane]]);
+                let [p, slope] = kernel(2.0 * (y - a) / twice);
+                below[lane] += if b > 0.0 { p } else { 1.0 - p };
+                // Zero where the root is.
+                let least = 1e-9 * b.abs();
+                density[lane] += slope / if root > least { root } else { least };
+            }
+        }
+        sum[0] += below.iter().sum::<f64>();
+        sum[1] += density.iter().sum::<f64>();
+    })
+}
+
+/// Between both roots of a parabola that opens upwards the values are below y.
+#[inline(always)]
+fn two_branches(
+    level: Level,
+    [start, slope, bend]: [&Block; 3],
+    at: &[f64],
+    sums: &mut [[f64; 2]],
+    kernel: impl Fn(f64) -> [f64; 2],
+) {
+    /// The least root of the discriminant in the density, as a part of |b| + |c|.
+    const LEAST: f64 = 0.02;
+    dispatch!(level, _ => for (y, sum) in at.iter().zip(sums) {
+        let mut below = [0.0; WIDTH];
+        let mut density = [0.0; WIDTH];
+        for ((starts, slopes), bends) in rows(start).iter().zip(rows(slope)).zip(rows(bend)) {
+            for lane in 0..WIDTH {
+                // A negative zero would turn the far root round.
+                let (a, b, c) = (starts[lane], slopes[lane], bends[lane] + 0.0);
+                let [root, twice] = discriminant(*y, [a, b, c]);
+                let near = kernel(2.0 * (y - a) / twice);
+                let far = kernel(-0.5 * twice / c);
+                let between = if root > 0.0 { (near[0] - far[0]).abs() } else { 0.0 };
+                below[lane] += if c >= 0.0 { between } else { 1.0 - between };
+                let least = LEAST * (b.abs() + c.abs());
+                let both = if root > 0.0 { near[1] + far[1] } else { 0.0 };
+                density[lane] += both / if root > least { root } else { least };
+            }
+        }
+        sum[0] += below.iter().sum::<f64>();
+        sum[1] += density.iter().sum::<f64>();
+    })
+}
+
+/// Moments E⁰ … E⁸ about the expectation, which is zero; those that no path needs or that do not exist as zero.
+pub type PathMoments = [f64; 9];
+
+/// Sums over 256 points of the expectations of ((Y − origin)·scale)ᵏ, k = 1 to 4. Straight paths need the
+/// moments of E up to the fourth, parabolas up to the eighth.
 pub fn power_sums(
     level: Level,
-    lines: Lines<'_>,
-    [second, third, fourth]: [f64; 3],
+    paths: Paths<'_>,
+    moments: &PathMoments,
+    coordinates: [f64; 2],
+) -> [f64; 4] {
+    let Paths { start, slope, bend } = paths;
+    match bend {
+        None => straight_powers(level, [start, slope], moments, coordinates),
+        Some(bend) => bent_powers(level, [start, slope, bend], moments, coordinates),
+    }
+}
+
+fn straight_powers(
+    level: Level,
+    [start, slope]: [&Block; 2],
+    &[_, _, second, third, fourth, ..]: &PathMoments,
     [origin, scale]: [f64; 2],
 ) -> [f64; 4] {
     let mut sums = [[0.0; WIDTH]; 4];
     dispatch!(level, _ => {
-        let starts = lines.start.0.as_chunks::<WIDTH>().0;
-        for (starts, slopes) in starts.iter().zip(lines.slope.0.as_chunks::<WIDTH>().0) {
+        for (starts, slopes) in rows(start).iter().zip(rows(slope)) {
             for lane in 0..WIDTH {
                 let d = (starts[lane] - origin) * scale;
                 let b = slopes[lane] * scale;
@@ -148,6 +290,61 @@ pub fn power_sums(
         }
     });
     sums.map(|lanes| lanes.iter().sum())
+}
+
+/// The powers of d + bE + cE² are polynomials of E, whose coefficients are multiplied out.
+fn bent_powers(
+    level: Level,
+    [start, slope, bend]: [&Block; 3],
+    &[_, _, m2, m3, m4, m5, m6, m7, m8]: &PathMoments,
+    [origin, scale]: [f64; 2],
+) -> [f64; 4] {
+    let mut sums = [[0.0; WIDTH]; 4];
+    dispatch!(level, _ => {
+        for ((starts, slopes), bends) in rows(start).iter().zip(rows(slope)).zip(rows(bend)) {
+            for lane in 0..WIDTH {
+                let d = (starts[lane] - origin) * scale;
+                let (b, c) = (slopes[lane] * scale, bends[lane] * scale);
+                let (q0, q1, q2) = (d * d, 2.0 * d * b, b * b + 2.0 * d * c);
+                let (q3, q4) = (2.0 * b * c, c * c);
+                sums[0][lane] += d + c * m2;
+                sums[1][lane] += q0 + q2 * m2 + q3 * m3 + q4 * m4;
+                sums[2][lane] += q0 * d
+                    + (q2 * d + q1 * b + q0 * c) * m2
+                    + (q3 * d + q2 * b + q1 * c) * m3
+                    + (q4 * d + q3 * b + q2 * c) * m4
+                    + (q4 * b + q3 * c) * m5
+                    + q4 * c * m6;
+                sums[3][lane] += q0 * q0
+                    + (2.0 * q0 * q2 + q1 * q1) * m2
+                    + 2.0 * (q0 * q3 + q1 * q2) * m3
+                    + (2.0 * (q0 * q4 + q1 * q3) + q2 * q2) * m4
+                    + 2.0 * (q1 * q4 + q2 * q3) * m5
+                    + (2.0 * q2 * q4 + q3 * q3) * m6
+                    + 2.0 * q3 * q4 * m7
+                    + q4 * q4 * m8;
+            }
+        }
+    });
+    sums.map(|lanes| lanes.iter().sum())
+}
+
+/// `out`ₙ = Σ aₙ₊ₘ₋ₖ·`taps`ₖ, m the middle of the taps, which are of an odd number: probabilities of the sum of two
+/// quantities from those of each in equal cells. What falls beyond the ends is lost.
+pub fn convolve(level: Level, a: &[f64], taps: &[f64], out: &mut [f64]) {
+    let middle = taps.len() / 2;
+    dispatch!(level, _ => {
+        out.fill(0.0);
+        for (k, tap) in taps.iter().enumerate() {
+            let (to, from) = (k.saturating_sub(middle), middle.saturating_sub(k));
+            let (Some(to), Some(from)) = (out.get_mut(to..), a.get(from..)) else {
+                continue;
+            };
+            for (out, a) in to.iter_mut().zip(from) {
+                *out = f64::mul_add(*a, *tap, *out);
+            }
+        }
+    });
 }
 
 #[cfg(test)]
@@ -178,9 +375,10 @@ mod tests {
         let mut sums = [[0.0; 2]; 2];
         kernel.add(
             level(),
-            Lines {
+            Paths {
                 start: &start,
                 slope: &slope,
+                bend: None,
             },
             &[0.3, 9.0],
             &mut sums,
@@ -200,11 +398,12 @@ mod tests {
         // E = ±1 with probability one half each: moments 1, 0, 1.
         let found = power_sums(
             level(),
-            Lines {
+            Paths {
                 start: &start,
                 slope: &slope,
+                bend: None,
             },
-            [1.0, 0.0, 1.0],
+            &[1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0],
             [0.25, 2.0],
         );
         for (k, found) in found.into_iter().enumerate() {
@@ -216,6 +415,80 @@ mod tests {
                 (found - exact).abs() < 1e-9 * exact.abs().max(1.0),
                 "{k}: {found} {exact}"
             );
+        }
+    }
+
+    /// Points a + bE + cE², E uniform on ±1, with vertices on either side of its reach; against E at many places.
+    #[test]
+    fn parabolas_are_mixtures_of_both_branches() {
+        const STEPS: usize = 4000;
+        let kernel = Kernel::Uniform {
+            lower: -1.0,
+            upper: 1.0,
+        };
+        let thirds = [
+            1.0,
+            0.0,
+            1.0 / 3.0,
+            0.0,
+            0.2,
+            0.0,
+            1.0 / 7.0,
+            0.0,
+            1.0 / 9.0,
+        ];
+        let (start, slope) = lines();
+        for part in [0.01, 0.7] {
+            let mut bend = Block::ZERO;
+            for (i, c) in bend.0.iter_mut().enumerate() {
+                *c = part * [1.0, -1.0, 0.0, 0.4][i % 4];
+            }
+            let paths = Paths {
+                start: &start,
+                slope: &slope,
+                bend: Some(&bend),
+            };
+            let mut values = Vec::new();
+            for i in 0..LANES {
+                values.extend((0..STEPS).map(|k| {
+                    let e = (2 * k + 1) as f64 / STEPS as f64 - 1.0;
+                    start.0[i] + e * (slope.0[i] + e * bend.0[i])
+                }));
+            }
+            let mean = |f: &dyn Fn(f64) -> f64| values.iter().map(|y| f(*y)).sum::<f64>();
+            let at = [-1.2, 0.3, 2.0];
+            let mut sums = [[0.0; 2]; 3];
+            kernel.add(level(), paths, &at, &mut sums);
+            for (y, [below, density]) in at.into_iter().zip(sums) {
+                let exact = mean(&|value| f64::from(value <= y)) / STEPS as f64;
+                assert!((below - exact).abs() < 0.02, "{part} {y}: {below} {exact}");
+                // The densities of single points have poles.
+                let around = mean(&|value| f64::from((value - y).abs() <= 0.02)) / 0.04;
+                let exact = around / STEPS as f64;
+                assert!(
+                    (density - exact).abs() < 0.05 * exact,
+                    "{part} {y}: {density} {exact}"
+                );
+            }
+            let powers = power_sums(level(), paths, &thirds, [0.25, 2.0]);
+            for (k, power) in powers.into_iter().enumerate() {
+                let exact = mean(&|y| ((y - 0.25) * 2.0).powi(k as i32 + 1)) / STEPS as f64;
+                assert!(
+                    (power - exact).abs() < 1e-4 * exact.abs().max(1.0),
+                    "{k}: {power} {exact}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn convolution_adds_quantities() {
+        // Two dice; the sum of the middle and the most is lost at the end.
+        let (a, taps) = ([0.0, 0.5, 0.5, 0.0], [0.25, 0.25, 0.5]);
+        for level in levels() {
+            let mut out = [9.0; 4];
+            convolve(level, &a, &taps, &mut out);
+            assert_eq!(out, [0.125, 0.25, 0.375, 0.25]);
         }
     }
 
@@ -236,9 +509,10 @@ mod tests {
                 let mut sums = [[0.0; 2]];
                 kernel.add(
                     level,
-                    Lines {
+                    Paths {
                         start: &start,
                         slope: &slope,
+                        bend: None,
                     },
                     &[0.3],
                     &mut sums,

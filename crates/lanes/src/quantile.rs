@@ -229,7 +229,12 @@ fn map(level: Level, block: &mut Block, f: impl Fn(f64) -> f64) {
 
 /// Replaces uniform numbers by normal scores.
 pub fn scores(level: Level, block: &mut Block) {
-    map(level, block, score);
+    map(
+        level,
+        block,
+        #[inline(always)]
+        |u| score(u),
+    );
 }
 
 /// Φ⁻¹(u), Wichura's algorithm AS 241, Applied Statistics 37 (1988), with the middle and the tail computed
@@ -296,6 +301,11 @@ impl Curve {
     pub fn arguments([start, end]: [f64; 2]) -> impl Iterator<Item = f64> {
         let step = (end - start) / CELLS as f64;
         (0..=CELLS).map(move |node| (node as f64).mul_add(step, start))
+    }
+
+    /// The arguments of the first and the last node.
+    pub fn range(&self) -> [f64; 2] {
+        [self.start, self.start + CELLS as f64 / self.density]
     }
 
     /// The cell of an argument, the place in it, 0 … 1.

@@ -15,6 +15,16 @@ pub(super) struct Node {
 pub(super) struct Tails(pub(super) Vec<Node>);
 
 impl Tails {
+    /// From sums of probabilities and densities over so many points.
+    pub(super) fn new(places: &[f64], sums: &[[f64; 2]], points: f64) -> Tails {
+        let node = |(y, [below, density]): (&f64, &[f64; 2])| Node {
+            y: *y,
+            below: below / points,
+            density: density / points,
+        };
+        Tails(places.iter().zip(sums).map(node).collect())
+    }
+
     /// The place below which a fraction p lies; the first or last node where p is beyond them.
     pub(super) fn quantile(&self, p: f64) -> f64 {
         let after = self.0.partition_point(|node| node.below < p);

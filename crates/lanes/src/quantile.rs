@@ -303,11 +303,6 @@ impl Curve {
         (0..=CELLS).map(move |node| (node as f64).mul_add(step, start))
     }
 
-    /// The arguments of the first and the last node.
-    pub fn range(&self) -> [f64; 2] {
-        [self.start, self.start + CELLS as f64 / self.density]
-    }
-
     /// The cell of an argument, the place in it, 0 … 1.
     #[inline(always)]
     fn cell(&self, x: f64) -> (&[f64; 4], f64) {

@@ -31,6 +31,9 @@ const MOST_TRIED: usize = 64;
 /// The greatest change of the slope of one part against that of the sum, in standard deviations of the sum.
 const CHANGE: f64 = 1e-3;
 
+/// Components that make up less of a direction's standard deviation are left out of it.
+const MINOR: f64 = 0.01;
+
 /// What a second degree costs, as a part of the variance.
 const BENT: f64 = 0.8;
 
@@ -283,7 +286,9 @@ impl<'b> Survey<'b> {
             None => self.distribution(component).is_normal(),
         };
         let members = self.joined(Vec::new(), self.by_effect(normal), 2);
-        let slopes: Vec<(usize, f64)> = members.iter().map(|c| (*c, self.slopes[*c])).collect();
+        let mut slopes = self.with_slopes(&members);
+        let deviation = self.variance_along(&slopes).sqrt();
+        slopes.retain(|(component, slope)| slope.abs() * self.sds[*component] > MINOR * deviation);
         let Some(first) = members.first() else {
             return slopes;
         };

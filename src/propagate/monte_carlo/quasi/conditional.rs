@@ -24,8 +24,8 @@ use crate::propagate::Histogram;
 const TAIL: usize = 10;
 const MIDDLE: usize = 2;
 
-/// Places over the whole range at which a first look finds these.
-const LOOK: usize = 48;
+/// Places at which a first look over the whole range finds the tails, and a second look into these finds the places.
+const LOOK: usize = 32;
 
 /// Standard deviations of t that the first look regards.
 const REGARDED: f64 = 6.0;
@@ -208,11 +208,19 @@ impl<'p, 'b> Conditional<'p, 'b> {
         if least < LEAST_PART * sd {
             return Err(Trouble::Flat);
         }
-        let step = (range[1] - range[0]) / (LOOK - 1) as f64;
-        let grid: Vec<f64> = (0..LOOK).map(|i| range[0] + i as f64 * step).collect();
-        let mut sums = vec![[0.0; 2]; LOOK];
-        kernel.add(level, lines.paths(), &grid, &mut sums);
-        self.places = places(&Tails::new(&grid, &sums, LANES as f64), self.p);
+        let look = |grid: &[f64]| {
+            let mut sums = vec![[0.0; 2]; grid.len()];
+            kernel.add(level, lines.paths(), grid, &mut sums);
+            Tails::new(grid, &sums, LANES as f64)
+        };
+        let whole = look(&equidistant(range, LOOK));
+        let [_, inner] = shares(self.p);
+        let mut tails = equidistant([range[0], whole.quantile(inner)], LOOK / 2);
+        tails.extend(equidistant(
+            [whole.quantile(1.0 - inner), range[1]],
+            LOOK / 2,
+        ));
+        self.places = places(&look(&tails), self.p);
         Ok(())
     }
 
@@ -369,39 +377,54 @@ impl<'p, 'b> Conditional<'p, 'b> {
         const BINS: usize = 64;
         let margin = 0.3 * (high - low);
         let (start, width) = (low - margin, (high - low + 2.0 * margin) / BINS as f64);
-        let edges: Vec<f64> = (0..=BINS).map(|i| start + i as f64 * width).collect();
-        let mut sums = vec![[0.0; 2]; edges.len()];
+        let edge = |i: usize| start + i as f64 * width;
+        // Every other edge; the distribution function is smooth enough in between.
+        let places: Vec<f64> = (0..=BINS / 2).map(|i| edge(2 * i)).collect();
+        let mut sums = vec![[0.0; 2]; places.len()];
         let mut scratch = self.points.scratch();
-        for replicate in 0..2 {
+        let blocks = if self.points.are_one() { 1 } else { 2 };
+        for replicate in 0..blocks {
             self.points.begin(&mut scratch, replicate, 8);
             // Finite here, as these are points that were summed.
             if let Ok(lines) = self.lines(&mut scratch, 0) {
                 let kernel = &self.averaged.law.kernel;
-                kernel.add(self.points.level, lines.paths(), &edges, &mut sums);
+                kernel.add(self.points.level, lines.paths(), &places, &mut sums);
             }
         }
-        let of = |sum: f64| sum / (2 * LANES) as f64 * points as f64;
-        let count = |pair: &[[f64; 2]]| (of(pair[1][0]) - of(pair[0][0])).round().max(0.0) as u64;
+        let tails = Tails::new(&places, &sums, (blocks * LANES as u64) as f64);
+        let share = |i: usize| tails.below(edge(i + 1)) - tails.below(edge(i));
+        let count = |i: usize| (share(i) * points as f64).round().max(0.0) as u64;
         Histogram {
             start,
             width,
-            counts: sums.windows(2).map(count).collect(),
+            counts: (0..BINS).map(count).collect(),
         }
     }
 }
 
-/// Places in both tails and about the median, from a rough distribution function. In the tails the probabilities
-/// beyond them grow by equal factors, from a hundredth of what the interval leaves out.
+/// Places in both tails and about the median, from a rough distribution function: its ends, and places beyond which
+/// probabilities grow by equal factors, from a fiftieth of what the interval leaves out.
 fn places(rough: &Tails, p: f64) -> Vec<f64> {
-    let outside = 1.0 - p;
-    let (outer, inner) = (0.01 * outside, (0.01 + 1.5 * outside).min(0.3));
-    let share = |i: usize| outer * libm::pow(inner / outer, i as f64 / (TAIL - 1) as f64);
-    let lower = (0..TAIL).map(|i| rough.quantile(share(i)));
-    let middle = (0..MIDDLE).map(|i| rough.quantile(0.4 + 0.2 * i as f64 / (MIDDLE - 1) as f64));
-    let upper = (0..TAIL).rev().map(|i| rough.quantile(1.0 - share(i)));
-    let mut places: Vec<f64> = lower.chain(middle).chain(upper).collect();
+    let [outer, inner] = shares(p);
+    let share = |i: usize| outer * libm::pow(inner / outer, i as f64 / (TAIL - 2) as f64);
+    let lower = [0.0].into_iter().chain((0..TAIL - 1).map(share));
+    let upper = (0..TAIL - 1).rev().map(|i| 1.0 - share(i)).chain([1.0]);
+    let middle = equidistant([0.4, 0.6], MIDDLE);
+    let shares = lower.chain(middle).chain(upper);
+    let mut places: Vec<f64> = shares.map(|share| rough.quantile(share)).collect();
     places.dedup_by(|next, before| *next <= *before);
     places
+}
+
+/// The least and the greatest probability beyond places in a tail, its end apart.
+fn shares(p: f64) -> [f64; 2] {
+    let outside = 1.0 - p;
+    [0.02 * outside, (0.01 + 1.5 * outside).min(0.3)]
+}
+
+fn equidistant([from, to]: [f64; 2], count: usize) -> Vec<f64> {
+    let step = (to - from) / (count - 1) as f64;
+    (0..count).map(|i| from + i as f64 * step).collect()
 }
 
 impl Tally {

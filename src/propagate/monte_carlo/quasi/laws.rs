@@ -4,7 +4,7 @@
 //! middles of its cells gains a variance of a twelfth of their squared width; it is shrunk by as much beforehand,
 //! so that the variance of the sum is exact. Probabilities are within 2·10⁻⁵ of exact ones (tested).
 
-use gumption_lanes::kernel::{Kernel, PathMoments, convolve};
+use gumption_lanes::kernel::{Kernel, PathMoments, Steps, convolve};
 use gumption_lanes::level;
 use gumption_lanes::quantile::Curve;
 
@@ -82,7 +82,7 @@ pub(super) fn single(distribution: &Distribution) -> Option<Law> {
         D::StudentT { scale, dof, .. } if dof > 2.0 => unbounded(scale, cdf),
         D::Triangular { .. } | D::Trapezoidal { .. } | D::CurvilinearTrapezoid { .. } => {
             let (lower, upper) = distribution.support();
-            Kernel::Bounded(with_differences([lower, upper], cdf))
+            bounded([lower, upper], &with_differences([lower, upper], cdf))
         }
         _ => return None,
     };
@@ -112,7 +112,7 @@ pub(super) fn normal(sd: f64) -> Law {
         }
     });
     Law {
-        kernel: Kernel::Bounded(Curve::new(range, &nodes)),
+        kernel: bounded(range, &Curve::new(range, &nodes)),
         moments,
     }
 }
@@ -166,7 +166,7 @@ pub(super) fn sum(parts: &[Part<'_>], normal_variance: f64) -> Option<Law> {
             Some(of.fourth_central_moment()? - 3.0 * of.variance()?.powi(2))
         });
     Some(Law {
-        kernel: Kernel::Bounded(cumulated(&cells, reach)),
+        kernel: bounded([-reach, reach], &cumulated(&cells, reach)),
         moments: [1.0, 0.0, 1.0, third, fourth, 0.0, 0.0, 0.0, 0.0],
     })
 }
@@ -256,6 +256,11 @@ fn cumulated(cells: &[f64], reach: f64) -> Curve {
     Curve::new([-reach, reach], &nodes)
 }
 
+/// From a distribution function.
+fn bounded(range: [f64; 2], curve: &Curve) -> Kernel {
+    Kernel::Bounded(Steps::new(range, |x| curve.at(x)))
+}
+
 /// From the distribution function of a symmetric distribution about zero.
 fn unbounded(sd: f64, cdf: impl Fn(f64) -> f64) -> Kernel {
     let width = 2.5 * sd;
@@ -264,7 +269,10 @@ fn unbounded(sd: f64, cdf: impl Fn(f64) -> f64) -> Kernel {
         let below = if x.is_finite() { cdf(x) } else { 0.0 };
         if s < 0.0 { below } else { 1.0 - below }
     });
-    Kernel::Unbounded { curve, width }
+    Kernel::Unbounded {
+        steps: Steps::new([-1.0, 1.0], |s| curve.at(s)),
+        width,
+    }
 }
 
 /// Moments of a bounded distribution, from the probabilities of many cells.

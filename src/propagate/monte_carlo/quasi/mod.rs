@@ -292,6 +292,15 @@ impl Method<'_, '_> {
         }
     }
 
+    /// The power of the number of points with which errors fall at best, as a rule: further points cost
+    /// less than too many.
+    fn order(&self) -> f64 {
+        match self {
+            Method::Conditional(_) => 1.5,
+            Method::Counted(_) => 1.0,
+        }
+    }
+
     /// Blocks of every scramble in the first attempt.
     fn first(&self) -> u64 {
         match self {
@@ -384,17 +393,16 @@ impl Goal {
             if last || gain * missing < LEAST_GAIN {
                 return Err(Stop::NoGain(gain));
             }
-            blocks *= factor(missing, self.most / all);
+            blocks *= factor(libm::pow(missing, 1.0 / method.order()), self.most / all);
         }
         // The loop has no end of its own.
         Err(Stop::NoGain(0.0))
     }
 }
 
-/// The power of two by which to multiply the points where errors are so many times too large: they fall
-/// about with the power ¾ of their number, or faster.
-fn factor(missing: f64, most: u64) -> u64 {
-    let wanted = libm::pow(missing.max(1.0), 4.0 / 3.0).min(16.0).ceil() as u64;
+/// The power of two by which to multiply the points where so many times as many are wanted.
+fn factor(wanted: f64, most: u64) -> u64 {
+    let wanted = wanted.clamp(1.0, 16.0).ceil() as u64;
     let allowed = 1 << most.max(2).ilog2();
     wanted.next_power_of_two().clamp(2, allowed)
 }
@@ -438,11 +446,12 @@ impl Scatter {
     }
 }
 
-/// The standard deviation of the scrambles' results over the root of their number.
+/// The standard deviation of the scrambles' results over the root of their number; exactly zero where they agree.
 fn error_of<T>(scrambles: &[T], figure: impl Fn(&T) -> f64) -> f64 {
     let n = scrambles.len() as f64;
-    let mean = scrambles.iter().map(&figure).sum::<f64>() / n;
-    let square = |of: &T| (figure(of) - mean) * (figure(of) - mean);
+    let first = scrambles.first().map_or(f64::NAN, &figure);
+    let mean = scrambles.iter().map(|of| figure(of) - first).sum::<f64>() / n;
+    let square = |of: &T| (figure(of) - first - mean).powi(2);
     (scrambles.iter().map(square).sum::<f64>() / ((n - 1.0) * n)).sqrt()
 }
 

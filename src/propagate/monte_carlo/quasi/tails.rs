@@ -38,17 +38,29 @@ impl Tails {
         }
     }
 
+    /// The probability below a place; that of the first or last node beyond them.
+    pub(super) fn below(&self, y: f64) -> f64 {
+        match self.around(y) {
+            (Some(a), Some(b)) => Cubic::new(a, b).at((y - a.y) / (b.y - a.y)),
+            (Some(end), None) | (None, Some(end)) => end.below,
+            (None, None) => f64::NAN,
+        }
+    }
+
     /// The density at a place.
     pub(super) fn density(&self, y: f64) -> f64 {
-        let after = self.0.partition_point(|node| node.y < y);
-        match (
-            after.checked_sub(1).and_then(|before| self.0.get(before)),
-            self.0.get(after),
-        ) {
-            (Some(a), Some(b)) => Cubic::new(*a, *b).slope((y - a.y) / (b.y - a.y)),
+        match self.around(y) {
+            (Some(a), Some(b)) => Cubic::new(a, b).slope((y - a.y) / (b.y - a.y)),
             (Some(end), None) | (None, Some(end)) => end.density,
             (None, None) => f64::NAN,
         }
+    }
+
+    /// The nodes before and after a place.
+    fn around(&self, y: f64) -> (Option<Node>, Option<Node>) {
+        let after = self.0.partition_point(|node| node.y < y);
+        let before = after.checked_sub(1).and_then(|before| self.0.get(before));
+        (before.copied(), self.0.get(after).copied())
     }
 
     /// The least fraction that the shortest interval can leave below it, for a coverage p, and the greatest.

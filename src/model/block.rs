@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use gumption_lanes::{Block, LANES, Level, level, ops};
+use gumption_lanes::{Block, LANES, Level, level, ops, sum};
 
 use super::Model;
 use super::graph::{Graph, Id, Op};
 use super::implicit::Newton;
 use super::operation::{Binary, Unary};
+use super::terms::{self, Sums, Term};
 
 /// An input (below the number of inputs) or a register (from there on).
 type Place = usize;
@@ -16,6 +17,7 @@ type Place = usize;
 enum Action {
     Unary(&'static Unary, Place),
     Binary(&'static Binary, Place, Place),
+    Sum(Vec<Term<Place>>),
     AddScalar(Place, f64),
     MulScalar(Place, f64),
     /// scalar - block
@@ -35,8 +37,15 @@ enum Action {
 #[derive(Debug, Clone)]
 struct Instruction {
     action: Action,
-    /// Register that takes the result.
-    out: usize,
+    result: Target,
+}
+
+/// What takes a result.
+#[derive(Debug, Clone, Copy)]
+enum Target {
+    Register(usize),
+    /// An output, if nothing else needs the result.
+    Output(usize),
 }
 
 /// A graph arranged for blocks.
@@ -47,20 +56,26 @@ pub struct Program {
     /// Registers that hold constants, and these.
     constants: Vec<(usize, f64)>,
     registers: usize,
-    outputs: Vec<Place>,
+    /// Outputs that are copied from somewhere, and from where.
+    copied: Vec<(usize, Place)>,
 }
 
 impl Program {
     /// Orders the operations so that few results wait, and gives them registers.
     pub fn new(graph: &Graph, inputs: usize) -> Self {
-        let order = order(graph);
+        let operands = Operands {
+            graph,
+            sums: Sums::new(graph),
+        };
+        let order = order(&operands);
         let mut uses = vec![0usize; graph.ops.len()];
         for id in &order {
-            operands(graph, *id, |a| uses[a as usize] += 1);
+            operands.visit(*id, |a| uses[a as usize] += 1);
         }
         graph.outputs.iter().for_each(|id| uses[*id as usize] += 1);
         let mut allocator = Allocator {
             graph,
+            operands,
             uses,
             place: vec![None; graph.ops.len()],
             free: Vec::new(),
@@ -69,27 +84,21 @@ impl Program {
                 instructions: Vec::new(),
                 constants: Vec::new(),
                 registers: 0,
-                outputs: Vec::new(),
+                copied: Vec::new(),
             },
         };
         for id in order {
             allocator.emit(id);
         }
-        let outputs = graph
-            .outputs
-            .iter()
-            .map(|id| allocator.place(*id))
-            .collect();
-        Program {
-            outputs,
-            ..allocator.program
-        }
+        allocator.program.copied = allocator.copied();
+        allocator.program
     }
 }
 
 /// The operations in the order of evaluation: for each, the operand that was written last (as a rule
 /// the one with the longest history) comes first, so that a sum over a vector needs one accumulator.
-fn order(graph: &Graph) -> Vec<Id> {
+fn order(operands: &Operands) -> Vec<Id> {
+    let graph = operands.graph;
     let mut done = vec![false; graph.ops.len()];
     let mut order = Vec::new();
     let mut open: Vec<(Id, bool)> = graph.outputs.iter().rev().map(|id| (*id, false)).collect();
@@ -106,7 +115,7 @@ fn order(graph: &Graph) -> Vec<Id> {
         }
         open.push((id, true));
         let mut needed = Vec::new();
-        operands(graph, id, |a| needed.push(a));
+        operands.visit(id, |a| needed.push(a));
         needed.sort_unstable();
         open.extend(
             needed
@@ -118,12 +127,25 @@ fn order(graph: &Graph) -> Vec<Id> {
     order
 }
 
-/// The operands that need a place; a constant that an instruction holds itself does not.
-fn operands(graph: &Graph, id: Id, mut visit: impl FnMut(Id)) {
-    let op = graph.ops[id as usize];
-    match held(graph, op) {
-        Some((_, a)) => visit(a),
-        None => graph.operands(op, visit),
+/// What an operation takes from others when it becomes an instruction.
+struct Operands<'g> {
+    graph: &'g Graph,
+    sums: Sums<'g>,
+}
+
+impl Operands<'_> {
+    /// The operands that need a place: no constant that an instruction holds itself, and no part of a sum.
+    fn visit(&self, id: Id, mut visit: impl FnMut(Id)) {
+        let op = self.graph.ops[id as usize];
+        if let Some((_, a)) = held(self.graph, op) {
+            visit(a);
+        } else if let Some(terms) = self.sums.terms(id) {
+            for term in terms {
+                term.map(&mut visit);
+            }
+        } else {
+            self.graph.operands(op, visit);
+        }
     }
 }
 
@@ -149,6 +171,7 @@ fn held(graph: &Graph, op: Op) -> Option<(MakeHeld, Id)> {
 
 struct Allocator<'g> {
     graph: &'g Graph,
+    operands: Operands<'g>,
     /// Uses still to come.
     uses: Vec<usize>,
     place: Vec<Option<Place>>,
@@ -161,13 +184,38 @@ impl Allocator<'_> {
         let action = self.action(id);
         // The result is computed beside the registers, so it may take the place of an operand.
         let mut done = Vec::new();
-        operands(self.graph, id, |a| done.push(a));
+        self.operands.visit(id, |a| done.push(a));
         for a in done {
             self.release(a);
         }
-        let out = self.free.pop().unwrap_or_else(|| self.register());
-        self.place[id as usize] = Some(self.program.inputs + out);
-        self.program.instructions.push(Instruction { action, out });
+        let result = match self.output_alone(id) {
+            Some(output) => Target::Output(output),
+            None => {
+                let register = self.free.pop().unwrap_or_else(|| self.register());
+                self.place[id as usize] = Some(self.program.inputs + register);
+                Target::Register(register)
+            }
+        };
+        let instruction = Instruction { action, result };
+        self.program.instructions.push(instruction);
+    }
+
+    /// The output that is the only use of an operation that is still to be done.
+    fn output_alone(&self, id: Id) -> Option<usize> {
+        let mut outputs = self.graph.outputs.iter();
+        let output = outputs.position(|output| *output == id)?;
+        (self.uses[id as usize] == 1).then_some(output)
+    }
+
+    /// Outputs that no instruction writes, and where they are.
+    fn copied(&mut self) -> Vec<(usize, Place)> {
+        let graph = self.graph;
+        let copied = graph.outputs.iter().enumerate().filter_map(|(output, id)| {
+            let made = !matches!(graph.ops[*id as usize], Op::Input(_) | Op::Constant(_));
+            let written = made && self.place[*id as usize].is_none();
+            (!written).then(|| (output, self.place(*id)))
+        });
+        copied.collect()
     }
 
     fn action(&mut self, id: Id) -> Action {
@@ -178,6 +226,10 @@ impl Allocator<'_> {
                 .constant(if a == x { y } else { x })
                 .unwrap_or(f64::NAN);
             return make(self.place(a), constant);
+        }
+        if let Some(terms) = self.operands.sums.terms(id) {
+            let placed = terms.into_iter().map(|term| term.map(|a| self.place(a)));
+            return Action::Sum(placed.collect());
         }
         match op {
             Op::Unary(row, a) => Action::Unary(row, self.place(a)),
@@ -270,15 +322,27 @@ impl<'m> BlockRunner<'m> {
         }
     }
 
-    /// Evaluates all outputs for 256 trials: `inputs[i]` and `outputs[o]` are blocks.
+    /// Evaluates all outputs for 256 trials: `inputs[i]` and `outputs[o]` are blocks, of which there are as
+    /// many as inputs and outputs.
     pub fn run(&mut self, inputs: &[Block], outputs: &mut [Block]) {
         for instruction in &self.program.instructions {
             let registers = &self.registers;
             let at = |place: Place| block(inputs, registers, place, self.program.inputs);
-            let (level, out) = (self.level, &mut *self.spare);
+            let level = self.level;
+            let out = match instruction.result {
+                Target::Register(_) => &mut *self.spare,
+                Target::Output(output) => &mut outputs[output],
+            };
             match &instruction.action {
                 Action::Unary(row, a) => (row.block)(level, at(*a), out),
                 Action::Binary(row, a, b) => (row.block)(level, at(*a), at(*b), out),
+                Action::Sum(parts) => {
+                    let mut terms = [sum::Term::Plus(&ZERO); terms::MOST];
+                    for (term, part) in terms.iter_mut().zip(parts) {
+                        *term = part.map(at).of_blocks();
+                    }
+                    sum::sum(level, &terms[..parts.len()], out);
+                }
                 Action::AddScalar(a, s) => ops::add_scalar(level, at(*a), *s, out),
                 Action::MulScalar(a, s) => ops::mul_scalar(level, at(*a), *s, out),
                 Action::RsubScalar(a, s) => ops::rsub_scalar(level, at(*a), *s, out),
@@ -304,13 +368,18 @@ impl<'m> BlockRunner<'m> {
                     }
                 }
             }
-            std::mem::swap(&mut self.spare, &mut self.registers[instruction.out]);
+            if let Target::Register(register) = instruction.result {
+                std::mem::swap(&mut self.spare, &mut self.registers[register]);
+            }
         }
-        for (out, place) in outputs.iter_mut().zip(&self.program.outputs) {
-            *out = *block(inputs, &self.registers, *place, self.program.inputs);
+        for (output, place) in &self.program.copied {
+            outputs[*output] = *block(inputs, &self.registers, *place, self.program.inputs);
         }
     }
 }
+
+/// In the place of a term that is not there.
+static ZERO: Block = Block::ZERO;
 
 fn block<'a>(
     inputs: &'a [Block],

@@ -31,6 +31,7 @@ mod printer;
 mod reductions;
 mod space;
 mod syntax;
+mod terms;
 mod tree;
 mod units;
 

@@ -11,7 +11,7 @@
 use fearless_simd::{Level, dispatch};
 
 use crate::sampler::open_unit;
-use crate::{Block, LANES};
+use crate::{Block, LANES, level};
 
 /// Generators that run side by side.
 pub(crate) const WIDTH: usize = 16;
@@ -33,15 +33,14 @@ impl Generator {
     /// two of even 10⁹ addresses of a run share a key with probability 10⁻²¹.
     pub fn new(seed: u64, chunk: u64, stream: u64) -> Generator {
         let key = Key::new([seed, chunk, stream]);
-        let mut counter = 0;
-        let mut next_word = || {
-            counter += 1;
-            key.word(counter)
-        };
+        let mut state = [[0; WIDTH]; 4];
+        dispatch!(level(), _ => {
+            for (word, counter) in state.as_flattened_mut().iter_mut().zip(1..) {
+                *word = key.word(counter);
+            }
+        });
         // A lane would have to draw four zero words in a row (2⁻²⁵⁶) to get stuck.
-        Generator {
-            state: [(); 4].map(|()| [(); WIDTH].map(|()| next_word())),
-        }
+        Generator { state }
     }
 
     /// The next 256 words: word `i` comes from lane `i mod 16`.
@@ -170,6 +169,7 @@ impl Key {
     }
 
     /// Word number `counter`.
+    #[inline(always)]
     pub(crate) fn word(self, counter: u64) -> u64 {
         let step = GOLDEN.wrapping_mul(counter);
         mix(self.0[0].wrapping_add(step)) ^ mix(self.0[1].wrapping_sub(step)).rotate_left(32)
@@ -178,6 +178,7 @@ impl Key {
 
 /// The finaliser of SplitMix64: a bijection in which every bit of the input moves every bit of
 /// the output with probability one half.
+#[inline(always)]
 fn mix(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -190,7 +191,7 @@ mod tests {
     use rand::{Rng, SeedableRng};
 
     use super::*;
-    use crate::{level, levels};
+    use crate::levels;
 
     #[test]
     fn each_lane_is_the_xoshiro256plusplus_of_rand() {

@@ -11,6 +11,7 @@
 //! | [`generator`] | 16 interleaved xoshiro256++ generators; any chunk of trials can be drawn alone |
 //! | [`elementary`] | `exp`, `ln`, `sin`, `cos` as branch-free polynomial kernels |
 //! | [`ops`] | arithmetic and functions on whole blocks |
+//! | [`sum`] | sums of several terms in one pass |
 //! | [`sampler`] | blocks of draws from the distributions of JCGM 101, 6.4, and others |
 //! | [`sobol`] | scrambled Sobol' points |
 //! | [`as241`] | coefficients of the normal quantile |
@@ -54,6 +55,7 @@ pub mod quantile;
 pub mod sampler;
 pub mod sift;
 pub mod sobol;
+pub mod sum;
 
 pub use generator::Generator;
 pub use level::{Level, level, levels};

@@ -64,7 +64,7 @@ impl Sifted {
     }
 
     /// Sifts a block; if not all of it is finite, or there is no room, nothing of it, and returns false. The
-    /// stretches have no number in common.
+    /// stretches have no number in common and no infinite end; the second may be [`EMPTY`], or both.
     pub fn sift(&mut self, level: Level, x: &Block, stretches: &[Stretch; 2]) -> bool {
         dispatch!(level, simd => self.sift_with(simd, x, stretches))
     }
@@ -74,21 +74,21 @@ impl Sifted {
         let Some(rest) = self.rest.get_mut(self.left..self.left + LANES + ROW) else {
             return false;
         };
-        let [first, second] = [first, second].map(|ends| ends.map(|end| f64x8::splat(simd, end)));
+        let (left, in_first) = if *first == EMPTY {
+            rest[..LANES].copy_from_slice(&x.0);
+            (LANES, 0)
+        } else {
+            let second = if *second == EMPTY { first } else { second };
+            outside(simd, x, [first, second], rest)
+        };
+        // What is not finite lies in no stretch.
         let infinity = f64x8::splat(simd, f64::INFINITY);
         let mut finite = infinity.simd_eq(infinity);
-        let (mut left, mut in_first) = (0, 0);
-        for row in x.0.as_chunks::<ROW>().0 {
-            let row = f64x8::from_slice(simd, row);
-            finite &= row.abs().simd_lt(infinity);
-            let inside = row.simd_ge(first[0]) & row.simd_le(first[1]);
-            let outside = !(inside | (row.simd_ge(second[0]) & row.simd_le(second[1])));
-            row.compress(outside)
-                .store_slice(&mut rest[left..left + ROW]);
-            left += outside.to_bitmask().count_ones() as usize;
-            in_first += u64::from(inside.to_bitmask().count_ones());
+        let (rows, last) = rest[..left].as_chunks::<ROW>();
+        for row in rows {
+            finite &= f64x8::from_slice(simd, row).abs().simd_lt(infinity);
         }
-        if !finite.all_true() {
+        if !finite.all_true() || !last.iter().all(|x| x.is_finite()) {
             return false;
         }
         self.left += left;
@@ -96,6 +96,30 @@ impl Sifted {
         self.taken[1] += LANES as u64 - left as u64 - in_first;
         true
     }
+}
+
+/// Writes what lies outside of two stretches to `rest`; how much that was, and how much lay in the first.
+#[inline(always)]
+fn outside<S: Simd>(
+    simd: S,
+    x: &Block,
+    stretches: [&Stretch; 2],
+    rest: &mut [f64],
+) -> (usize, u64) {
+    let [first, second] = stretches.map(|ends| ends.map(|end| f64x8::splat(simd, end)));
+    let (mut left, mut in_first) = (0, 0);
+    for row in x.0.as_chunks::<ROW>().0 {
+        let row = f64x8::from_slice(simd, row);
+        // What is not changed by being moved between the ends lies there; that takes fewer steps than two
+        // comparisons.
+        let inside = row.max(first[0]).min(first[1]).simd_eq(row);
+        let outside = !(inside | row.max(second[0]).min(second[1]).simd_eq(row));
+        row.compress(outside)
+            .store_slice(&mut rest[left..left + ROW]);
+        left += outside.to_bitmask().count_ones() as usize;
+        in_first += u64::from(inside.to_bitmask().count_ones());
+    }
+    (left, in_first)
 }
 
 #[cfg(test)]

@@ -113,7 +113,7 @@ impl Graph {
     }
 
     /// Which operations the given ones need.
-    fn needed(&self, outputs: &[Id]) -> Vec<bool> {
+    pub fn needed(&self, outputs: &[Id]) -> Vec<bool> {
         let mut needed = vec![false; self.ops.len()];
         for id in outputs {
             needed[*id as usize] = true;

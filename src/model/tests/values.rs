@@ -171,9 +171,18 @@ fn blocks_agree_with_scalars_for_every_operation() {
         "x^-3",
         "x^0.3",
         "(x + y) * (x + y) - x / 3",
+        "x + y * y - 3 * x + x * y - exp(x) * y + x^2",
+        "y - (x - y * x) + (x + y) - (x^2 + sin(x) * x)",
+        "x + (y + (x^2 + (y - x * y)))",
     ] {
         check(text);
     }
+    // Outputs that are also operands, and one of them twice.
+    let model = model("x y", "[x + y, x * y + (x + y), x, x + y]", "");
+    let blocks = [Block([2.0; LANES]), Block([5.0; LANES])];
+    let mut out = [Block::ZERO; 4];
+    BlockRunner::new(&model).run(&blocks, &mut out);
+    assert_eq!(out.map(|block| block.0[LANES - 1]), [7.0, 17.0, 2.0, 7.0]);
     check("solve(z + exp(z) == x, z, y)");
 }
 

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use gumption_lanes::moments::PowerSums;
+use gumption_lanes::moments::{PowerSums, all_finite};
 use gumption_lanes::{Block, LANES, Level, level};
 
 use super::cells::Wanted;
 use super::comoments::CoMoments;
-use super::engine::{CHUNK, Layout, Sink, Source, simulate};
-use super::interval::Ranked;
+use super::engine::{CHUNK, Layout, Sink, Source, append, simulate};
+use super::interval::{Ordered, Ranked};
 use super::moments::{Moments, Pivot};
 use super::sieve::Sieve;
 use super::strainer::Strainer;
@@ -121,19 +121,25 @@ impl<'a, S: Source> Collector<'a, S> {
                 Held::Sieved(_) => chunks.min(self.chunks + self.chunks.min(MOST_CHUNKS)),
             };
             let next = self.chunks..end;
-            if let Held::Sieved(sieved) = &mut self.held {
-                let (moments, tallies) = simulate(
-                    self.plan.source,
-                    self.plan.layout,
-                    next.clone(),
-                    self.plan.threads,
-                    || Tally::new(sieved),
-                );
-                sieved.absorb(moments, tallies, self.plan.ask);
-                self.drawn(next);
-            } else {
-                let columns = self.draw(next.clone());
-                self.commit(next, columns);
+            let Plan {
+                source,
+                layout,
+                threads,
+                ask,
+                ..
+            } = self.plan;
+            match &mut self.held {
+                Held::Columns(columns) => {
+                    append(source, layout, next.clone(), threads, columns);
+                    self.drawn(next);
+                    self.sieve_if_many();
+                }
+                Held::Sieved(sieved) => {
+                    let tally = || Tally::new(sieved);
+                    let (moments, tallies) = simulate(source, layout, next.clone(), threads, tally);
+                    sieved.absorb(moments, tallies, ask);
+                    self.drawn(next);
+                }
             }
         }
     }
@@ -166,9 +172,7 @@ impl<'a, S: Source> Collector<'a, S> {
                     }
                 }
                 self.drawn(chunks);
-                if self.trials >= PILOT {
-                    self.sieve();
-                }
+                self.sieve_if_many();
             }
             Held::Sieved(sieved) => {
                 for chunk in values {
@@ -185,56 +189,47 @@ impl<'a, S: Source> Collector<'a, S> {
         self.chunks = chunks.end;
     }
 
-    /// From keeping to sieving.
-    fn sieve(&mut self) {
-        let Held::Columns(columns) = &self.held else {
-            return;
-        };
-        let mut sieves = Vec::new();
-        let mut pivots = Vec::new();
-        for (column, pivot) in columns.iter().zip(self.plan.pivots) {
-            let mut finite = column.clone();
-            finite.retain(|value| value.is_finite());
-            if finite.is_empty() {
-                // Anything will do; later trials may have values.
-                finite.push(0.0);
-            }
-            let ordered = Sieve::order(&finite, self.plan.p);
-            // The moments' own origin need not be the mean; a constant's has to be exact.
-            let sd = Moments::of(&finite, *pivot).sd();
-            pivots.push(Pivot::new(ordered.median(), sd));
-            sieves.push(Sieve::new(&ordered, self.plan.p));
+    /// From keeping to sieving, when there are enough values to tell how.
+    fn sieve_if_many(&mut self) {
+        if let Held::Columns(columns) = &mut self.held
+            && self.trials >= PILOT
+        {
+            let columns = std::mem::take(columns);
+            let sieved = Sieved::holding(columns, self.plan.pivots, self.plan.p, self.plan.ask);
+            self.held = Held::Sieved(Box::new(sieved));
         }
-        let outputs = pivots.len();
-        let mut sieved = Sieved {
-            moments: pivots.iter().map(|pivot| Moments::empty(*pivot)).collect(),
-            joint: (outputs > 1).then(|| CoMoments::new(&pivots)),
-            sieves,
-            pivots,
-        };
-        sieved.take(columns, self.plan.ask);
-        self.held = Held::Sieved(Box::new(sieved));
     }
 }
 
 impl Sieved {
+    /// Takes over values, which tell how to sieve further ones.
+    fn holding(mut columns: Vec<Vec<f64>>, pivots: &[Pivot], p: f64, ask: &Ask) -> Self {
+        let (pivots, orders): (Vec<Pivot>, Vec<Ordered>) = columns
+            .iter()
+            .zip(pivots)
+            .map(|(column, pivot)| pilot(column, *pivot, p))
+            .unzip();
+        let mut sieved = Sieved {
+            moments: pivots.iter().map(|pivot| Moments::empty(*pivot)).collect(),
+            joint: (pivots.len() > 1).then(|| CoMoments::new(&pivots)),
+            sieves: Vec::new(),
+            pivots,
+        };
+        let sums = Sums::new(&sieved).of_columns(&columns);
+        columns.iter_mut().for_each(only_finite);
+        let sieves = columns.into_iter().zip(&orders);
+        sieved.sieves = sieves
+            .map(|(column, order)| Sieve::holding(column, order, p))
+            .collect();
+        sieved.absorb(sums, Vec::new(), ask);
+        sieved
+    }
+
     /// Takes values that are at hand.
     fn take(&mut self, columns: &[Vec<f64>], ask: &Ask) {
-        let trials = columns.first().map_or(0, Vec::len);
         let mut tally = Tally::new(self);
-        let mut blocks = vec![Block::ZERO; columns.len()];
-        let mut moments = Vec::new();
-        for start in (0..trials).step_by(LANES) {
-            let end = trials.min(start + LANES);
-            for (block, column) in blocks.iter_mut().zip(columns) {
-                block.0[..end - start].copy_from_slice(&column[start..end]);
-            }
-            tally.take(&blocks, end - start);
-            if end == trials || end.is_multiple_of(CHUNK as usize) {
-                moments.push(tally.close());
-            }
-        }
-        self.absorb(moments, vec![tally], ask);
+        let chunks = each_chunk(columns, &mut tally);
+        self.absorb(chunks, vec![tally], ask);
     }
 
     /// Takes over what some chunks left behind.
@@ -248,8 +243,8 @@ impl Sieved {
             }
         }
         for tally in tallies {
-            for (sieve, counts) in self.sieves.iter_mut().zip(tally.outputs) {
-                sieve.absorb(counts.strainer.finish());
+            for (sieve, strainer) in self.sieves.iter_mut().zip(tally.strainers) {
+                sieve.absorb(strainer.finish());
             }
         }
         // From fewer values nothing can be planned; they are few enough to be kept.
@@ -265,53 +260,123 @@ pub(super) struct ChunkSums {
     joint: Option<CoMoments>,
 }
 
-/// Counts and sums of what one thread draws.
-struct Tally {
+/// Origin and scale for the moments of values like these, and their order, from those that are finite.
+fn pilot(column: &[f64], pivot: Pivot, p: f64) -> (Pivot, Ordered) {
+    let mut failed = Vec::new();
+    let mut finite = column;
+    if !column.iter().all(|value| value.is_finite()) {
+        failed.extend_from_slice(column);
+        only_finite(&mut failed);
+        if failed.is_empty() {
+            // Anything will do; later trials may have values.
+            failed.push(0.0);
+        }
+        finite = &failed;
+    }
+    let order = Sieve::order(finite, p);
+    // The moments' own origin need not be the mean; a constant's has to be exact.
+    let sd = Moments::of(finite, pivot).sd();
+    (Pivot::new(order.median(), sd), order)
+}
+
+fn only_finite(column: &mut Vec<f64>) {
+    column.retain(|value| value.is_finite());
+}
+
+/// Shows values to a sink, as they are when they are drawn.
+fn each_chunk<K: Sink>(columns: &[Vec<f64>], sink: &mut K) -> Vec<K::Chunk> {
+    let trials = columns.first().map_or(0, Vec::len);
+    let mut blocks = vec![Block::ZERO; columns.len()];
+    let mut chunks = Vec::new();
+    for start in (0..trials).step_by(LANES) {
+        let end = trials.min(start + LANES);
+        for (block, column) in blocks.iter_mut().zip(columns) {
+            block.0[..end - start].copy_from_slice(&column[start..end]);
+        }
+        sink.take(&blocks, end - start);
+        if end == trials || end.is_multiple_of(CHUNK as usize) {
+            chunks.push(sink.close());
+        }
+    }
+    chunks
+}
+
+/// Sums over a part of a chunk.
+struct Sums {
     level: Level,
-    outputs: Vec<Output>,
+    outputs: Vec<OutputSums>,
     joint: Option<CoMoments>,
 }
 
-struct Output {
+impl Sums {
+    fn new(sieved: &Sieved) -> Self {
+        Sums {
+            level: level(),
+            outputs: sieved.pivots.iter().map(OutputSums::new).collect(),
+            joint: sieved.joint.as_ref().map(CoMoments::emptied),
+        }
+    }
+
+    fn of_columns(mut self, columns: &[Vec<f64>]) -> Vec<ChunkSums> {
+        each_chunk(columns, &mut self)
+    }
+
+    fn take_joint(&mut self, outputs: &[Block], lanes: usize) {
+        if let Some(joint) = &mut self.joint {
+            joint.take(self.level, outputs, lanes);
+        }
+    }
+}
+
+impl Sink for Sums {
+    type Chunk = ChunkSums;
+
+    fn take(&mut self, outputs: &[Block], lanes: usize) {
+        for (sums, block) in self.outputs.iter_mut().zip(outputs) {
+            if lanes == LANES && all_finite(self.level, block) {
+                sums.add(self.level, block);
+            } else {
+                sums.add_each(&block.0[..lanes]);
+            }
+        }
+        self.take_joint(outputs, lanes);
+    }
+
+    fn close(&mut self) -> ChunkSums {
+        ChunkSums {
+            moments: self.outputs.iter_mut().map(OutputSums::close).collect(),
+            joint: self.joint.as_mut().map(CoMoments::close),
+        }
+    }
+}
+
+/// Sums of one output.
+struct OutputSums {
     pivot: Pivot,
-    strainer: Strainer,
     sums: PowerSums,
     count: u64,
     failed: u64,
 }
 
-impl Tally {
-    fn new(sieved: &Sieved) -> Self {
-        let output = |(sieve, pivot): (&Sieve, &Pivot)| Output {
+impl OutputSums {
+    fn new(pivot: &Pivot) -> Self {
+        OutputSums {
             pivot: *pivot,
-            strainer: sieve.strainer(),
             sums: PowerSums::default(),
             count: 0,
             failed: 0,
-        };
-        Tally {
-            level: level(),
-            outputs: sieved
-                .sieves
-                .iter()
-                .zip(&sieved.pivots)
-                .map(output)
-                .collect(),
-            joint: sieved.joint.as_ref().map(CoMoments::emptied),
         }
     }
-}
 
-impl Output {
-    fn take(&mut self, level: Level, block: &Block, lanes: usize) {
-        if lanes == LANES && self.strainer.take(block) {
-            self.sums.add(level, block, self.pivot.coordinates());
-            self.count += LANES as u64;
-            return;
-        }
-        for &value in &block.0[..lanes] {
+    /// Adds a block that is all finite.
+    fn add(&mut self, level: Level, block: &Block) {
+        self.sums.add(level, block, self.pivot.coordinates());
+        self.count += LANES as u64;
+    }
+
+    fn add_each(&mut self, values: &[f64]) {
+        for &value in values {
             if value.is_finite() {
-                self.strainer.take_one(value);
                 self.sums.add_one(value, self.pivot.coordinates());
                 self.count += 1;
             } else {
@@ -328,23 +393,44 @@ impl Output {
     }
 }
 
+/// Counts and sums of what one thread draws.
+struct Tally {
+    sums: Sums,
+    /// Per output.
+    strainers: Vec<Strainer>,
+}
+
+impl Tally {
+    fn new(sieved: &Sieved) -> Self {
+        Tally {
+            sums: Sums::new(sieved),
+            strainers: sieved.sieves.iter().map(Sieve::strainer).collect(),
+        }
+    }
+}
+
 impl Sink for Tally {
     type Chunk = ChunkSums;
 
     fn take(&mut self, outputs: &[Block], lanes: usize) {
-        for (output, block) in self.outputs.iter_mut().zip(outputs) {
-            output.take(self.level, block, lanes);
+        let Sums {
+            level,
+            outputs: sums,
+            ..
+        } = &mut self.sums;
+        for ((sums, strainer), block) in sums.iter_mut().zip(&mut self.strainers).zip(outputs) {
+            if lanes == LANES && strainer.take(block) {
+                sums.add(*level, block);
+            } else {
+                strainer.take_each(&block.0[..lanes]);
+                sums.add_each(&block.0[..lanes]);
+            }
         }
-        if let Some(joint) = &mut self.joint {
-            joint.take(self.level, outputs, lanes);
-        }
+        self.sums.take_joint(outputs, lanes);
     }
 
     fn close(&mut self) -> ChunkSums {
-        ChunkSums {
-            moments: self.outputs.iter_mut().map(Output::close).collect(),
-            joint: self.joint.as_mut().map(CoMoments::close),
-        }
+        self.sums.close()
     }
 }
 

@@ -113,6 +113,52 @@ pub(super) fn simulate<S: Source, K: Sink>(
     )
 }
 
+/// Draws some chunks on `threads` threads, and appends the values of each output to its column.
+pub(super) fn append<S: Source>(
+    source: &S,
+    layout: Layout,
+    chunks: Range<u64>,
+    threads: usize,
+    columns: &mut [Vec<f64>],
+) {
+    let sizes: Vec<usize> = chunks.clone().map(|c| layout.trials_in(c)).collect();
+    let mut places: Vec<Vec<&mut [f64]>> = sizes.iter().map(|_| Vec::new()).collect();
+    for column in columns {
+        let start = column.len();
+        let end = start + sizes.iter().sum::<usize>();
+        if start == 0 {
+            // Memory that nothing is written to before the values.
+            *column = vec![0.0; end];
+        } else {
+            column.resize(end, 0.0);
+        }
+        let mut rest = &mut column[start..];
+        for (places, size) in places.iter_mut().zip(&sizes) {
+            let (place, others) = rest.split_at_mut(*size);
+            places.push(place);
+            rest = others;
+        }
+    }
+    parallel_map(
+        chunks.zip(places).collect(),
+        threads,
+        || (source.worker(), vec![Block::ZERO; source.outputs()]),
+        |(worker, outputs), (chunk, mut places)| {
+            source.start(worker, chunk);
+            let trials = layout.trials_in(chunk);
+            for start in (0..trials).step_by(LANES) {
+                source.next(worker, outputs);
+                for (place, output) in places.iter_mut().zip(&*outputs) {
+                    let place = &mut place[start..trials.min(start + LANES)];
+                    place.copy_from_slice(&output.0[..place.len()]);
+                }
+            }
+            progress::count(trials as u64);
+        },
+        |_| (),
+    );
+}
+
 /// `task` of every item on several threads, each with a scratch space; results in the order of the
 /// items, and what `finish` makes of the scratch spaces in no order.
 pub(super) fn parallel_map<I: Send, W, T: Send, R: Send>(

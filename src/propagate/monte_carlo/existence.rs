@@ -146,9 +146,10 @@ impl Tail {
 
 /// Hill's estimate of the tail index from the k most extreme deviations from the median.
 fn hill(sample: &impl Ranked, side: Side, k: usize) -> f64 {
+    let median = sample.median();
     let deviation = |i: usize| match side {
-        Side::Lower => sample.median() - sample.at(i),
-        Side::Upper => sample.at(sample.count() + 1 - i) - sample.median(),
+        Side::Lower => median - sample.at(i),
+        Side::Upper => sample.at(sample.count() + 1 - i) - median,
     };
     let threshold = deviation(k + 1);
     if threshold <= 0.0 {

@@ -33,7 +33,7 @@ impl Ranks {
 }
 
 /// Values looked at to guess where the tails begin.
-const PILOT: usize = 1 << 14;
+const PILOT: usize = 1 << 12;
 
 /// Values that one thread takes at a time.
 const PART: usize = 1 << 14;

@@ -16,6 +16,7 @@ use nalgebra::DMatrix;
 
 use super::factor::lower_factor;
 use super::sampler::sampler;
+use super::ways::{self, Straight, Way};
 use crate::budget::{Component, Group, Input, Law};
 use crate::distribution::Distribution;
 use crate::special::{normal_cdf, normal_sf};
@@ -27,9 +28,9 @@ pub(super) struct JointDraw<'b> {
     level: Level,
     /// How each component is drawn; `None` for members of groups and for what no input uses.
     alone: Vec<Option<Sampler>>,
-    /// Per input the component that it consists of, if no other input has it.
-    single: Vec<Option<usize>>,
-    /// Whether a component is one of these.
+    /// Per input.
+    ways: Vec<Way>,
+    /// Whether a component is drawn only where it becomes the value of an input.
     with_input: Vec<bool>,
     groups: Vec<JointSampler>,
     /// Streams of a chunk: one per component, then one per group.
@@ -57,21 +58,27 @@ impl<'b> JointDraw<'b> {
                 (used[i] && !grouped(i)).then(|| sampler(&component.distribution))
             })
             .collect();
-        let single = single_components(inputs, &alone);
+        let drawn_alone: Vec<bool> = alone.iter().map(Option::is_some).collect();
+        let ways = ways::ways(inputs, &drawn_alone, groups);
         let mut with_input = vec![false; components.len()];
-        single.iter().flatten().for_each(|i| with_input[*i] = true);
+        for way in &ways {
+            if let Way::Alone(component) = way {
+                with_input[*component] = true;
+            }
+        }
+        let straight = ways::straight(inputs, &ways, components.len());
         let joint = groups
             .iter()
             .zip(components.len()..)
             .filter(|(group, _)| group.members.iter().any(|&member| used[member]))
-            .map(|(group, stream)| JointSampler::new(components, group, stream))
+            .map(|(group, stream)| JointSampler::new(components, group, stream, &straight))
             .collect();
         JointDraw {
             inputs,
             seed,
             level: level(),
             alone,
-            single,
+            ways,
             with_input,
             groups: joint,
             streams: (components.len() + groups.len()) as u64,
@@ -110,14 +117,17 @@ impl<'b> JointDraw<'b> {
             sampler.fill(self.level, &mut generators[i], &mut errors[i]);
         }
         for group in &self.groups {
-            group.draw(self.level, scratch);
+            group.draw(self.level, scratch, inputs);
         }
-        for ((input, single), block) in self.inputs.iter().zip(&self.single).zip(inputs) {
-            let sampler = single.and_then(|i| Some((i, self.alone[i].as_ref()?)));
-            match (sampler, input.terms.as_slice()) {
-                (Some((i, sampler)), [term]) => {
+        for ((input, way), block) in self.inputs.iter().zip(&self.ways).zip(inputs) {
+            match (way, input.terms.as_slice()) {
+                (Way::WithGroup, _) => {}
+                (Way::Alone(component), [term]) => {
                     let scale = [term.coefficient, input.estimate];
-                    sampler.fill_scaled(self.level, &mut scratch.generators[i], scale, block);
+                    let generator = &mut scratch.generators[*component];
+                    if let Some(sampler) = &self.alone[*component] {
+                        sampler.fill_scaled(self.level, generator, scale, block);
+                    }
                 }
                 _ => self.sum(input, &scratch.errors, block),
             }
@@ -149,19 +159,6 @@ impl<'b> JointDraw<'b> {
     }
 }
 
-/// Per input the component that makes it up alone, is drawn alone, and belongs to no other input.
-fn single_components(inputs: &[Input], alone: &[Option<Sampler>]) -> Vec<Option<usize>> {
-    let mut uses = vec![0; alone.len()];
-    for term in inputs.iter().flat_map(|input| &input.terms) {
-        uses[term.component] += 1;
-    }
-    let single = |input: &Input| match input.terms.as_slice() {
-        [term] => Some(term.component).filter(|i| uses[*i] == 1 && alone[*i].is_some()),
-        _ => None,
-    };
-    inputs.iter().map(single).collect()
-}
-
 /// What a thread needs to draw.
 pub(super) struct Scratch {
     generators: Vec<Generator>,
@@ -177,6 +174,8 @@ struct JointSampler {
     /// The rows of the triangular factor, up to the diagonal.
     rows: Vec<Vec<f64>>,
     law: JointLaw,
+    /// Per member the input that it makes up alone.
+    straight: Vec<Option<Straight>>,
 }
 
 enum JointLaw {
@@ -192,7 +191,12 @@ enum JointLaw {
 }
 
 impl JointSampler {
-    fn new(components: &[Component], group: &Group, stream: usize) -> Self {
+    fn new(
+        components: &[Component],
+        group: &Group,
+        stream: usize,
+        straight: &[Option<Straight>],
+    ) -> Self {
         let members = || group.members.iter().map(|&member| &components[member]);
         let (law, correlation) = match &group.law {
             Law::Normal => (
@@ -216,11 +220,12 @@ impl JointSampler {
             members: group.members.clone(),
             rows: rows(&lower_factor(correlation)),
             law,
+            straight: group.members.iter().map(|i| straight[*i]).collect(),
         }
     }
 
-    /// Draws the members' next block.
-    fn draw(&self, level: Level, scratch: &mut Scratch) {
+    /// Draws the members' next block, or that of the inputs that they make up.
+    fn draw(&self, level: Level, scratch: &mut Scratch, inputs: &mut [Block]) {
         let Scratch {
             generators,
             errors,
@@ -234,8 +239,15 @@ impl JointSampler {
             mix(level, &mut generators[stream], dof, mixing);
         }
         for (i, &member) in self.members.iter().enumerate() {
+            let row = &self.rows[i];
+            if let (JointLaw::Normal(u), Some(input)) = (&self.law, self.straight[i]) {
+                let [coefficient, estimate] = input.scale;
+                let scale = [u[i], coefficient, estimate];
+                ops::combine_affine(level, row, normals, scale, &mut inputs[input.place]);
+                continue;
+            }
             let error = &mut errors[member];
-            ops::combine(level, &self.rows[i], normals, error);
+            ops::combine(level, row, normals, error);
             match &self.law {
                 JointLaw::Normal(u) => ops::scale(level, u[i], error),
                 JointLaw::StudentT { scale, .. } => {
@@ -387,6 +399,24 @@ mod tests {
             assert!((correlation(&x[0], &x[1]) - r).abs() < 0.006, "{r}");
             assert!((covariance(&x[1], &x[1]).sqrt() - 0.1).abs() < 0.001);
         }
+    }
+
+    #[test]
+    fn members_that_make_up_an_input_alone_are_drawn_the_same() {
+        let components = [normal("a", 2.0), normal("b", 0.1), normal("unused", 1.0)];
+        let group = || [group(Law::Normal, 0.4)];
+        let straight = [input(1.0, &[(0, 1.0)]), input(2.0, &[(1, 1.0)])];
+        let nothing = (2, 0.0);
+        let summed = [
+            input(1.0, &[(0, 1.0), nothing]),
+            input(2.0, &[(1, 1.0), nothing]),
+        ];
+        let expected = sample(&summed, &components, &group(), 1);
+        assert_eq!(sample(&straight, &components, &group(), 1), expected);
+        // One of them belongs to two inputs.
+        let both = [straight[0].clone(), input(0.0, &[(0, 1.0), (1, 1.0)])];
+        let found = sample(&both, &components, &group(), 1);
+        assert_eq!(found[0], expected[0]);
     }
 
     #[test]

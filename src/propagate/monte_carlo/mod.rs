@@ -3,6 +3,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | [`joint_draw`] | trials of the input quantities, correlated as the budget says |
+//! | [`ways`] | how the values of an input come about |
 //! | [`budget_source`] | trials of the model |
 //! | [`engine`] | chunks of trials shared among threads, handed on in order |
 //! | [`collect`] | the first trials kept, the others counted and summed |
@@ -44,6 +45,7 @@ mod sampler;
 mod samples;
 mod sieve;
 mod strainer;
+mod ways;
 
 use nalgebra::DMatrix;
 
@@ -162,9 +164,9 @@ impl Question<'_> {
         if let Some(output) = moments.iter().position(|m| m.count() < 2) {
             return Err(output);
         }
-        let held = collector.into_held();
+        let mut held = collector.into_held();
         let (outputs, verdicts): (Vec<_>, Vec<_>) = (0..moments.len())
-            .map(|output| self.summary(output, &held, &moments[output], &redraw))
+            .map(|output| self.summary(output, &mut held, &moments[output], &redraw))
             .unzip();
         let joint = held
             .joint_moments()
@@ -248,7 +250,7 @@ impl Question<'_> {
     fn summary<S: Source>(
         &self,
         output: usize,
-        held: &Held,
+        held: &mut Held,
         moments: &Moments,
         redraw: &Redraw<S>,
     ) -> (MonteCarlo, Verdict) {
@@ -263,7 +265,7 @@ impl Question<'_> {
                 self.results(moments, &ordered, picture, self.heavy[output].as_ref())
             }
             Held::Sieved(sieved) => {
-                let sieve = &sieved.sieves[output];
+                let sieve = &mut sieved.sieves[output];
                 let count = sieve.count();
                 let depth = self.depth(count as usize);
                 let resolved = Resolved::new(sieve, &self.wanted(count), depth, output, redraw);

@@ -182,8 +182,8 @@ fn values_of_rank<S: Source>(redraw: &Redraw<S>, distances: &Distances<'_, S>, p
             let q = rank(values.len() as u64);
             Ordered::new(&values, values.len(), 1).at(q)
         }),
-        Held::Sieved(sieved) => [0, 1].map(|output| {
-            let sieve = &sieved.sieves[output];
+        Held::Sieved(mut sieved) => [0, 1].map(|output| {
+            let sieve = &mut sieved.sieves[output];
             let wanted = ask(sieve.count());
             let q = rank(sieve.count());
             Resolved::new(sieve, &wanted, 1, output, &again).at(q)

@@ -60,8 +60,10 @@ pub(super) struct Resolved {
 impl Resolved {
     /// Finds what is wanted of one output's values; `depth` extreme ranks at either end are counted
     /// as a tail.
+    ///
+    /// What the sieve has kept is used up.
     pub(super) fn new(
-        sieve: &Sieve,
+        sieve: &mut Sieve,
         wanted: &Wanted,
         depth: usize,
         output: usize,
@@ -70,7 +72,7 @@ impl Resolved {
         let (mut cells, rows) = sieve.cells();
         let needed = wanted.cells(&cells, Slack::NONE);
         let chosen = rows.iter().zip(&needed).filter(|(_, needed)| **needed);
-        let kept = sieve.kept(chosen.flat_map(|(row, _)| row.clone()));
+        let kept = sieve.take_kept(chosen.flat_map(|(row, _)| row.clone()));
         let mut runs = runs(&cells, &needed);
         for run in &mut runs {
             let at = |rank| &rows[cell_of(&cells, rank)];
@@ -86,9 +88,12 @@ impl Resolved {
                 None if total <= MOST_KEPT as u64 => Some(gathered(&runs, output, again)),
                 None => None,
             };
-            if let Some(values) = values.as_ref().filter(|_| total <= SORTED) {
-                return Resolved::sorted(values, &runs, known, wanted.count, depth);
-            }
+            let values = match values {
+                Some(values) if total <= SORTED => {
+                    return Resolved::sorted(values, &runs, known, wanted.count, depth);
+                }
+                values => values,
+            };
             let finer = match &values {
                 Some(values) => {
                     let mut finer = Finer::new(&runs);
@@ -123,14 +128,14 @@ impl Resolved {
             if left > total / 2 {
                 // Finer counts would not help much further.
                 let values = memory.unwrap_or_else(|| gathered(&runs, output, again));
-                return Resolved::sorted(&values, &runs, known, wanted.count, depth);
+                return Resolved::sorted(values, &runs, known, wanted.count, depth);
             }
         }
     }
 
     /// Sorts the values of the runs.
     fn sorted(
-        values: &[f64],
+        values: Vec<f64>,
         runs: &[Run],
         known: Vec<Cell>,
         count: u64,
@@ -251,9 +256,8 @@ fn run_of(runs: &[Run], value: f64) -> Option<usize> {
 }
 
 /// The values that lie in runs.
-fn inside(runs: &[Run], values: &[f64]) -> Vec<f64> {
+fn inside(runs: &[Run], mut values: Vec<f64>) -> Vec<f64> {
     let holds = |run: &Run, value: f64| (run.low <= value) & (value <= run.high);
-    let mut values = values.to_vec();
     if runs.len() <= FEW_RUNS {
         // Without a branch on what cannot be foreseen.
         let any = |value| runs.iter().fold(false, |any, run| any | holds(run, value));
@@ -303,6 +307,9 @@ fn gathered(runs: &[Run], output: usize, again: &impl Again) -> Vec<f64> {
         .collect()
 }
 
+/// Values in a finer bin, on average, where there are enough bins.
+const PER_BIN: usize = 8;
+
 /// Counts of some runs in finer bins.
 struct Finer {
     runs: Vec<Run>,
@@ -314,16 +321,25 @@ struct Finer {
 
 impl Finer {
     fn new(runs: &[Run]) -> Self {
+        let bins = |run: &Run| (run.count as usize / PER_BIN).clamp(2, BINS);
         let grid = |run: &Run| {
-            let steps = (BINS - 1) as f64;
+            let steps = (bins(run) - 1) as f64;
             let width = run.high / steps - run.low / steps;
             Grid::new(run.low, width.max(4.0 * f64::MIN_POSITIVE))
         };
         Finer {
             runs: runs.to_vec(),
             grids: runs.iter().map(grid).collect(),
-            bins: vec![vec![(0, f64::INFINITY, f64::NEG_INFINITY); BINS]; runs.len()],
+            bins: runs
+                .iter()
+                .map(|run| vec![(0, f64::INFINITY, f64::NEG_INFINITY); bins(run)])
+                .collect(),
         }
+    }
+
+    /// The bin of a value of a run.
+    fn bin(&self, run: usize, value: f64) -> usize {
+        self.grids[run].bin(value).min(self.bins[run].len() - 1)
     }
 
     fn merged(mut self, other: Finer) -> Finer {
@@ -348,13 +364,14 @@ impl Finer {
             }
         }
         keep_only(&mut values, |value| {
-            run_of(&self.runs, value).is_some_and(|run| chosen[run][self.grids[run].bin(value)])
+            run_of(&self.runs, value).is_some_and(|run| chosen[run][self.bin(run, value)])
         });
         values
     }
 
     fn cells(&self) -> Vec<Cell> {
-        let mut cells = Vec::new();
+        let filled = self.bins.iter().flatten().filter(|(count, ..)| *count > 0);
+        let mut cells = Vec::with_capacity(filled.count());
         for (run, bins) in self.runs.iter().zip(&self.bins) {
             let mut below = run.below;
             for &(count, low, high) in bins.iter().filter(|(count, ..)| *count > 0) {
@@ -374,7 +391,8 @@ impl Finer {
 impl Keeper for Finer {
     fn add(&mut self, value: f64) {
         if let Some(run) = run_of(&self.runs, value) {
-            let bin = &mut self.bins[run][self.grids[run].bin(value)];
+            let bin = self.bin(run, value);
+            let bin = &mut self.bins[run][bin];
             *bin = (bin.0 + 1, bin.1.min(value), bin.2.max(value));
         }
     }

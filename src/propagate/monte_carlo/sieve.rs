@@ -3,14 +3,15 @@
 //! Counts in the bins of a grid say more and more precisely, as the values come, where quantiles and
 //! the shortest interval lie. Values elsewhere are only counted, those of the middle, where no interval
 //! can end, without regard to their bins. What is kept grows like the two-thirds power of the number of
-//! values; should it be too much all the same, or should a plan have been wrong (by six standard
-//! errors), the values are drawn again ([`super::resolve`]).
+//! values; should it be too much all the same, or should a plan have been wrong, the
+//! values are drawn again ([`super::resolve`]).
 
 use std::ops::RangeInclusive;
+use std::sync::{Mutex, PoisonError};
 
 use gumption_lanes::bins::{BINS, Grid};
 
-use super::cells::{Cell, Slack, Wanted};
+use super::cells::{Cell, ERRORS, Slack, Wanted};
 use super::histogram;
 use super::interval::{Ordered, Ranked};
 use super::strainer::{Gap, Strained, Strainer};
@@ -29,7 +30,8 @@ pub(super) struct Sieve {
     counts: Vec<u64>,
     /// Whether the values of a bin have been kept from the first one on.
     keeps: Vec<bool>,
-    kept: Vec<f64>,
+    /// While values are strained, one of the strainers has them.
+    kept: Mutex<Vec<f64>>,
     /// Bins whose counts have a meaning only together with those of their neighbours of this kind.
     lumped: Vec<bool>,
     /// Rows of lumped bins that later values are not told apart in.
@@ -53,7 +55,7 @@ impl Sieve {
             grid: grid(sample, depth(sample.count(), p)),
             counts: vec![0; BINS],
             keeps: vec![true; BINS],
-            kept: Vec::new(),
+            kept: Mutex::default(),
             lumped: vec![false; BINS],
             gaps: Vec::new(),
             picture: None,
@@ -61,9 +63,26 @@ impl Sieve {
         }
     }
 
-    /// Takes further values in, on one thread.
+    /// A sieve that has taken in these finite values and keeps them all.
+    pub(super) fn holding(values: Vec<f64>, sample: &Ordered, p: f64) -> Self {
+        let mut sieve = Sieve::new(sample, p);
+        let mut counting = Strainer::new(sieve.grid, |_| false, &[], Vec::new());
+        counting.count_all(&values);
+        sieve.absorb(counting.finish());
+        *sieve.kept() = values;
+        sieve
+    }
+
+    /// Takes further values in, on one thread. The first one goes on with what has been kept, so that it need
+    /// not be copied.
     pub(super) fn strainer(&self) -> Strainer {
-        Strainer::new(self.grid, |bin| self.keeps[bin], &self.gaps)
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = std::mem::take(&mut *kept);
+        Strainer::new(self.grid, |bin| self.keeps[bin], &self.gaps, kept)
+    }
+
+    fn kept(&mut self) -> &mut Vec<f64> {
+        self.kept.get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Takes over what was counted.
@@ -76,16 +95,22 @@ impl Sieve {
         }
         let [low, high] = strained.range;
         self.range = [self.range[0].min(low), self.range[1].max(high)];
+        let kept = self.kept();
         match strained.picked {
-            Some(picked) if self.kept.len() + picked.len() <= MOST_KEPT => self.kept.extend(picked),
-            _ => self.keep_nothing(),
+            Some(picked) if kept.len() + picked.len() > MOST_KEPT => self.keep_nothing(),
+            Some(picked) if kept.capacity() < picked.capacity() => {
+                let others = std::mem::replace(kept, picked);
+                kept.extend(others);
+            }
+            Some(picked) => kept.extend(picked),
+            None => self.keep_nothing(),
         }
     }
 
     /// Only counts from now on.
     pub(super) fn keep_nothing(&mut self) {
         self.keeps.fill(false);
-        self.kept = Vec::new();
+        *self.kept() = Vec::new();
     }
 
     /// How many values there were.
@@ -114,9 +139,10 @@ impl Sieve {
             let near = bin.saturating_sub(1)..(bin + 2).min(BINS);
             *kept &= keeps[near].iter().any(|near| *near);
         }
-        let (grid, keeps) = (&self.grid, &self.keeps);
-        keep_only(&mut self.kept, |value| keeps[grid.bin(value)]);
-        if self.count() >= PICTURED && keeps.contains(&true) {
+        let (grid, keeps) = (self.grid, std::mem::take(&mut self.keeps));
+        keep_only(self.kept(), |value| keeps[grid.bin(value)]);
+        self.keeps = keeps;
+        if self.count() >= PICTURED && self.keeps.contains(&true) {
             self.lump(&cells, &rows, wanted.middle());
         }
     }
@@ -181,15 +207,16 @@ impl Sieve {
         });
         Slack {
             fixed: 2.0 * self.grid.width(),
-            per_root_of_ranks: 6.0 * std::f64::consts::SQRT_2 * per_value[0].max(per_value[1]),
+            per_root_of_ranks: ERRORS * std::f64::consts::SQRT_2 * per_value[0].max(per_value[1]),
         }
     }
 
     /// Rows of bins that hold values, as cells, and their numbers: single ones, but for lumped ones.
     pub(super) fn cells(&self) -> (Vec<Cell>, Vec<RangeInclusive<usize>>) {
         let mut below = 0;
-        let mut cells = Vec::new();
-        let mut rows = Vec::new();
+        let filled = self.counts.iter().filter(|count| **count > 0).count();
+        let mut cells = Vec::with_capacity(filled);
+        let mut rows = Vec::with_capacity(filled);
         let mut next = 0;
         while next < BINS {
             let first = next;
@@ -239,10 +266,12 @@ impl Sieve {
         [low, high]
     }
 
-    /// The values of some bins, if they all have been kept.
-    pub(super) fn kept(&self, bins: impl IntoIterator<Item = usize>) -> Option<&[f64]> {
+    /// Hands over all that has been kept, if the values of some bins are among it.
+    pub(super) fn take_kept(&mut self, bins: impl IntoIterator<Item = usize>) -> Option<Vec<f64>> {
         let all = bins.into_iter().all(|bin| self.keeps[bin]);
-        all.then_some(&self.kept)
+        let kept = all.then(|| std::mem::take(self.kept()));
+        self.keep_nothing();
+        kept
     }
 
     /// The picture of the distribution, with edges that are edges of the grid.
@@ -324,12 +353,9 @@ mod tests {
         let sample: Vec<f64> = (0..1000).map(|i| f64::from(i).sin()).collect();
         let mut sieve = Sieve::new(&Sieve::order(&sample, 0.95), 0.95);
         let mut strainer = sieve.strainer();
-        sample.iter().for_each(|x| strainer.take_one(*x));
+        strainer.take_each(&sample);
         sieve.absorb(strainer.finish());
-        assert_eq!(
-            (sieve.count(), sieve.kept(0..BINS).unwrap().len()),
-            (1000, 1000)
-        );
+        assert_eq!((sieve.count(), sieve.kept().len()), (1000, 1000));
         let [low, high] = sieve.span(100..=200);
         assert_eq!(sieve.grid.bin(low), 100);
         assert_eq!(sieve.grid.bin(low.next_down()), 99);

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use gumption_lanes::bins::{Counter, Grid};
+use gumption_lanes::bins::{BINS, Counter, Grid};
 use gumption_lanes::moments::min_max;
 use gumption_lanes::sift::{EMPTY, Sifted, Stretch};
 use gumption_lanes::{Block, Level, level};
@@ -27,9 +27,14 @@ pub(super) struct Strainer {
     /// What lies outside of the gaps, until there is enough of it to be counted.
     sifted: Sifted,
     picked: Vec<f64>,
+    /// How many of these had been picked out before.
+    known: usize,
     /// Whether there was more to pick out than can be kept.
     overflowed: bool,
+    /// Of the values that were not picked out, or that have been forgotten.
     range: [f64; 2],
+    /// Whether the smallest and the largest value are among those that are picked out.
+    picks_ends: bool,
 }
 
 /// What a strainer has found.
@@ -44,16 +49,25 @@ pub(super) struct Strained {
 }
 
 impl Strainer {
-    /// Picks out the values of the bins that are kept; the first two gaps are counted as a whole.
-    pub(super) fn new(grid: Grid, keeps: impl Fn(usize) -> bool, gaps: &[Gap]) -> Self {
+    /// Picks out the values of the bins that are kept; the first two gaps are counted as a whole. Where the
+    /// first bin or the last one is kept, so are all up to the smallest or the largest value so far. Goes on
+    /// with what has been `picked` before.
+    pub(super) fn new(
+        grid: Grid,
+        keeps: impl Fn(usize) -> bool,
+        gaps: &[Gap],
+        picked: Vec<f64>,
+    ) -> Self {
         let span = |index: usize| gaps.get(index).map_or(EMPTY, |gap| gap.span);
         Strainer {
+            picks_ends: keeps(0) && keeps(BINS - 1),
             level: level(),
             grid,
             counter: Counter::new(keeps),
             gaps: [span(0), span(1)],
             sifted: Sifted::default(),
-            picked: Vec::new(),
+            known: picked.len(),
+            picked,
             overflowed: false,
             range: [f64::INFINITY, f64::NEG_INFINITY],
         }
@@ -71,22 +85,36 @@ impl Strainer {
     /// Counts what lies outside of the gaps.
     fn count(&mut self) {
         let rest = self.sifted.rest();
-        // Values in the gaps lie within the range.
-        let (low, high) = min_max(self.level, rest);
-        self.range = [self.range[0].min(low), self.range[1].max(high)];
+        if !self.picks_ends {
+            // Values in the gaps lie within the range.
+            self.range = widened(self.level, self.range, rest);
+        }
         self.counter
             .add(self.level, &self.grid, rest, &mut self.picked);
         self.sifted.clear();
         if self.picked.len() > MOST_KEPT {
             // Goes on without picking values out.
+            self.range = self.range();
+            self.picks_ends = false;
             self.overflowed = true;
             self.counter.stop_picking();
             self.picked = Vec::new();
+            self.known = 0;
         }
     }
 
-    /// Takes in one finite number.
-    pub(super) fn take_one(&mut self, value: f64) {
+    /// The range with what has been picked out in it.
+    fn range(&self) -> [f64; 2] {
+        widened(self.level, self.range, &self.picked[self.known..])
+    }
+
+    /// Takes in those of some values that are finite.
+    pub(super) fn take_each(&mut self, values: &[f64]) {
+        let finite = values.iter().filter(|value| value.is_finite());
+        finite.for_each(|value| self.take_one(*value));
+    }
+
+    fn take_one(&mut self, value: f64) {
         self.range = [self.range[0].min(value), self.range[1].max(value)];
         let inside = |[low, high]: [f64; 2]| low <= value && value <= high;
         match self.gaps.into_iter().position(inside) {
@@ -95,16 +123,29 @@ impl Strainer {
         }
     }
 
+    /// Counts finite numbers, none of which is picked out or lies in a gap.
+    pub(super) fn count_all(&mut self, values: &[f64]) {
+        self.range = widened(self.level, self.range, values);
+        self.counter
+            .add(self.level, &self.grid, values, &mut self.picked);
+    }
+
     /// Ends the straining.
     pub(super) fn finish(mut self) -> Strained {
         self.count();
         Strained {
+            range: self.range(),
             counter: self.counter,
             taken: self.sifted.taken(),
             picked: (!self.overflowed).then_some(self.picked),
-            range: self.range,
         }
     }
+}
+
+/// The range with further values in it.
+fn widened(level: Level, [low, high]: [f64; 2], values: &[f64]) -> [f64; 2] {
+    let (least, most) = min_max(level, values);
+    [low.min(least), high.max(most)]
 }
 
 impl Strained {

@@ -245,4 +245,12 @@ fn combinations_are_those_of_single_steps() {
     let mut out = Block::ZERO;
     combine(level(), &weights, &blocks, &mut out);
     assert_eq!(out, expected);
+    let scaled = |level, out: &mut Block| {
+        combine_affine(level, &weights, &blocks, [0.3, -1.7, 12.0], out);
+    };
+    same_on_all_levels("combine_affine", scaled);
+    scaled(level(), &mut out);
+    for (out, sum) in out.0.iter().zip(expected.0) {
+        assert_eq!(*out, (sum * 0.3).mul_add(-1.7, 12.0));
+    }
 }

@@ -1,0 +1,63 @@
+//! How the values of an input come about: what need not be summed is drawn where it belongs.
+
+use crate::budget::{Group, Input, Law};
+
+/// How the values of an input come about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Way {
+    /// One component makes it up that is drawn alone and belongs to no other input.
+    Alone(usize),
+    /// Likewise, but the component is drawn with others, which are normal.
+    WithGroup,
+    /// The sum of its components.
+    Summed,
+}
+
+/// Of all inputs, where it is known which components are drawn alone.
+pub(super) fn ways(inputs: &[Input], alone: &[bool], groups: &[Group]) -> Vec<Way> {
+    let mut uses = vec![0; alone.len()];
+    for term in inputs.iter().flat_map(|input| &input.terms) {
+        uses[term.component] += 1;
+    }
+    let normal: Vec<&Group> = groups
+        .iter()
+        .filter(|group| matches!(group.law, Law::Normal))
+        .collect();
+    let in_group = |component| {
+        let mut groups = normal.iter();
+        groups.any(|group| group.members.contains(&component))
+    };
+    let way = |input: &Input| match input.terms.as_slice() {
+        [term] if uses[term.component] == 1 => {
+            if alone[term.component] {
+                Way::Alone(term.component)
+            } else if term.coefficient != 0.0 && in_group(term.component) {
+                Way::WithGroup
+            } else {
+                Way::Summed
+            }
+        }
+        _ => Way::Summed,
+    };
+    inputs.iter().map(way).collect()
+}
+
+/// An input that a component makes up alone.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Straight {
+    pub(super) place: usize,
+    /// Coefficient and estimate.
+    pub(super) scale: [f64; 2],
+}
+
+/// Per component, of which there are `components`, the input that it makes up, if it is drawn with others.
+pub(super) fn straight(inputs: &[Input], ways: &[Way], components: usize) -> Vec<Option<Straight>> {
+    let mut straight = vec![None; components];
+    for ((way, input), place) in ways.iter().zip(inputs).zip(0..) {
+        if let (Way::WithGroup, [term]) = (way, input.terms.as_slice()) {
+            let scale = [term.coefficient, input.estimate];
+            straight[term.component] = Some(Straight { place, scale });
+        }
+    }
+    straight
+}

@@ -8,7 +8,8 @@
 //! `--each N` cases of every scenario and `--nulls N` cases without any effect; `--threads N`;
 //! `--only TEXT` keeps scenarios whose name contains the text; `--resume` keeps what the file holds
 //! already; `--tables` only draws the tables anew; `--first-seed N` takes other cases, to develop with;
-//! `--alone` leaves out the methods to compare with; `--show` prints every answer.
+//! `--alone` leaves out the methods to compare with; `--singles` keeps whole cases with one effect;
+//! `--show` prints every answer.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -17,11 +18,12 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use gumption::challenge::SealedCase;
 use gumption::challenge::grade::{self, Answer, Name, State};
 use gumption::challenge::study::{
-    EACH, FIRST_SEED, NULLS, Record, Trial, Twin, read, report, trials, write,
+    Advice, EACH, FIRST_SEED, NULLS, Record, Request, Sequel, Trial, Twin, decision, read, report,
+    request, trials, write,
 };
+use gumption::challenge::{Further, SealedCase};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Failure, Likeness, Opinion, Pick, diagnose, likenesses, opinions};
 use gumption::report::{Language, diagnosis_failure, diagnosis_json};
@@ -36,6 +38,7 @@ struct Options {
     tables: bool,
     first_seed: u64,
     alone: bool,
+    singles: bool,
     show: bool,
 }
 
@@ -50,6 +53,7 @@ fn options() -> Result<Options, String> {
         tables: false,
         first_seed: FIRST_SEED,
         alone: false,
+        singles: false,
         show: false,
     };
     let mut arguments = std::env::args().skip(1);
@@ -68,6 +72,7 @@ fn options() -> Result<Options, String> {
             "--resume" => options.resume = true,
             "--first-seed" => options.first_seed = number(value()?)? as u64,
             "--alone" => options.alone = true,
+            "--singles" => options.singles = true,
             "--show" => options.show = true,
             "--tables" => options.tables = true,
             other => return Err(format!("`{other}` is not known")),
@@ -113,6 +118,7 @@ impl<'a> Study<'a> {
         let trials: Vec<Trial> = trials(options.first_seed, options.each, options.nulls)
             .into_iter()
             .filter(|trial| trial.scenario.name().contains(&options.only))
+            .filter(|trial| trial.is_single() || !options.singles)
             .collect();
         let kept = match std::fs::read_to_string(options.out.join("diagnosis.csv")) {
             Ok(text) if options.resume => read(&text),
@@ -201,16 +207,22 @@ impl<'a> Study<'a> {
 fn one(trial: &Trial, folder: &Path, options: &Options) -> Record {
     let sealed = trial.case();
     match answer(trial, &sealed, folder, options.alone) {
-        Ok((answer, twins, opinions)) => {
+        Ok((Said { answer, advice }, twins, opinions)) => {
             if options.show {
                 eprintln!("{}", shown(trial, &answer));
             }
-            let mut record = Record::of(trial, &grade::grade(&sealed.truth, &answer), &answer);
+            let graded = grade::grade(&sealed.truth, &answer);
+            let mut record = Record::of(trial, &graded, &answer);
             record.complete(&twins);
             record.rivals = opinions
                 .iter()
                 .map(|opinion| judged(&sealed, opinion))
                 .collect();
+            record.further = match request(trial, &sealed.truth, &graded, &answer, &advice) {
+                Request::None => None,
+                Request::InVain(sequel) => Some(sequel),
+                Request::Make(further) => followed(trial, further, folder, options),
+            };
             record
         }
         Err(why) => {
@@ -226,29 +238,69 @@ fn one(trial: &Trial, folder: &Path, options: &Options) -> Record {
     }
 }
 
+/// What a diagnosis says.
+struct Said {
+    answer: Answer,
+    advice: Advice,
+}
+
 fn answer(
     trial: &Trial,
     sealed: &SealedCase,
     folder: &Path,
     alone: bool,
-) -> Result<(Answer, Vec<Twin>, Vec<Opinion>), String> {
+) -> Result<(Said, Vec<Twin>, Vec<Opinion>), String> {
+    let case = handed_out(trial, sealed, folder)?;
+    let failed = |failure| diagnosis_failure(&case, &failure, Language::English);
+    let said = said(&case)?;
+    let others = if alone {
+        Vec::new()
+    } else {
+        opinions(&case).map_err(failed)?
+    };
+    let twins = twins(trial, sealed, &case, &said.answer).map_err(failed)?;
+    Ok((said, twins, others))
+}
+
+/// The case as it is read from its files.
+fn handed_out(trial: &Trial, sealed: &SealedCase, folder: &Path) -> Result<Case, String> {
     trial
         .write(sealed, folder)
         .map_err(|error| error.to_string())?;
     let mut case = Case::load(&folder.join("CASE.toml"), Purpose::Diagnosis)
         .map_err(|rejection| rejection.render(false))?;
     case.settings.seed = trial.seed;
-    let failed = |failure| diagnosis_failure(&case, &failure, Language::English);
-    let diagnosis = diagnose(&case, &|_| ControlFlow::Continue(())).map_err(failed)?;
-    let answer = serde_json::from_value(diagnosis_json(&case, &diagnosis, Language::English))
-        .map_err(|error| error.to_string())?;
-    let others = if alone {
-        Vec::new()
-    } else {
-        opinions(&case).map_err(failed)?
-    };
-    let twins = twins(trial, sealed, &case, &answer).map_err(failed)?;
-    Ok((answer, twins, others))
+    Ok(case)
+}
+
+fn said(case: &Case) -> Result<Said, String> {
+    let failed = |failure| diagnosis_failure(case, &failure, Language::English);
+    let diagnosis = diagnose(case, &|_| ControlFlow::Continue(())).map_err(failed)?;
+    let said = diagnosis_json(case, &diagnosis, Language::English);
+    let wrong = |error: serde_json::Error| error.to_string();
+    Ok(Said {
+        advice: serde_json::from_value(said.clone()).map_err(wrong)?,
+        answer: serde_json::from_value(said).map_err(wrong)?,
+    })
+}
+
+/// What becomes of a list when the further measurement is made.
+fn followed(trial: &Trial, further: Further, folder: &Path, options: &Options) -> Option<Sequel> {
+    let sealed = trial.longer_case(further);
+    let said = handed_out(trial, &sealed, folder).and_then(|case| said(&case));
+    match said {
+        Ok(Said { answer, advice }) => {
+            if options.show {
+                eprintln!("  {further}: {}", shown(trial, &answer));
+            }
+            let graded = grade::grade(&sealed.truth, &answer);
+            Some(Sequel::Made(further, decision(&graded, &answer, &advice)))
+        }
+        Err(why) => {
+            eprintln!("{} {} {further}: {why}", trial.scenario.name(), trial.seed);
+            None
+        }
+    }
 }
 
 /// What twin runs say of each concealed effect. A wrong candidate is a rival if it has no more coefficients

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use gumption::challenge::grade::{Answer, Finding, Graded, grade};
-use gumption::challenge::study::{Ablation, Trial};
-use gumption::challenge::{NoiseKnowledge, Scenario};
+use gumption::challenge::study::{Ablation, Advice, Decision, Request, Trial, decision, request};
+use gumption::challenge::{Further, NoiseKnowledge, Scenario, SealedCase};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::diagnose;
 use gumption::report::{Language, diagnosis_json};
@@ -86,27 +86,94 @@ fn scenarios_are_listed_and_unknown_ones_refused() {
     assert_eq!(wrong.status.code(), Some(2));
 }
 
-fn graded(scenario: &str, seed: u64) -> Graded {
+fn trial(scenario: &str, seed: u64) -> Trial {
     let scenario = Scenario::all()
         .into_iter()
         .find(|s| s.name() == scenario)
         .unwrap();
-    let trial = Trial {
+    Trial {
         seed,
         scenario,
         noise: NoiseKnowledge::Stated,
         ablation: Ablation::Whole,
-    };
+    }
+}
+
+fn graded(scenario: &str, seed: u64) -> Graded {
+    let trial = trial(scenario, seed);
     let sealed = trial.case();
+    let (answer, _) = diagnosed(&trial, &sealed);
+    grade(&sealed.truth, &answer)
+}
+
+/// What is said of a case.
+fn diagnosed(trial: &Trial, sealed: &SealedCase) -> (Answer, Advice) {
+    let seed = trial.seed;
     let folder = folder(&format!("concealed-{seed}"));
-    trial.write(&sealed, &folder).unwrap();
+    trial.write(sealed, &folder).unwrap();
     let case = Case::load(&folder.join("CASE.toml"), Purpose::Diagnosis)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
     let diagnosis = diagnose(&case, &|_| ControlFlow::Continue(())).unwrap();
     std::fs::remove_dir_all(&folder).unwrap();
-    let answer: Answer =
-        serde_json::from_value(diagnosis_json(&case, &diagnosis, Language::English)).unwrap();
-    grade(&sealed.truth, &answer)
+    let said = diagnosis_json(&case, &diagnosis, Language::English);
+    let answer = serde_json::from_value(said.clone()).unwrap();
+    (answer, serde_json::from_value(said).unwrap())
+}
+
+#[test]
+fn a_remount_tells_the_second_order_from_an_eccentric_circle() {
+    let trial = trial("tumble+second-order", 80_510_001);
+    let sealed = trial.case();
+    let (answer, advice) = diagnosed(&trial, &sealed);
+    let names = |answer: &Answer| -> Vec<String> {
+        let effects = answer.effects.iter();
+        effects
+            .flat_map(|e| e.named.iter().map(|n| n.id.clone()))
+            .collect()
+    };
+    let listed = names(&answer);
+    for name in ["quadratic", "cross-square", "eccentricity"] {
+        assert!(listed.contains(&name.to_owned()), "{listed:?}");
+    }
+    let graded = grade(&sealed.truth, &answer);
+    let recommended = request(&trial, &sealed.truth, &graded, &answer, &advice);
+    let Request::Make(further @ Further::Mount(_)) = recommended else {
+        panic!("{recommended:?} of {advice:?}");
+    };
+    // K2 and its counterpart across the axis are one in every tumble; the circle is gone.
+    let longer = trial.longer_case(further);
+    let (answer, advice) = diagnosed(&trial, &longer);
+    let mut left = names(&answer);
+    left.sort();
+    assert_eq!(left, ["cross-square", "quadratic"]);
+    let graded = grade(&longer.truth, &answer);
+    assert_eq!(decision(&graded, &answer, &advice), Decision::Class);
+}
+
+#[test]
+fn a_further_measurement_has_to_be_one_of_the_rig() {
+    let out = folder("further");
+    let with = |further: &str| {
+        run(&[
+            "challenge",
+            "--seed",
+            "11",
+            "--rig",
+            "tumble",
+            "--further",
+            further,
+            "--out",
+            &text(&out),
+        ])
+    };
+    for wrong in ["rate between", "mount=30"] {
+        assert_eq!(with(wrong).status.code(), Some(2));
+        assert!(!out.exists());
+    }
+    assert!(with("head between").status.success());
+    let recording = std::fs::read_to_string(out.join("case/recording.csv")).unwrap();
+    assert_eq!(recording.lines().count(), 1 + 72);
+    std::fs::remove_dir_all(&out).unwrap();
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::files::{CaseFile, case_file, recordings};
+use super::further::Further;
 use super::random::{Random, Stream};
 use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge, Scenario, draw};
@@ -24,6 +25,8 @@ pub struct Request {
     pub scenario: Option<Scenario>,
     /// How the noise is claimed.
     pub noise: Option<NoiseKnowledge>,
+    /// What is measured after the calibration, if the rig can do it.
+    pub further: Option<Further>,
 }
 
 /// A case that is sealed.
@@ -40,14 +43,15 @@ pub struct SealedCase {
 /// Makes a sealed case.
 pub fn challenge(request: &Request) -> SealedCase {
     let drawn = drawn(request);
+    let further = (request.further).filter(|what| what.is_possible(drawn.setup.rig));
     let mut truth = Truth::of(&drawn, &salt(request.seed, request.entropy));
-    let mut files = recordings(&drawn);
+    let mut files = recordings(&drawn, further);
     truth.files = files
         .iter()
         .map(|file| (file.name.into(), seal(&file.text)))
         .collect();
     let truth_text = truth.text();
-    files.insert(0, case_file(&drawn, &seal(&truth_text)));
+    files.insert(0, case_file(&drawn, further, &seal(&truth_text)));
     SealedCase {
         files,
         truth,
@@ -138,6 +142,49 @@ mod tests {
     }
 
     #[test]
+    fn a_further_measurement_leaves_the_calibration_as_it_is() {
+        let scenario = |name: &str| Scenario::all().into_iter().find(|s| s.name() == name);
+        for (name, further, rows) in [
+            ("tumble+drift", "mount=90", 36),
+            ("remount+swapped-label", "reversed", 48),
+            ("triad+knock", "elevation between", 36),
+            ("rate-table+temperature-scale", "rate between", 144),
+        ] {
+            let request = Request {
+                seed: 42,
+                scenario: scenario(name),
+                noise: Some(NoiseKnowledge::AtRest),
+                ..Request::default()
+            };
+            let longer = Request {
+                further: further.parse().ok(),
+                ..request
+            };
+            let (short, long) = (challenge(&request), challenge(&longer));
+            let of = |case: &SealedCase| case.files[1].text.lines().map(str::to_owned).collect();
+            let (short_rows, long_rows): (Vec<String>, Vec<String>) = (of(&short), of(&long));
+            assert_eq!(
+                (short_rows.len(), long_rows.len()),
+                (1 + rows, 1 + 2 * rows)
+            );
+            assert_eq!(short_rows, long_rows[..=rows], "{name}");
+            assert_eq!(short.files[2..], long.files[2..]);
+            assert_eq!(short.truth.effects, long.truth.effects);
+            assert!(long.files[0].text.contains(&seal(&long.truth_text)));
+            // Time goes on, and runs are new ones.
+            let number =
+                |row: &str, at: usize| -> f64 { row.split(',').nth(at).unwrap().parse().unwrap() };
+            for pair in long_rows[1..].windows(2) {
+                assert!(number(&pair[1], 0) > number(&pair[0], 0), "{name}");
+            }
+            let runs =
+                |rows: &[String]| -> Vec<f64> { rows.iter().map(|row| number(row, 1)).collect() };
+            let last = runs(&long_rows[1..=rows]).into_iter().fold(0.0, f64::max);
+            assert!(runs(&long_rows[rows + 1..]).iter().all(|run| *run > last));
+        }
+    }
+
+    #[test]
     fn entropy_changes_the_truth_file_and_not_the_recordings() {
         let request = Request {
             seed: 42,
@@ -166,7 +213,7 @@ mod tests {
                     ..Request::default()
                 };
                 let drawn = draw(scenario, NoiseKnowledge::Stated, request.seed);
-                case_file(&drawn, "").text
+                case_file(&drawn, None, "").text
             };
             let null = Scenario {
                 class: Class::Null,

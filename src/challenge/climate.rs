@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::random::{Random, Stream};
+use super::schedule::FURTHER;
 use super::world::Surroundings;
 
 /// What the instruments of the room show, averaged over a row of the recording.
@@ -53,6 +54,9 @@ impl Wander {
     }
 }
 
+/// Vibration of the motor in a run, between these, multiples of g.
+const MOTOR: [f64; 2] = [0.02, 0.06];
+
 /// Thermal network of two masses: the room warms the fixture, the fixture the thermometer's bulb.
 #[derive(Debug, Clone)]
 pub(super) struct Climate {
@@ -98,7 +102,9 @@ impl Climate {
         let supply = Wander::new(0.02, 1200.0, r);
         let supply_step = (duration * r.between(0.2, 0.8), 0.03 * r.sign());
         let traffic = Wander::new(0.25, 600.0, r);
-        let motor = (0..runs).map(|_| r.log_between(0.02, 0.06)).collect();
+        let motor = (0..runs)
+            .map(|_| r.log_between(MOTOR[0], MOTOR[1]))
+            .collect();
         let start: f64 = waves.iter().map(|w| w.amplitude * libm::sin(w.phase)).sum();
         Climate {
             waves,
@@ -119,6 +125,13 @@ impl Climate {
             run: 0,
             random,
         }
+    }
+
+    /// Provides for as many runs again, in a further measurement.
+    pub(super) fn go_on(&mut self, seed: u64, runs: usize) {
+        let mut random = Random::new(seed, Stream::Climate, FURTHER);
+        let motor = (0..runs).map(|_| random.log_between(MOTOR[0], MOTOR[1]));
+        self.motor.extend(motor);
     }
 
     /// Lets `dt` seconds pass.

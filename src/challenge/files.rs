@@ -1,11 +1,12 @@
 //! A case as files: the recording, the held-out campaign, the recording at rest, and the case file
 //! that says how they were made and nothing of what is concealed.
 
+use super::further::Further;
 use super::random::{Random, Stream};
 use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge};
 use super::schedule::Campaign;
-use super::simulate::{Readings, Row, at_rest, duration, simulate};
+use super::simulate::{Readings, Row, at_rest, duration, simulate, simulate_longer};
 
 /// Name of the case file.
 pub(super) const CASE: &str = "CASE.toml";
@@ -28,14 +29,16 @@ pub struct CaseFile {
 /// A column of a recording: heading, digits after the point, value.
 type Column = (&'static str, usize, fn(&Row) -> f64);
 
-/// The recordings of a drawn case.
-pub(super) fn recordings(drawn: &Drawn) -> Vec<CaseFile> {
+/// The recordings of a drawn case; the calibration with a further measurement behind it, if there is one.
+pub(super) fn recordings(drawn: &Drawn, further: Option<Further>) -> Vec<CaseFile> {
     let effects = drawn.concealed();
     let columns = columns(drawn);
-    let table = |campaign| {
-        let rows = simulate(&drawn.setup, campaign, &effects, Readings::Real);
-        table(&columns, &rows, drawn.setup.rig)
+    let rows = |campaign| simulate(&drawn.setup, campaign, &effects, Readings::Real);
+    let calibration = match further {
+        Some(what) => simulate_longer(&drawn.setup, what, &effects),
+        None => rows(Campaign::Calibration),
     };
+    let table = |rows: &[Row]| table(&columns, rows, drawn.setup.rig);
     let rig = drawn.setup.rig;
     let length = 3.0 * duration(rig, Campaign::Calibration, drawn.setup.seed);
     let mut rest = format!(
@@ -52,11 +55,11 @@ pub(super) fn recordings(drawn: &Drawn) -> Vec<CaseFile> {
     vec![
         CaseFile {
             name: RECORDING,
-            text: table(Campaign::Calibration),
+            text: table(&calibration),
         },
         CaseFile {
             name: HELD_OUT,
-            text: table(Campaign::HeldOut),
+            text: table(&rows(Campaign::HeldOut)),
         },
         CaseFile {
             name: AT_REST,
@@ -98,8 +101,7 @@ fn columns(drawn: &Drawn) -> Vec<Column> {
         ("run", 0, |row| (row.run + 1) as f64),
     ];
     match drawn.setup.rig {
-        Rig::Tumble => columns.push(HEAD),
-        Rig::Remount => columns.extend([MOUNT, HEAD]),
+        Rig::Tumble | Rig::Remount => columns.extend([MOUNT, HEAD]),
         Rig::Triad => columns.extend([
             ("azimuth [°]", 2, |row| row.pose.outer.to_degrees()),
             ("elevation [°]", 2, |row| row.pose.inner.to_degrees()),
@@ -160,7 +162,7 @@ fn number(value: f64, digits: usize) -> String {
 }
 
 /// The case file, with the seal of the truth.
-pub(super) fn case_file(drawn: &Drawn, seal: &str) -> CaseFile {
+pub(super) fn case_file(drawn: &Drawn, further: Option<Further>, seal: &str) -> CaseFile {
     let rig = drawn.setup.rig;
     let thermometer = if has_thermometer(drawn) {
         "temperature = \"covariate\"\n"
@@ -188,7 +190,7 @@ vibration = "covariate"
 {noise}
 "#,
         title = title(rig),
-        prose = prose(rig),
+        prose = prose(rig).to_owned() + &further.map_or_else(String::new, |what| then(rig, what)),
         model = model(rig),
         columns = stimulus(rig),
         outputs = outputs(rig)
@@ -228,9 +230,19 @@ from power-on."
     }
 }
 
+/// What is said of a further measurement.
+fn then(rig: Rig, what: Further) -> String {
+    let runs = rig.runs();
+    let (first, last) = (runs + 1, 2 * runs);
+    format!(
+        "\nRuns {first} to {last} were measured after a pause, each like one of the runs before: {}.",
+        what.in_words()
+    )
+}
+
 fn model(rig: Rig) -> String {
     match rig {
-        Rig::Tumble => "model = \"U = K0 + K1*sin(head) + Kd*cos(head)\"\n".into(),
+        Rig::Tumble => "model = \"U = K0 + K1*sin(head + mount) + Kd*cos(head + mount)\"\n".into(),
         Rig::Remount => "model = \"U = K0 + K1*sin(head + mount) + Kd*cos(head + mount) + Ks*sin(mount)*cos(head + mount)\"\n".into(),
         Rig::Triad => {
             let row = |a: char| format!(
@@ -249,8 +261,7 @@ fn model(rig: Rig) -> String {
 
 fn stimulus(rig: Rig) -> &'static str {
     match rig {
-        Rig::Tumble => "head = \"angle\"\n",
-        Rig::Remount => "mount = \"stimulus\"\nhead = \"angle\"\n",
+        Rig::Tumble | Rig::Remount => "mount = \"stimulus\"\nhead = \"angle\"\n",
         Rig::Triad => "azimuth = \"angle\"\nelevation = \"angle\"\n",
         Rig::RateTable => {
             "mount = \"position\"\nrate = \"stimulus\"\ntable = \"angle\"\ncx = \"stimulus\"\ncy = \"stimulus\"\ncz = \"stimulus\"\n"

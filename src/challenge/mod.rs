@@ -12,6 +12,7 @@
 //! | `climate` | room, fixture, thermometer; humidity, pressure, supply, vibration |
 //! | `rig` | how a rig points the sensor, and the declared model |
 //! | `schedule` | when it goes where and when it is read |
+//! | `further` | what may be measured after the calibration |
 //! | `noise` | white noise, random walk, flicker |
 //! | `effect` | everything that can be concealed |
 //! | `simulate` | a campaign, in time |
@@ -27,6 +28,7 @@ mod case;
 mod climate;
 mod effect;
 mod files;
+mod further;
 pub mod grade;
 mod noise;
 mod random;
@@ -42,6 +44,7 @@ mod world;
 pub use case::{Request, SealedCase, challenge, dwell, signatures};
 pub use effect::{Concealed, Physics, Shape};
 pub use files::CaseFile;
+pub use further::{Further, Mount, Setting};
 pub use rig::Rig;
 pub use scenario::{Class, NoiseKnowledge, Scenario};
 pub use truth::{TrueEffect, Truth, seal};

@@ -34,6 +34,16 @@ impl Rig {
         }
     }
 
+    /// Number of runs of a calibration.
+    pub(super) fn runs(self) -> usize {
+        match self {
+            Rig::Tumble => 3,
+            Rig::Remount => 4,
+            Rig::Triad => 2,
+            Rig::RateTable => 6,
+        }
+    }
+
     /// Number of axes that are recorded.
     pub(super) fn axes(self) -> usize {
         match self {
@@ -86,9 +96,21 @@ impl Rig {
         NoiseLaw::plain(of_average * libm::sqrt(self.samples() as f64), walk)
     }
 
-    /// Angle of a mount of the dividing head, radians.
+    /// The mount of the dividing head at a right angle to the first.
+    pub(super) const SQUARE: usize = 2;
+
+    /// Angle of a mount of the dividing head, radians: pins hold it at every eighth of a turn.
     pub(super) fn mount_angle(mount: usize) -> f64 {
-        mount as f64 * std::f64::consts::FRAC_PI_2
+        mount as f64 * std::f64::consts::FRAC_PI_4
+    }
+
+    /// Part of the squareness of the mounts that an angle of the head has in a mount: all of it at a right
+    /// angle, as the declared model has it. With one mount there is nothing to be square to.
+    pub(super) fn out_of_square(self, mount: usize) -> f64 {
+        match self {
+            Rig::Remount => libm::sin(Rig::mount_angle(mount)),
+            _ => 0.0,
+        }
     }
 
     /// What the sensor meets in a pose.
@@ -147,7 +169,7 @@ impl Rig {
         match self {
             Rig::Tumble => vec![1.0, x, y],
             // The second mount may be out of square.
-            Rig::Remount => vec![1.0, x, y, if pose.mount == 1 { y } else { 0.0 }],
+            Rig::Remount => vec![1.0, x, y, y * self.out_of_square(pose.mount)],
             Rig::Triad | Rig::RateTable => vec![1.0, x, y, z],
         }
     }
@@ -191,7 +213,7 @@ mod tests {
     fn a_tumble_follows_sine_and_cosine() {
         let pose = Pose {
             outer: 0.5,
-            mount: 1,
+            mount: Rig::SQUARE,
             ..Pose::default()
         };
         let force = Rig::Remount.input(&pose).force;

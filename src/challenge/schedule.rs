@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::further::{Further, Setting};
 use super::random::{Random, Stream};
 use super::rig::Rig;
 use super::world::Pose;
@@ -77,10 +78,29 @@ pub(super) fn plan(rig: Rig, campaign: Campaign, seed: u64) -> Vec<Dwell> {
     };
     match rig {
         Rig::Tumble => planner.tumble(campaign, &[(0, 1.0), (0, -1.0), (0, 1.0)]),
-        Rig::Remount => planner.tumble(campaign, &[(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)]),
+        Rig::Remount => planner.tumble(
+            campaign,
+            &[(0, 1.0), (0, -1.0), (Rig::SQUARE, 1.0), (Rig::SQUARE, -1.0)],
+        ),
         Rig::Triad => planner.triad(campaign),
         Rig::RateTable => planner.rates(campaign),
     }
+    planner.dwells
+}
+
+/// The number of the further measurement beside the two campaigns, where chance decides.
+pub(super) const FURTHER: u64 = 2;
+
+/// The dwells of a measurement that follows a campaign: its moves once more, after a pause.
+pub(super) fn further(rig: Rig, what: Further, before: &[Dwell], seed: u64) -> Vec<Dwell> {
+    let mut planner = Planner {
+        rig,
+        random: Random::new(seed, Stream::Schedule, FURTHER),
+        time: before.last().map_or(0.0, Dwell::end),
+        last: before.last().map_or_else(Pose::default, |dwell| dwell.to),
+        dwells: Vec::new(),
+    };
+    planner.follow(before, what);
     planner.dwells
 }
 
@@ -110,16 +130,20 @@ impl Planner {
                     ..Pose::default()
                 };
                 if k == 0 {
-                    // Back past the first position, so that it too is approached from its side.
                     self.time += if run == 0 { 0.0 } else { self.pause(mount) };
-                    self.last = Pose {
-                        outer: outer - direction * step,
-                        ..to
-                    };
+                    self.back(direction * step, to);
                 }
                 self.stay(run, direction, to);
             }
         }
+    }
+
+    /// Back past the first position, so that it too is approached from its side.
+    fn back(&mut self, step: f64, to: Pose) {
+        self.last = Pose {
+            outer: to.outer - step,
+            ..to
+        };
     }
 
     /// Changing a mount takes longer than turning round.
@@ -139,13 +163,9 @@ impl Planner {
             if pass == 1 || campaign == Campaign::HeldOut {
                 self.shuffle(&mut poses);
             }
-            self.time += if pass == 0 { 0.0 } else { 600.0 };
+            self.time += if pass == 0 { 0.0 } else { BETWEEN_PASSES };
             for to in poses {
-                let direction = if to.outer >= self.last.outer {
-                    1.0
-                } else {
-                    -1.0
-                };
+                let direction = side(to.outer >= self.last.outer);
                 self.stay(pass, direction, to);
             }
         }
@@ -170,10 +190,7 @@ impl Planner {
             } else {
                 self.random.between(250.0, 400.0)
             };
-            self.last = Pose {
-                mount,
-                ..Pose::default()
-            };
+            self.stop(mount);
             for k in 0..rates.len() {
                 let index = if mount.is_multiple_of(2) {
                     k
@@ -183,7 +200,7 @@ impl Planner {
                 let rate = rates[index];
                 self.stay(
                     mount,
-                    if rate > 0.0 { 1.0 } else { -1.0 },
+                    side(rate > 0.0),
                     Pose {
                         mount,
                         rate,
@@ -191,6 +208,68 @@ impl Planner {
                     },
                 );
             }
+        }
+    }
+
+    /// The table at rest, in a mount.
+    fn stop(&mut self, mount: usize) {
+        self.last = Pose {
+            mount,
+            ..Pose::default()
+        };
+    }
+
+    /// The moves of a campaign once more, with numbers of their own for the runs.
+    fn follow(&mut self, before: &[Dwell], what: Further) {
+        let runs = before.last().map_or(0, |dwell| dwell.run + 1);
+        let mut stays: Vec<(usize, f64, Pose)> = before
+            .iter()
+            .map(|dwell| (dwell.run, dwell.direction, dwell.to))
+            .collect();
+        match what {
+            Further::Again => {}
+            Further::Reversed => {
+                stays.reverse();
+                for (run, direction, _) in &mut stays {
+                    *run = runs - 1 - *run;
+                    *direction = -*direction;
+                }
+            }
+            Further::Mount(mount) => {
+                for (.., to) in &mut stays {
+                    to.mount = mount.number();
+                }
+            }
+            Further::Between(setting) => between(&mut stays, setting),
+        }
+        let mut current = None;
+        for (run, direction, to) in stays {
+            if current != Some(run) {
+                self.begin(current.is_none(), direction, to);
+                current = Some(run);
+            }
+            // A reversed order turns the head the other way; elsewhere the way follows from the poses.
+            let direction = match self.rig {
+                Rig::Tumble | Rig::Remount => direction,
+                Rig::Triad => side(to.outer >= self.last.outer),
+                Rig::RateTable => side(to.rate > 0.0),
+            };
+            self.stay(runs + run, direction, to);
+        }
+    }
+
+    /// Before a run of a further measurement: the first begins after a longer pause.
+    fn begin(&mut self, first: bool, direction: f64, to: Pose) {
+        self.time += match self.rig {
+            _ if first => 1200.0 * self.random.between(0.8, 1.3),
+            Rig::Tumble | Rig::Remount => self.pause(to.mount),
+            Rig::Triad => BETWEEN_PASSES,
+            Rig::RateTable => self.random.between(250.0, 400.0),
+        };
+        match self.rig {
+            Rig::Tumble | Rig::Remount => self.back(direction * TAU / 12.0, to),
+            Rig::Triad => {}
+            Rig::RateTable => self.stop(to.mount),
         }
     }
 
@@ -205,6 +284,7 @@ impl Planner {
         let arrive = depart + move_time;
         let settle = 45.0 * self.random.between(0.9, 1.2);
         let (samples, tables) = match self.rig {
+            Rig::RateTable if to.rate == 0.0 => stopped(arrive + settle, self.rig.samples()),
             Rig::RateTable => gated(arrive + settle, to.rate),
             _ => steady(arrive + settle, self.rig.samples()),
         };
@@ -224,6 +304,35 @@ impl Planner {
     }
 }
 
+/// Seconds between two passes of a stand.
+const BETWEEN_PASSES: f64 = 600.0;
+
+fn side(forwards: bool) -> f64 {
+    if forwards { 1.0 } else { -1.0 }
+}
+
+/// Every value of a setting half way to the next one; the last goes on likewise on a whole circle of them,
+/// and else a quarter back.
+fn between(stays: &mut [(usize, f64, Pose)], setting: Setting) {
+    let mut levels: Vec<f64> = stays.iter_mut().map(|(.., to)| *setting.of(to)).collect();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    let next = |value: f64| {
+        let at = levels.iter().position(|level| *level >= value - 1e-9);
+        let at = at.unwrap_or(0);
+        let step = levels[at] - levels[at.saturating_sub(1)];
+        match levels.get(at + 1) {
+            Some(next) => 0.5 * (levels[at] + next),
+            None if setting.is_circle() => levels[at] + 0.5 * step,
+            None => levels[at] - 0.25 * step,
+        }
+    };
+    for (.., to) in stays {
+        let value = setting.of(to);
+        *value = next(*value);
+    }
+}
+
 /// One row of readings a second apart.
 fn steady(start: f64, count: usize) -> (Vec<Sample>, Vec<f64>) {
     let sample = |k| Sample {
@@ -234,18 +343,36 @@ fn steady(start: f64, count: usize) -> (Vec<Sample>, Vec<f64>) {
     ((0..count).map(sample).collect(), vec![0.0])
 }
 
+/// Table angles at which a rate table is read.
+const GATES: [f64; 3] = [0.0, TAU / 3.0, 2.0 * TAU / 3.0];
+/// Seconds in which it is read at a rate.
+const DWELL: f64 = 144.0;
+
+/// Readings of a table that does not turn, at one gate after the other.
+fn stopped(start: f64, count: usize) -> (Vec<Sample>, Vec<f64>) {
+    let at_gate = |(row, table): (usize, &f64)| {
+        let begun = start + DWELL * row as f64 / GATES.len() as f64;
+        let table = *table;
+        (0..count).map(move |k| Sample {
+            time: begun + k as f64,
+            row,
+            table,
+        })
+    };
+    let samples = GATES.iter().enumerate().flat_map(at_gate);
+    (samples.collect(), GATES.to_vec())
+}
+
 /// Readings while the table passes through three gates of ±10°, in four revolutions spread over the
 /// dwell: a row for each gate.
 fn gated(start: f64, rate: f64) -> (Vec<Sample>, Vec<f64>) {
-    const DWELL: f64 = 144.0;
     const REVOLUTIONS: usize = 4;
-    let gates = [0.0, TAU / 3.0, 2.0 * TAU / 3.0];
     let period = 360.0 / rate.abs();
     let whole = (DWELL / period).floor().max(1.0);
     let mut samples = Vec::new();
     for revolution in 0..REVOLUTIONS {
         let begun = (revolution as f64 * whole / REVOLUTIONS as f64).floor() * period;
-        for (row, gate) in gates.iter().enumerate() {
+        for (row, gate) in GATES.iter().enumerate() {
             for step in -2..=2 {
                 let table = gate + f64::from(step) * 5.0_f64.to_radians();
                 // A table that turns backwards meets the same angle later in its turn.
@@ -259,7 +386,7 @@ fn gated(start: f64, rate: f64) -> (Vec<Sample>, Vec<f64>) {
         }
     }
     samples.sort_by(|a, b| a.time.total_cmp(&b.time));
-    (samples, gates.to_vec())
+    (samples, GATES.to_vec())
 }
 
 fn cube(campaign: Campaign) -> Vec<Pose> {

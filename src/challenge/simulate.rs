@@ -2,10 +2,11 @@
 
 use super::climate::{Climate, Shown};
 use super::effect::{Concealed, Process};
+use super::further::Further;
 use super::noise::{NoiseLaw, NoiseState};
 use super::random::{Random, Stream};
 use super::rig::Rig;
-use super::schedule::{Campaign, Dwell, plan};
+use super::schedule::{Campaign, Dwell, further, plan};
 use super::world::{Pose, Vector, World};
 
 /// Longest step of time, s. Every process advances exactly for a constant input, so that this bounds
@@ -80,28 +81,56 @@ pub(super) fn simulate(
     effects: &[Concealed],
     readings: Readings,
 ) -> Vec<Row> {
+    live(setup, campaign, None, effects, readings)
+}
+
+/// Simulates the calibration and a measurement that follows it in the same life of the device: the rows
+/// of the calibration are those that it has alone.
+pub(super) fn simulate_longer(setup: &Setup, then: Further, effects: &[Concealed]) -> Vec<Row> {
+    let campaign = Campaign::Calibration;
+    live(setup, campaign, Some(then), effects, Readings::Real)
+}
+
+fn live(
+    setup: &Setup,
+    campaign: Campaign,
+    then: Option<Further>,
+    effects: &[Concealed],
+    readings: Readings,
+) -> Vec<Row> {
     let dwells = plan(setup.rig, campaign, setup.seed);
+    // Room, events and courses of effects are those of the campaign, whatever follows it.
     let duration = dwells.last().map_or(0.0, Dwell::end);
     let runs = dwells.last().map_or(0, |d| d.run + 1);
     let processes = effects
         .iter()
         .map(|e| e.process(setup.rig, &dwells))
         .collect();
+    let following = then.map(|what| further(setup.rig, what, &dwells, setup.seed));
+    let mut climate = Climate::new(setup.seed, campaign as u64, duration, runs);
+    if following.is_some() {
+        climate.go_on(setup.seed, runs);
+    }
     let mut bench = Bench {
         rig: setup.rig,
         device: Device::new(setup),
-        climate: Climate::new(setup.seed, campaign as u64, duration, runs),
+        climate,
         processes,
         time: 0.0,
     };
     let mut readout = Readout::new(setup, campaign, readings);
-    let mut rows = Vec::new();
-    for dwell in &dwells {
-        rows.extend(bench.dwell(dwell, &mut readout));
-    }
+    let mut record = |dwells: &[Dwell]| {
+        let rows = dwells
+            .iter()
+            .flat_map(|dwell| bench.dwell(dwell, &mut readout));
+        rows.collect::<Vec<Row>>()
+    };
+    let mut rows = record(&dwells);
+    let recorded = rows.len();
+    rows.extend(following.iter().flat_map(|dwells| record(dwells)));
     instruments(setup.seed, campaign, &mut rows);
     for process in &bench.processes {
-        process.record(&mut rows);
+        process.record(&mut rows[..recorded]);
     }
     rows
 }
@@ -191,9 +220,7 @@ impl Bench {
             ..World::default()
         };
         let mut pose = commanded;
-        if pose.mount == 1 && self.rig == Rig::Remount {
-            pose.outer += self.device.square;
-        }
+        pose.outer += self.device.square * self.rig.out_of_square(pose.mount);
         for process in &self.processes {
             process.pose(&world, &mut pose);
         }

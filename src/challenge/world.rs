@@ -24,7 +24,7 @@ pub(super) struct Pose {
     pub rate: f64,
     /// Table angle.
     pub table: f64,
-    /// Which mount.
+    /// Which mount: its number, or its angle in eighths of a turn on a dividing head.
     pub mount: usize,
 }
 

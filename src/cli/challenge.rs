@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use gumption::challenge::{NoiseKnowledge, Request, Rig, Scenario, challenge, seal};
+use gumption::challenge::{Further, NoiseKnowledge, Request, Rig, Scenario, challenge, seal};
 
 use super::{Outcome, output};
 
@@ -24,8 +24,11 @@ pub(super) struct Args {
     /// How the noise is claimed: stated, or by a recording at rest [default: by chance]
     #[arg(long, value_name = "HOW", value_parser = noise)]
     noise: Option<NoiseKnowledge>,
+    /// What is measured after the calibration: again, reversed, "mount=90", "head between" …
+    #[arg(long, value_name = "WHAT", requires = "seed")]
+    further: Option<Further>,
     /// Print the names of all scenarios
-    #[arg(long, conflicts_with_all = ["seed", "out", "rig", "scenario", "noise"])]
+    #[arg(long, conflicts_with_all = ["seed", "out", "rig", "scenario", "noise", "further"])]
     list: bool,
 }
 
@@ -56,6 +59,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         rig: args.rig,
         scenario: args.scenario,
         noise: args.noise,
+        further: args.further,
     };
     write(out, &request)
 }
@@ -69,6 +73,13 @@ fn entropy() -> u64 {
 }
 
 fn write(out: &Path, request: &Request) -> Outcome {
+    let case = challenge(request);
+    if let Some(further) = request.further.filter(|w| !w.is_possible(case.truth.rig)) {
+        let rig = case.truth.rig.name();
+        return output::complain(&format!(
+            "this case is a calibration on the rig {rig}, which cannot do `{further}`"
+        ));
+    }
     let handed_out = out.join("case");
     let truth_path = out.join("truth.json");
     if truth_path.exists() {
@@ -83,7 +94,6 @@ fn write(out: &Path, request: &Request) -> Outcome {
             handed_out.display()
         ));
     }
-    let case = challenge(request);
     let mut files: Vec<(PathBuf, String)> = case
         .files
         .into_iter()

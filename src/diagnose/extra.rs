@@ -30,8 +30,10 @@ pub enum Measure {
     Set {
         /// The column.
         column: String,
-        /// Value and unit.
-        value: String,
+        /// The value.
+        value: f64,
+        /// Its unit.
+        unit: String,
     },
     /// The same at values half way between those of a column.
     Between {
@@ -82,16 +84,17 @@ pub fn extras(case: &Case) -> Vec<Extra> {
             (Data::Numbers(numbers), Role::Angle | Role::Stimulus) if used(case, index) => {
                 let levels = levels(numbers);
                 if is_angle(column) && levels.len() <= MOUNTS {
-                    for (value, text) in mountings(case, index, &levels) {
-                        let column = name.clone();
+                    for value in mountings(case, index, &levels) {
                         let measure = Measure::Set {
-                            column,
-                            value: text,
+                            column: name.clone(),
+                            value,
+                            unit: column.unit.typeset(),
                         };
                         changed(measure, 2.0, Data::Numbers(vec![value; numbers.len()]));
                     }
                 } else if (3..=LEVELS).contains(&levels.len()) {
-                    let between = numbers.iter().map(|x| between(*x, &levels)).collect();
+                    let turn = turn(column);
+                    let between = numbers.iter().map(|x| between(*x, &levels, turn)).collect();
                     changed(
                         Measure::Between { column: name },
                         1.0,
@@ -149,17 +152,33 @@ fn levels(numbers: &[f64]) -> Vec<f64> {
     levels
 }
 
-/// Half way to the next level; the last one goes half way back.
-fn between(x: f64, levels: &[f64]) -> f64 {
-    let above = levels.iter().position(|level| *level >= x).unwrap_or(0);
-    match levels.get(above + 1) {
-        Some(next) => 0.5 * (levels[above] + next),
-        None => 0.5 * (levels[above] + levels[above.saturating_sub(1)]),
+/// Half way to the next level. The last goes on likewise on a circle of levels, and else a quarter back, so
+/// that no two become the same.
+fn between(x: f64, levels: &[f64], turn: Option<f64>) -> f64 {
+    let at = levels.iter().position(|level| *level >= x).unwrap_or(0);
+    if let Some(next) = levels.get(at + 1) {
+        return 0.5 * (levels[at] + next);
+    }
+    let before = levels[at.saturating_sub(1)];
+    let step = levels[at] - before;
+    let closing = turn.map(|turn| levels[0] + turn - levels[at]);
+    match closing.filter(|closing| *closing > 0.0 && *closing < 1.5 * step) {
+        Some(closing) => levels[at] + 0.5 * closing,
+        None => levels[at] - 0.25 * step,
     }
 }
 
+/// A whole turn in the unit of a column of angles.
+fn turn(column: &Column) -> Option<f64> {
+    if !is_angle(column) {
+        return None;
+    }
+    let degree = UnitTable::default().parse("°").ok()?;
+    Some(degree.conversion_to(&column.unit)?.apply(360.0))
+}
+
 /// Mountings that were not used: turned by an eighth, a quarter, half a turn.
-fn mountings(case: &Case, column: usize, levels: &[f64]) -> Vec<(f64, String)> {
+fn mountings(case: &Case, column: usize, levels: &[f64]) -> Vec<f64> {
     let unit = &case.columns[column].unit;
     let Ok(degree) = UnitTable::default().parse("°") else {
         return Vec::new();
@@ -167,22 +186,12 @@ fn mountings(case: &Case, column: usize, levels: &[f64]) -> Vec<(f64, String)> {
     let Some(conversion) = degree.conversion_to(unit) else {
         return Vec::new();
     };
-    let turned = [45.0, 90.0, 180.0].map(|angle| (levels[0] + conversion.apply(angle), angle));
-    let near = |value: f64| {
+    let turned = [45.0, 90.0, 180.0].map(|angle| levels[0] + conversion.apply(angle));
+    let near = |value: &f64| {
         let same = 1e-6 * conversion.apply(360.0);
         levels.iter().any(|level| (level - value).abs() < same)
     };
-    turned
-        .into_iter()
-        .filter(|(value, _)| !near(*value))
-        .map(|(value, _)| {
-            let shown = super::catalogue::modifiers::figure(value);
-            (
-                value,
-                format!("{shown} {}", unit.typeset()).trim().to_owned(),
-            )
-        })
-        .collect()
+    turned.into_iter().filter(|value| !near(value)).collect()
 }
 
 #[cfg(test)]
@@ -193,7 +202,10 @@ mod tests {
     fn values_between_levels() {
         let levels = levels(&[20.0, 0.0, 10.0, 10.0]);
         assert_eq!(levels, [0.0, 10.0, 20.0]);
-        assert_eq!(between(0.0, &levels), 5.0);
-        assert_eq!(between(20.0, &levels), 15.0);
+        assert_eq!(between(0.0, &levels, None), 5.0);
+        assert_eq!(between(20.0, &levels, None), 17.5);
+        let circle = [0.0, 90.0, 180.0, 270.0];
+        assert_eq!(between(270.0, &circle, Some(360.0)), 315.0);
+        assert_eq!(between(20.0, &levels, Some(360.0)), 17.5);
     }
 }

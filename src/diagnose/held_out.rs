@@ -8,9 +8,9 @@ use super::catalogue::{self, Cell, Ground, Term};
 use super::confirm;
 use super::fit::{self, Fit};
 use super::frame::Frame;
+use super::longer::{Known, noise_of};
 use super::noise::Claimed;
 use super::run::{Adopted, Estimated};
-use super::separation::{Known, noise_of};
 
 /// How well a recording is predicted.
 #[derive(Debug, Clone, PartialEq)]
@@ -139,7 +139,7 @@ fn improved(
     let held = known.case.held_out.as_ref()?;
     let both = known.case.followed_by(&held.rows);
     let frame = Frame::new(&both);
-    let fit = fit::at(&frame, super::separation::unknowns(known, &frame));
+    let fit = fit::at(&frame, super::longer::unknowns(known, &frame));
     let wide = Ground::new(&frame, &fit).refined(ground.finer.clone());
     let others = catalogue::cells(&wide);
     let mut rows = held.rows.clone();

@@ -8,7 +8,8 @@
 //! | `frame` | the rows as numbers; the model at any parameters |
 //! | `fit` | the declared model fitted to the recording |
 //! | `plan` | what an experiment can see and tell apart, without data |
-//! | `extra`, `separation` | measurements that may follow, and what they tell apart |
+//! | `extra`, `longer` | measurements that may follow, and the recording together with one of them |
+//! | `contender`, `separation` | explanations of the same mismatch, and what tells them apart |
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
 //! | `held_out` | prediction of a recording that the fit has not seen |
 //! | `likeness` | what can stand in for something whose trace is known |
@@ -23,6 +24,7 @@ pub mod case;
 pub mod catalogue;
 mod compare;
 mod confirm;
+mod contender;
 mod correlation;
 pub mod evidence;
 mod extra;
@@ -34,6 +36,7 @@ mod improved;
 mod inquiry;
 mod likeness;
 mod local;
+mod longer;
 mod noise;
 mod omitted;
 mod place;

@@ -3,19 +3,20 @@
 
 use std::ops::ControlFlow;
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Observed};
 use super::catalogue::{self, Cell, Ground};
-use super::evidence::{self, Atom, Baseline, Refusal, Shape};
+use super::contender::Contender;
+use super::evidence::{self, Atom, Refusal, Shape};
 use super::extra::{Extra, extras};
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
 use super::inquiry::{baseline, question};
+use super::longer::{Known, Recorded, examined};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::run::{Estimated, Failure, estimates};
-use super::separation::{self, Contender, Known};
 use super::typical::{self, Unified};
 
 /// What an experiment can see and tell apart. Sizes of effects are the largest shifts of the output.
@@ -79,6 +80,8 @@ pub struct Promise {
 const SEPARATED: f64 = 5.0;
 /// Strength of the effects for which further measurements are judged.
 const STRENGTH: f64 = 8.0;
+/// Before anything is recorded, one of two is as probable as the other.
+const EVEN: f64 = 0.5;
 /// More than a trace of an effect shows.
 const VISIBLE: f64 = 0.01;
 
@@ -113,17 +116,22 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
         fit: &fit,
         claimed: &claimed,
     };
+    let recorded = Recorded {
+        known: &known,
+        ground: &ground,
+        baseline: &baseline,
+    };
     let contenders = Contenders {
         sets: pairs
             .iter()
-            .map(|pair| contenders(&ground, &cells, &baseline, &effects, *pair))
+            .map(|pair| contenders(&recorded, &cells, &effects, *pair))
             .collect(),
         hidden: omitted.iter().filter(|line| line.is_invisible()).collect(),
     };
     let mut promises = Vec::new();
     let all = extras(case);
     for (at, extra) in all.iter().enumerate() {
-        promises.extend(contenders.promise(&known, &cells, extra));
+        promises.extend(contenders.promise(&recorded, &cells, extra));
         step(progress, 0.4 + 0.6 * (at + 1) as f64 / all.len() as f64)?;
     }
     let worth = |promise: &Promise| {
@@ -290,23 +298,25 @@ fn pairs(effects: &[Prospect]) -> Vec<(usize, usize)> {
 
 /// Both of a pair, with sizes that have the same strength in the experiment as it is.
 fn contenders(
-    ground: &Ground<'_>,
+    recorded: &Recorded<'_>,
     cells: &[Cell],
-    baseline: &Baseline,
     effects: &[Prospect],
     (a, b): (usize, usize),
 ) -> Vec<Contender> {
     let of = |cell: usize| {
         let effect = effects.iter().find(|effect| effect.cell == cell)?;
         let variation = &cells[cell].variants[effect.variation];
-        let columns = variation.columns(ground);
+        let columns = variation.columns(recorded.ground);
         let count = columns.ncols();
-        let sum = baseline.project(&columns).column_sum().norm();
+        let sum = recorded.baseline.project(&columns).column_sum().norm();
         let size = if sum > 0.0 { STRENGTH / sum } else { 0.0 };
+        let sizes = DMatrix::from_element(count, 1, size);
         Some(Contender::new(
+            recorded,
             &cells[cell],
             variation,
-            DVector::from_element(count, size),
+            &sizes,
+            EVEN,
         ))
     };
     [a, b].into_iter().filter_map(of).collect()
@@ -319,26 +329,33 @@ struct Contenders<'o> {
 }
 
 impl Contenders<'_> {
-    fn promise(&self, known: &Known<'_>, cells: &[Cell], extra: &Extra) -> Option<Promise> {
+    fn promise(&self, recorded: &Recorded<'_>, cells: &[Cell], extra: &Extra) -> Option<Promise> {
         let asked: Vec<Contender> = self
             .hidden
             .iter()
             .map(|line| {
                 let variation = &cells[line.cell].variants[line.variation];
-                let size = DVector::from_element(variation.coefficients(), 1.0);
-                Contender::new(&cells[line.cell], variation, size)
+                let sizes = DMatrix::from_element(variation.coefficients(), 1, 1.0);
+                Contender::new(recorded, &cells[line.cell], variation, &sizes, EVEN)
             })
             .collect();
-        let design = separation::design(known, extra, &self.sets, &asked)?;
-        let apart = |worth: &Option<evidence::Worth>| {
-            worth.as_ref().is_some_and(|worth| worth.kappa >= SEPARATED)
-        };
-        let resolved = design.worths.iter().enumerate();
-        let revealed = design.visibilities.iter().zip(&self.hidden);
+        let apart =
+            |apart: Option<evidence::Apart>| apart.is_some_and(|apart| apart.least() >= SEPARATED);
+        let (aparts, shares): (Vec<bool>, Vec<Option<f64>>) =
+            examined(recorded, extra, |longer| {
+                let aparts = self
+                    .sets
+                    .iter()
+                    .map(|set| apart(longer.apart(recorded, set)));
+                let shares = asked.iter().map(|one| one.visibility(longer));
+                (aparts.collect(), shares.collect())
+            })?;
+        let resolved = aparts.iter().enumerate();
+        let revealed = shares.iter().zip(&self.hidden);
         Some(Promise {
             extra: extra.clone(),
             resolved: resolved
-                .filter(|(_, w)| apart(w))
+                .filter(|(_, apart)| **apart)
                 .map(|(at, _)| at)
                 .collect(),
             revealed: revealed

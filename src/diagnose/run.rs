@@ -15,10 +15,11 @@ use super::frame::Frame;
 use super::held_out::{self, HeldOutQuality};
 use super::inquiry::{Inquiry, TRACE, adopted_fit, baseline, settings};
 use super::local;
+use super::longer::{Known, Recorded};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
 use super::place;
-use super::separation::{self, Known, Separating};
+use super::separation::{self, Separating};
 use crate::fault::Code;
 
 /// Why a case could not be diagnosed.
@@ -253,7 +254,12 @@ pub fn diagnose(
         adopted.as_ref(),
     );
     let slots = &examination.slots;
-    let separating = separation::separating(&known, &ground, &cells, &places, &baseline, slots);
+    let recorded = Recorded {
+        known: &known,
+        ground: &ground,
+        baseline: &baseline,
+    };
+    let separating = separation::separating(&recorded, &cells, &places, slots);
     Ok(Diagnosis {
         examination,
         located,

@@ -1,5 +1,6 @@
 //! The bars that a diagnosis has to clear, with what was obtained.
 
+use super::further::{Decision, Sequel};
 use super::rate::Rate;
 use super::record::{Outcome, Record};
 use super::report::{Study, detected, is_listed, table};
@@ -58,6 +59,7 @@ impl Study<'_> {
         let pooled = fixed.iter().map(|r| r.chi[1] * r.dof).sum::<f64>()
             / fixed.iter().map(|r| r.dof).sum::<f64>();
         let by_noise = fixed.iter().map(|r| by_noise(r.dof)).sum::<f64>() / fixed.len() as f64;
+        let made: Vec<Decision> = self.sequels().filter_map(Sequel::decision).collect();
         let row = |what: &str, bar: &str, got: Rate, holds: fn(f64, f64) -> bool, limit: f64| {
             let verdict = if got.of == 0 {
                 "–"
@@ -196,6 +198,13 @@ impl Study<'_> {
                 Rate::count(sizes, |z| z.abs() <= 1.96),
                 |x, limit| (limit..=0.97).contains(&x),
                 0.93,
+            ),
+            row(
+                "recommended measurement names it, of those promised",
+                "≥ 95 %",
+                Rate::count(made, |d| matches!(d, Decision::Resolved | Decision::Class)),
+                least,
+                0.95,
             ),
             row(
                 "axis or moment stated wrongly with a right name",

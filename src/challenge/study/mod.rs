@@ -6,16 +6,19 @@
 //! |---|---|
 //! | `trial` | which cases are made, and one of them run |
 //! | `record` | what is kept of a run, as a line of CSV |
+//! | `further` | the measurement that a diagnosis recommends for a list, made and diagnosed |
 //! | `rate` | how often something happened, with its Clopper–Pearson interval |
 //! | `report` | the tables |
 //! | `bars` | the first of them: what has to hold, and whether it does |
 
 mod bars;
+mod further;
 mod rate;
 mod record;
 mod report;
 mod trial;
 
+pub use further::{Advice, Decision, PROMISED, Request, Sequel, decision, request};
 pub use rate::Rate;
 pub use record::{Outcome, Record, Twin, read, write};
 pub use report::report;

@@ -3,6 +3,7 @@
 use crate::challenge::grade::{Answer, Finding, Graded};
 use crate::challenge::scenario::{Class, NoiseKnowledge, Scenario};
 
+use super::further::Sequel;
 use super::trial::{Ablation, Trial};
 
 /// What became of one concealed effect.
@@ -71,6 +72,8 @@ pub struct Record {
     pub points: [f64; 2],
     /// Names that rivals gave: forward selection by BIC, the w-test.
     pub rivals: Vec<(String, String)>,
+    /// What became of a list for which a further measurement was asked.
+    pub further: Option<Sequel>,
 }
 
 impl Record {
@@ -106,6 +109,7 @@ impl Record {
             held_out: quality(|q| q.held_out()),
             points: [graded.points, graded.attainable],
             rivals: Vec::new(),
+            further: None,
         }
     }
 
@@ -134,7 +138,7 @@ fn word(finding: Finding) -> String {
     }
 }
 
-const HEAD: &str = "seed,scenario,noise,ablation,verdict,effects,wrong_names,wrong_lists,chi_before,chi_after,held_out_before,held_out_after,points,attainable,rivals,dof_after";
+const HEAD: &str = "seed,scenario,noise,ablation,verdict,effects,wrong_names,wrong_lists,chi_before,chi_after,held_out_before,held_out_after,points,attainable,rivals,dof_after,further";
 
 /// Records as CSV, in the order of scenarios and seeds.
 pub fn write(records: &[Record]) -> String {
@@ -154,7 +158,7 @@ pub fn write(records: &[Record]) -> String {
         let [before, after] = record.chi;
         let [held_before, held_after] = record.held_out;
         text += &format!(
-            "{},{},{},{},{},{},{},{},{before:.3},{after:.3},{held_before:.3},{held_after:.3},{:.2},{:.2},{},{}\n",
+            "{},{},{},{},{},{},{},{},{before:.3},{after:.3},{held_before:.3},{held_after:.3},{:.2},{:.2},{},{},{}\n",
             record.seed,
             record.scenario,
             noise_word(record.noise),
@@ -167,6 +171,7 @@ pub fn write(records: &[Record]) -> String {
             record.points[1],
             rivals.join(" "),
             record.dof,
+            record.further.map_or_else(|| "-".into(), Sequel::word),
         );
     }
     text
@@ -247,6 +252,7 @@ fn read_line(line: &str, scenarios: &[Scenario]) -> Option<Record> {
             })
             .collect(),
         dof: number(15)?,
+        further: fields.get(16).copied().and_then(Sequel::of_word),
     })
 }
 
@@ -285,11 +291,13 @@ fn read_outcome(item: &str) -> Option<Outcome> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::further::Decision;
     use super::*;
 
     #[test]
     fn records_survive_the_file() {
         let scenario = Scenario::all()[1];
+        let sequel = Sequel::Made("mount=90".parse().unwrap(), Decision::Listed);
         let record = Record {
             seed: 7,
             scenario: scenario.name(),
@@ -315,6 +323,7 @@ mod tests {
             held_out: [2.0, 1.125],
             points: [0.9, 1.25],
             rivals: vec![("bic".into(), "drift+step".into())],
+            further: Some(sequel),
         };
         assert_eq!(read(&write(std::slice::from_ref(&record))), vec![record]);
     }

@@ -22,13 +22,9 @@ pub fn report(records: &[Record], made: &str) -> String {
     text += &study.calibration();
     text += &study.rivals();
     text += &study.ablations();
-    text += &study.misses();
-    text + NOT_MEASURED
+    text += &study.further();
+    text + &study.misses()
 }
-
-/// What the figures above do not hold.
-const NOT_MEASURED: &str = "## Not measured here\n\nWhether the further measurement that is recommended resolves \
-a list is not graded by this study.\n";
 
 /// The records of a study.
 pub(super) struct Study<'a> {

@@ -6,6 +6,7 @@ use nalgebra::DVector;
 
 use crate::challenge::case::{Request, SealedCase, challenge, dwell, signatures};
 use crate::challenge::files::{CASE, CaseFile, RECORDING};
+use crate::challenge::further::Further;
 use crate::challenge::scenario::{Class, NoiseKnowledge, Scenario};
 
 /// What is done to a case before it is diagnosed.
@@ -145,6 +146,19 @@ impl Trial {
             exchange(&mut case.files, &other.files);
         }
         case
+    }
+
+    /// The case with a further measurement behind its calibration.
+    pub fn longer_case(&self, further: Further) -> SealedCase {
+        challenge(&Request {
+            further: Some(further),
+            ..self.request()
+        })
+    }
+
+    /// Whether one effect is concealed and nothing was done to the case.
+    pub fn is_single(&self) -> bool {
+        self.scenario.class == Class::Single && self.ablation == Ablation::Whole
     }
 
     /// What each concealed effect adds to the recording, see [`signatures`].

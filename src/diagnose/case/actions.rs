@@ -191,9 +191,9 @@ impl Checker<'_> {
 }
 
 /// The rows of a recording once more, in the same order or the last one first: what was applied is that
-/// of the row, times go on, and conditions follow the same course as before.
+/// of the row, times go on in the same steps after a pause, runs are new ones, and conditions follow the same course as before.
 pub(in crate::diagnose) fn repeated(recorded: &Rows, columns: &[Column], reversed: bool) -> Rows {
-    use super::tables::RoleWord::{Count, Covariate, Order, Time, Uncertainty};
+    use super::tables::RoleWord::{Count, Covariate, Order, Run, Time, Uncertainty};
     let count = recorded.count;
     let forth: Vec<usize> = (0..count).collect();
     let places: Vec<usize> = if reversed {
@@ -204,10 +204,78 @@ pub(in crate::diagnose) fn repeated(recorded: &Rows, columns: &[Column], reverse
     let mut rows = recorded.taken(&places);
     for ((data, own), column) in rows.data.iter_mut().zip(&recorded.data).zip(columns) {
         match column.role {
-            Time | Order => *data = continued(column, count).unwrap_or(Data::Absent),
+            Time => *data = gone_on(own, reversed),
+            Order => *data = continued(column, count).unwrap_or(Data::Absent),
             Covariate | Count | Uncertainty => *data = own.clone(),
+            Run => renewed(data),
             _ => {}
         }
     }
     rows
+}
+
+/// Times in the same steps as before, or in these from the last one on, after a pause as long as the longest.
+fn gone_on(recorded: &Data, reversed: bool) -> Data {
+    let Data::Numbers(times) = recorded else {
+        return recorded.clone();
+    };
+    let (Some(first), Some(last)) = (times.first(), times.last()) else {
+        return recorded.clone();
+    };
+    let steps = times.windows(2).map(|pair| pair[1] - pair[0]);
+    let pause = steps.filter(|step| *step > 0.0).fold(0.0, f64::max);
+    let begin = last + pause;
+    let passed = |time: &f64| if reversed { last - time } else { time - first };
+    let mut all: Vec<f64> = times.iter().map(|time| begin + passed(time)).collect();
+    if reversed {
+        all.reverse();
+    }
+    Data::Numbers(all)
+}
+
+/// Other names for runs: numbers go on, and what is no number is primed.
+fn renewed(data: &mut Data) {
+    let Data::Labels(labels) = data else { return };
+    let numbers: Option<Vec<i64>> = labels.levels.iter().map(|l| l.parse().ok()).collect();
+    let most = numbers.as_ref().and_then(|all| all.iter().max().copied());
+    let next = |at: usize, level: &str| match most.and_then(|most| most.checked_add(1 + at as i64))
+    {
+        Some(number) => number.to_string(),
+        None => format!("{level}′"),
+    };
+    let levels = labels.levels.iter().enumerate();
+    labels.levels = levels.map(|(at, level)| next(at, level)).collect();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_go_on_in_the_steps_that_they_had() {
+        let times = Data::Numbers(vec![1.0, 2.0, 7.0, 8.5]);
+        let numbers = |data: Data| match data {
+            Data::Numbers(numbers) => numbers,
+            _ => Vec::new(),
+        };
+        assert_eq!(numbers(gone_on(&times, false)), [13.5, 14.5, 19.5, 21.0]);
+        assert_eq!(numbers(gone_on(&times, true)), [13.5, 15.0, 20.0, 21.0]);
+    }
+
+    #[test]
+    fn runs_of_a_repetition_are_new_ones() {
+        let renewed = |levels: &[&str]| {
+            let mut data = Data::Labels(Labels {
+                levels: levels.iter().map(|l| (*l).to_owned()).collect(),
+                of_row: vec![0, 1],
+            });
+            renewed(&mut data);
+            match data {
+                Data::Labels(labels) => labels.levels,
+                _ => Vec::new(),
+            }
+        };
+        assert_eq!(renewed(&["1", "3"]), ["4", "5"]);
+        assert_eq!(renewed(&["up", "down"]), ["up′", "down′"]);
+    }
 }

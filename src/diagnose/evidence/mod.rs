@@ -79,4 +79,4 @@ pub use noise::{Covariance, Noise};
 pub use omitted::omitted;
 pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Kind, Place, Question, Refusal, Settings, Shape};
-pub use separate::{Action, Worth, separate};
+pub use separate::{Apart, Prospects, Standing, Worth, apart, doubt, left};

@@ -1,118 +1,221 @@
 //! Which extra measurement tells rivals apart.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
-use super::baseline::Baseline;
-use super::fit::{least_squares, resolved};
 use super::question::Refusal;
+use crate::special::normal_cdf;
 
-/// An experiment with extra rows: the recording at hand together with a measurement that may follow.
+/// A rival explanation in a design, as it is seen beside the fitted parameters
+/// ([`Baseline::project`](super::Baseline::project)).
 #[derive(Debug, Clone)]
-pub struct Action<'a> {
-    /// What is done: "remount +90°".
-    pub name: String,
-    /// What it costs, in any unit; 1 if costs do not matter.
-    pub cost: f64,
-    /// The design with the extra rows; its residuals do not matter.
-    pub baseline: &'a Baseline,
-    /// The effects of the contenders on all rows, in the order of the contenders.
-    pub columns: Vec<DMatrix<f64>>,
+pub struct Standing {
+    /// What it does if it is the truth: first with its most probable size and shape, then with others that the
+    /// recording at hand allows, each as probable as the others.
+    pub effects: DMatrix<f64>,
+    /// Columns of each of its variants: with these it takes up what another does.
+    pub variants: Vec<DMatrix<f64>>,
 }
 
-/// What an action is worth.
+/// How far rival explanations are apart in a design.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Apart {
+    /// What the second leaves of the first, for each of the effects that this may have.
+    left: Vec<Vec<Vec<f64>>>,
+    /// Lengths of the effects.
+    whole: Vec<Vec<f64>>,
+}
+
+/// What a further measurement is worth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Worth {
-    /// Index of the action.
-    pub action: usize,
-    /// Separability of the two contenders that stay most alike.
+    /// Separability of the two contenders that stay most alike, at their most probable sizes.
     pub kappa: f64,
     /// These two.
     pub pair: (usize, usize),
-    /// Probability that the truth of the two then reaches a posterior of 95 %.
+    /// Probability that the truth then stands alone, with a posterior of 99 %.
     pub resolved: f64,
-    /// How often the action has to be done for κ = 5; ∞ if it never helps.
+    /// How often it has to be done for κ = 5; ∞ if it never helps.
     pub repeats: f64,
+}
+
+/// What is known of rival explanations from the recording at hand.
+#[derive(Debug, Clone, Copy)]
+pub struct Prospects<'p> {
+    /// How far they are apart in it.
+    pub before: &'p Apart,
+    /// Their posterior probabilities.
+    pub probabilities: &'p [f64],
+    /// A number for each; those that no measurement tells apart share one, and are not asked to be.
+    pub classes: &'p [usize],
+    /// For each the probability that something comes to stand beside it that is none of them
+    /// ([`doubt`]).
+    pub outside: &'p [f64],
 }
 
 /// Separability with which rivals are told apart nearly always.
 const SEPARATED: f64 = 5.0;
+/// No number of repetitions helps below this separability.
+const NOTHING: f64 = 1e-6;
+/// Explanations are the same where less than this share of either is left.
+const SAME: f64 = 0.01;
+/// Log odds of a name that stands alone.
+const ALONE: f64 = 4.595_119_850_134_59;
 
-/// Actions, the most useful for its cost first: by the separability of the pair that stays most alike,
-/// up to 5, over the cost. `contenders` holds the estimated coefficients of each rival explanation;
-/// coefficients that are not finite count as zero.
+/// Holds explanations against one another in a design.
 ///
 /// # Errors
 ///
-/// Fewer than two contenders, or columns that do not fit their baseline.
-pub fn separate(contenders: &[DVector<f64>], actions: &[Action]) -> Result<Vec<Worth>, Refusal> {
-    if contenders.len() < 2 {
+/// Fewer than two contenders, or matrices that do not belong together.
+pub fn apart(contenders: &[Standing]) -> Result<Apart, Refusal> {
+    let Some(first) = contenders.first().filter(|_| contenders.len() > 1) else {
+        return Err(Refusal::Sizes { what: "contenders" });
+    };
+    let (rows, draws) = first.effects.shape();
+    let fits = |one: &Standing| {
+        one.effects.shape() == (rows, draws) && one.variants.iter().all(|v| v.nrows() == rows)
+    };
+    if draws == 0 || !contenders.iter().all(fits) {
         return Err(Refusal::Sizes { what: "contenders" });
     }
-    let mut worths = actions
+    let lengths = |one: &Standing| one.effects.column_iter().map(|e| e.norm()).collect();
+    let effects: Vec<DMatrix<f64>> = contenders.iter().map(|one| one.effects.clone()).collect();
+    let columns: Vec<_> = effects.iter().flat_map(|e| e.column_iter()).collect();
+    let all = DMatrix::from_columns(&columns);
+    // What each leaves of all effects, then by effect.
+    let by_rival: Vec<Vec<f64>> = contenders
         .iter()
-        .enumerate()
-        .map(|(index, action)| worth(index, contenders, action))
-        .collect::<Result<Vec<Worth>, Refusal>>()?;
-    let value = |worth: &Worth| worth.kappa.min(SEPARATED) / actions[worth.action].cost;
-    worths.sort_by(|a, b| value(b).total_cmp(&value(a)));
-    Ok(worths)
-}
-
-fn worth(index: usize, contenders: &[DVector<f64>], action: &Action) -> Result<Worth, Refusal> {
-    let fits = |columns: &DMatrix<f64>, size: &DVector<f64>| {
-        columns.nrows() == action.baseline.rows() && columns.ncols() == size.len()
-    };
-    let sizes = action.columns.len() == contenders.len()
-        && action
-            .columns
-            .iter()
-            .zip(contenders)
-            .all(|(c, s)| fits(c, s));
-    if !sizes {
-        return Err(Refusal::Sizes { what: "action" });
-    }
-    let seen: Vec<DMatrix<f64>> = action
-        .columns
-        .iter()
-        .map(|columns| action.baseline.project(columns))
+        .map(|rival| left(&all, rival.variants.iter().cloned()))
         .collect();
-    let mut nearest = (f64::INFINITY, (0, 1));
-    for (a, size) in contenders.iter().enumerate() {
-        let size = size.map(|x| if x.is_finite() { x } else { 0.0 });
-        let effect = &seen[a] * size;
-        for (b, rival) in seen.iter().enumerate().filter(|(b, _)| *b != a) {
-            let (coefficients, _) = least_squares(rival, &effect);
-            let kappa = (&effect - rival * coefficients).norm();
-            if kappa < nearest.0 {
-                nearest = (kappa, (a, b));
-            }
-        }
-    }
-    let kappa = nearest.0;
-    Ok(Worth {
-        action: index,
-        kappa,
-        pair: nearest.1,
-        resolved: resolved(kappa),
-        repeats: if kappa > ALIKE {
-            (SEPARATED / kappa).powi(2).max(1.0)
-        } else {
-            f64::INFINITY
-        },
+    let of = |a: usize| -> Vec<Vec<f64>> {
+        let own = |left: &Vec<f64>| left[a * draws..(a + 1) * draws].to_vec();
+        by_rival.iter().map(own).collect()
+    };
+    Ok(Apart {
+        left: (0..contenders.len()).map(of).collect(),
+        whole: contenders.iter().map(lengths).collect(),
     })
 }
 
-/// No number of repetitions helps below this separability.
-const ALIKE: f64 = 1e-6;
+impl Apart {
+    /// Whether two explanations say the same here.
+    pub fn alike(&self, a: usize, b: usize) -> bool {
+        self.left[a][b][0] <= SAME * self.whole[a][0]
+            && self.left[b][a][0] <= SAME * self.whole[b][0]
+    }
+
+    /// Separability of the two that are most alike, at their most probable sizes.
+    pub fn least(&self) -> f64 {
+        let pairs = (0..self.left.len()).flat_map(|a| (0..a).flat_map(move |b| [(a, b), (b, a)]));
+        pairs
+            .map(|(a, b)| self.left[a][b][0])
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// What the measurement is worth with which explanations are as far apart as this.
+    ///
+    /// If `a` is the truth, what is still to be recorded adds to its log odds over `b` on average half of what
+    /// κ² gains, with a variance of the whole of it.
+    pub fn worth(&self, prospects: &Prospects<'_>) -> Worth {
+        let mut nearest = (f64::INFINITY, (0, 1));
+        let (mut resolved, mut whole) = (0.0, 0.0);
+        for a in 0..self.left.len() {
+            let mut doubts = vec![prospects.outside[a]; self.whole[a].len()];
+            for b in (0..self.left.len()).filter(|b| prospects.classes[a] != prospects.classes[*b])
+            {
+                if self.left[a][b][0] < nearest.0 {
+                    nearest = (self.left[a][b][0], (a, b));
+                }
+                let odds = log_odds(prospects.probabilities[a], prospects.probabilities[b]);
+                let kappas = self.left[a][b].iter().zip(&prospects.before.left[a][b]);
+                for (doubt, (after, before)) in doubts.iter_mut().zip(kappas) {
+                    *doubt += 1.0 - decided(odds, after * after - before * before);
+                }
+            }
+            let sure: f64 = doubts.iter().map(|doubt| (1.0 - doubt).max(0.0)).sum();
+            resolved += prospects.probabilities[a] * sure / doubts.len() as f64;
+            whole += prospects.probabilities[a];
+        }
+        let kappa = nearest.0;
+        Worth {
+            kappa,
+            pair: nearest.1,
+            resolved: if whole > 0.0 { resolved / whole } else { 0.0 },
+            repeats: if kappa > NOTHING {
+                (SEPARATED / kappa).powi(2).max(1.0)
+            } else {
+                f64::INFINITY
+            },
+        }
+    }
+}
+
+/// Probability that an explanation which is not in the list comes to stand beside one of it, if this is the
+/// truth: from what it leaves of it in the recording and in the longer one. That it is not in the list is
+/// either by what it leaves, or by chance; then at least it was left out.
+pub fn doubt(before: f64, after: f64) -> f64 {
+    let by_what_is_left = decided(0.0, after * after);
+    let left_out = if after > before {
+        decided(ALONE, after * after - before * before)
+    } else {
+        0.0
+    };
+    1.0 - by_what_is_left.max(left_out)
+}
+
+/// Finite even where one of both is as good as excluded.
+fn log_odds(a: f64, b: f64) -> f64 {
+    const LEAST: f64 = 1e-4;
+    libm::log(a.max(LEAST) / b.max(LEAST))
+}
+
+/// Probability that the truth comes to stand alone, from its log odds and what κ² gains.
+fn decided(odds: f64, gain: f64) -> f64 {
+    if gain > NOTHING {
+        normal_cdf((odds + 0.5 * gain - ALONE) / gain.sqrt())
+    } else {
+        f64::from(u8::from(odds >= ALONE))
+    }
+}
+
+/// Length of what the best of some variants leaves of each effect, all of them seen beside the parameters.
+pub fn left(effects: &DMatrix<f64>, variants: impl IntoIterator<Item = DMatrix<f64>>) -> Vec<f64> {
+    let mut least: Vec<f64> = effects.column_iter().map(|e| e.norm_squared()).collect();
+    for basis in variants.into_iter().map(basis) {
+        let rest = effects - &basis * basis.tr_mul(effects);
+        for (least, rest) in least.iter_mut().zip(rest.column_iter()) {
+            *least = least.min(rest.norm_squared());
+        }
+    }
+    least.into_iter().map(f64::sqrt).collect()
+}
+
+/// Orthonormal columns of the same span.
+fn basis(mut columns: DMatrix<f64>) -> DMatrix<f64> {
+    /// Directions that columns of unit length reach no further have none.
+    const FLAT: f64 = 1e-7;
+    for mut column in columns.column_iter_mut() {
+        let length = column.norm();
+        if length > 0.0 {
+            column /= length;
+        }
+    }
+    let svd = columns.svd(true, false);
+    let kept: Vec<usize> = (0..svd.singular_values.len())
+        .filter(|k| svd.singular_values[*k] > FLAT)
+        .collect();
+    svd.u.unwrap_or_default().select_columns(&kept)
+}
 
 #[cfg(test)]
 mod tests {
-    use super::super::baseline::Prior;
+    use nalgebra::DVector;
+
+    use super::super::baseline::{Baseline, Prior};
     use super::super::noise::{Covariance, Noise};
     use super::*;
 
-    /// Twelve positions in each mount: the baseline, and K2 and encoder eccentricity (1/rev cosine).
-    fn design(mounts: &[f64]) -> (Baseline, Vec<DMatrix<f64>>) {
+    /// Twelve positions in each mount: K2 and encoder eccentricity (1/rev cosine), seen beside the baseline.
+    fn design(mounts: &[f64]) -> [DMatrix<f64>; 2] {
         let mut angles = Vec::new();
         for mount in mounts {
             angles.extend((0..12).map(|k| {
@@ -131,48 +234,107 @@ mod tests {
         let noise = Noise::known(Covariance::Diagonal(DVector::from_element(n, 1.0)));
         let baseline =
             Baseline::new(&jacobian, &DVector::zeros(n), &noise, &Prior::none(3)).unwrap();
-        let effects = [
+        [
             column(&|a, _| a.sin().powi(2)),
             column(&|a, h| a.cos() * h.cos()),
-        ];
-        let columns = effects
-            .iter()
-            .map(|e| DMatrix::from_columns(std::slice::from_ref(e)));
-        (baseline, columns.collect())
+        ]
+        .map(|effect| baseline.project(&DMatrix::from_columns(&[effect])))
+    }
+
+    fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Apart {
+        let of = |column: &DMatrix<f64>| Standing {
+            effects: column * DMatrix::from_row_slice(1, sizes.len(), sizes),
+            variants: vec![column.clone()],
+        };
+        let standing: Vec<Standing> = columns.iter().map(of).collect();
+        apart(&standing).unwrap()
+    }
+
+    fn worth(mounts: &[f64], sizes: &[f64], probabilities: [f64; 2]) -> Worth {
+        let before = held(&design(&mounts[..1]), sizes);
+        held(&design(mounts), sizes).worth(&Prospects {
+            before: &before,
+            probabilities: &probabilities,
+            classes: &[0, 1],
+            outside: &[0.0, 0.0],
+        })
     }
 
     #[test]
     fn a_remount_separates_what_repetition_does_not() {
-        let designs = [
-            ("repeat", design(&[0.0, 0.0])),
-            ("+45", design(&[0.0, 45.0])),
-            ("+90", design(&[0.0, 90.0])),
-            ("+180", design(&[0.0, 180.0])),
-        ];
-        let actions: Vec<Action> = designs
-            .iter()
-            .map(|(name, (baseline, columns))| Action {
-                name: (*name).into(),
-                cost: 1.0,
-                baseline,
-                columns: columns.clone(),
-            })
-            .collect();
-        let contenders = [DVector::from_element(1, 1.0), DVector::from_element(1, 1.0)];
-        let worths = separate(&contenders, &actions).unwrap();
-        let order: Vec<&str> = worths
-            .iter()
-            .map(|w| actions[w.action].name.as_str())
-            .collect();
-        assert_eq!(order, ["+180", "+90", "+45", "repeat"]);
-        let last = worths.last().unwrap();
-        assert!(last.kappa < 1e-6 && last.repeats == f64::INFINITY && last.resolved < 1e-3);
+        let kappa = |mount: f64| worth(&[0.0, mount], &[1.0], [0.5, 0.5]).kappa;
+        assert!(kappa(180.0) > kappa(90.0) && kappa(90.0) > kappa(45.0) && kappa(45.0) > 0.1);
+        let again = worth(&[0.0, 0.0], &[1.0], [0.5, 0.5]);
+        assert!(again.kappa < 1e-6 && again.repeats == f64::INFINITY && again.resolved < 1e-3);
         // Half of the rows turn their sign: with signals of ½cos 2α each, 24 rows and the fit of the
         // common part κ² = 24/8.
-        assert!(
-            (worths[0].kappa - 3.0_f64.sqrt()).abs() < 1e-9,
-            "{}",
-            worths[0].kappa
+        assert!((kappa(180.0) - 3.0_f64.sqrt()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_size_that_is_hardly_known_promises_less() {
+        let promised = |sizes: &[f64]| worth(&[0.0, 180.0], sizes, [0.5, 0.5]).resolved;
+        assert!(promised(&[4.0]) > 0.95);
+        assert!(promised(&[4.0, 0.5, 7.5]) < 0.7);
+    }
+
+    #[test]
+    fn what_is_nearly_sure_needs_little_more() {
+        let promised = |p: f64| worth(&[0.0, 180.0], &[1.6], [p, 1.0 - p]).resolved;
+        assert!(promised(0.98) > 0.8 && promised(0.5) < 0.7);
+    }
+
+    #[test]
+    fn a_rival_with_more_variants_is_nearer() {
+        let [own, other] = design(&[0.0, 180.0]);
+        let left = |variants: Vec<DMatrix<f64>>| {
+            let standing = |column: &DMatrix<f64>, variants| Standing {
+                effects: 5.0 * column,
+                variants,
+            };
+            let both = [
+                standing(&own, vec![own.clone()]),
+                standing(&other, variants),
+            ];
+            apart(&both).unwrap().left[0][1][0]
+        };
+        let mixed = &own + 0.05 * &other;
+        assert!(left(vec![other.clone()]) > 5.0);
+        assert!(left(vec![other.clone(), mixed]) < 1.0);
+    }
+
+    #[test]
+    fn what_is_not_listed_may_come_to_stand_beside_it() {
+        // Far away it does not; near, and no further away than before, it does; what was left out is likely
+        // to stay out.
+        assert!(doubt(6.0, 9.0) < 1e-3 && doubt(4.0, 3.0) > 0.4);
+        assert!(doubt(2.0, 4.0) < doubt(4.0, 4.0));
+    }
+
+    #[test]
+    fn one_class_is_not_asked_to_be_told_apart() {
+        let [own, other] = design(&[0.0, 180.0]);
+        let three = [own.clone(), -&own, other];
+        let apart = held(&three, &[4.0]);
+        assert!(apart.alike(0, 1) && !apart.alike(0, 2));
+        let before = held(
+            &[
+                design(&[0.0])[0].clone(),
+                -&design(&[0.0])[0],
+                design(&[0.0])[1].clone(),
+            ],
+            &[4.0],
         );
+        let resolved = |classes: &[usize]| {
+            let probabilities = [0.3, 0.3, 0.4];
+            let prospects = Prospects {
+                before: &before,
+                probabilities: &probabilities,
+                classes,
+                outside: &[0.0; 3],
+            };
+            apart.worth(&prospects).resolved
+        };
+        assert!(resolved(&[0, 1, 2]) < 0.5 && resolved(&[0, 0, 2]) > 0.9);
     }
 }

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
-use crate::diagnose::{Diagnosis, Estimated, Omitted, Prediction, Quality};
+use crate::diagnose::{Diagnosis, Estimated, Measure, Omitted, Prediction, Quality};
 
 use super::words::{formula, measure, name, name_of_atom, noise, verdict};
 use crate::report::language::Language;
@@ -70,9 +70,11 @@ pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
         "separating": diagnosis.separating.iter().map(|of| json!({
             "effect": of.slot,
             "rivals": of.rivals.iter().map(|cell| name(&diagnosis.cells[*cell], language)).collect::<Vec<_>>(),
+            "classes": of.classes,
             "kappa": finite(of.kappa),
             "measurements": of.extras.iter().map(|(extra, worth)| json!({
                 "name": measure(&extra.measure, language),
+                "measure": measure_json(&extra.measure),
                 "cost": extra.cost,
                 "kappa": finite(worth.kappa),
                 "resolved": finite(worth.resolved),
@@ -80,6 +82,23 @@ pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
             })).collect::<Vec<_>>(),
         })).collect::<Vec<_>>(),
     })
+}
+
+/// What is done, for machines.
+pub(super) fn measure_json(measure: &Measure) -> Value {
+    match measure {
+        Measure::Own(name) => json!({ "kind": "own", "name": name }),
+        Measure::Again => json!({ "kind": "again" }),
+        Measure::Reversed => json!({ "kind": "reversed" }),
+        Measure::Set {
+            column,
+            value,
+            unit,
+        } => json!({ "kind": "set", "column": column, "value": value, "unit": unit }),
+        Measure::Between { column } => json!({ "kind": "between", "column": column }),
+        Measure::Opposite { column } => json!({ "kind": "opposite", "column": column }),
+        Measure::Exchanged { column } => json!({ "kind": "exchanged", "column": column }),
+    }
 }
 
 fn omitted(diagnosis: &Diagnosis, line: &Omitted, language: Language) -> Value {

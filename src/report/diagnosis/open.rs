@@ -197,6 +197,7 @@ fn separating(diagnosis: &Diagnosis, of: &Separating, language: Language) -> Vec
     let names: Vec<String> = names
         .map(|cell| full_name(&diagnosis.cells[*cell], language))
         .collect();
+    let same = inseparable(of, &names, language);
     let names = names.join(language.pick(" or ", " 或 "));
     let kappa = significant(of.kappa, 2);
     let useful: Vec<_> = of
@@ -231,9 +232,29 @@ fn separating(diagnosis: &Diagnosis, of: &Separating, language: Language) -> Vec
     }
     vec![
         Block::Paragraph(language.pick(
-            format!("{names}: κ = {kappa} as it is. With a further measurement:"),
-            format!("{names}：目前 κ = {kappa}。加上补充测量后："),
+            format!("{names}: κ = {kappa} as it is.{same} With a further measurement:"),
+            format!("{names}：目前 κ = {kappa}。{same}加上补充测量后："),
         )),
         Block::Table(table),
     ]
+}
+
+/// Explanations that no measurement of the table tells apart.
+fn inseparable(of: &Separating, names: &[String], language: Language) -> String {
+    let mut text = String::new();
+    let mut classes = of.classes.clone();
+    classes.sort_unstable();
+    classes.dedup();
+    for class in classes {
+        let own = names.iter().zip(&of.classes).filter(|(_, c)| **c == class);
+        let own: Vec<&str> = own.map(|(name, _)| name.as_str()).collect();
+        if own.len() > 1 {
+            let own = own.join(language.pick(" and ", " 与 "));
+            text += &language.pick(
+                format!(" What says the same in all of these, and stays undecided: {own}."),
+                format!("在所有这些测量中表现相同、仍无法区分的是：{own}。"),
+            );
+        }
+    }
+    text
 }

@@ -9,7 +9,7 @@ use crate::report::language::Language;
 use crate::report::number::{NONE, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
-use super::json::{estimates, finite};
+use super::json::{estimates, finite, measure_json};
 use super::open;
 use super::words::{full_name, label, measure, name, noise};
 
@@ -306,6 +306,7 @@ pub fn json(case: &Case, outlook: &Outlook, language: Language) -> Value {
         "pairs": (0..outlook.pairs.len()).map(|at| pair(outlook, at, language)).collect::<Vec<_>>(),
         "measurements": outlook.extras.iter().map(|promise| json!({
             "name": measure(&promise.extra.measure, language),
+            "measure": measure_json(&promise.extra.measure),
             "cost": promise.extra.cost,
             "rows": promise.extra.rows.count,
             "tells_apart": promise.resolved.iter().map(|at| pair(outlook, *at, language)).collect::<Vec<_>>(),

@@ -279,10 +279,20 @@ pub(super) fn measure(measure: &Measure, language: Language) -> String {
                 "按相反顺序重复一次",
             )
             .to_owned(),
-        Measure::Set { column, value } => language.pick(
-            format!("the same once more with {column} at {value}"),
-            format!("将 {column} 设为 {value} 后重复一次"),
-        ),
+        Measure::Set {
+            column,
+            value,
+            unit,
+        } => {
+            // Five digits, and not more of them than there are.
+            let value: f64 = format!("{value:.4e}").parse().unwrap_or(*value);
+            let value = format!("{value} {unit}");
+            let value = value.trim_end();
+            language.pick(
+                format!("the same once more with {column} at {value}"),
+                format!("将 {column} 设为 {value} 后重复一次"),
+            )
+        }
         Measure::Between { column } => language.pick(
             format!("the same once more with {column} half way between its values"),
             format!("将 {column} 取在原有各值的中间后重复一次"),

@@ -1,0 +1,335 @@
+//! An explanation among others for the same mismatch, in the recording and in longer ones.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::catalogue::{Cell, Ground, Variation, Words};
+use super::evidence::{self, Baseline, Standing};
+use super::longer::{Longer, Recorded};
+use crate::special::normal_quantile;
+
+/// An explanation among others for the same mismatch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contender {
+    /// Identifier of the effect.
+    id: String,
+    /// What its texts speak of.
+    words: Words,
+    /// Its posterior probability.
+    probability: f64,
+    /// What it may look like, the most probable first.
+    likely: Vec<Likely>,
+}
+
+/// A variant that an explanation may have.
+#[derive(Debug, Clone, PartialEq)]
+struct Likely {
+    /// Its label.
+    label: String,
+    /// The value of its continuous parameter.
+    shape: Option<f64>,
+    /// What is seen of it in the recording, a column for each of the sizes that it may have.
+    seen: DMatrix<f64>,
+}
+
+/// Sizes and shapes for which a promise is formed.
+const DRAWS: usize = 40;
+
+impl Contender {
+    /// A variation of a cell with coefficients; those that are not finite count as zero.
+    pub(super) fn new(
+        recorded: &Recorded<'_>,
+        cell: &Cell,
+        variation: &Variation,
+        sizes: &DMatrix<f64>,
+        probability: f64,
+    ) -> Contender {
+        let sizes = sizes.map(|x| if x.is_finite() { x } else { 0.0 });
+        let columns = variation.columns(recorded.ground);
+        Contender {
+            id: cell.effect.id.clone(),
+            words: cell.words.clone(),
+            probability,
+            likely: vec![Likely {
+                label: variation.label.clone(),
+                shape: value(variation),
+                seen: recorded.baseline.project(&columns) * sizes,
+            }],
+        }
+    }
+
+    /// The same where it may have other variants too: some of the sizes are theirs, by their shares.
+    pub(super) fn with(
+        mut self,
+        recorded: &Recorded<'_>,
+        variations: &[(&Variation, f64)],
+    ) -> Contender {
+        let Some(first) = self.likely.first_mut() else {
+            return self;
+        };
+        let whole: f64 = variations.iter().map(|(_, share)| share).sum();
+        let seen = std::mem::take(&mut first.seen);
+        let mut bound = 0.0;
+        let mut begin = 0;
+        let mut likely = Vec::new();
+        for (variation, share) in variations {
+            bound += share / whole;
+            let end = (bound * seen.ncols() as f64).round() as usize;
+            let end = end.clamp(begin, seen.ncols());
+            if end == begin {
+                continue;
+            }
+            let own = seen.columns(begin, end - begin).into_owned();
+            let columns = recorded
+                .baseline
+                .project(&variation.columns(recorded.ground));
+            likely.push(Likely {
+                label: variation.label.clone(),
+                shape: value(variation),
+                seen: fitted(&columns, &own).map_or(own, |sizes| columns * sizes),
+            });
+            begin = end;
+        }
+        self.likely = likely;
+        self
+    }
+
+    /// Its posterior probability.
+    pub(super) fn probability(&self) -> f64 {
+        self.probability
+    }
+
+    /// Share of it that the parameters do not absorb in another design.
+    pub(super) fn visibility(&self, longer: &Longer<'_>) -> Option<f64> {
+        let shares = longer.baseline.visibilities(&self.columns(longer)?);
+        Some(shares.into_iter().fold(1.0, f64::min))
+    }
+
+    /// How it stands in the recording.
+    pub(super) fn before(&self, recorded: &Recorded<'_>, cells: &[Cell]) -> Standing {
+        let variants = self.variants(recorded.ground, cells).into_iter();
+        let seen = |columns: DMatrix<f64>| visible(recorded.baseline, columns);
+        Standing {
+            effects: side_by_side(self.likely.iter().map(|likely| likely.seen.clone())),
+            variants: variants.filter_map(seen).collect(),
+        }
+    }
+
+    /// How it stands in another design; nothing where the design has no such effect.
+    pub(super) fn standing(
+        &self,
+        recorded: &Recorded<'_>,
+        longer: &Longer<'_>,
+    ) -> Option<Standing> {
+        let variants = self.variants(&longer.ground, &longer.cells);
+        let before: Vec<DMatrix<f64>> = variants
+            .iter()
+            .map(|columns| {
+                recorded
+                    .baseline
+                    .project(&longer.recorded(recorded, columns))
+            })
+            .collect();
+        // The variant there that does the same to the rows of the recording.
+        let effects = self.likely.iter().map(|likely| {
+            let ranked = before.iter().zip(&variants).filter_map(|(before, whole)| {
+                let sizes = fitted(before, &likely.seen)?;
+                let left = (&likely.seen - before * &sizes).norm_squared();
+                Some((left, whole, sizes))
+            });
+            let (_, whole, sizes) = ranked.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some(longer.baseline.project(&(whole * sizes)))
+        });
+        let effects: Option<Vec<DMatrix<f64>>> = effects.collect();
+        let variants = variants.iter().cloned();
+        Some(Standing {
+            effects: side_by_side(effects?.into_iter()),
+            variants: variants
+                .filter_map(|columns| visible(&longer.baseline, columns))
+                .collect(),
+        })
+    }
+
+    /// Columns of all variants that it has among some cells.
+    fn variants(&self, ground: &Ground<'_>, cells: &[Cell]) -> Vec<DMatrix<f64>> {
+        let alike = cells.iter().filter(|cell| self.is(cell));
+        alike
+            .flat_map(|cell| &cell.variants)
+            .map(|variation| variation.columns(ground))
+            .filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
+            .collect()
+    }
+
+    pub(super) fn is(&self, cell: &Cell) -> bool {
+        // Each harmonic of an angle is a cell of its own.
+        cell.effect.id == self.id && cell.words == self.words
+    }
+
+    /// The columns of its variation in another design. A grid that follows the rows may have another step
+    /// there: what is nearest to it, or else its middle, then stands for it.
+    fn columns(&self, longer: &Longer<'_>) -> Option<DMatrix<f64>> {
+        let own = self.likely.first()?;
+        let cell = longer.cells.iter().find(|cell| self.is(cell))?;
+        let same = cell.variants.iter().find(|v| v.label == own.label);
+        let nearest = || {
+            let own = own.shape?;
+            let far = |other: &Variation| value(other).map(|value| (value - own).abs());
+            let ranked = cell.variants.iter();
+            let ranked = ranked.filter_map(|other| Some((far(other)?, other)));
+            let nearest = ranked.min_by(|a, b| a.0.total_cmp(&b.0));
+            nearest.map(|(_, other)| other)
+        };
+        let middle = || cell.variants.get(cell.variants.len() / 2);
+        let columns = same
+            .or_else(nearest)
+            .or_else(middle)?
+            .columns(&longer.ground);
+        columns.iter().all(|x| x.is_finite()).then_some(columns)
+    }
+}
+
+fn value(variation: &Variation) -> Option<f64> {
+    Some(variation.shape.as_ref()?.value)
+}
+
+/// The sizes with which columns come nearest to effects.
+fn fitted(columns: &DMatrix<f64>, effects: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    // Columns of unit length: their units may be very different.
+    let lengths: Vec<f64> = columns.column_iter().map(|c| c.norm()).collect();
+    let most = lengths.iter().copied().fold(0.0, f64::max);
+    if most == 0.0 {
+        return None;
+    }
+    let scale = |length: &f64| if *length > 0.0 { 1.0 / length } else { 0.0 };
+    let scales: Vec<f64> = lengths.iter().map(scale).collect();
+    let mut unit = columns.clone();
+    for (mut column, scale) in unit.column_iter_mut().zip(&scales) {
+        column *= *scale;
+    }
+    let mut sizes = unit.svd(true, true).solve(effects, 1e-9).ok()?;
+    for (mut row, scale) in sizes.row_iter_mut().zip(&scales) {
+        row *= *scale;
+    }
+    Some(sizes)
+}
+
+/// Sizes that an estimate allows, itself first: quantiles of a normal distribution, by a Halton sequence.
+pub(super) fn sizes(estimate: &DVector<f64>, covariance: &DMatrix<f64>) -> DMatrix<f64> {
+    let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+    let estimate = estimate.map(finite);
+    let spread = covariance.map(finite).symmetric_eigen();
+    let widths = spread.eigenvalues.map(|variance| variance.max(0.0).sqrt());
+    let root = &spread.eigenvectors * DMatrix::from_diagonal(&widths);
+    let normals = DMatrix::from_fn(estimate.len(), DRAWS, |k, draw| {
+        if draw == 0 {
+            0.0
+        } else {
+            normal_quantile(halton(draw, PRIMES[k % PRIMES.len()]))
+        }
+    });
+    let mut sizes = root * normals;
+    for mut column in sizes.column_iter_mut() {
+        column += &estimate;
+    }
+    sizes
+}
+
+const PRIMES: [usize; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
+
+/// The digits of a number in a base, mirrored at the point.
+fn halton(mut number: usize, base: usize) -> f64 {
+    let (mut value, mut part) = (0.0, 1.0);
+    while number > 0 {
+        part /= base as f64;
+        value += part * (number % base) as f64;
+        number /= base;
+    }
+    value
+}
+
+/// Columns as they are seen, without those that the parameters absorb.
+fn visible(baseline: &Baseline, columns: DMatrix<f64>) -> Option<DMatrix<f64>> {
+    /// What is left of less is rounding.
+    const ABSORBED: f64 = 1e-12;
+    let shares = baseline.visibilities(&columns);
+    let kept: Vec<usize> = (0..columns.ncols())
+        .filter(|column| shares[*column] > ABSORBED)
+        .collect();
+    (!kept.is_empty()).then(|| baseline.project(&columns.select_columns(&kept)))
+}
+
+fn side_by_side(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
+    let parts: Vec<DMatrix<f64>> = parts.collect();
+    let columns: Vec<_> = parts.iter().flat_map(|part| part.column_iter()).collect();
+    if columns.is_empty() {
+        return DMatrix::zeros(0, 0);
+    }
+    DMatrix::from_columns(&columns)
+}
+
+/// A variation that does what a contender does, as far as it can.
+pub(super) fn likened(
+    recorded: &Recorded<'_>,
+    contender: &Contender,
+    cell: &Cell,
+    variation: &Variation,
+) -> Option<Contender> {
+    let seen = &contender.likely.first()?.seen;
+    let columns = recorded
+        .baseline
+        .project(&variation.columns(recorded.ground));
+    let sizes = fitted(&columns, seen)?;
+    // It is not in the list: less probable than whatever is.
+    Some(Contender::new(recorded, cell, variation, &sizes, UNLISTED))
+}
+
+/// The most that an explanation has which is not listed.
+const UNLISTED: f64 = 0.01;
+
+/// What a candidate that is not in a list leaves of each explanation of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Outsider {
+    id: &'static str,
+    words: Words,
+    /// κ of each.
+    pub kappas: Vec<f64>,
+}
+
+impl Outsider {
+    /// Whether both are the same candidate.
+    pub(super) fn is(&self, other: &Outsider) -> bool {
+        self.id == other.id && self.words == other.words
+    }
+}
+
+/// All candidates that are not in a list: named ones whose size is free. Single rows and waves of any
+/// period come near to anything a little, and seldom stand for it.
+pub(super) fn outsiders(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    baseline: &Baseline,
+    set: &[Contender],
+    standing: &[Standing],
+) -> Vec<Outsider> {
+    let effects = standing.iter().map(|one| one.effects.column(0));
+    let effects = DMatrix::from_columns(&effects.collect::<Vec<_>>());
+    let counts = |cell: &&Cell| {
+        let named =
+            cell.variants.iter().all(|v| v.spectrum.is_none()) && cell.effect.exact.is_none();
+        let rows = matches!(cell.effect.id.as_str(), "outlier" | "wave");
+        named && !rows && !set.iter().any(|one| one.is(cell))
+    };
+    let of = |cell: &Cell| {
+        let columns = cell
+            .variants
+            .iter()
+            .map(|variation| variation.columns(ground));
+        let finite = columns.filter(|c| c.ncols() > 0 && c.iter().all(|x| x.is_finite()));
+        let seen: Vec<DMatrix<f64>> = finite.filter_map(|c| visible(baseline, c)).collect();
+        Outsider {
+            id: &cell.effect.id,
+            words: cell.words.clone(),
+            kappas: evidence::left(&effects, seen),
+        }
+    };
+    cells.iter().filter(counts).map(of).collect()
+}

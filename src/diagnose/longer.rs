@@ -1,0 +1,135 @@
+//! A recording together with a further measurement: its rows, its noise, and how explanations stand in it.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::case::{Case, NoiseClaim};
+use super::catalogue::{self, Cell, Ground};
+use super::contender::Contender;
+use super::evidence::{self, Apart, Baseline, Standing};
+use super::extra::Extra;
+use super::fit::{self, Fit};
+use super::frame::Frame;
+use super::inquiry::baseline;
+use super::noise::{self, Claimed};
+
+/// What is known of a case before a further measurement.
+pub(super) struct Known<'k> {
+    pub case: &'k Case,
+    pub frame: &'k Frame<'k>,
+    pub fit: &'k Fit,
+    pub claimed: &'k Claimed,
+}
+
+/// A recording with what its residuals are examined by.
+pub(super) struct Recorded<'r> {
+    pub known: &'r Known<'r>,
+    pub ground: &'r Ground<'r>,
+    pub baseline: &'r Baseline,
+}
+
+/// The recording together with a further measurement.
+pub(super) struct Longer<'l> {
+    pub ground: Ground<'l>,
+    pub cells: Vec<Cell>,
+    pub baseline: Baseline,
+}
+
+/// Examines the recording together with a further measurement; nothing where the model has no values there.
+pub(super) fn examined<R>(
+    recorded: &Recorded<'_>,
+    extra: &Extra,
+    examine: impl FnOnce(&Longer<'_>) -> R,
+) -> Option<R> {
+    let known = recorded.known;
+    let case = known.case.followed_by(&extra.rows);
+    let mut frame = Frame::new(&case);
+    frame.blocks = blocks(known, extra);
+    let fit = fit::at(&frame, unknowns(known, &frame));
+    if !fit.jacobian.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let fit = Fit {
+        residuals: DVector::zeros(frame.observations()),
+        ..fit
+    };
+    let ground = Ground::new(&frame, &fit).refined(recorded.ground.finer.clone());
+    let cells = catalogue::cells(&ground);
+    let baseline = baseline(&frame, &fit, &noise_of(known, &frame, &fit)).ok()?;
+    Some(examine(&Longer {
+        ground,
+        cells,
+        baseline,
+    }))
+}
+
+impl Longer<'_> {
+    /// The observations of the recording alone.
+    pub(super) fn recorded(&self, recorded: &Recorded<'_>, columns: &DMatrix<f64>) -> DMatrix<f64> {
+        let frame = self.ground.frame;
+        let (own, all) = (recorded.known.frame.blocks.len(), frame.blocks.len());
+        let places: Vec<usize> = (0..frame.case.responses.len())
+            .flat_map(|response| (0..own).map(move |block| response * all + block))
+            .collect();
+        columns.select_rows(&places)
+    }
+
+    /// How explanations stand here; nothing where one of them is none.
+    pub(super) fn standing(
+        &self,
+        recorded: &Recorded<'_>,
+        set: &[Contender],
+    ) -> Option<Vec<Standing>> {
+        set.iter().map(|one| one.standing(recorded, self)).collect()
+    }
+
+    /// How far explanations are apart here.
+    pub(super) fn apart(&self, recorded: &Recorded<'_>, set: &[Contender]) -> Option<Apart> {
+        evidence::apart(&self.standing(recorded, set)?).ok()
+    }
+}
+
+/// The blocks of the recording, and after them those that the further rows have by themselves.
+fn blocks(known: &Known<'_>, extra: &Extra) -> Vec<Vec<usize>> {
+    let alone = known.case.with(&extra.rows);
+    let further = Frame::new(&alone).blocks.into_iter();
+    let further = further.map(|rows| rows.into_iter().map(|row| row + known.case.rows).collect());
+    known.frame.blocks.iter().cloned().chain(further).collect()
+}
+
+/// Values of the unknowns in another design; a label that is new there begins with the value of the first.
+pub(super) fn unknowns(known: &Known<'_>, frame: &Frame<'_>) -> DVector<f64> {
+    let own = &known.frame.unknowns;
+    let value = |name: &str| {
+        let stem = name.split('[').next().unwrap_or(name);
+        let same = own.iter().position(|unknown| unknown.name == name);
+        let alike = || {
+            own.iter()
+                .position(|u| u.name.split('[').next() == Some(stem))
+        };
+        same.or_else(alike).map_or(0.0, |at| known.fit.unknowns[at])
+    };
+    let values = frame.unknowns.iter().map(|unknown| value(&unknown.name));
+    DVector::from_iterator(frame.unknowns.len(), values)
+}
+
+/// The noise of another design: what is claimed, or for each response what the rows at hand have.
+pub(super) fn noise_of(known: &Known<'_>, frame: &Frame<'_>, fit: &Fit) -> Claimed {
+    match &known.case.noise {
+        NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow(_) => {
+            noise::planned(frame, fit)
+        }
+        NoiseClaim::Estimated | NoiseClaim::Replicates(_) => {
+            let (own, blocks) = (known.frame.blocks.len(), frame.blocks.len());
+            let rms = |response: usize| {
+                let part = known.claimed.u.rows(response * own, own);
+                (part.norm_squared() / own as f64).sqrt()
+            };
+            let u = DVector::from_fn(frame.observations(), |at, _| rms(at / blocks));
+            Claimed {
+                u,
+                correlated: None,
+                ..known.claimed.clone()
+            }
+        }
+    }
+}

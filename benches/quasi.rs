@@ -1,6 +1,8 @@
 //! Time to a tolerance: quasi-random points beside random trials, both run until estimate, standard
 //! uncertainty and both ends of the 95 % interval are stable to two digits of u, each with its own
 //! guarantee of 95 % (docs/monte-carlo.md). Linux: time of the processor, which other work disturbs less.
+//!
+//! `cargo bench --bench quasi -- mm0` for the models whose names have this part.
 
 mod common;
 
@@ -16,8 +18,11 @@ fn main() {
         "{:<26}{:>14}{:>12}{:>12}{:>12}{:>9}  averaged over",
         "model", "random trials", "time", "points", "time", "ratio"
     );
+    let chosen = std::env::args().skip(1).find(|word| !word.starts_with('-'));
     for (name, text) in models() {
-        line(name, &text);
+        if chosen.as_ref().is_none_or(|part| name.contains(part)) {
+            line(name, &text);
+        }
     }
 }
 
@@ -56,6 +61,10 @@ fn models() -> Vec<(&'static str, String)> {
         (
             "twenty squares",
             format!("{}{twenty}", head(&sum.join(" + "))),
+        ),
+        (
+            "root of twenty squares",
+            format!("{}{twenty}", head(&format!("sqrt({})", sum.join(" + ")))),
         ),
     ]
 }
@@ -99,7 +108,11 @@ fn line(name: &str, text: &str) {
         trials(&quasi),
         plain / time,
         match quasi.and_then(|run| run.quasi) {
-            Some(Quasi::Used(run)) => run.averaged.unwrap_or_else(|| "none".to_string()),
+            Some(Quasi::Used(run)) => match run.averaged.as_slice() {
+                [] => "none".to_string(),
+                names if names.len() > 4 => format!("{} components", names.len()),
+                names => names.join(", "),
+            },
             Some(Quasi::Refused(why)) => format!("refused: {why:?}"),
             None => String::new(),
         }

@@ -105,38 +105,45 @@ fn varying_operands(graph: &Graph, op: Op, mut show: impl FnMut(Id, bool)) {
     }
 }
 
-/// Whether no operation is nonlinear in what depends on the given inputs.
-pub fn affine(graph: &Graph, inputs: &[usize]) -> bool {
-    let mut moves = vec![false; graph.ops.len()];
-    for (i, op) in graph.ops.iter().enumerate() {
-        let moved = |id: Id| moves[id as usize];
-        let (linear, own) = match *op {
-            Op::Input(place) => (true, inputs.contains(&(place as usize))),
-            Op::Constant(_) | Op::Unknown(_) => (true, false),
-            Op::Unary(row, a) => (!moved(a) || row.name == "-", moved(a)),
-            Op::Binary(row, a, b) => {
-                let linear = match row.name {
-                    "+" | "-" => true,
-                    "*" => !(moved(a) && moved(b)),
-                    "/" => !moved(b),
-                    _ => !(moved(a) || moved(b)),
-                };
-                (linear, moved(a) || moved(b))
-            }
-            Op::Select(c, a, b) => (!moved(c), moved(a) || moved(b)),
-            Op::Power(a, _) => (!moved(a), false),
+/// The degree, up to the second, of the polynomials that all outputs are of the given inputs together while the
+/// others are held; `None` where an output is none, or of higher degree, or may not be.
+pub fn degree(graph: &Graph, inputs: &[usize]) -> Option<u8> {
+    let mut degrees: Vec<u8> = Vec::with_capacity(graph.ops.len());
+    for op in &graph.ops {
+        let of = |id: Id| degrees[id as usize];
+        let degree = match *op {
+            Op::Input(place) => u8::from(inputs.contains(&(place as usize))),
+            Op::Constant(_) | Op::Unknown(_) => 0,
+            Op::Unary(row, a) => match row.name {
+                "-" => of(a),
+                "^2" => 2 * of(a),
+                _ => held(of(a) == 0)?,
+            },
+            Op::Binary(row, a, b) => match row.name {
+                "+" | "-" => of(a).max(of(b)),
+                "*" => of(a) + of(b),
+                "/" if of(b) == 0 => of(a),
+                _ => held(of(a).max(of(b)) == 0)?,
+            },
+            Op::Power(a, _) => held(of(a) == 0)?,
+            Op::Select(c, a, b) => held(of(c) == 0)? + of(a).max(of(b)),
             Op::Solve(_) => {
-                let mut any = false;
-                graph.operands(*op, |a| any |= moved(a));
-                (!any, false)
+                let mut all = 0;
+                graph.operands(*op, |a| all |= of(a));
+                held(all == 0)?
             }
         };
-        if !linear {
-            return false;
+        if degree > 2 {
+            return None;
         }
-        moves[i] = own;
+        degrees.push(degree);
     }
-    true
+    graph.outputs.iter().map(|id| degrees[*id as usize]).max()
+}
+
+/// Degree zero, of what is the same wherever the inputs are.
+fn held(all: bool) -> Option<u8> {
+    all.then_some(0)
 }
 
 /// Disjoint sets with path halving.

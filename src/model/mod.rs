@@ -273,7 +273,13 @@ impl Model {
 
     /// Whether every output is an affine function of these inputs while the others are held.
     pub fn is_affine_in(&self, inputs: &[usize]) -> bool {
-        interaction::affine(&self.graph, inputs)
+        self.degree_in(inputs).is_some_and(|degree| degree <= 1)
+    }
+
+    /// The degree, up to the second, of the polynomials that all outputs are of these inputs together while the others
+    /// are held; `None` where they are none, or of higher degree.
+    pub fn degree_in(&self, inputs: &[usize]) -> Option<u8> {
+        interaction::degree(&self.graph, inputs)
     }
 
     /// Which of the request's symbols no measurand depends on.

@@ -55,11 +55,10 @@ fn gained(run: &QuasiRun, language: Language) -> String {
             } else {
                 "; they agree to the last digit".to_string()
             };
-            let averaged = run.averaged.as_ref().map_or(String::new(), |name| {
-                format!(
-                    ". {name}, on which the measurand depends linearly, was averaged over exactly"
-                )
-            });
+            let averaged = match listed(&run.averaged, language) {
+                Some(names) => format!(". Not drawn, but averaged over: {names}"),
+                None => String::new(),
+            };
             format!("{points}{gain}{averaged}.")
         }
         Language::Chinese => {
@@ -69,12 +68,27 @@ fn gained(run: &QuasiRun, language: Language) -> String {
             } else {
                 "，各次结果完全一致".to_string()
             };
-            let averaged = run.averaged.as_ref().map_or(String::new(), |name| {
-                format!("。被测量与 {name} 呈线性关系，已对其解析求平均")
-            });
+            let averaged = match listed(&run.averaged, language) {
+                Some(names) => format!("。不抽样而直接求平均的分量：{names}"),
+                None => String::new(),
+            };
             format!("{points}{gain}{averaged}。")
         }
     }
+}
+
+/// The first names of components; `None` if there are none.
+fn listed(names: &[String], language: Language) -> Option<String> {
+    const MOST: usize = 6;
+    let shown = names.iter().take(MOST).map(String::as_str);
+    let rest = names.len().saturating_sub(MOST);
+    let (comma, more) = match language {
+        Language::English => (", ", format!(" and {rest} more")),
+        Language::Chinese => ("、", format!("等 {} 个", names.len())),
+    };
+    let list = shown.collect::<Vec<_>>().join(comma);
+    let more = if rest > 0 { more } else { String::new() };
+    (!names.is_empty()).then(|| list + &more)
 }
 
 fn english(why: &WhyRandom) -> String {
@@ -126,7 +140,7 @@ mod tests {
     fn a_run_says_what_it_gained() {
         let run = QuasiRun {
             replicates: 16,
-            averaged: Some("V.calibration".into()),
+            averaged: vec!["V.calibration".into()],
             digits: 2,
             delta: 0.05,
             reached: true,
@@ -139,7 +153,7 @@ mod tests {
             english.contains("V.calibration") && english.contains("random trials"),
             "{english}"
         );
-        assert!(sentence(&used, Language::Chinese).ends_with("求平均。"));
+        assert!(sentence(&used, Language::Chinese).ends_with("V.calibration。"));
     }
 
     #[test]

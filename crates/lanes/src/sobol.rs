@@ -48,8 +48,10 @@ impl Sobol {
         }
         let mut first = [key.word(64); LANES];
         for (digit, column) in scrambled[..LOW].iter().enumerate() {
-            for (number, point) in first.iter_mut().enumerate() {
-                *point ^= column * (number >> digit & 1) as u64;
+            // Numbers with this digit follow those without.
+            let (without, with) = first.split_at_mut(1 << digit);
+            for (point, other) in with.iter_mut().zip(without) {
+                *point = *other ^ column;
             }
         }
         Sobol {

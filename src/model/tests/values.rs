@@ -373,3 +373,27 @@ fn every_function_is_documented() {
         assert_eq!(find(row).is_some(), callable, "{row}");
     }
 }
+
+/// The degree in some inputs together while the others are held.
+#[test]
+fn degrees_of_polynomials() {
+    let degree = |text: &str, of: &[usize]| model("a b c", text, "").degree_in(of);
+    for (text, of, wanted) in [
+        ("a^2 + b * c", &[0][..], Some(2)),
+        ("a^2 + b * c", &[1], Some(1)),
+        ("a^2 + b * c", &[0, 1, 2], Some(2)),
+        ("a * b * c", &[0, 1], Some(2)),
+        ("a * b * c", &[0, 1, 2], None),
+        ("(a + 2 * b) / c - b", &[0, 1], Some(1)),
+        ("(a + 2 * b) / c - b", &[2], None),
+        ("a * exp(b) + c", &[0, 2], Some(1)),
+        ("a * exp(b) + c", &[1], None),
+        ("(a * b)^2", &[0], Some(2)),
+        ("(a * b)^2", &[0, 1], None),
+        ("a^3 + b", &[1], Some(1)),
+        ("a^3 + b", &[0], None),
+        ("b", &[0], Some(0)),
+    ] {
+        assert_eq!(degree(text, of), wanted, "{text} in {of:?}");
+    }
+}

@@ -268,7 +268,8 @@ impl JointSampler {
     }
 }
 
-fn rows(factor: &DMatrix<f64>) -> Vec<Vec<f64>> {
+/// The rows of a triangular factor, up to the diagonal.
+pub(super) fn rows(factor: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let row = |i: usize| (0..=i).map(|k| factor[(i, k)]).collect();
     (0..factor.nrows()).map(row).collect()
 }

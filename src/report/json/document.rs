@@ -119,8 +119,8 @@ record! {
         note: String,
         /// Independent scrambles.
         replicates: Option<u64>,
-        /// The component that was averaged over in place of being drawn.
-        averaged: Option<String>,
+        /// The components that were averaged over in place of being drawn.
+        averaged: Vec<String>,
         /// Significant digits of u asked for.
         digits: Option<u64>,
         /// Numerical tolerance.
@@ -331,7 +331,7 @@ fn quasi(of: &Quasi) -> QuasiJson {
         used: run.is_some(),
         note: crate::report::quasi::sentence(of, Language::English),
         replicates: run.map(|run| run.replicates as u64),
-        averaged: run.and_then(|run| run.averaged.clone()),
+        averaged: run.map_or(Vec::new(), |run| run.averaged.clone()),
         digits: run.map(|run| u64::from(run.digits)),
         delta: run.map(|run| number(run.delta)),
         reached: run.map(|run| run.reached),

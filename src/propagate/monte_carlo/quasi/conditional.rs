@@ -1,42 +1,44 @@
-//! Results from conditional distribution functions: one component is not drawn but averaged over.
+//! Results from conditional distribution functions: one quantity is not drawn but averaged over.
 //!
-//! Where the measurand is an affine function of a component E while the others are held, Y = a + bE, a point
-//! of the others gives the whole distribution function G((y − a)/b) and not just one value. The average over
+//! Where the measurand is an affine or quadratic function of a quantity t while the others are held, a point of the
+//! others gives the whole distribution of Y = a + bt + ct², and not just one value. The average over
 //! points is smooth in them, and needs far fewer than a count of values for an endpoint of the same error
 //! (Griewank, Kuo, Leövey and Sloan, J. Comput. Appl. Math. 344 (2018), call this preintegration).
 
 use std::ops::Range;
 
-use gumption_lanes::kernel::{Kernel, Lines, power_sums};
-use gumption_lanes::{Block, LANES};
+use gumption_lanes::kernel::{Paths, power_sums};
+use gumption_lanes::moments::all_finite;
+use gumption_lanes::{Block, LANES, Level, ops};
 
 use super::super::engine::parallel_map;
 use super::super::moments::{Moments, Pivot};
+use super::averaging::{Averaged, LEAST_PART};
 use super::points::{Points, Scratch};
-use super::tails::{Node, Tails};
-use super::{Figures, Pooled, REPLICATES, Trouble, shapes, threads_for};
+use super::tails::Tails;
+use super::{Figures, Pooled, REPLICATES, Trouble, threads_for};
 use crate::budget::Budget;
 use crate::propagate::Histogram;
 
 /// Places where the distribution function is found: in either tail, and about the median.
-const TAIL: usize = 12;
-const MIDDLE: usize = 3;
+const TAIL: usize = 10;
+const MIDDLE: usize = 2;
 
-/// Scrambles whose first block shows where the tails are.
-const SCOUTS: u64 = 4;
+/// Places at which a first look over the whole range finds the tails, and a second look into these finds the places.
+const LOOK: usize = 32;
 
-/// The least part of u(y) that the component must make up at every point, or there is nothing to smooth with.
-const LEAST_PART: f64 = 0.05;
+/// Standard deviations of t that the first look regards.
+const REGARDED: f64 = 6.0;
+
+/// How far the slope of a sum may be from the one that its distribution was made for.
+const CHANGE: f64 = 0.01;
 
 /// Averages over points of every scramble.
 pub(super) struct Conditional<'p, 'b> {
     points: &'p Points<'b>,
-    component: usize,
-    /// A standard uncertainty of the component.
-    step: f64,
-    kernel: Kernel,
-    /// Second, third and fourth; those that do not exist as zero.
-    central: [f64; 3],
+    averaged: &'p Averaged,
+    /// That the averaged components act on.
+    moving: Vec<usize>,
     pivot: Pivot,
     p: f64,
     /// Where the distribution function is found.
@@ -54,105 +56,182 @@ struct Tally {
     places: Vec<[f64; 2]>,
 }
 
-/// The component that moves the measurand most among those that can be averaged over.
-pub(super) fn candidate(budget: &Budget, points: &Points<'_>) -> Option<usize> {
-    let effects = points.effects();
-    let mut order: Vec<usize> = points.independent().collect();
-    order.sort_by(|a, b| effects[*b].total_cmp(&effects[*a]));
-    let total = order
-        .iter()
-        .map(|c| effects[*c] * effects[*c])
-        .sum::<f64>()
-        .sqrt();
-    order
-        .into_iter()
-        .take_while(|component| effects[*component] > LEAST_PART * total)
-        .filter(|component| shapes::averages(&budget.components[*component].distribution))
-        .find(|component| {
-            let of = |input: &crate::budget::Input| {
-                input
-                    .terms
-                    .iter()
-                    .any(|term| term.component == *component && term.coefficient != 0.0)
-            };
-            let inputs: Vec<usize> = (0..budget.inputs.len())
-                .filter(|i| of(&budget.inputs[*i]))
-                .collect();
-            budget.model.is_affine_in(&inputs)
-        })
+/// a, b, c of 256 points.
+struct Lines {
+    start: Block,
+    slope: Block,
+    bend: Option<Block>,
+}
+
+impl Lines {
+    fn paths(&self) -> Paths<'_> {
+        Paths {
+            start: &self.start,
+            slope: &self.slope,
+            bend: self.bend.as_ref(),
+        }
+    }
+
+    /// The value at one t of one point.
+    fn at(&self, lane: usize, t: f64) -> f64 {
+        let bend = self.bend.as_ref().map_or(0.0, |bend| bend.0[lane]);
+        self.start.0[lane] + t * (self.slope.0[lane] + t * bend)
+    }
+
+    /// The value at the vertex, if there is one.
+    fn vertex(&self, lane: usize) -> Option<f64> {
+        let bend = self.bend.as_ref()?.0[lane];
+        let vertex = -0.5 * self.slope.0[lane] / bend;
+        (vertex.abs() < REGARDED).then(|| self.at(lane, vertex))
+    }
+
+    fn finite(&self, level: Level) -> bool {
+        let all = [Some(&self.start), Some(&self.slope), self.bend.as_ref()];
+        all.into_iter()
+            .flatten()
+            .all(|block| all_finite(level, block))
+    }
 }
 
 impl<'p, 'b> Conditional<'p, 'b> {
-    /// Nothing drawn yet; `None` for a component that cannot be averaged over.
+    /// Nothing drawn yet.
     pub(super) fn new(
         budget: &Budget,
         points: &'p Points<'b>,
-        component: usize,
+        averaged: &'p Averaged,
         pivot: Pivot,
-    ) -> Option<Self> {
-        let distribution = &budget.components[component].distribution;
-        Some(Conditional {
+    ) -> Self {
+        let acts = |input: &&usize| {
+            let terms = &budget.inputs[**input].terms;
+            let of = |component| {
+                averaged
+                    .direction
+                    .iter()
+                    .any(|(member, _)| *member == component)
+            };
+            terms
+                .iter()
+                .any(|term| term.coefficient != 0.0 && of(term.component))
+        };
+        let inputs: Vec<usize> = (0..budget.inputs.len()).collect();
+        Conditional {
             points,
-            component,
-            step: budget.components[component].u,
-            kernel: shapes::kernel(distribution)?,
-            central: [
-                distribution.variance()?,
-                distribution.third_central_moment().unwrap_or(0.0),
-                distribution.fourth_central_moment().unwrap_or(0.0),
-            ],
+            averaged,
+            moving: inputs.iter().filter(acts).copied().collect(),
             pivot,
             p: budget.conventions.coverage_probability,
             places: Vec::new(),
             tallies: vec![Tally::default(); REPLICATES],
-        })
+        }
     }
 
-    /// a and b at the current point of the other components.
-    fn lines(&self, scratch: &mut Scratch<'b>) -> Result<(Block, Block), Trouble> {
-        let start = self.points.value_at(scratch, self.component, 0.0);
-        let mut slope = self.points.value_at(scratch, self.component, self.step);
-        for (slope, start) in slope.0.iter_mut().zip(&start.0) {
-            *slope = (*slope - start) / self.step;
-        }
-        if start.0.iter().chain(&slope.0).any(|x| !x.is_finite()) {
-            return Err(Trouble::NotFinite);
-        }
-        Ok((start, slope))
-    }
-
-    /// Chooses the places from some values, and makes sure that the component matters everywhere.
-    fn look_around(&mut self, bits: u32) -> Result<(), Trouble> {
-        let mut scratch = self.points.scratch();
-        let mut values = Vec::new();
-        let mut least = f64::INFINITY;
-        for replicate in 0..SCOUTS {
-            self.points.begin(&mut scratch, replicate, bits);
-            self.points.draw(&mut scratch, 0);
-            let deviations = scratch.deviations(self.component);
-            let (start, slope) = self.lines(&mut scratch)?;
-            for lane in 0..LANES {
-                values.push(start.0[lane] + slope.0[lane] * deviations.0[lane]);
-                least = least.min(slope.0[lane].abs());
+    /// How the measurand depends on t at 256 points.
+    fn lines(&self, scratch: &mut Scratch<'b>, block: u64) -> Result<Lines, Trouble> {
+        let level = self.points.level;
+        self.points.draw(scratch, block);
+        let trial = &mut scratch.trial;
+        if let Some(coordinate) = &self.averaged.coordinate {
+            let mut along = Block::ZERO;
+            for (component, weight) in coordinate {
+                ops::axpy(level, *weight, &trial.deviations[*component], &mut along);
+            }
+            for (component, change) in &self.averaged.direction {
+                ops::axpy(level, -change, &along, &mut trial.deviations[*component]);
             }
         }
-        values.sort_unstable_by(f64::total_cmp);
-        if least * self.step < LEAST_PART * Moments::of(&values, self.pivot).sd() {
+        trial.move_all();
+        let start = *trial.value();
+        let mut step = |steps: f64| {
+            for (component, change) in &self.averaged.direction {
+                let deviation = &mut trial.deviations[*component];
+                deviation.0.iter_mut().for_each(|x| *x += steps * change);
+            }
+            trial.move_some(&self.moving);
+            *trial.value()
+        };
+        let up = step(1.0);
+        let mut lines = Lines {
+            start,
+            slope: Block::ZERO,
+            bend: None,
+        };
+        if self.averaged.bent {
+            let down = step(-2.0);
+            let mut bend = Block::ZERO;
+            for (lane, start) in start.0.iter().enumerate() {
+                lines.slope.0[lane] = 0.5 * (up.0[lane] - down.0[lane]);
+                bend.0[lane] = 0.5 * (up.0[lane] + down.0[lane]) - start;
+            }
+            lines.bend = Some(bend);
+        } else {
+            ops::sub(level, &up, &start, &mut lines.slope);
+        }
+        if self.averaged.coordinate.is_none() {
+            for (component, _) in &self.averaged.direction {
+                trial.deviations[*component] = Block::ZERO;
+            }
+        }
+        if !lines.finite(level) {
+            return Err(Trouble::NotFinite);
+        }
+        let change = |expected: f64| {
+            let far = |slope: &f64| (slope - expected).abs() > CHANGE * expected;
+            lines.slope.0.iter().any(far)
+        };
+        if self.averaged.slope.is_some_and(change) {
             return Err(Trouble::Flat);
         }
-        let at =
-            |share: f64| values[((share * values.len() as f64) as usize).min(values.len() - 1)];
-        let inner = 0.01 + 1.5 * (1.0 - self.p);
-        let (least, middle, most) = (at(0.0), at(0.5), at(1.0));
-        let spread = |from: f64, to: f64, count: usize| {
-            (0..count).map(move |i| from + (to - from) * i as f64 / (count - 1) as f64)
+        Ok(lines)
+    }
+
+    /// Chooses the places from some points, and makes sure that t matters at all of them.
+    fn look_around(&mut self, bits: u32) -> Result<(), Trouble> {
+        let mut scratch = self.points.scratch();
+        self.points.begin(&mut scratch, 0, bits);
+        let lines = self.lines(&mut scratch, 0)?;
+        let far = self.averaged.law.kernel.reach().min(REGARDED);
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut least = f64::INFINITY;
+        for lane in 0..LANES {
+            let ends = [lines.at(lane, -far), lines.at(lane, far)];
+            for y in ends.into_iter().chain(lines.vertex(lane)) {
+                range = [range[0].min(y), range[1].max(y)];
+            }
+            let ways = [lines.at(lane, -1.0), lines.at(lane, 1.0)];
+            let moved = ways.map(|y| (y - lines.start.0[lane]).abs());
+            least = least.min(moved[0].max(moved[1]));
+        }
+        let level = self.points.level;
+        let kernel = &self.averaged.law.kernel;
+        let powers = self.powers(&lines);
+        let sd = Moments::from_sums(self.pivot, LANES as u64, 0, powers).sd();
+        if least < LEAST_PART * sd {
+            return Err(Trouble::Flat);
+        }
+        let look = |grid: &[f64]| {
+            let mut sums = vec![[0.0; 2]; grid.len()];
+            kernel.add(level, lines.paths(), grid, &mut sums);
+            Tails::new(grid, &sums, LANES as f64)
         };
-        let (low, high) = (at(inner.min(0.3)), at(1.0 - inner.min(0.3)));
-        let mut places: Vec<f64> = spread(least - 0.4 * (middle - least), low, TAIL).collect();
-        places.extend(spread(at(0.35), at(0.65), MIDDLE));
-        places.extend(spread(high, most + 0.4 * (most - middle), TAIL));
-        self.places = places;
+        let whole = look(&equidistant(range, LOOK));
+        let [_, inner] = shares(self.p);
+        let mut tails = equidistant([range[0], whole.quantile(inner)], LOOK / 2);
+        tails.extend(equidistant(
+            [whole.quantile(1.0 - inner), range[1]],
+            LOOK / 2,
+        ));
+        self.places = places(&look(&tails), self.p);
         Ok(())
+    }
+
+    fn powers(&self, lines: &Lines) -> [f64; 4] {
+        let moments = &self.averaged.law.moments;
+        power_sums(
+            self.points.level,
+            lines.paths(),
+            moments,
+            self.pivot.coordinates(),
+        )
     }
 
     /// Draws further blocks of every scramble.
@@ -168,7 +247,10 @@ impl<'p, 'b> Conditional<'p, 'b> {
                 .iter_mut()
                 .for_each(|tally| tally.places = vec![[0.0; 2]; self.places.len()]);
         }
-        let work: Vec<(u64, Tally)> = (0..).zip(std::mem::take(&mut self.tallies)).collect();
+        let mut work: Vec<(u64, Tally)> = (0..).zip(std::mem::take(&mut self.tallies)).collect();
+        if self.points.are_one() {
+            work.truncate(1);
+        }
         let (tallies, _) = parallel_map(
             work,
             threads_for(&blocks, threads),
@@ -176,32 +258,16 @@ impl<'p, 'b> Conditional<'p, 'b> {
             |scratch, (replicate, mut tally)| {
                 self.points.begin(scratch, replicate, bits);
                 for block in blocks.clone() {
-                    self.points.draw(scratch, block);
-                    let (start, slope) = self.lines(scratch)?;
-                    let lines = Lines {
-                        start: &start,
-                        slope: &slope,
-                    };
-                    self.kernel
-                        .add(self.points.level, lines, &self.places, &mut tally.places);
-                    let powers = power_sums(
-                        self.points.level,
-                        lines,
-                        self.central,
-                        self.pivot.coordinates(),
-                    );
-                    tally
-                        .powers
-                        .iter_mut()
-                        .zip(powers)
-                        .for_each(|(all, some)| *all += some);
-                    tally.points += LANES as u64;
+                    self.add(scratch, block, &mut tally)?;
                 }
                 Ok(tally)
             },
             |_| (),
         );
         self.tallies = tallies.into_iter().collect::<Result<_, Trouble>>()?;
+        if let ([one], true) = (self.tallies.as_slice(), self.points.are_one()) {
+            self.tallies = vec![one.clone(); REPLICATES];
+        }
         let finite = |tally: &Tally| {
             tally
                 .places
@@ -217,19 +283,47 @@ impl<'p, 'b> Conditional<'p, 'b> {
         }
     }
 
+    /// Adds a block of points.
+    fn add(&self, scratch: &mut Scratch<'b>, block: u64, tally: &mut Tally) -> Result<(), Trouble> {
+        let lines = self.lines(scratch, block)?;
+        let kernel = &self.averaged.law.kernel;
+        kernel.add(
+            self.points.level,
+            lines.paths(),
+            &self.places,
+            &mut tally.places,
+        );
+        for (all, some) in tally.powers.iter_mut().zip(self.powers(&lines)) {
+            *all += some;
+        }
+        tally.points += LANES as u64;
+        Ok(())
+    }
+
     /// The results of every scramble so far.
     pub(super) fn replicates(&self) -> Vec<Figures> {
-        let below = self.tails(&self.total()).shortest(self.p);
         let replicates = self.tallies.iter().map(|tally| {
-            let (tails, moments) = (self.tails(tally), self.moments(tally));
+            let moments = self.moments(tally);
             Figures {
                 mean: moments.mean(),
                 u: moments.sd(),
-                symmetric: self.symmetric(&tails),
-                shortest: tails.covering(tails.shortest_near(below, self.p), self.p),
+                symmetric: self.symmetric(&self.tails(tally)),
             }
         });
         replicates.collect()
+    }
+
+    /// The shortest interval of every scramble.
+    pub(super) fn shortest(&self) -> Vec<[f64; 2]> {
+        let below = self.tails(&self.total()).shortest(self.p);
+        let of = |tally: &Tally| {
+            let tails = self.tails(tally);
+            tails.covering(tails.shortest_near(below, self.p), self.p)
+        };
+        if self.points.are_one() {
+            return vec![of(&self.tallies[0]); REPLICATES];
+        }
+        self.tallies.iter().map(of).collect()
     }
 
     /// The results of all points.
@@ -274,17 +368,7 @@ impl<'p, 'b> Conditional<'p, 'b> {
     }
 
     fn tails(&self, tally: &Tally) -> Tails {
-        let n = tally.points as f64;
-        let nodes = self.places.iter().zip(&tally.places);
-        Tails(
-            nodes
-                .map(|(y, [below, density])| Node {
-                    y: *y,
-                    below: below / n,
-                    density: density / n,
-                })
-                .collect(),
-        )
+        Tails::new(&self.places, &tally.places, tally.points as f64)
     }
 
     /// The picture: what of `points` trials falls into equal bins over the central range, from the first block of the
@@ -293,33 +377,54 @@ impl<'p, 'b> Conditional<'p, 'b> {
         const BINS: usize = 64;
         let margin = 0.3 * (high - low);
         let (start, width) = (low - margin, (high - low + 2.0 * margin) / BINS as f64);
-        let edges: Vec<f64> = (0..=BINS).map(|i| start + i as f64 * width).collect();
-        let mut sums = vec![[0.0; 2]; edges.len()];
+        let edge = |i: usize| start + i as f64 * width;
+        // Every other edge; the distribution function is smooth enough in between.
+        let places: Vec<f64> = (0..=BINS / 2).map(|i| edge(2 * i)).collect();
+        let mut sums = vec![[0.0; 2]; places.len()];
         let mut scratch = self.points.scratch();
-        for replicate in 0..2 {
+        let blocks = if self.points.are_one() { 1 } else { 2 };
+        for replicate in 0..blocks {
             self.points.begin(&mut scratch, replicate, 8);
-            self.points.draw(&mut scratch, 0);
             // Finite here, as these are points that were summed.
-            if let Ok((start, slope)) = self.lines(&mut scratch) {
-                self.kernel.add(
-                    self.points.level,
-                    Lines {
-                        start: &start,
-                        slope: &slope,
-                    },
-                    &edges,
-                    &mut sums,
-                );
+            if let Ok(lines) = self.lines(&mut scratch, 0) {
+                let kernel = &self.averaged.law.kernel;
+                kernel.add(self.points.level, lines.paths(), &places, &mut sums);
             }
         }
-        let of = |sum: f64| sum / (2 * LANES) as f64 * points as f64;
-        let count = |pair: &[[f64; 2]]| (of(pair[1][0]) - of(pair[0][0])).round().max(0.0) as u64;
+        let tails = Tails::new(&places, &sums, (blocks * LANES as u64) as f64);
+        let share = |i: usize| tails.below(edge(i + 1)) - tails.below(edge(i));
+        let count = |i: usize| (share(i) * points as f64).round().max(0.0) as u64;
         Histogram {
             start,
             width,
-            counts: sums.windows(2).map(count).collect(),
+            counts: (0..BINS).map(count).collect(),
         }
     }
+}
+
+/// Places in both tails and about the median, from a rough distribution function: its ends, and places beyond which
+/// probabilities grow by equal factors, from a fiftieth of what the interval leaves out.
+fn places(rough: &Tails, p: f64) -> Vec<f64> {
+    let [outer, inner] = shares(p);
+    let share = |i: usize| outer * libm::pow(inner / outer, i as f64 / (TAIL - 2) as f64);
+    let lower = [0.0].into_iter().chain((0..TAIL - 1).map(share));
+    let upper = (0..TAIL - 1).rev().map(|i| 1.0 - share(i)).chain([1.0]);
+    let middle = equidistant([0.4, 0.6], MIDDLE);
+    let shares = lower.chain(middle).chain(upper);
+    let mut places: Vec<f64> = shares.map(|share| rough.quantile(share)).collect();
+    places.dedup_by(|next, before| *next <= *before);
+    places
+}
+
+/// The least and the greatest probability beyond places in a tail, its end apart.
+fn shares(p: f64) -> [f64; 2] {
+    let outside = 1.0 - p;
+    [0.02 * outside, (0.01 + 1.5 * outside).min(0.3)]
+}
+
+fn equidistant([from, to]: [f64; 2], count: usize) -> Vec<f64> {
+    let step = (to - from) / (count - 1) as f64;
+    (0..count).map(|i| from + i as f64 * step).collect()
 }
 
 impl Tally {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::super::engine::parallel_map;
 use super::super::existence::{Tail, Verdict};
 use super::super::histogram::histogram;
-use super::super::interval::{Ordered, Ranked, Ranks};
+use super::super::interval::{Ordered, Ranked, Ranks, symmetric_ends};
 use super::super::moments::{Moments, Pivot};
 use super::points::Points;
 use super::{Figures, Pooled, REPLICATES, Trouble, threads_for};
@@ -47,7 +47,8 @@ impl<'p, 'b> Counted<'p, 'b> {
                 self.points.begin(scratch, replicate, bits);
                 for block in blocks.clone() {
                     self.points.draw(scratch, block);
-                    values.extend_from_slice(&self.points.value(scratch).0);
+                    scratch.trial.move_all();
+                    values.extend_from_slice(&scratch.trial.value().0);
                 }
                 values
             },
@@ -63,17 +64,25 @@ impl<'p, 'b> Counted<'p, 'b> {
 
     /// The results of every scramble so far.
     pub(super) fn replicates(&self, threads: usize) -> Vec<Figures> {
-        let of = |values: &Vec<f64>| {
-            let ranks = Ranks::new(values.len(), self.p);
-            let order = Ordered::by_selection(values.clone(), ranks.last);
+        self.each(threads, |values| {
             let moments = Moments::of(values, self.pivot);
             Figures {
                 mean: moments.mean(),
                 u: moments.sd(),
-                symmetric: order.symmetric(ranks),
-                shortest: order.shortest(ranks),
+                symmetric: symmetric_ends(&mut values.clone(), self.p),
             }
-        };
+        })
+    }
+
+    /// The shortest interval of every scramble.
+    pub(super) fn shortest(&self, threads: usize) -> Vec<[f64; 2]> {
+        self.each(threads, |values| {
+            let ranks = Ranks::new(values.len(), self.p);
+            Ordered::by_selection(values.clone(), ranks.last).shortest(ranks)
+        })
+    }
+
+    fn each<T: Send>(&self, threads: usize, of: impl Fn(&Vec<f64>) -> T + Sync) -> Vec<T> {
         let values = self.values.iter().collect();
         parallel_map(values, threads, || (), |(), values| of(values), |()| ()).0
     }

@@ -12,16 +12,22 @@
 //! | chapter | holds |
 //! |---|---|
 //! | [`points`] | points of the input quantities |
-//! | [`shapes`] | quantile functions and distribution functions on blocks |
-//! | [`conditional`] | results where one component can be averaged over |
+//! | [`shapes`] | quantile functions on blocks |
+//! | [`trial`] | the model at points |
+//! | [`averaging`] | what can be averaged over in place of being drawn |
+//! | [`laws`] | distribution functions of that |
+//! | [`conditional`] | results from averages |
 //! | [`counted`] | results from the values at the points |
 //! | [`tails`] | quantiles and the shortest interval of a distribution function known at some places |
 
+mod averaging;
 mod conditional;
 mod counted;
+mod laws;
 mod points;
 mod shapes;
 mod tails;
+mod trial;
 
 #[cfg(test)]
 mod tests;
@@ -45,9 +51,6 @@ const REPLICATES: usize = 16;
 
 /// Most points, which are kept in memory where values are counted.
 const MOST_POINTS: u64 = 1 << 22;
-
-/// Attempts before the gain is judged: it grows with the number of points.
-const TRIES: i32 = 3;
 
 /// Blocks of every scramble that a model with corners, steps or branches takes at least: what happens in few
 /// places only must be met.
@@ -76,8 +79,8 @@ pub enum Quasi {
 pub struct QuasiRun {
     /// Independent scrambles; their points together are the run's trials.
     pub replicates: usize,
-    /// Name of the component that was averaged over in place of being drawn.
-    pub averaged: Option<String>,
+    /// Names of the components that were averaged over in place of being drawn.
+    pub averaged: Vec<String>,
     /// Significant digits of u(y) that were to be stable.
     pub digits: u8,
     /// Numerical tolerance (JCGM 101 7.9.2).
@@ -124,7 +127,7 @@ pub enum WhyRandom {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Trouble {
     NotFinite,
-    /// The component to be averaged over hardly matters at some points.
+    /// What is averaged over hardly matters at some points, or more in relation to the rest than elsewhere.
     Flat,
     HeavyTail,
 }
@@ -135,7 +138,6 @@ struct Figures {
     mean: f64,
     u: f64,
     symmetric: [f64; 2],
-    shortest: [f64; 2],
 }
 
 /// Results of all points together.
@@ -156,8 +158,6 @@ pub(super) fn run(
     threads: usize,
 ) -> Result<McOutcome, WhyRandom> {
     suitable(budget)?;
-    let points = Points::new(budget, settings.seed)
-        .map_err(|component| WhyRandom::Discrete { component })?;
     let pivot = gum
         .first()
         .map_or(Pivot::new(0.0, 1.0), |gum| Pivot::new(gum.estimate, gum.u));
@@ -167,22 +167,26 @@ pub(super) fn run(
         ROUGH_BLOCKS
     };
     let goal = Goal::new(&settings.trials, least_blocks);
-    let averaged = conditional::candidate(budget, &points);
-    let smooth = averaged.and_then(|component| Conditional::new(budget, &points, component, pivot));
-    let p = budget.conventions.coverage_probability;
-    let counted = || Method::Counted(Counted::new(&points, pivot, p));
-    let found = match smooth {
-        Some(smooth) => match goal.pursue(Method::Conditional(smooth), threads) {
-            Err(Stop::Trouble(Trouble::Flat)) => {
-                goal.pursue(counted(), threads).map(|found| (found, None))
-            }
-            other => other.map(|found| (found, averaged)),
-        },
-        None => goal.pursue(counted(), threads).map(|found| (found, None)),
+    let points_without = |held: &[usize]| {
+        Points::new(budget, settings.seed, held)
+            .map_err(|component| WhyRandom::Discrete { component })
     };
-    let (found, averaged) = found.map_err(WhyRandom::from)?;
-    let name = averaged.map(|component| budget.components[component].name.clone());
-    Ok(found.outcome(budget, settings, name))
+    if let Some(averaged) = averaging::choose(budget, settings.seed) {
+        let points = points_without(&averaged.held())?;
+        let method = Conditional::new(budget, &points, &averaged, pivot);
+        match goal.pursue(Method::Conditional(method), threads) {
+            Err(Stop::Trouble(Trouble::Flat)) => (),
+            found => {
+                let names = averaged.names(budget);
+                return Ok(found?.outcome(budget, settings, names));
+            }
+        }
+    }
+    let points = points_without(&[])?;
+    let p = budget.conventions.coverage_probability;
+    let method = Method::Counted(Counted::new(&points, pivot, p));
+    let found = goal.pursue(method, threads)?;
+    Ok(found.outcome(budget, settings, Vec::new()))
 }
 
 /// What can be known without drawing a point.
@@ -267,6 +271,13 @@ impl Method<'_, '_> {
         }
     }
 
+    fn shortest(&self, threads: usize) -> Vec<[f64; 2]> {
+        match self {
+            Method::Conditional(of) => of.shortest(),
+            Method::Counted(of) => of.shortest(threads),
+        }
+    }
+
     fn pooled(&self) -> Result<Pooled, Trouble> {
         match self {
             Method::Conditional(of) => Ok(of.pooled()),
@@ -278,6 +289,15 @@ impl Method<'_, '_> {
         match self {
             Method::Conditional(of) => of.picture(interval, points),
             Method::Counted(of) => of.picture(interval, threads),
+        }
+    }
+
+    /// The power of the number of points with which errors fall at best, as a rule: further points cost
+    /// less than too many.
+    fn order(&self) -> f64 {
+        match self {
+            Method::Conditional(_) => 1.5,
+            Method::Counted(_) => 1.0,
         }
     }
 
@@ -306,6 +326,8 @@ struct Goal {
 struct Found {
     pooled: Pooled,
     scatter: Scatter,
+    /// The shortest interval of every scramble.
+    shortest: Vec<[f64; 2]>,
     picture: Histogram,
     points: u64,
     gain: f64,
@@ -332,6 +354,9 @@ impl Goal {
     ///
     /// At attempt k all four results are held to be within δ where t times their errors is, for a risk of
     /// 5 %/2ᵏ shared among them: over all attempts the risk stays below 5 %.
+    ///
+    /// Errors that fall in proportion to the points make the gain grow as much as the points do. Where it would not
+    /// be enough even so when all results are within δ, no more are tried.
     fn pursue(&self, mut method: Method<'_, '_>, threads: usize) -> Result<Found, Stop> {
         let mut done = 0;
         let mut blocks = method.first().max(self.least_blocks);
@@ -349,16 +374,13 @@ impl Goal {
             let missing = t * largest(&scatter.errors()) / delta;
             let reached = missing <= 1.0;
             let last = 2 * all > self.most;
-            if !reached && !last && attempt < TRIES {
-                blocks *= factor(missing, self.most / all);
-                continue;
-            }
             let pooled = method.pooled().map_err(Stop::Trouble)?;
             let gain = gain(&scatter.errors(), &pooled.plain_errors);
             let enough = last && gain * all as f64 >= self.otherwise as f64;
             if reached || enough {
                 return Ok(Found {
                     picture: method.picture(pooled.symmetric, all, threads),
+                    shortest: method.shortest(threads),
                     pooled,
                     scatter,
                     points: all,
@@ -368,20 +390,19 @@ impl Goal {
                     reached,
                 });
             }
-            if last || gain < LEAST_GAIN {
+            if last || gain * missing < LEAST_GAIN {
                 return Err(Stop::NoGain(gain));
             }
-            blocks *= factor(missing, self.most / all);
+            blocks *= factor(libm::pow(missing, 1.0 / method.order()), self.most / all);
         }
         // The loop has no end of its own.
         Err(Stop::NoGain(0.0))
     }
 }
 
-/// The power of two by which to multiply the points where errors are so many times too large: they fall
-/// about with the power ¾ of their number, or faster.
-fn factor(missing: f64, most: u64) -> u64 {
-    let wanted = libm::pow(missing.max(1.0), 4.0 / 3.0).min(16.0).ceil() as u64;
+/// The power of two by which to multiply the points where so many times as many are wanted.
+fn factor(wanted: f64, most: u64) -> u64 {
+    let wanted = wanted.clamp(1.0, 16.0).ceil() as u64;
     let allowed = 1 << most.max(2).ilog2();
     wanted.next_power_of_two().clamp(2, allowed)
 }
@@ -420,13 +441,18 @@ impl Scatter {
         self.0.iter().map(figure).sum::<f64>() / self.0.len() as f64
     }
 
-    /// The standard deviation of the scrambles' results over the root of their number.
     fn error_of(&self, figure: impl Fn(&Figures) -> f64) -> f64 {
-        let n = self.0.len() as f64;
-        let mean = self.mean_of(&figure);
-        let square = |f: &Figures| (figure(f) - mean) * (figure(f) - mean);
-        (self.0.iter().map(square).sum::<f64>() / ((n - 1.0) * n)).sqrt()
+        error_of(&self.0, figure)
     }
+}
+
+/// The standard deviation of the scrambles' results over the root of their number; exactly zero where they agree.
+fn error_of<T>(scrambles: &[T], figure: impl Fn(&T) -> f64) -> f64 {
+    let n = scrambles.len() as f64;
+    let first = scrambles.first().map_or(f64::NAN, &figure);
+    let mean = scrambles.iter().map(|of| figure(of) - first).sum::<f64>() / n;
+    let square = |of: &T| (figure(of) - first - mean).powi(2);
+    (scrambles.iter().map(square).sum::<f64>() / ((n - 1.0) * n)).sqrt()
 }
 
 impl Found {
@@ -434,7 +460,7 @@ impl Found {
         self,
         budget: &Budget,
         settings: &MonteCarloSettings,
-        averaged: Option<String>,
+        averaged: Vec<String>,
     ) -> McOutcome {
         let Pooled {
             moments,
@@ -443,7 +469,7 @@ impl Found {
             shortest,
             ..
         } = self.pooled;
-        let shortest_errors = [0, 1].map(|end: usize| self.scatter.error_of(|f| f.shortest[end]));
+        let shortest_errors = [0, 1].map(|end: usize| error_of(&self.shortest, |ends| ends[end]));
         let output = MonteCarlo {
             estimate: Some(moments.mean()),
             u: Some(moments.sd()),

@@ -4,15 +4,14 @@
 //! The first dimensions are the most even, so the component that moves the measurand most gets the first
 //! one. Beyond the dimensions that have direction numbers, random numbers take their place.
 
+use super::super::factor::lower_factor;
+use super::super::joint_draw::rows;
+use super::shapes;
+use super::trial::{Trial, effects, inputs_of};
+use crate::budget::{Budget, Group, Law};
 use gumption_lanes::quantile::{OfScore, Quantile, scores};
 use gumption_lanes::sobol::DIMENSIONS;
 use gumption_lanes::{Block, Generator, LANES, Level, Sobol, level, ops};
-use nalgebra::DMatrix;
-
-use super::super::factor::lower_factor;
-use super::shapes;
-use crate::budget::{Budget, Group, Law};
-use crate::model::BlockRunner;
 
 /// Random numbers beyond the last dimension of the sequence; no trial takes them.
 const STREAMS: u64 = 1 << 49;
@@ -39,7 +38,8 @@ struct Joint<'b> {
     members: &'b [usize],
     /// Of each member.
     dimensions: Vec<usize>,
-    factor: DMatrix<f64>,
+    /// The rows of the triangular factor, up to the diagonal.
+    rows: Vec<Vec<f64>>,
     law: JointLaw,
 }
 
@@ -60,25 +60,23 @@ enum JointLaw {
 pub(super) struct Scratch<'b> {
     replicate: u64,
     sequence: Vec<Sobol>,
-    /// The current point's deviations, one block per component.
-    errors: Vec<Block>,
     normals: Vec<Block>,
-    inputs: Vec<Block>,
-    output: [Block; 1],
-    runner: BlockRunner<'b>,
+    /// The current points; what is not drawn has deviations of zero.
+    pub(super) trial: Trial<'b>,
 }
 
 impl<'b> Points<'b> {
-    /// Points of all components that inputs use; the error is the name of one whose values are single
-    /// numbers.
-    pub(super) fn new(budget: &'b Budget, seed: u64) -> Result<Points<'b>, String> {
+    /// Points of all components that inputs use except those that are `held`; the error is the name of one
+    /// whose values are single numbers.
+    pub(super) fn new(budget: &'b Budget, seed: u64, held: &[usize]) -> Result<Points<'b>, String> {
         let grouped: Vec<bool> = {
             let mut grouped = vec![false; budget.components.len()];
             let members = budget.groups.iter().flat_map(|group| &group.members);
             members.for_each(|member| grouped[*member] = true);
             grouped
         };
-        let used = used(budget);
+        let mut used: Vec<bool> = inputs_of(budget).iter().map(|of| !of.is_empty()).collect();
+        held.iter().for_each(|component| used[*component] = false);
         let mut points = Points {
             budget,
             seed,
@@ -111,7 +109,7 @@ impl<'b> Points<'b> {
 
     /// Numbers the dimensions: those of components by their effects, then the shared ones.
     fn rank(&mut self) {
-        let effects = self.effects();
+        let effects = effects(self.budget);
         let members = self
             .groups
             .iter()
@@ -141,40 +139,9 @@ impl<'b> Points<'b> {
         }
     }
 
-    /// How far one standard uncertainty of each component moves the measurand up or down, linear or not;
-    /// infinite where there is no value.
-    pub(super) fn effects(&self) -> Vec<f64> {
-        let components = &self.budget.components;
-        let mut scratch = self.scratch();
-        let mut effects = Vec::with_capacity(components.len());
-        for start in (0..components.len()).step_by(LANES / 2 - 1) {
-            let some = start..components.len().min(start + LANES / 2 - 1);
-            for (component, error) in scratch.errors.iter_mut().enumerate() {
-                *error = Block::ZERO;
-                if some.contains(&component) {
-                    let lane = 2 * (component - start);
-                    (error.0[lane], error.0[lane + 1]) =
-                        (components[component].u, -components[component].u);
-                }
-            }
-            let moved = *self.value(&mut scratch);
-            let centre = moved.0[LANES - 1];
-            effects.extend(some.map(|component| {
-                let lane = 2 * (component - start);
-                let effect = (moved.0[lane] - centre).abs() + (moved.0[lane + 1] - centre).abs();
-                if effect.is_nan() {
-                    f64::INFINITY
-                } else {
-                    effect
-                }
-            }));
-        }
-        effects
-    }
-
-    /// Components that are independent of all others.
-    pub(super) fn independent(&self) -> impl Iterator<Item = usize> {
-        self.singles.iter().map(|single| single.component)
+    /// Whether nothing is drawn, so that all points are the same.
+    pub(super) fn are_one(&self) -> bool {
+        self.dimensions == 0
     }
 
     /// Scratch space of one thread.
@@ -182,7 +149,6 @@ impl<'b> Points<'b> {
         Scratch {
             replicate: 0,
             sequence: Vec::new(),
-            errors: vec![Block::ZERO; self.budget.components.len()],
             normals: vec![
                 Block::ZERO;
                 self.groups
@@ -191,9 +157,7 @@ impl<'b> Points<'b> {
                     .max()
                     .unwrap_or(0)
             ],
-            inputs: vec![Block::ZERO; self.budget.model.inputs()],
-            output: [Block::ZERO],
-            runner: BlockRunner::new(&self.budget.model),
+            trial: Trial::new(self.budget),
         }
     }
 
@@ -212,10 +176,10 @@ impl<'b> Points<'b> {
         let Scratch {
             replicate,
             sequence,
-            errors,
             normals,
-            ..
+            trial,
         } = scratch;
+        let errors = &mut trial.deviations;
         let uniform = |dimension: usize, out: &mut Block| match sequence.get(dimension) {
             Some(sobol) => sobol.block(self.level, block, out),
             None => {
@@ -238,51 +202,6 @@ impl<'b> Points<'b> {
             group.draw(self.level, &uniform, normals, errors);
         }
     }
-
-    /// The measurand's values at the current deviations.
-    pub(super) fn value<'s>(&self, scratch: &'s mut Scratch<'b>) -> &'s Block {
-        for (input, block) in self.budget.inputs.iter().zip(&mut scratch.inputs) {
-            ops::fill(self.level, 0.0, block);
-            for term in input.terms.iter().filter(|term| term.coefficient != 0.0) {
-                ops::axpy(
-                    self.level,
-                    term.coefficient,
-                    &scratch.errors[term.component],
-                    block,
-                );
-            }
-            block.0.iter_mut().for_each(|x| *x += input.estimate);
-        }
-        scratch.runner.run(&scratch.inputs, &mut scratch.output);
-        &scratch.output[0]
-    }
-
-    /// The measurand's values where one component's deviation is set to a number.
-    pub(super) fn value_at(
-        &self,
-        scratch: &mut Scratch<'b>,
-        component: usize,
-        deviation: f64,
-    ) -> Block {
-        scratch.errors[component].0 = [deviation; LANES];
-        *self.value(scratch)
-    }
-}
-
-impl Scratch<'_> {
-    /// The current deviations of one component.
-    pub(super) fn deviations(&self, component: usize) -> Block {
-        self.errors[component]
-    }
-}
-
-/// Which components inputs use.
-fn used(budget: &Budget) -> Vec<bool> {
-    let mut used = vec![false; budget.components.len()];
-    for term in budget.inputs.iter().flat_map(|input| &input.terms) {
-        used[term.component] |= term.coefficient != 0.0;
-    }
-    used
 }
 
 impl<'b> Joint<'b> {
@@ -320,7 +239,7 @@ impl<'b> Joint<'b> {
         Ok(Joint {
             members: &group.members,
             dimensions: Vec::new(),
-            factor: lower_factor(correlation),
+            rows: rows(&lower_factor(correlation)),
             law,
         })
     }
@@ -347,12 +266,9 @@ impl<'b> Joint<'b> {
         }
         for (i, member) in self.members.iter().enumerate() {
             let error = &mut errors[*member];
-            ops::fill(level, 0.0, error);
-            for (k, normal) in normals.iter().enumerate().take(i + 1) {
-                ops::axpy(level, self.factor[(i, k)], normal, error);
-            }
+            ops::combine(level, &self.rows[i], normals, error);
             match &self.law {
-                JointLaw::Normal(scale) => error.0.iter_mut().for_each(|z| *z *= scale[i]),
+                JointLaw::Normal(scale) => ops::scale(level, scale[i], error),
                 JointLaw::StudentT { scale, .. } => {
                     error
                         .0

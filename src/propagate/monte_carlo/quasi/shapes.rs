@@ -1,8 +1,7 @@
-//! Quantile functions and distribution functions in the form that blocks of points take.
+//! Quantile functions in the form that blocks of points take.
 
 use std::sync::Arc;
 
-use gumption_lanes::kernel::Kernel;
 use gumption_lanes::quantile::{Curve, OfScore, Quantile};
 
 use crate::distribution::Distribution;
@@ -86,7 +85,7 @@ fn tabulated(value: impl Fn(f64) -> f64) -> OfScore {
 }
 
 /// A curve whose slopes are differences of fourth order.
-fn with_differences(range: [f64; 2], value: impl Fn(f64) -> f64) -> Curve {
+pub(super) fn with_differences(range: [f64; 2], value: impl Fn(f64) -> f64) -> Curve {
     let values: Vec<f64> = Curve::arguments(range).map(value).collect();
     let step = (range[1] - range[0]) / (values.len() - 1) as f64;
     let last = values.len() - 1;
@@ -133,53 +132,13 @@ fn student_t(dof: f64) -> Curve {
     Curve::new(SCORES, &nodes)
 }
 
-/// Whether there is a [`kernel`] of a distribution.
-pub(super) fn averages(distribution: &Distribution) -> bool {
-    use Distribution as D;
-    match *distribution {
-        D::StudentT { dof, .. } => dof > 2.0,
-        D::Uniform { .. } | D::Normal { .. } | D::Triangular { .. } => true,
-        D::Trapezoidal { .. } | D::CurvilinearTrapezoid { .. } => true,
-        _ => false,
-    }
-}
-
-/// The distribution function of a component that can be averaged over; `None` for kinds whose density has
-/// a pole or a jump, or no variance.
-pub(super) fn kernel(distribution: &Distribution) -> Option<Kernel> {
-    use Distribution as D;
-    let cdf = |x: f64| distribution.cdf(x);
-    match *distribution {
-        D::Uniform { lower, upper } => Some(Kernel::Uniform { lower, upper }),
-        D::Normal { sd, .. } => Some(unbounded(sd, cdf)),
-        D::StudentT { scale, dof, .. } if dof > 2.0 => Some(unbounded(scale, cdf)),
-        D::Triangular { .. } | D::Trapezoidal { .. } | D::CurvilinearTrapezoid { .. } => {
-            let (lower, upper) = distribution.support();
-            Some(Kernel::Bounded(with_differences([lower, upper], cdf)))
-        }
-        _ => None,
-    }
-}
-
-/// From the distribution function of a symmetric distribution about zero.
-fn unbounded(sd: f64, cdf: impl Fn(f64) -> f64) -> Kernel {
-    let width = 2.5 * sd;
-    let curve = with_differences([-1.0, 1.0], |s| {
-        let x = -s.abs() * width / ((1.0 - s.abs()) * (1.0 + s.abs())).sqrt();
-        let below = if x.is_finite() { cdf(x) } else { 0.0 };
-        if s < 0.0 { below } else { 1.0 - below }
-    });
-    Kernel::Unbounded { curve, width }
-}
-
 #[cfg(test)]
-mod tests {
-    use gumption_lanes::kernel::Lines;
+pub(super) mod tests {
     use gumption_lanes::{Block, LANES, level};
 
     use super::*;
 
-    fn kinds() -> Vec<Distribution> {
+    pub(in crate::propagate::monte_carlo::quasi) fn kinds() -> Vec<Distribution> {
         vec![
             Distribution::Normal { mean: 0.0, sd: 2.0 },
             Distribution::StudentT {
@@ -260,37 +219,6 @@ mod tests {
                     1e-4
                 };
                 assert!(error < allowed, "{distribution:?} at {u}: {x} {exact}");
-            }
-        }
-    }
-
-    #[test]
-    fn kernels_are_distribution_functions() {
-        for distribution in kinds() {
-            let Some(kernel) = kernel(&distribution) else {
-                continue;
-            };
-            let sd = distribution.standard_deviation().unwrap();
-            let at: Vec<f64> = (-40..=40).map(|i| f64::from(i) * 0.1001 * sd).collect();
-            let mut sums = vec![[0.0; 2]; at.len()];
-            let lines = Lines {
-                start: &Block::ZERO,
-                slope: &Block([1.0; LANES]),
-            };
-            kernel.add(level(), lines, &at, &mut sums);
-            for (x, [p, density]) in at.iter().zip(sums) {
-                let n = LANES as f64;
-                assert!(
-                    (p / n - distribution.cdf(*x)).abs() < 1e-5,
-                    "{distribution:?} at {x}"
-                );
-                let step = 1e-4 * sd;
-                let slope =
-                    (distribution.cdf(x + step) - distribution.cdf(x - step)) / (2.0 * step);
-                assert!(
-                    (density / n - slope).abs() * sd < 2e-3,
-                    "{distribution:?} at {x}"
-                );
             }
         }
     }

@@ -15,6 +15,16 @@ pub(super) struct Node {
 pub(super) struct Tails(pub(super) Vec<Node>);
 
 impl Tails {
+    /// From sums of probabilities and densities over so many points.
+    pub(super) fn new(places: &[f64], sums: &[[f64; 2]], points: f64) -> Tails {
+        let node = |(y, [below, density]): (&f64, &[f64; 2])| Node {
+            y: *y,
+            below: below / points,
+            density: density / points,
+        };
+        Tails(places.iter().zip(sums).map(node).collect())
+    }
+
     /// The place below which a fraction p lies; the first or last node where p is beyond them.
     pub(super) fn quantile(&self, p: f64) -> f64 {
         let after = self.0.partition_point(|node| node.below < p);
@@ -28,17 +38,29 @@ impl Tails {
         }
     }
 
+    /// The probability below a place; that of the first or last node beyond them.
+    pub(super) fn below(&self, y: f64) -> f64 {
+        match self.around(y) {
+            (Some(a), Some(b)) => Cubic::new(a, b).at((y - a.y) / (b.y - a.y)),
+            (Some(end), None) | (None, Some(end)) => end.below,
+            (None, None) => f64::NAN,
+        }
+    }
+
     /// The density at a place.
     pub(super) fn density(&self, y: f64) -> f64 {
-        let after = self.0.partition_point(|node| node.y < y);
-        match (
-            after.checked_sub(1).and_then(|before| self.0.get(before)),
-            self.0.get(after),
-        ) {
-            (Some(a), Some(b)) => Cubic::new(*a, *b).slope((y - a.y) / (b.y - a.y)),
+        match self.around(y) {
+            (Some(a), Some(b)) => Cubic::new(a, b).slope((y - a.y) / (b.y - a.y)),
             (Some(end), None) | (None, Some(end)) => end.density,
             (None, None) => f64::NAN,
         }
+    }
+
+    /// The nodes before and after a place.
+    fn around(&self, y: f64) -> (Option<Node>, Option<Node>) {
+        let after = self.0.partition_point(|node| node.y < y);
+        let before = after.checked_sub(1).and_then(|before| self.0.get(before));
+        (before.copied(), self.0.get(after).copied())
     }
 
     /// The least fraction that the shortest interval can leave below it, for a coverage p, and the greatest.

@@ -402,15 +402,22 @@ impl<'p, 'b> Conditional<'p, 'b> {
     }
 }
 
-/// Places in both tails and about the median, from a rough distribution function: its ends, and places beyond which
-/// probabilities grow by equal factors, from a fiftieth of what the interval leaves out.
+/// Places in both tails and about the median, from a rough distribution function: its ends, places beyond which
+/// probabilities grow by equal factors, from a fiftieth of what the interval leaves out, and two close about each end
+/// of the symmetric interval, where errors of the densities at them hardly matter.
 fn places(rough: &Tails, p: f64) -> Vec<f64> {
+    const SPREAD: usize = TAIL - 3;
     let [outer, inner] = shares(p);
-    let share = |i: usize| outer * libm::pow(inner / outer, i as f64 / (TAIL - 2) as f64);
-    let lower = [0.0].into_iter().chain((0..TAIL - 1).map(share));
-    let upper = (0..TAIL - 1).rev().map(|i| 1.0 - share(i)).chain([1.0]);
-    let middle = equidistant([0.4, 0.6], MIDDLE);
-    let shares = lower.chain(middle).chain(upper);
+    let share = |i: usize| outer * libm::pow(inner / outer, i as f64 / (SPREAD - 1) as f64);
+    let mut tail: Vec<f64> = (0..SPREAD).map(share).collect();
+    tail.extend([0.45 * (1.0 - p), 0.55 * (1.0 - p), 0.0]);
+    tail.sort_by(f64::total_cmp);
+    let upper = tail.iter().rev().map(|share| 1.0 - share);
+    let shares = tail
+        .iter()
+        .copied()
+        .chain(equidistant([0.4, 0.6], MIDDLE))
+        .chain(upper);
     let mut places: Vec<f64> = shares.map(|share| rough.quantile(share)).collect();
     places.dedup_by(|next, before| *next <= *before);
     places

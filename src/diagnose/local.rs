@@ -28,6 +28,10 @@ pub(super) fn nameless(
         .into_iter()
         .flat_map(of_kind)
         .collect();
+    if found.len() >= 2 {
+        // A shift of a run beside them is one more of the kind.
+        found.extend(of_kind("level-shift"));
+    }
     if found.len() < MANY {
         found.clear();
     }

@@ -22,13 +22,15 @@ const NAMED_STANDS: f64 = 0.3;
 const CONTESTED: f64 = 0.9;
 /// Less than this probability of what is left beside named effects means that something is left.
 const LEFT: f64 = 0.01;
+/// Less than this means that much is left.
+const SURELY_LEFT: f64 = 0.001;
 /// Beside something without a name, a name holds if its effect is this share of the excess χ² …
 const DOMINANT: f64 = 0.6;
 /// … and nothing without a name in its place has more than this probability.
 const DOUBTFUL: f64 = 0.1;
 /// Named effects beside an unexplained one count if they explain this share of the excess χ² …
 const MOST: f64 = 0.8;
-/// … and a single one if it explains this share.
+/// … and a single one beside which much is left if it explains this share.
 const NEARLY_ALL: f64 = 0.95;
 
 /// Examines a recording: detection, naming, verdict.
@@ -86,7 +88,7 @@ pub fn examine(
         }
         Verdict::Partly => {
             doubt_descriptions(&space, question, &mut slots);
-            if explained < NEARLY_ALL {
+            if explained < NEARLY_ALL && leftover < SURELY_LEFT {
                 doubt_single(&mut slots);
             }
         }

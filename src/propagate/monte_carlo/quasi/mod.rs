@@ -39,6 +39,7 @@ use gumption_lanes::LANES;
 use super::moments::{Moments, Pivot};
 use super::{GumForMc, McOutcome};
 use crate::budget::{Budget, MonteCarloSettings, Trials};
+use crate::distribution::Distribution;
 use crate::propagate::validation::numerical_tolerance;
 use crate::propagate::{Histogram, MonteCarlo, Run};
 use crate::special::student_t_upper_quantile;
@@ -470,14 +471,21 @@ impl Found {
             ..
         } = self.pooled;
         let shortest_errors = [0, 1].map(|end: usize| error_of(&self.shortest, |ends| ends[end]));
+        // A t of few degrees of freedom has no third or fourth moment (JCGM 101, 6.4.9.4): nor has the output.
+        let exists = |moment: fn(&Distribution) -> Option<f64>| {
+            let mut components = budget.components.iter();
+            components.all(|component| moment(&component.distribution).is_some())
+        };
+        let third = exists(Distribution::third_central_moment);
+        let fourth = exists(Distribution::fourth_central_moment);
         let output = MonteCarlo {
             estimate: Some(moments.mean()),
             u: Some(moments.sd()),
             median,
             symmetric,
             shortest,
-            skewness: moments.skewness(),
-            excess_kurtosis: moments.excess_kurtosis(),
+            skewness: moments.skewness().filter(|_| third),
+            excess_kurtosis: moments.excess_kurtosis().filter(|_| fourth),
             standard_errors: self.scatter.errors(),
             failed: 0,
             histogram: self.picture,

@@ -20,8 +20,8 @@ use std::time::Instant;
 
 use gumption::challenge::grade::{self, Answer, Name, State};
 use gumption::challenge::study::{
-    Advice, EACH, FIRST_SEED, NULLS, Record, Request, Sequel, Trial, Twin, decision, read, report,
-    request, trials, write,
+    Advice, Decision, EACH, FIRST_SEED, NULLS, Record, Request, Sequel, Trial, Twin, decision,
+    read, report, request, trials, write,
 };
 use gumption::challenge::{Further, SealedCase};
 use gumption::diagnose::case::{Case, Purpose};
@@ -222,7 +222,7 @@ fn one(trial: &Trial, folder: &Path, options: &Options) -> Record {
             record.further = match request(trial, &sealed.truth, &graded, &answer, &advice) {
                 Request::None => None,
                 Request::InVain(sequel) => Some(sequel),
-                Request::Make(further) => followed(trial, further, folder, options),
+                Request::Make(further) => Some(followed(trial, further, folder, options)),
             };
             record
         }
@@ -286,7 +286,7 @@ fn said(case: &Case) -> Result<Said, String> {
 }
 
 /// What becomes of a list when the further measurement is made.
-fn followed(trial: &Trial, further: Further, folder: &Path, options: &Options) -> Option<Sequel> {
+fn followed(trial: &Trial, further: Further, folder: &Path, options: &Options) -> Sequel {
     let sealed = trial.longer_case(further);
     let said = handed_out(trial, &sealed, folder).and_then(|case| said(&case));
     match said {
@@ -295,11 +295,11 @@ fn followed(trial: &Trial, further: Further, folder: &Path, options: &Options) -
                 eprintln!("  {further}: {}", shown(trial, &answer));
             }
             let graded = grade::grade(&sealed.truth, &answer);
-            Some(Sequel::Made(further, decision(&graded, &answer, &advice)))
+            Sequel::Made(further, decision(&graded, &answer, &advice))
         }
         Err(why) => {
             eprintln!("{} {} {further}: {why}", trial.scenario.name(), trial.seed);
-            None
+            Sequel::Made(further, Decision::Unnamed)
         }
     }
 }

@@ -102,9 +102,7 @@ impl Further {
             Further::Between(Setting::Rate) => rig == Rig::RateTable,
         }
     }
-}
 
-impl Further {
     /// What is said of it in a case file.
     pub(super) fn in_words(self) -> String {
         match self {

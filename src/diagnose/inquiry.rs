@@ -155,10 +155,7 @@ pub(super) fn question(
             cause: cause(cells, index),
             typical: cell.typical,
             repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
-            describes: matches!(
-                cell.effect.id.as_str(),
-                "outlier" | "step" | "step-scale" | "wave" | "level-shift" | "level-scale"
-            ),
+            describes: cell.effect.describes,
             odds: cell.odds,
         });
         let before = atoms.len();

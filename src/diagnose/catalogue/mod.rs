@@ -84,6 +84,9 @@ pub struct Effect {
     pub exact: Option<f64>,
     /// The effect of which this is another order: the cause is the same.
     pub order_of: Option<String>,
+    /// It says what the recording looks like, and not why.
+    #[serde(default)]
+    pub describes: bool,
 }
 
 impl Effect {

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::question::Refusal;
+use super::slots::ALONE;
 use crate::special::normal_cdf;
 
 /// A rival explanation in a design, as it is seen beside the fitted parameters
@@ -58,9 +59,6 @@ const SEPARATED: f64 = 5.0;
 const NOTHING: f64 = 1e-6;
 /// Explanations are the same where less than this share of either is left.
 const SAME: f64 = 0.01;
-/// Log odds of a name that stands alone.
-const ALONE: f64 = 4.595_119_850_134_59;
-
 /// Holds explanations against one another in a design.
 ///
 /// # Errors
@@ -155,11 +153,16 @@ impl Apart {
 pub fn doubt(before: f64, after: f64) -> f64 {
     let by_what_is_left = decided(0.0, after * after);
     let left_out = if after > before {
-        decided(ALONE, after * after - before * before)
+        decided(alone(), after * after - before * before)
     } else {
         0.0
     };
     1.0 - by_what_is_left.max(left_out)
+}
+
+/// Log odds of a name that stands alone.
+fn alone() -> f64 {
+    libm::log(ALONE / (1.0 - ALONE))
 }
 
 /// Finite even where one of both is as good as excluded.
@@ -171,9 +174,9 @@ fn log_odds(a: f64, b: f64) -> f64 {
 /// Probability that the truth comes to stand alone, from its log odds and what κ² gains.
 fn decided(odds: f64, gain: f64) -> f64 {
     if gain > NOTHING {
-        normal_cdf((odds + 0.5 * gain - ALONE) / gain.sqrt())
+        normal_cdf((odds + 0.5 * gain - alone()) / gain.sqrt())
     } else {
-        f64::from(u8::from(odds >= ALONE))
+        f64::from(u8::from(odds >= alone()))
     }
 }
 

@@ -18,7 +18,7 @@ use super::space::{Frame, Space};
 const CREDIBLE: f64 = 0.95;
 /// Probability from which on a name stands alone: posteriors between the two are right less often than they
 /// say, because catalogues have gaps.
-const ALONE: f64 = 0.99;
+pub(super) const ALONE: f64 = 0.99;
 /// A slot in which generics have this probability has no name …
 const NAMELESS: f64 = 0.3;
 /// … and one in which they have this has no unique name.

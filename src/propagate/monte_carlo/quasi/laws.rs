@@ -2,7 +2,8 @@
 //!
 //! The distribution function of a sum comes from convolutions on 512 equal cells. A component that is put at the
 //! middles of its cells gains a variance of a twelfth of their squared width; it is shrunk by as much beforehand,
-//! so that the variance of the sum is exact. Probabilities are within 2·10⁻⁵ of exact ones (tested).
+//! so that the variance of the sum is exact. Probabilities are within 2·10⁻⁵ of exact ones for a sum of rectangles, and
+//! within 10⁻⁴ where t variables are in it (tested).
 
 use gumption_lanes::kernel::{Kernel, PathMoments, Steps, convolve};
 use gumption_lanes::level;

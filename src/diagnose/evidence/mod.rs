@@ -20,7 +20,6 @@
 //! | `noise` | covariance matrices of the rows and how well they are known |
 //! | `baseline` | whitening, projection, what the data say of the declared parameters |
 //! | `question` | candidates, atoms, settings: what is asked |
-//! | `generic` | competitors without a name |
 //! | `findings` | verdict, slots, alternatives: what is answered |
 //! | `examine` | the examination from end to end |
 //! | `closed_form` | Bayes factors |
@@ -53,7 +52,6 @@ mod examine;
 mod findings;
 mod fit;
 mod gate;
-mod generic;
 mod guard;
 mod kin;
 mod locate;

@@ -11,6 +11,7 @@ use nalgebra::DMatrix;
 mod rate;
 mod triad;
 mod tumble;
+mod unnamed;
 
 pub use rate::rate;
 pub use triad::triad;
@@ -258,9 +259,9 @@ impl Timeline<'_> {
                 ("humidity", self.humidity),
                 ("pressure", self.pressure),
             ] {
-                c.generic(&of("bias"), name, Shape::curve(mask, x));
+                c.generic(&of("bias"), name, unnamed::curve(mask, x));
                 if name == "time" || name == "temperature" {
-                    c.generic(&of("scale"), name, Shape::curve(&scaled, x));
+                    c.generic(&of("scale"), name, unnamed::curve(&scaled, x));
                 }
             }
         }

@@ -1,9 +1,9 @@
 //! A triad of gyros on a rate table.
 
-use gumption::diagnose::evidence::{Covariance, Shape};
+use gumption::diagnose::evidence::Covariance;
 use nalgebra::DMatrix;
 
-use super::{Catalogue, Rig, Timeline, normals, slow, times, walking};
+use super::{Catalogue, Rig, Timeline, normals, slow, times, unnamed, walking};
 
 /// A triad of gyros in six mounts at eight rates: mean, cosine and sine over the turn, for each axis.
 pub fn rate(seed: u64) -> Rig {
@@ -182,20 +182,24 @@ pub fn rate(seed: u64) -> Rig {
     let mount: Vec<usize> = (0..n).map(|r| cells[r % dwells].0).collect();
     for (a, mask) in masks.iter().enumerate() {
         let along: Vec<f64> = row(&|axis, _, d| omega(axis, d));
-        c.generic(&format!("bias {a}"), "rate", Shape::curve(mask, &along));
-        c.generic(&format!("bias {a}"), "mount", Shape::levels(mask, &mount));
+        c.generic(&format!("bias {a}"), "rate", unnamed::curve(mask, &along));
+        c.generic(&format!("bias {a}"), "mount", unnamed::levels(mask, &mount));
         let cosine = row(&|axis, ch, _| if axis == a && ch == 1 { 1.0 } else { 0.0 });
         let sine = row(&|axis, ch, _| if axis == a && ch == 2 { 1.0 } else { 0.0 });
         let across: Vec<f64> = cosine.iter().zip(&sine).map(|(c, s)| c + s).collect();
         let cell: Vec<usize> = (0..n)
             .map(|r| cells[r % dwells].0 + 6 * usize::from(r / dwells % 3 == 2))
             .collect();
-        c.generic(&format!("turn {a}"), "mount", Shape::levels(&across, &cell));
+        c.generic(
+            &format!("turn {a}"),
+            "mount",
+            unnamed::levels(&across, &cell),
+        );
         let proportional = times(&across, &row(&|_, _, d| cells[d].1 / 100.0));
         c.generic(
             &format!("turn rate {a}"),
             "mount",
-            Shape::levels(&proportional, &cell),
+            unnamed::levels(&proportional, &cell),
         );
     }
     c.rig(jacobian, by_axis_and_channel(&time), 60.0)

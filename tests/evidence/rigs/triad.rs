@@ -1,9 +1,9 @@
 //! A triad of accelerometers on a gimbal.
 
-use gumption::diagnose::evidence::{Covariance, Shape};
+use gumption::diagnose::evidence::Covariance;
 use nalgebra::DMatrix;
 
-use super::{Catalogue, Rig, Timeline, normals, relaxation, slow, times, walking};
+use super::{Catalogue, Rig, Timeline, normals, relaxation, slow, times, unnamed, walking};
 
 /// Eighteen orientations of a triad, twice: faces and edges of a cube.
 pub fn triad(seed: u64) -> Rig {
@@ -163,25 +163,25 @@ pub fn triad(seed: u64) -> Rig {
             c.generic(
                 &format!("bias {a}"),
                 &format!("g {name}"),
-                Shape::curve(mask, &along),
+                unnamed::curve(mask, &along),
             );
         }
         let orientation: Vec<usize> = (0..n).map(|r| orientation(&g, r % poses)).collect();
         c.generic(
             &format!("bias {a}"),
             "orientation",
-            Shape::levels(mask, &orientation),
+            unnamed::levels(mask, &orientation),
         );
     }
     c.generic(
         "azimuth",
         "azimuth",
-        Shape::periodic(&row(&by_az), &spread(az.clone()), 3),
+        unnamed::periodic(&row(&by_az), &spread(az.clone()), 3),
     );
     c.generic(
         "elevation",
         "elevation",
-        Shape::periodic(&row(&by_el), &spread(el.clone()), 3),
+        unnamed::periodic(&row(&by_el), &spread(el.clone()), 3),
     );
     c.rig(jacobian, by_axis(&time, 3, 0.4), 60.0)
 }

@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use gumption::diagnose::evidence::Shape;
 use nalgebra::DMatrix;
 
-use super::{Catalogue, Rig, Timeline, normals, relaxation, slow, times, walking};
+use super::{Catalogue, Rig, Timeline, normals, relaxation, slow, times, unnamed, walking};
 
 /// Twelve positions clockwise, counter-clockwise (and clockwise), in one mount or in two.
 pub fn tumble(seed: u64, mounts: &[f64]) -> Rig {
@@ -109,12 +108,12 @@ pub fn tumble(seed: u64, mounts: &[f64]) -> Rig {
         .map(|(p, w)| if *w > 0.0 { *p } else { p + 12 })
         .collect();
     for (node, slope) in [("bias", &ones), ("scale", &s), ("angle", &cosine)] {
-        c.generic(node, "head angle", Shape::periodic(slope, &phi, 5));
-        c.generic(node, "run", Shape::levels(slope, &run));
+        c.generic(node, "head angle", unnamed::periodic(slope, &phi, 5));
+        c.generic(node, "run", unnamed::levels(slope, &run));
         c.generic(
             node,
             "direction",
-            Shape::levels(
+            unnamed::levels(
                 slope,
                 &way.iter()
                     .map(|w| usize::from(*w > 0.0))
@@ -122,12 +121,12 @@ pub fn tumble(seed: u64, mounts: &[f64]) -> Rig {
             ),
         );
     }
-    c.generic("bias", "position", Shape::levels(&ones, &place));
+    c.generic("bias", "position", unnamed::levels(&ones, &place));
     c.generic(
         "bias",
         "position and direction",
-        Shape::levels(&ones, &sided),
+        unnamed::levels(&ones, &sided),
     );
-    c.generic("angle", "time", Shape::curve(&cosine, &t));
+    c.generic("angle", "time", unnamed::curve(&cosine, &t));
     c.rig(jacobian, walking(&t, 0.4), 30.0)
 }

@@ -378,13 +378,14 @@ fn judged(sealed: &SealedCase, opinion: &Opinion) -> (String, String) {
     )
 }
 
-/// Size of a name less that of its variant in the twin run, over its standard uncertainty.
+/// Size of a name less that of its variant in the twin run, in half-widths of its 95 % interval.
 fn deviation(all: &[Likeness], name: &Name) -> Option<f64> {
     let label = &name.variants.first()?.label;
     let is_it =
         |l: &&Likeness| l.pick.id == name.id && l.pick.along == name.along && l.label == *label;
     let size = all.iter().find(is_it)?.size?;
-    Some(((*name.size.first()?)? - size) / (*name.u.first()?)?)
+    let half_width = name.coverage_factor? * (*name.u.first()?)?;
+    Some(((*name.size.first()?)? - size) / half_width)
 }
 
 fn name(pick: &Pick) -> Name {
@@ -397,5 +398,6 @@ fn name(pick: &Pick) -> Name {
         variants: Vec::new(),
         size: Vec::new(),
         u: Vec::new(),
+        coverage_factor: None,
     }
 }

@@ -308,8 +308,13 @@ fn adopt_named(
             .iter()
             .any(|addition| addition.parameter == estimated.name)
     };
-    let (coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
+    let (mut coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
         all.into_iter().partition(is_added);
+    let count = |atom: usize| cells[places[atom].0].variants[places[atom].1].coefficients();
+    let choices = (fitted.atoms.iter()).flat_map(|atom| choice(examination, *atom, count(*atom)));
+    for (coefficient, choice) in coefficients.iter_mut().zip(choices) {
+        coefficient.u = (coefficient.u * coefficient.u + choice * choice).sqrt();
+    }
     let residuals = fit.residuals.clone();
     drop(frame);
     Some(Adopted {
@@ -321,6 +326,16 @@ fn adopt_named(
         confirmation,
         extended,
     })
+}
+
+/// Standard uncertainties of the coefficients of an adopted atom by the choice between explanations of the
+/// others.
+fn choice(examination: &Examination, atom: usize, count: usize) -> Vec<f64> {
+    let mut firsts = (examination.slots.iter()).filter_map(|slot| slot.named.first());
+    let own = firsts.find(|first| first.variants.first().is_some_and(|one| one.atom == atom));
+    let of = |at: usize| own.and_then(|own| own.choice.get(at)).copied();
+    let known = (0..count).map(|at| of(at).filter(|u| u.is_finite()));
+    known.map(|u| u.unwrap_or(0.0)).collect()
 }
 
 /// Unknowns with their standard uncertainties; `scale` is the factor on the claimed noise.

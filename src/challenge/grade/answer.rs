@@ -60,6 +60,9 @@ pub struct Name {
     /// Their standard uncertainties.
     #[serde(default)]
     pub u: Vec<Option<f64>>,
+    /// Coverage factor of their 95 % intervals.
+    #[serde(default)]
+    pub coverage_factor: Option<f64>,
 }
 
 /// A variant of a name.

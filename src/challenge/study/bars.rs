@@ -195,7 +195,7 @@ impl Study<'_> {
             row(
                 "size inside the stated 95 % interval (unique names with one coefficient)",
                 "93–97 %",
-                Rate::count(sizes, |z| z.abs() <= 1.96),
+                Rate::count(sizes, |deviation| deviation.abs() <= 1.0),
                 |x, limit| (limit..=0.97).contains(&x),
                 0.93,
             ),

@@ -23,7 +23,7 @@ pub struct Outcome {
     pub overclaimed: bool,
     /// Posterior of the right name.
     pub probability: f64,
-    /// Deviation of the size from the truth, in standard uncertainties.
+    /// Deviation of the size from the truth, in half-widths of its 95 % interval.
     pub deviation: f64,
     /// Whether axis or moment is right, where one is stated.
     pub located: Option<bool>,
@@ -34,8 +34,8 @@ pub struct Outcome {
 pub struct Twin {
     /// What the nearest wrong candidate of the catalogue leaves of it, over its length.
     pub nearest: f64,
-    /// Deviation of the size, in standard uncertainties: from that with which the variant that was named comes
-    /// nearest to what the effect adds to the recording.
+    /// Deviation of the size, in half-widths of its 95 % interval: from that with which the variant that was
+    /// named comes nearest to what the effect adds to the recording.
     pub deviation: Option<f64>,
     /// Whether axis or moment is right, where one is stated.
     pub located: Option<bool>,

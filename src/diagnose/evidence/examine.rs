@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::DMatrix;
 
+use super::choice;
 use super::closed_form::Scale;
 use super::confusion::confusions;
 use super::findings::{Examination, Fitted, Invisible, Slot, State, Verdict};
@@ -214,6 +215,7 @@ fn slots(
             (block, slot)
         })
         .collect();
+    choice::complete(space, question, named, &mut slots);
     // The strongest effect first, what has no name last.
     let strength = |slot: &Slot| match (slot.state, slot.named.first()) {
         (State::Unexplained, _) | (_, None) => f64::NEG_INFINITY,

@@ -2,6 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::special::student_t_two_sided_quantile;
+
 /// The answer in one word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Verdict {
@@ -104,14 +106,30 @@ pub struct Alternative {
     /// Estimates of the coefficients of the most probable variant, in the units of its columns; NaN for a
     /// coefficient that the recording does not determine.
     pub estimate: DVector<f64>,
-    /// Their covariance matrix.
+    /// Their covariance matrix beside the most probable explanation of the other slots.
     pub covariance: DMatrix<f64>,
+    /// Standard uncertainties of the coefficients by the choice between explanations of the other slots; zeros
+    /// for all but the first of a slot.
+    pub choice: DVector<f64>,
     /// Degrees of freedom of the covariance matrix; ∞ if the noise is known.
     pub dof: f64,
     /// Visible strength λ of the most probable variant: its size beside the other effects, over the noise.
     pub lambda: f64,
     /// What is left of λ after the nearest rival is fitted in its place.
     pub nearest: Option<Rival>,
+}
+
+impl Alternative {
+    /// Standard uncertainties of the coefficients, with what the other slots leave open.
+    pub fn u(&self) -> DVector<f64> {
+        let combined = |variance: f64, choice: f64| (variance + choice * choice).sqrt();
+        self.covariance.diagonal().zip_map(&self.choice, combined)
+    }
+
+    /// Coverage factor of the 95 % intervals of the coefficients, of Student's t (GUM, G.3.2).
+    pub fn coverage_factor(&self) -> f64 {
+        student_t_two_sided_quantile(0.95, self.dof)
+    }
 }
 
 /// An atom and its share of the probability of its candidate.

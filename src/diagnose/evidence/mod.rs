@@ -30,6 +30,7 @@
 //! | `pairs` | two effects that mask each other |
 //! | `search` | the set of effects that explains a recording |
 //! | `slots` | which candidates could stand for each effect |
+//! | `choice` | what sizes owe to the choice between explanations of the others |
 //! | `fit` | estimates, strength, distance to rivals |
 //! | `kin` | effects that are the shape of another, aliases, mixtures |
 //! | `guard` | effects outside the catalogue that look like what is in it |
@@ -46,6 +47,7 @@
 
 mod baseline;
 mod beside;
+mod choice;
 mod closed_form;
 mod confusion;
 mod examine;

@@ -266,6 +266,7 @@ fn alternative(
             .into_iter()
             .map(|(_, variant)| variant)
             .collect(),
+        choice: DVector::zeros(estimate.coefficients.len()),
         estimate: estimate.coefficients,
         covariance: estimate.covariance,
         dof: estimate.dof,
@@ -285,6 +286,7 @@ fn unnamed(ranked: Ranked) -> Alternative {
             .collect(),
         estimate: DVector::zeros(0),
         covariance: DMatrix::zeros(0, 0),
+        choice: DVector::zeros(0),
         dof: f64::INFINITY,
         lambda: f64::NAN,
         nearest: None,

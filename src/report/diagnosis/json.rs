@@ -159,7 +159,8 @@ fn alternative(diagnosis: &Diagnosis, alternative: &Alternative, language: Langu
             json!({ "id": cell.effect.id, "label": cell.variants[variation].label, "share": variant.share })
         }).collect::<Vec<_>>(),
         "size": alternative.estimate.iter().map(|x| finite(*x)).collect::<Vec<_>>(),
-        "u": alternative.covariance.diagonal().iter().map(|x| finite(x.sqrt())).collect::<Vec<_>>(),
+        "u": alternative.u().iter().map(|u| finite(*u)).collect::<Vec<_>>(),
+        "coverage_factor": finite(alternative.coverage_factor()),
         "lambda": finite(alternative.lambda),
         "nearest": alternative.nearest.as_ref().map(|rival| json!({
             "name": name(&diagnosis.cells[rival.candidate], language),

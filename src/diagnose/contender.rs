@@ -14,6 +14,8 @@ pub struct Contender {
     id: String,
     /// What its texts speak of.
     words: Words,
+    /// Whether several of its variants may act at once.
+    repeats: bool,
     /// Its posterior probability.
     probability: f64,
     /// What it may look like, the most probable first.
@@ -48,6 +50,7 @@ impl Contender {
         Contender {
             id: cell.effect.id.clone(),
             words: cell.words.clone(),
+            repeats: cell.effect.repeats(),
             probability,
             likely: vec![Likely {
                 label: variation.label.clone(),
@@ -111,6 +114,7 @@ impl Contender {
         Standing {
             effects: side_by_side(self.likely.iter().map(|likely| likely.seen.clone())),
             variants: variants.filter_map(seen).collect(),
+            repeats: self.repeats,
         }
     }
 
@@ -146,6 +150,7 @@ impl Contender {
             variants: variants
                 .filter_map(|columns| visible(&longer.baseline, columns))
                 .collect(),
+            repeats: self.repeats,
         })
     }
 
@@ -285,6 +290,9 @@ pub(super) fn likened(
 /// The most that an explanation has which is not listed.
 const UNLISTED: f64 = 0.01;
 
+/// Candidates that leave more do not come to stand beside an explanation by rule.
+const FAR: f64 = 8.0;
+
 /// What a candidate that is not in a list leaves of each explanation of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Outsider {
@@ -292,6 +300,8 @@ pub(super) struct Outsider {
     words: Words,
     /// κ of each.
     pub kappas: Vec<f64>,
+    /// Whether it comes to stand beside each whatever the odds say.
+    pub stays: Vec<bool>,
 }
 
 impl Outsider {
@@ -325,10 +335,16 @@ pub(super) fn outsiders(
             .map(|variation| variation.columns(ground));
         let finite = columns.filter(|c| c.ncols() > 0 && c.iter().all(|x| x.is_finite()));
         let seen: Vec<DMatrix<f64>> = finite.filter_map(|c| visible(baseline, c)).collect();
+        let kappas = evidence::left(&effects, seen.iter().cloned());
+        let near = kappas
+            .iter()
+            .zip(standing)
+            .map(|(kappa, one)| *kappa < FAR && !cell.effect.repeats() && one.keeps(&seen));
         Outsider {
             id: &cell.effect.id,
             words: cell.words.clone(),
-            kappas: evidence::left(&effects, seen),
+            stays: near.collect(),
+            kappas,
         }
     };
     cells.iter().filter(counts).map(of).collect()

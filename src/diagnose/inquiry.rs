@@ -154,7 +154,7 @@ pub(super) fn question(
             place: cell.place.clone(),
             cause: cause(cells, index),
             typical: cell.typical,
-            repeats: matches!(cell.effect.id.as_str(), "outlier" | "step"),
+            repeats: cell.effect.repeats(),
             describes: cell.effect.describes,
             odds: cell.odds,
         });

@@ -253,13 +253,12 @@ pub fn diagnose(
         &unknowns,
         adopted.as_ref(),
     );
-    let slots = &examination.slots;
     let recorded = Recorded {
         known: &known,
         ground: &ground,
         baseline: &baseline,
     };
-    let separating = separation::separating(&recorded, &cells, &places, slots);
+    let separating = separation::separating(&recorded, &cells, &places, &examination);
     Ok(Diagnosis {
         examination,
         located,

@@ -2,7 +2,7 @@
 
 use super::catalogue::{Cell, Variation};
 use super::contender::{Contender, Outsider, likened, outsiders, sizes};
-use super::evidence::{self, Apart, Prospects, Standing, Worth};
+use super::evidence::{self, Apart, Examination, Prospects, Standing, Verdict, Worth};
 use super::extra::Extra;
 use super::longer::{Longer, Recorded, examined};
 
@@ -32,14 +32,19 @@ pub(super) fn separating(
     recorded: &Recorded<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
-    slots: &[evidence::Slot],
+    examination: &Examination,
 ) -> Vec<Separating> {
+    // Where something without a name explains the recording as well, it is not decided.
+    let nameless = match examination.verdict {
+        Verdict::Contested => examination.generic_probability,
+        _ => 0.0,
+    };
     let of_atom = |atom: usize| {
         let (cell, variation) = places[atom];
         (cell, &cells[cell].variants[variation])
     };
     let mut found = Vec::new();
-    for (slot, of) in slots.iter().enumerate() {
+    for (slot, of) in examination.slots.iter().enumerate() {
         let mut rivals = Vec::new();
         let mut set: Vec<Contender> = Vec::new();
         for alternative in of.named.iter().take(CONTENDERS) {
@@ -66,12 +71,15 @@ pub(super) fn separating(
             continue;
         }
         let kappa = nearest.map_or(0.0, |rival| rival.kappa);
-        let all: f64 = of
+        let listed: f64 = of
             .named
             .iter()
             .map(|alternative| alternative.probability)
             .sum();
-        found.push((slot, rivals, kappa, set, all));
+        // Of what a list holds beside these nothing is promised.
+        let examined: f64 = set.iter().map(Contender::probability).sum();
+        let share = (examined / listed).min(1.0) * (1.0 - nameless);
+        found.push((slot, rivals, kappa, set, share));
     }
     if found.is_empty() {
         return Vec::new();
@@ -79,14 +87,14 @@ pub(super) fn separating(
     let all = super::extra::extras(recorded.known.case);
     let lists: Vec<List> = found
         .into_iter()
-        .filter_map(|(slot, rivals, kappa, set, listed)| {
+        .filter_map(|(slot, rivals, kappa, set, share)| {
             let standing: Vec<Standing> =
                 set.iter().map(|one| one.before(recorded, cells)).collect();
             Some(List {
                 slot,
                 rivals,
                 kappa,
-                listed,
+                share,
                 before: evidence::apart(&standing).ok()?,
                 outside: outsiders(recorded.ground, cells, recorded.baseline, &set, &standing),
                 set,
@@ -118,8 +126,8 @@ struct List {
     rivals: Vec<usize>,
     kappa: f64,
     set: Vec<Contender>,
-    /// Probability of all names that are listed.
-    listed: f64,
+    /// Probability that one of the set is right, if any name of the list is.
+    share: f64,
     before: Apart,
     outside: Vec<Outsider>,
 }
@@ -143,7 +151,12 @@ impl List {
             for (at, doubt) in doubts.iter_mut().enumerate() {
                 // What the recording had no such candidate for may come now.
                 let before = before.map_or(f64::INFINITY, |before| before.kappas[at]);
-                *doubt = doubt.max(evidence::doubt(before, one.kappas[at]));
+                let own = if one.stays[at] {
+                    1.0
+                } else {
+                    evidence::doubt(before, one.kappas[at])
+                };
+                *doubt = doubt.max(own);
             }
         }
         Some(After { apart, doubts })
@@ -153,8 +166,6 @@ impl List {
         let aparts: Vec<&Apart> = after.iter().map(|(_, after)| &after.apart).collect();
         let classes = classes(self.set.len(), &self.before, &aparts);
         let probabilities: Vec<f64> = self.set.iter().map(Contender::probability).collect();
-        // Of what a list holds beside these nothing is promised.
-        let examined = (probabilities.iter().sum::<f64>() / self.listed).min(1.0);
         let worth = |after: &After| {
             let mut worth = after.apart.worth(&Prospects {
                 before: &self.before,
@@ -162,7 +173,7 @@ impl List {
                 classes: &classes,
                 outside: &after.doubts,
             });
-            worth.resolved *= examined;
+            worth.resolved *= self.share;
             worth
         };
         let mut extras: Vec<(Extra, Worth)> = if classes.iter().all(|class| *class == 0) {

@@ -29,6 +29,12 @@ const SURELY_LEFT: f64 = 0.001;
 const DOMINANT: f64 = 0.6;
 /// … and nothing without a name in its place has more than this probability.
 const DOUBTFUL: f64 = 0.1;
+/// Where an effect without a name has this probability …
+const OPEN: f64 = 0.2;
+/// … and the named ones are not better than an unlisted one by this logarithm of a Bayes factor …
+const CLEARLY_BETTER: f64 = 20.0;
+/// … a single name holds if its effect is this many times as strong as what stands unexplained beside it.
+const STRONGER: f64 = 2.5;
 /// Named effects beside an unexplained one count if they explain this share of the excess χ² …
 const MOST: f64 = 0.8;
 /// … and a single one beside which much is left if it explains this share.
@@ -94,6 +100,9 @@ pub fn examine(
             }
         }
         Verdict::None | Verdict::Identified | Verdict::Ambiguous => {}
+    }
+    if generic_probability >= OPEN && rivalry.margin.is_some_and(|margin| margin < CLEARLY_BETTER) {
+        doubt_unless_stronger(&mut slots);
     }
     let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
         Verdict::None
@@ -241,6 +250,19 @@ fn doubt_single(slots: &mut [Slot]) {
     let named: Vec<&mut Slot> = slots.iter_mut().filter(has_name).collect();
     if let Ok([single]) = <[&mut Slot; 1]>::try_from(named) {
         single.state = State::Unexplained;
+    }
+}
+
+/// A single name beside which something unexplained is not much weaker may be one part of an effect that is not in the
+/// catalogue, and that the other part.
+fn doubt_unless_stronger(slots: &mut [Slot]) {
+    let strength = |slot: &Slot| slot.named.first().map_or(0.0, |first| first.lambda);
+    let open = (slots.iter()).filter(|slot| slot.state == State::Unexplained);
+    let strongest = open.map(strength).fold(0.0, f64::max);
+    for slot in slots {
+        if slot.state == State::Identified && strength(slot) < STRONGER * strongest {
+            slot.state = State::Unexplained;
+        }
     }
 }
 

@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use super::beside::Beside;
 use super::fit::Estimate;
 use super::question::{Kind, Question};
+use super::separate::left;
 use super::space::{Block, Form, Frame, Space, joined, orthonormal, without};
 
 /// Explanations whose directions have a cosine of more than 0.995 are one: squared …
@@ -82,11 +83,31 @@ pub(super) fn listed(
     found
 }
 
+/// Whether a rival, given by the columns of its variants, stays on the list of an effect of `own` coefficients
+/// whatever the odds say; all is seen beside the parameters, over the noise.
+pub(super) fn stays(effect: &DVector<f64>, own: usize, variants: &[DMatrix<f64>]) -> bool {
+    let whole = effect.norm_squared();
+    let as_one = DMatrix::from_columns(std::slice::from_ref(effect));
+    let few = variants.iter().filter(|columns| columns.ncols() <= own + 1);
+    let shares = few.map(|columns| {
+        let left = left(&as_one, [columns.clone()])[0].powi(2);
+        (1.0 - left / whole, columns)
+    });
+    let mut near: Vec<(f64, &DMatrix<f64>)> = shares.filter(|(share, _)| *share > PART).collect();
+    near.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let alias = |(share, _): &(f64, _)| {
+        *share > ALIAS && (1.0 - share).max(0.0) * whole < TOLD_APART * TOLD_APART
+    };
+    let single = near.iter().filter(|(_, columns)| columns.ncols() == 1);
+    let tried: Vec<DVector<f64>> = single
+        .take(PAIRED)
+        .map(|(_, columns)| columns.column(0).into_owned())
+        .collect();
+    near.first().is_some_and(alias) || mixed(&tried, effect, 1.0)
+}
+
 /// Whether two variants together are what was found, neither with a negative share.
 fn kin(space: &Space, rest: &Frame, variants: &[(f64, usize)], estimate: &Estimate) -> bool {
-    let target = &estimate.visible;
-    let whole = target.norm_squared();
-    let least = (KIN * estimate.sigma).powi(2).min(KIN_SHARE * whole);
     let tried: Vec<DVector<f64>> = variants
         .iter()
         .filter(|(_, block)| space.blocks[*block].basis.ncols() == 1)
@@ -94,6 +115,13 @@ fn kin(space: &Space, rest: &Frame, variants: &[(f64, usize)], estimate: &Estima
         .map(|(_, block)| without(&space.blocks[*block].determined(), &rest.basis))
         .map(|column| column.column(0).into_owned())
         .collect();
+    mixed(&tried, &estimate.visible, estimate.sigma)
+}
+
+/// Whether two columns together are as good as an effect, neither with a negative share.
+fn mixed(tried: &[DVector<f64>], target: &DVector<f64>, sigma: f64) -> bool {
+    let whole = target.norm_squared();
+    let least = (KIN * sigma).powi(2).min(KIN_SHARE * whole);
     (0..tried.len()).any(|j| {
         (0..j).any(|i| {
             let (a, b) = (&tried[i], &tried[j]);

@@ -2,6 +2,7 @@
 
 use nalgebra::DMatrix;
 
+use super::kin::stays;
 use super::question::Refusal;
 use super::slots::ALONE;
 use crate::special::normal_cdf;
@@ -15,6 +16,17 @@ pub struct Standing {
     pub effects: DMatrix<f64>,
     /// Columns of each of its variants: with these it takes up what another does.
     pub variants: Vec<DMatrix<f64>>,
+    /// Whether several of its variants may act at once, so that mixtures of them say nothing.
+    pub repeats: bool,
+}
+
+impl Standing {
+    /// Whether a rival with such variants stays on its list whatever the odds say.
+    pub fn keeps(&self, variants: &[DMatrix<f64>]) -> bool {
+        let widths = self.variants.iter().map(DMatrix::ncols);
+        let own = widths.min().unwrap_or(0);
+        stays(&self.effects.column(0).into_owned(), own, variants)
+    }
 }
 
 /// How far rival explanations are apart in a design.
@@ -22,6 +34,8 @@ pub struct Standing {
 pub struct Apart {
     /// What the second leaves of the first, for each of the effects that this may have.
     left: Vec<Vec<Vec<f64>>>,
+    /// Whether the second stays on the list of the first whatever the odds say.
+    stays: Vec<Vec<bool>>,
     /// Lengths of the effects.
     whole: Vec<Vec<f64>>,
 }
@@ -90,6 +104,15 @@ pub fn apart(contenders: &[Standing]) -> Result<Apart, Refusal> {
     };
     Ok(Apart {
         left: (0..contenders.len()).map(of).collect(),
+        stays: contenders
+            .iter()
+            .map(|own| {
+                contenders
+                    .iter()
+                    .map(|rival| !rival.repeats && own.keeps(&rival.variants))
+                    .collect()
+            })
+            .collect(),
         whole: contenders.iter().map(lengths).collect(),
     })
 }
@@ -126,7 +149,11 @@ impl Apart {
                 let odds = log_odds(prospects.probabilities[a], prospects.probabilities[b]);
                 let kappas = self.left[a][b].iter().zip(&prospects.before.left[a][b]);
                 for (doubt, (after, before)) in doubts.iter_mut().zip(kappas) {
-                    *doubt += 1.0 - decided(odds, after * after - before * before);
+                    *doubt += if self.stays[a][b] {
+                        1.0
+                    } else {
+                        1.0 - decided(odds, after * after - before * before)
+                    };
                 }
             }
             let sure: f64 = doubts.iter().map(|doubt| (1.0 - doubt).max(0.0)).sum();
@@ -248,6 +275,7 @@ mod tests {
         let of = |column: &DMatrix<f64>| Standing {
             effects: column * DMatrix::from_row_slice(1, sizes.len(), sizes),
             variants: vec![column.clone()],
+            repeats: false,
         };
         let standing: Vec<Standing> = columns.iter().map(of).collect();
         apart(&standing).unwrap()
@@ -294,6 +322,7 @@ mod tests {
             let standing = |column: &DMatrix<f64>, variants| Standing {
                 effects: 5.0 * column,
                 variants,
+                repeats: false,
             };
             let both = [
                 standing(&own, vec![own.clone()]),

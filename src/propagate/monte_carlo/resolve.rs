@@ -8,7 +8,7 @@ use gumption_lanes::bins::{BINS, Grid};
 use gumption_lanes::{Block, LANES};
 
 use super::cells::{Cell, Slack, Wanted, cell_of, for_each_pair};
-use super::engine::{Layout, Sink, Source, simulate};
+use super::engine::{Layout, Sink, Source, parallel_map, simulate};
 use super::interval::{Ranked, Ranks};
 use super::sieve::{MOST_KEPT, Sieve, keep_only};
 
@@ -28,6 +28,9 @@ struct Run {
 pub(super) trait Again {
     /// Shows all values to sinks, one per thread.
     fn show<K: Sink>(&self, sink: impl Fn() -> K + Sync) -> Vec<K>;
+
+    /// How many threads there are.
+    fn threads(&self) -> usize;
 }
 
 /// Trials that are drawn again.
@@ -41,6 +44,10 @@ pub(super) struct Redraw<'s, S> {
 impl<S: Source> Again for Redraw<'_, S> {
     fn show<K: Sink>(&self, sink: impl Fn() -> K + Sync) -> Vec<K> {
         simulate(self.source, self.layout, 0..self.chunks, self.threads, sink).1
+    }
+
+    fn threads(&self) -> usize {
+        self.threads
     }
 }
 
@@ -80,34 +87,30 @@ impl Resolved {
             [run.low, run.high] = sieve.span(*first.start()..=*last.end());
         }
         let mut known = Vec::new();
-        let mut memory = kept.map(|values| inside(&runs, values));
+        let threads = again.threads();
+        let mut memory = kept.map(|parts| of_each(parts, threads, |part| inside(&runs, part)));
         loop {
             let total: u64 = runs.iter().map(|run| run.count).sum();
-            let values = match memory.take() {
-                Some(values) => Some(values),
+            let parts = match memory.take() {
+                Some(parts) => Some(parts),
                 None if total <= MOST_KEPT as u64 => Some(gathered(&runs, output, again)),
                 None => None,
             };
-            let values = match values {
-                Some(values) if total <= SORTED => {
-                    return Resolved::sorted(values, &runs, known, wanted.count, depth);
+            let parts = match parts {
+                Some(parts) if total <= SORTED => {
+                    return Resolved::sorted(parts, &runs, known, wanted.count, depth);
                 }
-                values => values,
+                parts => parts,
             };
-            let finer = match &values {
-                Some(values) => {
-                    let mut finer = Finer::new(&runs);
-                    values.iter().for_each(|value| finer.add(*value));
-                    finer
-                }
+            let counted = match &parts {
+                Some(parts) => Finer::of(parts, &runs, threads),
                 None => {
-                    let parts = again.show(|| Watch::new(output, Finer::new(&runs)));
-                    let parts = parts.into_iter().map(|watch| watch.keeper);
-                    parts
-                        .reduce(Finer::merged)
-                        .unwrap_or_else(|| Finer::new(&runs))
+                    let watches = again.show(|| Watch::new(output, Finer::new(&runs)));
+                    watches.into_iter().map(|watch| watch.keeper).collect()
                 }
             };
+            let finer =
+                (counted.into_iter().reduce(Finer::merged)).unwrap_or_else(|| Finer::new(&runs));
             cells = finer.cells();
             cells.append(&mut known);
             cells.sort_unstable_by_key(|cell| cell.below);
@@ -124,24 +127,24 @@ impl Resolved {
                 .collect();
             runs = self::runs(&cells, &open);
             let left: u64 = runs.iter().map(|run| run.count).sum();
-            memory = values.map(|values| finer.inside(&runs, values));
+            memory = parts.map(|parts| of_each(parts, threads, |part| finer.inside(&runs, part)));
             if left > total / 2 {
                 // Finer counts would not help much further.
-                let values = memory.unwrap_or_else(|| gathered(&runs, output, again));
-                return Resolved::sorted(values, &runs, known, wanted.count, depth);
+                let parts = memory.unwrap_or_else(|| gathered(&runs, output, again));
+                return Resolved::sorted(parts, &runs, known, wanted.count, depth);
             }
         }
     }
 
     /// Sorts the values of the runs.
     fn sorted(
-        values: Vec<f64>,
+        parts: Vec<Vec<f64>>,
         runs: &[Run],
         known: Vec<Cell>,
         count: u64,
         depth: usize,
     ) -> Resolved {
-        let mut values = inside(runs, values);
+        let mut values = inside(runs, parts.concat());
         values.sort_unstable_by(f64::total_cmp);
         let mut start = 0;
         let mut cells: Vec<(Cell, Option<usize>)> = Vec::new();
@@ -223,6 +226,19 @@ impl Ranked for Resolved {
     }
 }
 
+/// What a task makes of each part of some values.
+fn of_each<P: AsRef<[f64]> + Send, T: Send>(
+    parts: Vec<P>,
+    threads: usize,
+    task: impl Fn(P) -> T + Sync,
+) -> Vec<T> {
+    /// Fewer values are done before another thread has begun.
+    const LEAST: usize = 1 << 15;
+    let values: usize = parts.iter().map(|part| part.as_ref().len()).sum();
+    let threads = if values < LEAST { 1 } else { threads };
+    parallel_map(parts, threads, || (), |(), part| task(part), |()| ()).0
+}
+
 /// Rows of neighbouring cells that are all chosen.
 fn runs(cells: &[Cell], chosen: &[bool]) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
@@ -299,12 +315,11 @@ impl Keeper for Gather {
     }
 }
 
-fn gathered(runs: &[Run], output: usize, again: &impl Again) -> Vec<f64> {
-    let parts = again.show(|| Watch::new(output, Gather::new(runs)));
-    parts
-        .into_iter()
-        .flat_map(|watch| watch.keeper.values)
-        .collect()
+/// The values of some runs, in parts.
+fn gathered(runs: &[Run], output: usize, again: &impl Again) -> Vec<Vec<f64>> {
+    let watches = again.show(|| Watch::new(output, Gather::new(runs)));
+    let values = watches.into_iter().map(|watch| watch.keeper.values);
+    values.collect()
 }
 
 /// Values in a finer bin, on average, where there are enough bins.
@@ -335,6 +350,16 @@ impl Finer {
                 .map(|run| vec![(0, f64::INFINITY, f64::NEG_INFINITY); bins(run)])
                 .collect(),
         }
+    }
+
+    /// The counts of each part of the values of some runs.
+    fn of(parts: &[Vec<f64>], runs: &[Run], threads: usize) -> Vec<Finer> {
+        let parts: Vec<&[f64]> = parts.iter().map(Vec::as_slice).collect();
+        of_each(parts, threads, |part| {
+            let mut finer = Finer::new(runs);
+            part.iter().for_each(|value| finer.add(*value));
+            finer
+        })
     }
 
     /// The bin of a value of a run.

@@ -30,8 +30,9 @@ pub(super) struct Sieve {
     counts: Vec<u64>,
     /// Whether the values of a bin have been kept from the first one on.
     keeps: Vec<bool>,
-    /// While values are strained, one of the strainers has them.
-    kept: Mutex<Vec<f64>>,
+    /// In parts, each of which a strainer has while values are strained. They may hold values of bins that are kept
+    /// no longer.
+    kept: Mutex<Vec<Vec<f64>>>,
     /// Bins whose counts have a meaning only together with those of their neighbours of this kind.
     lumped: Vec<bool>,
     /// Rows of lumped bins that later values are not told apart in.
@@ -69,19 +70,24 @@ impl Sieve {
         let mut counting = Strainer::new(sieve.grid, |_| false, &[], Vec::new());
         counting.count_all(&values);
         sieve.absorb(counting.finish());
-        *sieve.kept() = values;
+        *sieve.kept() = vec![values];
         sieve
     }
 
-    /// Takes further values in, on one thread. The first one goes on with what has been kept, so that it need
-    /// not be copied.
+    /// Takes further values in, on one thread. Goes on with a part of what has been kept, so that it need not be
+    /// copied.
     pub(super) fn strainer(&self) -> Strainer {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let kept = std::mem::take(&mut *kept);
-        Strainer::new(self.grid, |bin| self.keeps[bin], &self.gaps, kept)
+        let part = self
+            .kept
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .pop();
+        let mut part = part.unwrap_or_default();
+        keep_only(&mut part, |value| self.keeps[self.grid.bin(value)]);
+        Strainer::new(self.grid, |bin| self.keeps[bin], &self.gaps, part)
     }
 
-    fn kept(&mut self) -> &mut Vec<f64> {
+    fn kept(&mut self) -> &mut Vec<Vec<f64>> {
         self.kept.get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -96,14 +102,10 @@ impl Sieve {
         let [low, high] = strained.range;
         self.range = [self.range[0].min(low), self.range[1].max(high)];
         let kept = self.kept();
+        let already: usize = kept.iter().map(Vec::len).sum();
         match strained.picked {
-            Some(picked) if kept.len() + picked.len() > MOST_KEPT => self.keep_nothing(),
-            Some(picked) if kept.capacity() < picked.capacity() => {
-                let others = std::mem::replace(kept, picked);
-                kept.extend(others);
-            }
-            Some(picked) => kept.extend(picked),
-            None => self.keep_nothing(),
+            Some(picked) if already + picked.len() <= MOST_KEPT => kept.push(picked),
+            Some(_) | None => self.keep_nothing(),
         }
     }
 
@@ -139,9 +141,6 @@ impl Sieve {
             let near = bin.saturating_sub(1)..(bin + 2).min(BINS);
             *kept &= keeps[near].iter().any(|near| *near);
         }
-        let (grid, keeps) = (self.grid, std::mem::take(&mut self.keeps));
-        keep_only(self.kept(), |value| keeps[grid.bin(value)]);
-        self.keeps = keeps;
         if self.count() >= PICTURED && self.keeps.contains(&true) {
             self.lump(&cells, &rows, wanted.middle());
         }
@@ -266,8 +265,11 @@ impl Sieve {
         [low, high]
     }
 
-    /// Hands over all that has been kept, if the values of some bins are among it.
-    pub(super) fn take_kept(&mut self, bins: impl IntoIterator<Item = usize>) -> Option<Vec<f64>> {
+    /// Hands over all that has been kept, in parts, if the values of some bins are among it.
+    pub(super) fn take_kept(
+        &mut self,
+        bins: impl IntoIterator<Item = usize>,
+    ) -> Option<Vec<Vec<f64>>> {
         let all = bins.into_iter().all(|bin| self.keeps[bin]);
         let kept = all.then(|| std::mem::take(self.kept()));
         self.keep_nothing();
@@ -355,7 +357,7 @@ mod tests {
         let mut strainer = sieve.strainer();
         strainer.take_each(&sample);
         sieve.absorb(strainer.finish());
-        assert_eq!((sieve.count(), sieve.kept().len()), (1000, 1000));
+        assert_eq!((sieve.count(), sieve.kept().concat().len()), (1000, 1000));
         let [low, high] = sieve.span(100..=200);
         assert_eq!(sieve.grid.bin(low), 100);
         assert_eq!(sieve.grid.bin(low.next_down()), 99);

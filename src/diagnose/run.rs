@@ -309,11 +309,9 @@ fn adopt_named(
     };
     let (mut coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
         all.into_iter().partition(is_added);
-    let count = |atom: usize| cells[places[atom].0].variants[places[atom].1].coefficients();
-    let choices = (fitted.atoms.iter()).flat_map(|atom| choice(examination, *atom, count(*atom)));
-    for (coefficient, choice) in coefficients.iter_mut().zip(choices) {
-        coefficient.u = (coefficient.u * coefficient.u + choice * choice).sqrt();
-    }
+    let count = |atom: &usize| cells[places[*atom].0].variants[places[*atom].1].coefficients();
+    let counts = fitted.atoms.iter().map(|atom| (*atom, count(atom)));
+    widen(&mut coefficients, counts, examination);
     let residuals = fit.residuals.clone();
     drop(frame);
     Some(Adopted {
@@ -327,14 +325,28 @@ fn adopt_named(
     })
 }
 
-/// Standard uncertainties of the coefficients of an adopted atom by the choice between explanations of the
-/// others.
-fn choice(examination: &Examination, atom: usize, count: usize) -> Vec<f64> {
-    let mut firsts = (examination.slots.iter()).filter_map(|slot| slot.named.first());
-    let own = firsts.find(|first| first.variants.first().is_some_and(|one| one.atom == atom));
-    let of = |at: usize| own.and_then(|own| own.choice.get(at)).copied();
-    let known = (0..count).map(|at| of(at).filter(|u| u.is_finite()));
-    known.map(|u| u.unwrap_or(0.0)).collect()
+/// Adds to the uncertainties of fitted coefficients, so many of each atom, what the fit does not know: that other
+/// effects may have other explanations, and that weak ones are found where they come out large.
+fn widen(
+    mut coefficients: &mut [Estimated],
+    counts: impl Iterator<Item = (usize, usize)>,
+    examination: &Examination,
+) {
+    for (atom, count) in counts {
+        let (own, rest) = coefficients.split_at_mut(count.min(coefficients.len()));
+        coefficients = rest;
+        let mut firsts = (examination.slots.iter()).filter_map(|slot| slot.named.first());
+        let is_it = |first: &&evidence::Alternative| {
+            first.variants.iter().take(1).any(|one| one.atom == atom)
+        };
+        let Some(found) = firsts.find(is_it) else {
+            continue;
+        };
+        for (estimated, choice) in own.iter_mut().zip(found.choice.iter()) {
+            let choice = if choice.is_finite() { *choice } else { 0.0 };
+            estimated.u = found.widened(estimated.u, choice);
+        }
+    }
 }
 
 /// Unknowns with their standard uncertainties; `scale` is the factor on the claimed noise.

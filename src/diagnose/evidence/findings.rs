@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::selection;
 use crate::special::student_t_two_sided_quantile;
 
 /// The answer in one word.
@@ -120,10 +121,17 @@ pub struct Alternative {
 }
 
 impl Alternative {
-    /// Standard uncertainties of the coefficients, with what the other slots leave open.
+    /// Standard uncertainties of the coefficients: from the noise, by the choice between explanations of the other
+    /// slots, and because weak effects are found where they came out large.
     pub fn u(&self) -> DVector<f64> {
-        let combined = |variance: f64, choice: f64| (variance + choice * choice).sqrt();
-        self.covariance.diagonal().zip_map(&self.choice, combined)
+        let of_noise = self.covariance.diagonal().map(f64::sqrt);
+        of_noise.zip_map(&self.choice, |u, choice| self.widened(u, choice))
+    }
+
+    /// The standard uncertainty of a coefficient from those that noise and choice give it.
+    pub fn widened(&self, of_noise: f64, choice: f64) -> f64 {
+        let found = of_noise * selection::factor(self.lambda);
+        (found * found + choice * choice).sqrt()
     }
 
     /// Coverage factor of the 95 % intervals of the coefficients, of Student's t (GUM, G.3.2).

@@ -31,6 +31,7 @@
 //! | `search` | the set of effects that explains a recording |
 //! | `slots` | which candidates could stand for each effect |
 //! | `choice` | what sizes owe to the choice between explanations of the others |
+//! | `selection` | what sizes owe to having been found |
 //! | `fit` | estimates, strength, distance to rivals |
 //! | `kin` | effects that are the shape of another, aliases, mixtures |
 //! | `guard` | effects outside the catalogue that look like what is in it |
@@ -64,6 +65,7 @@ mod pairs;
 mod plan;
 mod question;
 mod search;
+mod selection;
 mod separate;
 mod slots;
 mod space;

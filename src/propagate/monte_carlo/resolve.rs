@@ -13,7 +13,7 @@ use super::interval::{Ranked, Ranks};
 use super::sieve::{MOST_KEPT, Sieve, keep_only};
 
 /// Values that are sorted without a look at finer counts.
-const SORTED: u64 = 1 << 15;
+const SORTED: u64 = 1 << 13;
 
 /// Consecutive values between two numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -372,7 +372,7 @@ impl<'p, 'b> Conditional<'p, 'b> {
     }
 
     /// The picture: what of `points` trials falls into equal bins over the central range, from the first block of the
-    /// first scrambles.
+    /// first scramble.
     pub(super) fn picture(&self, [low, high]: [f64; 2], points: u64) -> Histogram {
         const BINS: usize = 64;
         let margin = 0.3 * (high - low);
@@ -382,16 +382,13 @@ impl<'p, 'b> Conditional<'p, 'b> {
         let places: Vec<f64> = (0..=BINS / 2).map(|i| edge(2 * i)).collect();
         let mut sums = vec![[0.0; 2]; places.len()];
         let mut scratch = self.points.scratch();
-        let blocks = if self.points.are_one() { 1 } else { 2 };
-        for replicate in 0..blocks {
-            self.points.begin(&mut scratch, replicate, 8);
-            // Finite here, as these are points that were summed.
-            if let Ok(lines) = self.lines(&mut scratch, 0) {
-                let kernel = &self.averaged.law.kernel;
-                kernel.add(self.points.level, lines.paths(), &places, &mut sums);
-            }
+        self.points.begin(&mut scratch, 0, 8);
+        // Finite here, as these are points that were summed.
+        if let Ok(lines) = self.lines(&mut scratch, 0) {
+            let kernel = &self.averaged.law.kernel;
+            kernel.add(self.points.level, lines.paths(), &places, &mut sums);
         }
-        let tails = Tails::new(&places, &sums, (blocks * LANES as u64) as f64);
+        let tails = Tails::new(&places, &sums, LANES as f64);
         let share = |i: usize| tails.below(edge(i + 1)) - tails.below(edge(i));
         let count = |i: usize| (share(i) * points as f64).round().max(0.0) as u64;
         Histogram {

@@ -50,7 +50,7 @@ impl Contender {
         Contender {
             id: cell.effect.id.clone(),
             words: cell.words.clone(),
-            repeats: cell.effect.repeats(),
+            repeats: cell.effect.repeats,
             probability,
             likely: vec![Likely {
                 label: variation.label.clone(),
@@ -339,7 +339,7 @@ pub(super) fn outsiders(
         let near = kappas
             .iter()
             .zip(standing)
-            .map(|(kappa, one)| *kappa < FAR && !cell.effect.repeats() && one.keeps(&seen));
+            .map(|(kappa, one)| *kappa < FAR && !cell.effect.repeats && one.keeps(&seen));
         Outsider {
             id: &cell.effect.id,
             words: cell.words.clone(),

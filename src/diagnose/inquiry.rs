@@ -154,7 +154,7 @@ pub(super) fn question(
             place: cell.place.clone(),
             cause: cause(cells, index),
             typical: cell.typical,
-            repeats: cell.effect.repeats(),
+            repeats: cell.effect.repeats,
             describes: cell.effect.describes,
             odds: cell.odds,
         });

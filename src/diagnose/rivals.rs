@@ -165,9 +165,7 @@ fn orthonormal(columns: DMatrix<f64>, scale: f64) -> DMatrix<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::evidence::{
-        Atom, Baseline, Candidate, Covariance, Noise, Place, Prior, Settings,
-    };
+    use super::super::evidence::{Atom, Baseline, Candidate, Covariance, Noise, Prior, Settings};
     use super::*;
 
     /// A constant is fitted; a slope, a step and a wave are on offer.
@@ -182,16 +180,7 @@ mod tests {
         let candidates: Vec<Candidate> = columns
             .iter()
             .enumerate()
-            .map(|(index, (name, _))| Candidate {
-                name: (*name).into(),
-                family: String::new(),
-                place: Place::default(),
-                cause: index,
-                typical: None,
-                repeats: false,
-                describes: false,
-                odds: 1.0,
-            })
+            .map(|(index, (name, _))| Candidate::plain(name, index))
             .collect();
         let atoms: Vec<Atom> = columns
             .iter()

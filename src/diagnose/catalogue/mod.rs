@@ -87,14 +87,12 @@ pub struct Effect {
     /// It says what the recording looks like, and not why.
     #[serde(default)]
     pub describes: bool,
+    /// Several of its variants may act at once: bad rows, jumps.
+    #[serde(default)]
+    pub repeats: bool,
 }
 
 impl Effect {
-    /// Whether several of its variants may act at once: bad rows, jumps.
-    pub fn repeats(&self) -> bool {
-        matches!(self.id.as_str(), "outlier" | "step")
-    }
-
     /// Whether a fitted size may belong to this effect: any, unless its size is known.
     pub fn admits(&self, size: f64, u: f64) -> bool {
         /// Standard uncertainties that a fitted size may differ by.

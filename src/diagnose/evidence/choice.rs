@@ -100,7 +100,7 @@ mod tests {
     use super::super::examine::examine;
     use super::super::findings::Examination;
     use super::super::noise::{Covariance, Noise};
-    use super::super::question::{Atom, Candidate, Place, Settings, Shape};
+    use super::super::question::{Atom, Candidate, Settings, Shape};
     use super::*;
 
     const ROWS: usize = 60;
@@ -133,16 +133,7 @@ mod tests {
                 shape: Shape::Columns(DMatrix::from_columns(&[column])),
                 share: 1.0,
             });
-            candidates.push(Candidate {
-                name: String::new(),
-                family: String::new(),
-                place: Place::default(),
-                cause: candidates.len(),
-                typical: None,
-                repeats: false,
-                describes: false,
-                odds: 1.0,
-            });
+            candidates.push(Candidate::plain("", candidates.len()));
         }
         let noise = Noise::known(Covariance::Diagonal(DVector::from_element(ROWS, 1.0)));
         let ones = DMatrix::from_element(ROWS, 1, 1.0);

@@ -218,8 +218,8 @@ fn slots(
                 Member::Generic(_) => None,
             };
             let mut slot = slot(space, question, named, generic, member, again);
-            if let Some(block) = block {
-                contest(space, question, search, named, block, &mut slot);
+            if block.is_some() {
+                contest(space, question, search, named, &mut slot);
             }
             (block, slot)
         })
@@ -368,4 +368,52 @@ fn invisible(space: &Space, question: &Question) -> Vec<Invisible> {
             })
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DVector;
+
+    use super::super::findings::Alternative;
+    use super::*;
+
+    fn slot(state: State, strength: f64) -> Slot {
+        let only = Alternative {
+            candidate: 0,
+            probability: 1.0,
+            variants: Vec::new(),
+            estimate: DVector::zeros(1),
+            covariance: DMatrix::identity(1, 1),
+            choice: DVector::zeros(1),
+            dof: f64::INFINITY,
+            lambda: strength,
+            nearest: None,
+        };
+        Slot {
+            named: vec![only],
+            state,
+            ..nameless()
+        }
+    }
+
+    #[test]
+    fn a_single_name_has_to_be_the_stronger_by_far() {
+        use State::{Ambiguous, Identified, Unexplained};
+        let states = |strengths: [f64; 3]| {
+            let [named, listed, open] = strengths;
+            let mut slots = [
+                slot(Identified, named),
+                slot(Ambiguous, listed),
+                slot(Unexplained, open),
+            ];
+            doubt_unless_stronger(&mut slots);
+            slots.map(|slot| slot.state)
+        };
+        assert_eq!(states([20.0, 5.0, 7.0])[0], Identified);
+        // A list says already that it is not sure.
+        assert_eq!(
+            states([20.0, 5.0, 9.0]),
+            [Unexplained, Ambiguous, Unexplained]
+        );
+    }
 }

@@ -219,7 +219,7 @@ mod tests {
     use super::super::examine::examine;
     use super::super::findings::{Examination, Slot, State};
     use super::super::noise::{Covariance, Noise};
-    use super::super::question::{Atom, Candidate, Place, Settings, Shape};
+    use super::super::question::{Atom, Candidate, Settings, Shape};
     use super::*;
     use crate::special::normal_quantile;
 
@@ -277,16 +277,7 @@ mod tests {
                     share: 1.0,
                 });
             }
-            candidates.push(Candidate {
-                name: name.into(),
-                family: String::new(),
-                place: Place::default(),
-                cause: candidates.len(),
-                typical: None,
-                repeats: false,
-                describes: false,
-                odds: 1.0,
-            });
+            candidates.push(Candidate::plain(name, candidates.len()));
         }
         let noise = Noise::known(Covariance::Diagonal(DVector::from_element(ROWS, 1.0)));
         let ones = DMatrix::from_element(ROWS, 1, 1.0);

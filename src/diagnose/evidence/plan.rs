@@ -169,7 +169,6 @@ mod tests {
 
     use super::super::baseline::Prior;
     use super::super::noise::{Covariance, Noise};
-    use super::super::question::Place;
     use super::*;
 
     /// Cosines and sines of the sensor angle and of the head angle, degrees.
@@ -232,16 +231,7 @@ mod tests {
         let candidates: Vec<Candidate> = LAWS
             .iter()
             .enumerate()
-            .map(|(index, (name, _))| Candidate {
-                name: (*name).into(),
-                family: String::new(),
-                place: Place::default(),
-                cause: index,
-                typical: None,
-                repeats: false,
-                describes: false,
-                odds: 1.0,
-            })
+            .map(|(index, (name, _))| Candidate::plain(name, index))
             .collect();
         let atoms: Vec<Atom> = LAWS
             .iter()

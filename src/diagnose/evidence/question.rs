@@ -37,6 +37,23 @@ pub struct Candidate {
     pub odds: f64,
 }
 
+#[cfg(test)]
+impl Candidate {
+    /// A usual one with a cause of its own.
+    pub(in crate::diagnose) fn plain(name: &str, cause: usize) -> Candidate {
+        Candidate {
+            name: name.into(),
+            family: String::new(),
+            place: Place::default(),
+            cause,
+            typical: None,
+            repeats: false,
+            describes: false,
+            odds: 1.0,
+        }
+    }
+}
+
 /// What an atom does to the output.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {

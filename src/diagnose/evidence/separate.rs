@@ -73,6 +73,7 @@ const SEPARATED: f64 = 5.0;
 const NOTHING: f64 = 1e-6;
 /// Explanations are the same where less than this share of either is left.
 const SAME: f64 = 0.01;
+
 /// Holds explanations against one another in a design.
 ///
 /// # Errors
@@ -333,6 +334,32 @@ mod tests {
         let mixed = &own + 0.05 * &other;
         assert!(left(vec![other.clone()]) > 5.0);
         assert!(left(vec![other.clone(), mixed]) < 1.0);
+    }
+
+    #[test]
+    fn what_stays_on_the_list_by_rule_is_not_decided_against() {
+        let [own, other] = design(&[0.0, 180.0]);
+        // A rival that differs by a share of the other effect, with a size that leaves five standard deviations.
+        let resolved = |share: f64, size: f64| {
+            let rival = &own + &other * share;
+            let columns = [own.clone(), rival];
+            let before = held(&columns, &[0.01 * size]);
+            let apart = held(&columns, &[size]);
+            let outside = [0.0; 2];
+            let prospects = Prospects {
+                before: &before,
+                probabilities: &[0.5, 0.5],
+                classes: &[0, 1],
+                outside: &outside,
+            };
+            (apart.left[0][1][0], apart.worth(&prospects).resolved)
+        };
+        let (kappa, promised) = resolved(0.5, 15.0);
+        assert!(kappa > 8.0 && promised > 0.99, "{kappa} {promised}");
+        // As far apart, but of a much stronger effect of which they share all but a trace.
+        let (kappa, promised) = resolved(0.03, 60.0);
+        assert!((4.0..8.0).contains(&kappa), "{kappa}");
+        assert_eq!(promised, 0.0);
     }
 
     #[test]

@@ -199,14 +199,19 @@ pub(super) fn contest(
     question: &Question,
     search: &Search,
     named: &[usize],
-    block: usize,
     slot: &mut Slot,
 ) {
-    let own = space.blocks[block].candidate;
+    let unique = slot
+        .named
+        .first()
+        .filter(|_| slot.state == State::Identified);
+    let Some(own) = unique.map(|unique| unique.candidate) else {
+        return;
+    };
     let Some((probability, set)) = search.without(space, question, own) else {
         return;
     };
-    if slot.state != State::Identified || probability < 1.0 - ALONE {
+    if probability < 1.0 - ALONE {
         return;
     }
     let other = |block: &usize| {

@@ -237,6 +237,7 @@ pub(super) fn contest(
     }
     if slot.state == State::Ambiguous {
         slot.named[0].probability *= 1.0 - probability;
+        (slot.named).sort_by(|a, b| b.probability.total_cmp(&a.probability));
     }
 }
 

@@ -32,6 +32,43 @@ fn two_harmonics_of_one_angle_are_two_effects() {
 }
 
 #[test]
+fn exchanged_rows_are_found_however_they_bend_the_fit() {
+    // Six faces of an accelerometer: each of them holds a third of a scale factor.
+    let faces = [
+        [1, 0, 0],
+        [-1, 0, 0],
+        [0, 1, 0],
+        [0, -1, 0],
+        [0, 0, 1],
+        [0, 0, -1],
+    ];
+    for exchanged in [[2, 3], [1, 9]] {
+        let mut noise = Noise(31);
+        let mut readings: Vec<[f64; 2]> = (0..18)
+            .map(|row: usize| {
+                let [x, y, _] = faces[row % 6].map(f64::from);
+                let of = |own: f64, other: f64| 0.02 + 9.8 * own + 0.05 * other;
+                [of(x, y), of(y, x)].map(|value| value + 1e-3 * noise.normal())
+            })
+            .collect();
+        readings.swap(exchanged[0], exchanged[1]);
+        let mut rows = "gx [gn],gy [gn],gz [gn],ax [m/s^2],ay [m/s^2]\n".to_owned();
+        for (row, [ax, ay]) in readings.iter().enumerate() {
+            let [x, y, z] = faces[row % 6];
+            let _ = writeln!(rows, "{x},{y},{z},{ax:.5},{ay:.5}");
+        }
+        let case = "model = [\"ax = bx + Sxx*gx + Sxy*gy\", \"ay = by + Syx*gx + Syy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = \"stimulus\"\ngy = \"stimulus\"\ngz = \"stimulus\"\n[noise]\nu = \"1 mm/s^2\"\n";
+        let found = diagnosed("exchanged", &rows, case);
+        let (names, label) = first(&found);
+        assert_eq!(names, ["swapped"], "{}", found["statement"]);
+        let [a, b] = exchanged.map(|row| row + 1);
+        assert_eq!(label, format!("rows {a} and {b}"));
+        let statement = found["statement"].as_str().unwrap_or_default();
+        assert!(statement.contains(&label), "{statement}");
+    }
+}
+
+#[test]
 fn a_scale_of_its_own_is_no_reversed_polarity() {
     let mut noise = Noise(5);
     let mut rows = "operator,nominal [mm],reading [mm]\n".to_owned();

@@ -1,5 +1,9 @@
 //! Single rows: wrong readings, rows in exchanged order, rows with the wrong sign.
 
+use std::collections::BTreeSet;
+
+use nalgebra::{DMatrix, DVector};
+
 use super::ground::{Ground, Node};
 use super::response::{on_output, plain};
 use super::{Cell, Term, Variation, tied};
@@ -7,6 +11,10 @@ use crate::diagnose::evidence::Place;
 
 /// Longer recordings are not searched row by row.
 const MOST: usize = 800;
+/// Rows that are told by less than this share of themselves hold a parameter alone.
+const UNDETERMINED: f64 = 1e-6;
+/// Rows among which any two may be exchanged.
+const WORST: usize = 6;
 
 /// Cells of single rows; where rows are averaged, of single means.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -44,25 +52,95 @@ fn only(ground: &Ground<'_>, rows: &[usize], value: f64) -> Vec<f64> {
     modifier
 }
 
-/// Successive rows with each other's output.
+/// Rows with each other's output: successive ones, and among those that agree worst with the others any two.
 fn swapped(ground: &Ground<'_>) -> Cell {
-    let variants = (0..ground.rows() - 1).map(|row| {
-        let terms = (0..ground.case().responses.len()).map(|response| {
-            let model = &ground.fit.linear.values[response];
-            let step = model[row + 1] - model[row];
-            let mut modifier = vec![0.0; ground.rows()];
-            modifier[row] = step;
-            modifier[row + 1] = -step;
-            (response, modifier)
-        });
-        let label = format!("rows {} and {}", row + 1, row + 2);
-        // All responses of a row are exchanged together: one coefficient.
-        let terms = terms.map(|(response, modifier)| {
+    let deleted = Deleted::new(ground);
+    let rows = ground.rows();
+    let mut pairs: BTreeSet<[usize; 2]> = (1..rows).map(|row| [row - 1, row]).collect();
+    let worst = deleted.worst();
+    pairs.extend(
+        worst
+            .iter()
+            .flat_map(|a| worst.iter().map(|b| [*a, *b]))
+            .filter(|[a, b]| a < b),
+    );
+    let variants = pairs.into_iter().map(|pair| {
+        let [first, second] = pair;
+        let label = format!("rows {} and {}", first + 1, second + 1);
+        let model = deleted.model(&pair);
+        let terms = model.iter().enumerate().map(|(response, model)| {
+            let step = model[1] - model[0];
+            let mut modifier = vec![0.0; rows];
+            modifier[first] = step;
+            modifier[second] = -step;
             on_output(modifier, format!("exchange of {label}")).on(response)
         });
+        // All responses of a row are exchanged together: one coefficient.
         Variation::of(label.clone(), tied(terms.collect()))
     });
     plain(ground, "swapped", "row", variants.collect())
+}
+
+/// The model fitted without single rows, which may have bent the fit.
+struct Deleted<'g, 'f> {
+    ground: &'g Ground<'f>,
+    /// Orthonormal, of what the parameters can do.
+    basis: DMatrix<f64>,
+}
+
+impl<'g, 'f> Deleted<'g, 'f> {
+    fn new(ground: &'g Ground<'f>) -> Self {
+        Deleted {
+            ground,
+            basis: ground.fit.jacobian.clone().qr().q(),
+        }
+    }
+
+    /// What the model gives for some rows if it is fitted without them, by response. Without rows I with the
+    /// residuals r the model is there m − H(1 − H)⁻¹r, H being their block of the hat matrix.
+    fn model(&self, rows: &[usize]) -> Vec<Vec<f64>> {
+        let fit = self.ground.fit;
+        let responses = self.ground.case().responses.len();
+        let of_response =
+            |response| (rows.iter()).map(move |row| response * self.ground.rows() + row);
+        let places: Vec<usize> = (0..responses).flat_map(of_response).collect();
+        let own = self.basis.select_rows(&places);
+        let hat = &own * own.transpose();
+        let residuals = DVector::from_fn(places.len(), |i, _| fit.residuals[places[i]]);
+        let left = DMatrix::identity(places.len(), places.len()) - &hat;
+        // Rows without which a parameter is not determined say nothing of themselves.
+        let determined = left.symmetric_eigenvalues().min() > UNDETERMINED;
+        let solved = determined.then(|| left.lu().solve(&residuals)).flatten();
+        let bent = solved.map_or_else(|| DVector::zeros(places.len()), |solved| hat * solved);
+        (0..responses)
+            .map(|response| {
+                let bent = bent.rows(response * rows.len(), rows.len());
+                let model = &fit.linear.values[response];
+                let rows = rows.iter().zip(&bent);
+                rows.map(|(row, bent)| model[*row] - bent).collect()
+            })
+            .collect()
+    }
+
+    /// The rows that are farthest from what the others say, ascending.
+    fn worst(&self) -> Vec<usize> {
+        let rows = self.ground.rows();
+        let mut squares = vec![0.0; rows];
+        for response in 0..self.ground.case().responses.len() {
+            let observed = self.ground.frame.observed(response);
+            let distance = |row: usize| observed[row] - self.model(&[row])[response][0];
+            let distances: Vec<f64> = (0..rows).map(distance).collect();
+            let whole: f64 = distances.iter().map(|d| d * d).sum();
+            for (square, d) in squares.iter_mut().zip(distances) {
+                *square += d * d / whole;
+            }
+        }
+        let mut order: Vec<usize> = (0..rows).collect();
+        order.sort_by(|a, b| squares[*b].total_cmp(&squares[*a]));
+        order.truncate(WORST);
+        order.sort_unstable();
+        order
+    }
 }
 
 /// Labels for which the whole signal may have the wrong sign.

@@ -35,9 +35,12 @@ const OPEN: f64 = 0.2;
 const CLEARLY_BETTER: f64 = 20.0;
 /// … a single name holds if its effect is this many times as strong as what stands unexplained beside it.
 const STRONGER: f64 = 2.5;
+/// Beside something unexplained a name holds if its nearest rival is this many standard deviations away: from
+/// here on what is not in the model of the recording does not turn the choice between the two.
+const APART: f64 = 4.0;
 /// Named effects beside an unexplained one count if they explain this share of the excess χ² …
 const MOST: f64 = 0.8;
-/// … and a single one beside which much is left if it explains this share.
+/// … and a single one beside which much is left, or which something unlisted beats, if it explains this share.
 const NEARLY_ALL: f64 = 0.95;
 
 /// Examines a recording: detection, naming, verdict.
@@ -95,7 +98,8 @@ pub fn examine(
         }
         Verdict::Partly => {
             doubt_descriptions(&space, question, &mut slots);
-            if explained < NEARLY_ALL && leftover < SURELY_LEFT {
+            let beaten = rivalry.margin.is_some_and(|margin| margin < 0.0);
+            if explained < NEARLY_ALL && (beaten || leftover < SURELY_LEFT) {
                 doubt_single(&mut slots);
             }
         }
@@ -103,6 +107,9 @@ pub fn examine(
     }
     if generic_probability >= OPEN && rivalry.margin.is_some_and(|margin| margin < CLEARLY_BETTER) {
         doubt_unless_stronger(&mut slots);
+    }
+    if slots.iter().any(|slot| slot.state == State::Unexplained) {
+        doubt_close(&mut slots);
     }
     let verdict = if search.complete.as_ref().is_some_and(Vec::is_empty) {
         Verdict::None
@@ -266,6 +273,17 @@ fn doubt_unless_stronger(slots: &mut [Slot]) {
     }
 }
 
+/// Beside something unexplained a name whose nearest rival is close may owe its place to that.
+fn doubt_close(slots: &mut [Slot]) {
+    for slot in slots {
+        let nearest = slot.named.first().and_then(|first| first.nearest.as_ref());
+        let close = nearest.is_some_and(|rival| rival.kappa < APART);
+        if slot.state == State::Identified && close {
+            slot.state = State::Unexplained;
+        }
+    }
+}
+
 /// Whether an effect is most of the excess of χ².
 fn dominates(slot: &Slot, excess: f64) -> bool {
     let strength = slot.named.first().map_or(0.0, |first| first.lambda);
@@ -374,7 +392,7 @@ fn invisible(space: &Space, question: &Question) -> Vec<Invisible> {
 mod tests {
     use nalgebra::DVector;
 
-    use super::super::findings::Alternative;
+    use super::super::findings::{Alternative, Rival};
     use super::*;
 
     fn slot(state: State, strength: f64) -> Slot {
@@ -415,5 +433,25 @@ mod tests {
             states([20.0, 5.0, 9.0]),
             [Unexplained, Ambiguous, Unexplained]
         );
+    }
+
+    #[test]
+    fn beside_something_unexplained_a_name_needs_a_distance() {
+        let states = |kappa: f64| {
+            let mut slots = [slot(State::Identified, 20.0), slot(State::Ambiguous, 20.0)];
+            for slot in &mut slots {
+                slot.named[0].nearest = Some(Rival {
+                    atom: 0,
+                    candidate: 1,
+                    kappa,
+                    alias: false,
+                    resolved: 0.5,
+                });
+            }
+            doubt_close(&mut slots);
+            slots.map(|slot| slot.state)
+        };
+        assert_eq!(states(4.5), [State::Identified, State::Ambiguous]);
+        assert_eq!(states(3.5), [State::Unexplained, State::Ambiguous]);
     }
 }

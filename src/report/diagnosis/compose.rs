@@ -146,49 +146,69 @@ fn located(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
 }
 
 fn slots(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
-    let mut blocks = Vec::new();
-    for slot in &diagnosis.examination.slots {
-        if blocks.is_empty() {
-            blocks.push(Block::Section(
-                language.pick("What was left out", "遗漏的物理效应").into(),
-            ));
+    let slots = &diagnosis.examination.slots;
+    if slots.is_empty() {
+        return Vec::new();
+    }
+    let mut blocks = vec![Block::Section(
+        language.pick("What was left out", "遗漏的物理效应").into(),
+    )];
+    let mut before = None;
+    for slot in slots {
+        let introduction = introduction(diagnosis, slot, language);
+        if introduction != before {
+            blocks.extend(introduction.clone().map(Block::Paragraph));
+            before = introduction;
         }
-        blocks.extend(slot_blocks(diagnosis, slot, language));
+        blocks.extend(names(diagnosis, slot, language));
     }
     blocks
 }
 
-fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
-    let mut blocks = Vec::new();
-    if slot.state == State::Unexplained {
-        let places = slot.generic.iter().filter(|one| weighs(one)).map(|a| {
-            format!(
-                "{} ({} %)",
-                name(&diagnosis.cells[a.candidate], language),
-                percent(a.probability)
-            )
-        });
-        let places: Vec<String> = places.collect();
-        let named = places.is_empty() || tentative(diagnosis, slot).is_some();
-        blocks.push(Block::Paragraph(match named {
-            true => language
-                .pick(
-                    "Named, but not with certainty: nothing without a name does as well, but the name may be the shape of another effect.",
-                    "有名称但不确定：未命名的影响都不如它，但它可能只是另一影响的形态。",
-                )
-                .to_owned(),
-            false => language.pick(
-                format!("Unexplained: {}.", places.join("; ")),
-                format!("未能解释：{}。", places.join("；")),
-            ),
-        }));
-        if !slot.named.is_empty() {
-            blocks.push(Block::Paragraph(
-                language.pick("Tentative names:", "仅供参考的名称：").into(),
-            ));
-        }
+/// What is to be said before the names of a slot that is not explained.
+fn introduction(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Option<String> {
+    if slot.state != State::Unexplained {
+        return None;
     }
-    for alternative in &slot.named {
+    let places = slot.generic.iter().filter(|one| weighs(one)).map(|a| {
+        format!(
+            "{} ({} %)",
+            name(&diagnosis.cells[a.candidate], language),
+            percent(a.probability)
+        )
+    });
+    let places: Vec<String> = places.collect();
+    let has_names = slot.named.iter().any(weighs);
+    let text = match (places.is_empty(), has_names) {
+        (true, false) => language.pick(
+            "Something remains that has neither a name nor a place.",
+            "还有既无名称也无法定位的部分。",
+        ),
+        (true, true) => certain_not(language),
+        (false, _) if tentative(diagnosis, slot).is_some() => certain_not(language),
+        (false, true) => &language.pick(
+            format!("Unexplained: {}. Tentative names:", places.join("; ")),
+            format!("未能解释：{}。仅供参考的名称：", places.join("；")),
+        ),
+        (false, false) => &language.pick(
+            format!("Unexplained: {}.", places.join("; ")),
+            format!("未能解释：{}。", places.join("；")),
+        ),
+    };
+    Some(text.to_owned())
+}
+
+fn certain_not(language: Language) -> &'static str {
+    language.pick(
+        "Named, but not with certainty: the name may be the shape of another effect.",
+        "有名称但不确定：它可能只是另一影响的形态。",
+    )
+}
+
+fn names(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
+    let explained = slot.state != State::Unexplained;
+    let mut blocks = Vec::new();
+    for alternative in slot.named.iter().filter(|one| explained || weighs(one)) {
         blocks.push(Block::Paragraph(headline(
             diagnosis,
             alternative,
@@ -196,7 +216,7 @@ fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Bl
             language,
         )));
         let cell = &diagnosis.cells[alternative.candidate];
-        if slot.state != State::Unexplained {
+        if explained {
             let prose = match &cell.description {
                 Some(own) => own.clone(),
                 None => cell.words.fill(language.of(&cell.effect.prose)),

@@ -60,14 +60,15 @@ pub(super) fn name_of_atom(diagnosis: &Diagnosis, atom: usize, language: Languag
 
 /// The verdict in one sentence.
 pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
-    let names: Vec<String> = diagnosis
-        .examination
-        .slots
-        .iter()
-        .filter(|slot| slot.state != State::Unexplained)
-        .map(|slot| slot_name(diagnosis, slot, language))
-        .collect();
-    let list = names.join(language.pick("; ", "；"));
+    let slots = diagnosis.examination.slots.iter();
+    let named = slots.filter(|slot| slot.state != State::Unexplained);
+    let (open, told): (Vec<&Slot>, Vec<&Slot>) = named.partition(|slot| is_open(slot));
+    let list = |slots: &[&Slot]| {
+        let names = slots
+            .iter()
+            .map(|slot| slot_name(diagnosis, slot, language));
+        names.collect::<Vec<_>>().join(language.pick("; ", "；"))
+    };
     match diagnosis.examination.verdict {
         Verdict::None => language
             .pick(
@@ -75,15 +76,33 @@ pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
                 "模型与记录在所声明的范围内一致：记录未显示模型有遗漏。",
             )
             .to_owned(),
-        Verdict::Identified => language.pick(format!("The model leaves out: {list}."), format!("模型遗漏了：{list}。")),
-        Verdict::Ambiguous => language.pick(
-            format!("The model leaves out something that this recording cannot tell apart: {list}."),
-            format!("模型有遗漏，但本记录无法区分：{list}。"),
-        ),
+        Verdict::Identified | Verdict::Ambiguous => {
+            let (told, open) = (list(&told), list(&open));
+            match (told.is_empty(), open.is_empty()) {
+                (_, true) => language.pick(format!("The model leaves out: {told}."), format!("模型遗漏了：{told}。")),
+                (true, false) => language.pick(
+                    format!("The model leaves out something that this recording cannot tell apart: {open}."),
+                    format!("模型有遗漏，但本记录无法区分：{open}。"),
+                ),
+                (false, false) => language.pick(
+                    format!("The model leaves out: {told}; and something that this recording cannot tell apart: {open}."),
+                    format!("模型遗漏了：{told}；另有遗漏，但本记录无法区分：{open}。"),
+                ),
+            }
+        }
         Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {
-            incomplete(diagnosis, &list, language)
+            let all: Vec<&Slot> = told.into_iter().chain(open).collect();
+            incomplete(diagnosis, &list(&all), language)
         }
     }
+}
+
+/// Whether no explanation of a list is far likelier than the others.
+fn is_open(slot: &Slot) -> bool {
+    /// Probability of a first one that leads.
+    const LEADS: f64 = 0.95;
+    let first = slot.named.first();
+    slot.state == State::Ambiguous && first.is_none_or(|first| first.probability < LEADS)
 }
 
 /// The verdict where not all has a certain name; `list` are those that are.
@@ -93,6 +112,17 @@ fn incomplete(diagnosis: &Diagnosis, list: &str, language: Language) -> String {
     let places = places(diagnosis, language).join(semicolon);
     let nameless = tentative.is_empty() || !places.is_empty();
     let contested = diagnosis.examination.verdict == Verdict::Contested;
+    if list.is_empty()
+        && tentative.is_empty()
+        && let Some(named) = undecided(diagnosis, language)
+    {
+        return language.pick(
+            format!(
+                "Model and recording disagree, and it is not decided why: {places}, or {named}."
+            ),
+            format!("模型与记录不一致，原因未能判定：{places}，或 {named}。"),
+        );
+    }
     if list.is_empty() && tentative.is_empty() {
         let places = if places.is_empty() {
             places
@@ -156,14 +186,16 @@ pub(super) fn tentative<'s>(diagnosis: &Diagnosis, slot: &'s Slot) -> Option<&'s
     /// … and a name is tentative from here on.
     const LIKELY: f64 = 0.5;
     let unlikely = slot.generic.iter().all(|one| one.probability < UNLIKELY);
-    // What only tells how the recording looks is no name beside something unexplained.
-    let describes = |one: &Alternative| {
-        let id = diagnosis.cells[one.candidate].effect.id.as_str();
-        matches!(id, "outlier" | "step" | "step-scale" | "wave")
-    };
     let first = slot.named.first().filter(|one| one.probability > LIKELY);
-    let first = first.filter(|one| !describes(one));
+    let first = first.filter(|one| !describes(diagnosis, one));
     first.filter(|_| slot.state == State::Unexplained && unlikely)
+}
+
+/// Whether a name only tells how the recording looks, which is no name beside something unexplained. A shift from
+/// one level of a factor to another tells more: where to look.
+fn describes(diagnosis: &Diagnosis, one: &Alternative) -> bool {
+    let id = diagnosis.cells[one.candidate].effect.id.as_str();
+    matches!(id, "outlier" | "step" | "step-scale" | "wave")
 }
 
 /// Names that are tentative, over all slots.
@@ -171,8 +203,20 @@ fn tentatives(diagnosis: &Diagnosis, language: Language) -> Vec<String> {
     let slots = diagnosis.examination.slots.iter();
     let names = slots
         .filter_map(|slot| tentative(diagnosis, slot))
-        .map(|one| name(&diagnosis.cells[one.candidate], language));
+        .map(|one| told(diagnosis, one, language));
     distinct(names.collect())
+}
+
+/// The first name of the first slot, if it is not much less likely than what has no name.
+fn undecided(diagnosis: &Diagnosis, language: Language) -> Option<String> {
+    const LEAST: f64 = 0.2;
+    let slot = diagnosis.examination.slots.first()?;
+    let first = slot.named.first().filter(|one| one.probability >= LEAST);
+    let first = first.filter(|one| !describes(diagnosis, one))?;
+    let p = percent(first.probability);
+    slot.generic.first()?;
+    let name = told(diagnosis, first, language);
+    Some(language.pick(format!("{name} ({p} %)"), format!("{name}（{p} %）")))
 }
 
 /// Where what is unexplained sits: what is likely enough; else, where no name is tentative either, the best
@@ -204,14 +248,31 @@ fn distinct(texts: Vec<String>) -> Vec<String> {
     kept
 }
 
-/// The names of a slot, joined by "or".
+/// The names of a slot: joined by "or", unless one of them leads.
 pub(super) fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> String {
-    let names: Vec<String> = slot
-        .named
-        .iter()
-        .map(|a| name(&diagnosis.cells[a.candidate], language) + &orders(diagnosis, a, language))
-        .collect();
-    names.join(language.pick(" or ", " 或 "))
+    let full = |one| told(diagnosis, one, language) + &orders(diagnosis, one, language);
+    let names: Vec<String> = slot.named.iter().map(full).collect();
+    match (names.as_slice(), slot.named.first()) {
+        ([first, others @ ..], Some(leading)) if !others.is_empty() && !is_open(slot) => {
+            let (first, p) = (first.as_str(), percent(leading.probability));
+            let others = others.join(language.pick(", ", "、"));
+            language.pick(
+                format!("{first} ({p} %; not excluded: {others})"),
+                format!("{first}（{p} %；不能排除：{others}）"),
+            )
+        }
+        _ => names.join(language.pick(" or ", " 或 ")),
+    }
+}
+
+/// The name of an alternative in a sentence; of bad rows, jumps and the like with their place.
+fn told(diagnosis: &Diagnosis, alternative: &Alternative, language: Language) -> String {
+    let cell = &diagnosis.cells[alternative.candidate];
+    let has_place = cell.effect.repeats || cell.effect.exact.is_some();
+    match alternative.variants.first().filter(|_| has_place) {
+        Some(variant) => name_of_atom(diagnosis, variant.atom, language),
+        None => full_name(cell, language),
+    }
 }
 
 /// That the order of a cause is open, where it is: what else than the name may hold.

@@ -4,6 +4,7 @@
 use serde_json::{Value, json};
 
 use crate::diagnose::catalogue::Cell;
+use crate::diagnose::evidence::State;
 use crate::diagnose::{Diagnosis, Estimated, Omitted, Separating};
 use crate::report::document::Block;
 use crate::report::language::Language;
@@ -176,18 +177,30 @@ pub(super) fn rivals(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
     if diagnosis.separating.is_empty() {
         return Vec::new();
     }
-    let mut blocks = vec![Block::Section(
-        language
-            .pick(
-                "What this recording cannot tell apart, and what would",
-                "本记录无法区分的解释及所需的补充测量",
-            )
-            .into(),
-    )];
+    let title = match diagnosis
+        .separating
+        .iter()
+        .all(|of| is_alone(diagnosis, of))
+    {
+        true => language.pick(
+            "What would tell near rivals apart for certain",
+            "可进一步排除相近解释的补充测量",
+        ),
+        false => language.pick(
+            "What this recording cannot tell apart, and what would",
+            "本记录无法区分的解释及所需的补充测量",
+        ),
+    };
+    let mut blocks = vec![Block::Section(title.into())];
     for of in &diagnosis.separating {
         blocks.extend(separating(diagnosis, of, language));
     }
     blocks
+}
+
+/// Whether the first stands alone all the same: a rival that looks like it needs more sizes for that.
+fn is_alone(diagnosis: &Diagnosis, of: &Separating) -> bool {
+    diagnosis.examination.slots[of.slot].state == State::Identified
 }
 
 fn separating(diagnosis: &Diagnosis, of: &Separating, language: Language) -> Vec<Block> {
@@ -198,7 +211,16 @@ fn separating(diagnosis: &Diagnosis, of: &Separating, language: Language) -> Vec
         .map(|cell| full_name(&diagnosis.cells[*cell], language))
         .collect();
     let same = inseparable(of, &names, language);
-    let names = names.join(language.pick(" or ", " 或 "));
+    let names = match names.as_slice() {
+        [first, others @ ..] if is_alone(diagnosis, of) => {
+            let others = others.join(language.pick(", ", "、"));
+            language.pick(
+                format!("{first}, named alone; {others} could look the same, but is less likely"),
+                format!("{first}（唯一列出）；{others} 也可能表现相同，但可能性较小"),
+            )
+        }
+        _ => names.join(language.pick(" or ", " 或 ")),
+    };
     let kappa = significant(of.kappa, 2);
     let useful: Vec<_> = of
         .extras

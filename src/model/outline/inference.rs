@@ -34,7 +34,8 @@ impl Outline {
                     Some(unit) => symbols.push(Symbol {
                         name: name.clone(),
                         unit: unit.clone(),
-                        role: Role::Constant(1.0),
+                        // Not as a constant: a power with it has no unit of its own.
+                        role: Role::Input(symbols.len()),
                     }),
                     None => open.push(name.as_str()),
                 }
@@ -270,9 +271,9 @@ mod tests {
     #[test]
     fn an_angle_added_to_an_angle() {
         let found = units_of("y = K0 + K1*sin(head + d0)", ["K0", "K1", "d0"]);
-        assert_eq!(found, ["mV", "mV", "°"]);
+        assert_eq!(found, ["mV", "mV", "deg"]);
         let found = units_of("y = K1*sin(d0 + n*head)", ["K1", "n", "d0"]);
-        assert_eq!(found, ["mV", "1", "°"]);
+        assert_eq!(found, ["mV", "1", "deg"]);
     }
 
     #[test]

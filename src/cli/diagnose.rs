@@ -68,10 +68,10 @@ fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
         let budget = diagnose::budget(case, diagnosis);
         let mut contents = vec![("budget.toml".to_owned(), budget)];
         match diagnose::improved(case, diagnosis) {
-            Some((text, recording)) => contents.extend([
-                ("case.toml".to_owned(), text),
-                (diagnose::IMPROVED_RECORDING.to_owned(), recording),
-            ]),
+            Some(files) => {
+                let files = files.into_iter();
+                contents.extend(files.map(|(name, text)| (name.to_owned(), text)));
+            }
             None => {
                 output::warn("nothing was adopted: there is no improved case, only the budget\n")
             }

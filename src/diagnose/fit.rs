@@ -72,7 +72,43 @@ pub fn fit(frame: &Frame<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
             break;
         }
     }
-    best.map(|(_, fit)| fit).ok_or(failure)
+    best.map(|(_, fit)| without_turns(frame, fit))
+        .ok_or(failure)
+}
+
+/// Angles that the search left whole turns away from zero, within half a turn of it. Where a start or a
+/// value is stated, that chooses the turn.
+fn without_turns(frame: &Frame<'_>, mut fit: Fit) -> Fit {
+    for (place, unknown) in frame.unknowns.iter().enumerate() {
+        let stated = unknown.start.is_some() || unknown.prior.is_some();
+        let Some(turn) = frame.turn_of(unknown).filter(|_| !stated) else {
+            continue;
+        };
+        let turns = (fit.unknowns[place] / turn).round();
+        if turns == 0.0 {
+            continue;
+        }
+        let mut unwound = fit.unknowns.clone();
+        unwound[place] -= turns * turn;
+        let unwound = at(frame, unwound);
+        if same_values(&fit.linear, &unwound.linear) {
+            fit = unwound;
+        }
+    }
+    fit
+}
+
+/// Whether a model has the same values but for rounding.
+fn same_values(one: &Linear, other: &Linear) -> bool {
+    /// Sines of some thousand turns lose this much.
+    const ROUNDING: f64 = 1e-9;
+    one.values.iter().zip(&other.values).all(|(one, other)| {
+        let largest = one
+            .iter()
+            .fold(0.0_f64, |most, value| most.max(value.abs()));
+        let mut pairs = one.iter().zip(other);
+        pairs.all(|(a, b)| (a - b).abs() <= ROUNDING * largest)
+    })
 }
 
 /// Fits the model from one starting point.

@@ -8,6 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::case::{Blocks, Case, Data, Observed, Role, interval};
+use crate::quantity::Unit;
 
 /// Longer recordings in time are averaged in blocks, unless the case says otherwise.
 const MOST_BLOCKS: usize = 400;
@@ -122,12 +123,22 @@ impl<'c> Frame<'c> {
         first + labels.map_or(0, |labels| labels.of_row[row] as usize)
     }
 
-    /// The unit of an unknown as text.
-    pub fn unit(&self, unknown: usize) -> String {
-        let unit = match self.unknowns[unknown].kind {
+    fn unit_of(&self, unknown: &Unknown) -> &Unit {
+        match unknown.kind {
             UnknownKind::Parameter { parameter, .. } => &self.case.parameters[parameter].unit,
             UnknownKind::CommonError { column } => &self.case.columns[column].unit,
-        };
+        }
+    }
+
+    /// A full turn in the unit of an unknown; nothing for what cannot be an angle.
+    pub fn turn_of(&self, unknown: &Unknown) -> Option<f64> {
+        let radian = Unit::one().conversion_to(self.unit_of(unknown))?;
+        Some(radian.apply(std::f64::consts::TAU))
+    }
+
+    /// The unit of an unknown as text.
+    pub fn unit(&self, unknown: usize) -> String {
+        let unit = self.unit_of(&self.unknowns[unknown]);
         if unit.is_one() {
             String::new()
         } else {

@@ -2,15 +2,21 @@
 //! need.
 
 use super::Diagnosis;
-use super::case::{Case, Data, Role};
+use super::case::{Case, Data, NoiseClaim, NoiseOrigin, Role};
 use super::simulate::recorded;
 use crate::budget::writing::{key, quoted};
+use crate::files::Files;
+use crate::recording::text_of;
 
 /// Name of the recording beside the improved case.
-pub const RECORDING: &str = "recording.csv";
+const RECORDING: &str = "recording.csv";
 
-/// The improved case and its recording; nothing if no effect was adopted.
-pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<(String, String)> {
+/// Name of the recording at rest beside the improved case.
+const AT_REST: &str = "at_rest.csv";
+
+/// The files of the improved case, names and texts: itself, its recording, and that at rest where it has one;
+/// nothing if no effect was adopted.
+pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str, String)>> {
     let adopted = diagnosis.adopted.as_ref()?;
     let extended = &adopted.extended.case;
     let mut text = String::new();
@@ -74,8 +80,11 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<(String, String)> 
         text += &format!("{} = {{ {} }}\n", key(&parameter.name), parts.join(", "));
     }
     text += &constants(case);
-    text += &claims(case);
-    Some((text, recorded(extended).csv()))
+    let at_rest = at_rest(case);
+    text += &claims(case, at_rest.as_deref());
+    let mut files = vec![("case.toml", text), (RECORDING, recorded(extended).csv())];
+    files.extend(at_rest.map(|text| (AT_REST, text)));
+    Some(files)
 }
 
 /// A model as the case has it: several lines stay lines.
@@ -154,9 +163,18 @@ fn constants(case: &Case) -> String {
     text
 }
 
-/// The claim about the noise, and the settings.
-fn claims(case: &Case) -> String {
-    use super::case::{NoiseClaim, NoiseOrigin};
+/// The text of the recording at rest, which goes with the improved case.
+fn at_rest(case: &Case) -> Option<String> {
+    let NoiseClaim::AtRest { file, .. } = &case.noise else {
+        return None;
+    };
+    let path = case.path.parent()?.join(file);
+    text_of(Files::Disk, &path, file).ok()
+}
+
+/// The claim about the noise, and the settings; `at_rest` is the text of the recording at rest that is
+/// written beside.
+fn claims(case: &Case, at_rest: Option<&str>) -> String {
     let noise = match &case.noise {
         NoiseClaim::Stated {
             origin: NoiseOrigin::Budget(file),
@@ -179,8 +197,12 @@ fn claims(case: &Case) -> String {
                 .collect();
             format!("\n[noise]\nreplicates = [{}]\n", names.join(", "))
         }
-        NoiseClaim::AtRest { file, .. } => {
-            format!("\n[noise]\nat_rest = {{ file = {} }}\n", path(case, file))
+        NoiseClaim::AtRest { file, column, .. } => {
+            let file = at_rest.map_or_else(|| path(case, file), |_| quoted(AT_REST));
+            // The output may have another name in the recording at rest than in the improved one.
+            let column = column.as_ref();
+            let column = column.map_or(String::new(), |c| format!(", column = {}", quoted(c)));
+            format!("\n[noise]\nat_rest = {{ file = {file}{column} }}\n")
         }
         NoiseClaim::Estimated | NoiseClaim::PerRow(_) => String::new(),
     };

@@ -55,7 +55,7 @@ pub use confirm::{Confirmation, Quality};
 pub use extra::{Extra, Measure};
 pub use fit::NoFit;
 pub use held_out::{HeldOutQuality, Prediction};
-pub use improved::{RECORDING as IMPROVED_RECORDING, improved};
+pub use improved::improved;
 pub use likeness::{Likeness, likenesses};
 pub use noise::{Claimed, Origin};
 pub use omitted::Omitted;

@@ -118,7 +118,7 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
             };
             (u.iter().map(of).collect(), *dof, origin)
         }
-        NoiseClaim::AtRest { file, readings } => {
+        NoiseClaim::AtRest { file, readings, .. } => {
             let scatter = |rest: &RestReadings| {
                 let n = rest.readings.len() as f64;
                 let mean = rest.readings.iter().sum::<f64>() / n;

@@ -79,6 +79,9 @@ codes! {
     BARE_ANGLE = "M0407", "a bare number meets an angle",
         "A number without a unit would be radians, which is hardly meant beside an angle in degrees.\n\n    y = phi + 90          wrong, when phi is in °\n    y = phi + 90 '°'      right";
 
+    CONVERTED_TWICE = "M0408", "an angle is converted to radians twice",
+        "An angle with a unit is converted to radians by `sin`, `cos` and `tan` themselves; a factor pi/180 beside it would do so again.\n\n    y = sin(phi * pi/180)                     wrong, when phi is in °\n    y = sin(phi)                              right\n    y = sin(value_in(phi, '°') * pi/180)      right";
+
     TOO_LARGE = "M0501", "the model is too large",
         "Written out element by element the model has too many operations. Shorten the vectors or the functions that call one another.\n\n    g(x) = f(f(f(x))) …      each level multiplies the work";
     UNKNOWN_OF_SOLVE = "M0502", "the unknown of `solve` is not fit",

@@ -192,6 +192,9 @@ fn unary_call(
         value: &x,
         expr: argument,
     };
+    if row.dimension == DimensionRule::Angle {
+        l.converted_once(argument)?;
+    }
     let (input, unit) = match row.dimension {
         DimensionRule::One | DimensionRule::Angle | DimensionRule::ToAngle => {
             (l.number(operand, &format!("`{}`", row.name))?, Unit::one())

@@ -33,6 +33,7 @@ mod space;
 mod syntax;
 mod terms;
 mod tree;
+mod twice;
 mod units;
 
 #[cfg(test)]

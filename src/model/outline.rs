@@ -1,6 +1,8 @@
 //! What a formula says before it is compiled: which name it gives, which names it needs, and the units
 //! that free parameters must have in it.
 
+mod inference;
+
 use std::collections::{BTreeSet, HashMap};
 
 use super::Symbol;
@@ -106,11 +108,15 @@ impl Outline {
                 }
                 let factor = check.l.value(&left)?.unit()?.clone();
                 let unit = result.quotient(&factor);
-                let plain = unit.dimension == Dimension::NONE && unit.factor == Unit::one().factor;
-                Some(if plain { Unit::one() } else { unit })
+                Some(if is_plain(&unit) { Unit::one() } else { unit })
             })
             .collect()
     }
+}
+
+/// Whether a unit, however it is written, is that of pure numbers.
+fn is_plain(unit: &Unit) -> bool {
+    unit.dimension == Dimension::NONE && unit.factor == Unit::one().factor
 }
 
 /// Names that stand for values, with their places, in the order of the text.

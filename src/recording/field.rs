@@ -96,8 +96,8 @@ fn plain(text: &str) -> Option<f64> {
     })
 }
 
-/// A time as ISO 8601 has it: `2026-03-01T09:00:01.25+08:00`, also with a blank for the T, with slashes or
-/// without zone; a date alone, `2026-03-01`; or a time of the day alone, `09:00:01.25`.
+/// A time as ISO 8601 has it: `2026-03-01T09:00:01.25+08:00`, also with a blank for the T, with slashes, as
+/// `01.03.2026 09:00:01` or without zone; a date alone, `2026-03-01`; or a time of the day alone, `09:00:01.25`.
 fn instant(text: &str) -> Option<Instant> {
     let (date, clock) = match text.split_once(['T', ' ']) {
         Some((date, clock)) => (Some(date), clock.trim_start()),
@@ -145,11 +145,18 @@ fn digits(text: &str, count: usize, largest: i64) -> Option<i64> {
 
 /// Days from 1 January 1970 to a date of the Gregorian calendar.
 fn days(date: &str) -> Option<i64> {
-    let mut parts = date.split(['-', '/']);
-    let year = digits(parts.next()?, 4, 9999)?;
-    let month = digits(parts.next()?, 2, 12)?;
-    let day = digits(parts.next()?, 2, 31)?;
-    if parts.next().is_some() || month == 0 || day == 0 {
+    let parts: Vec<&str> = date.split(['-', '/', '.']).collect();
+    // The day goes first with points only: between solidi it may be the month.
+    let (year, month, day) = match parts[..] {
+        [day, month, year] if date.matches('.').count() == 2 && year.len() == 4 => {
+            (year, month, day)
+        }
+        [year, month, day] => (year, month, day),
+        _ => return None,
+    };
+    let year = digits(year, 4, 9999)?;
+    let (month, day) = (digits(month, 2, 12)?, digits(day, 2, 31)?);
+    if month == 0 || day == 0 {
         return None;
     }
     // Years that begin in March have their leap day at the end.
@@ -178,6 +185,11 @@ fn zone(clock: &str) -> Option<(&str, i64)> {
     Some((&clock[..at], if sign == "-" { -ahead } else { ahead }))
 }
 
+/// Whether a field is meant as a time of the calendar or the day, written as it may be.
+pub(super) fn is_like_a_time(field: &str) -> bool {
+    field.len() >= 8 && field.matches([':', '-', '/']).count() >= 2
+}
+
 /// How a field becomes a number.
 pub(super) fn mend(field: &str) -> String {
     let like = |replaced: &str| replaced.parse::<f64>().is_ok();
@@ -189,8 +201,8 @@ pub(super) fn mend(field: &str) -> String {
     if field.contains('−') && like(&minus) {
         return format!("write {minus}, with the hyphen as minus");
     }
-    if field.len() >= 8 && field.matches([':', '-', '/']).count() >= 2 {
-        return "write times as 2026-03-01T09:00:01.25, as 2026-03-01, as 09:00:01.25, or as seconds since the start"
+    if is_like_a_time(field) {
+        return "write times as 2026-03-01T09:00:01.25, as 01.03.2026 09:00:01, as 2026-03-01, as 09:00:01.25, or as seconds since the start; 3/1/2026 leaves open which is the month"
             .to_owned();
     }
     if field.starts_with(|c: char| c.is_ascii_digit()) {
@@ -225,8 +237,15 @@ mod tests {
         assert_eq!(seconds("9:00:01.5"), Some(32_401.5));
         assert_eq!(seconds("2000-03-01"), Some(951_868_800.0));
         assert_eq!(seconds("2000/3/1"), Some(951_868_800.0));
+        assert_eq!(seconds("01.03.2000"), Some(951_868_800.0));
+        assert_eq!(seconds("2000.03.01"), Some(951_868_800.0));
+        assert_eq!(seconds("1.3.2026 09:00:01.25"), Some(1_772_355_601.25));
         for wrong in [
             "2026-13-01T00:00",
+            "13/03/2026 08:46:58",
+            "03/13/2026 08:46:58 AM",
+            "03.13.2026 08:46:58",
+            "03.03.26",
             "09-00",
             "2026-02",
             "9",

@@ -113,14 +113,15 @@ const LETTERED: &[&str] = &[
 ];
 
 impl Heading {
-    /// Reads `name [unit]`, `name (unit)`, `name/unit`, `name_unit` or a name alone.
+    /// Reads `name [unit]`, `name (unit)`, `name/unit`, `name_unit` or a name alone; brackets and solidus may
+    /// be those of a Chinese keyboard, `位移（mm）`.
     ///
     /// Round brackets and a solidus may also be part of a name (`T (oven)`, `U/U0`); they hold a
     /// unit where their content is one.
     pub fn read(text: &str, units: &UnitTable) -> Heading {
         let text = text.trim();
-        let bracketed = last_group(text, '[', ']').map(|place| (place, Certain::Yes));
-        let other = || last_group(text, '(', ')').or_else(|| after_solidus(text));
+        let bracketed = last_group(text, SQUARE).map(|place| (place, Certain::Yes));
+        let other = || last_group(text, ROUND).or_else(|| after_solidus(text));
         let place = bracketed.or_else(|| other().map(|place| (place, Certain::No)));
         let Some(((name, unit), certain)) = place else {
             return by_ending(text, units);
@@ -185,19 +186,27 @@ enum Certain {
     No,
 }
 
+/// Opening and closing brackets, those of a Chinese keyboard among them.
+type Brackets = ([char; 2], [char; 2]);
+const SQUARE: Brackets = (['[', '［'], [']', '］']);
+const ROUND: Brackets = (['(', '（'], [')', '）']);
+/// The solidus, and that of a Chinese keyboard.
+const SOLIDUS: [char; 2] = ['/', '／'];
+
 /// The name, and the place of what stands in brackets at the end.
-fn last_group(text: &str, open: char, close: char) -> Option<(&str, Range<usize>)> {
+fn last_group(text: &str, (open, close): Brackets) -> Option<(&str, Range<usize>)> {
     let inner = text.strip_suffix(close)?;
     let mut depth = 0_usize;
     for (at, c) in inner.char_indices().rev() {
         match c {
-            _ if c == close => depth += 1,
-            _ if c == open && depth > 0 => depth -= 1,
-            _ if c == open => {
+            _ if close.contains(&c) => depth += 1,
+            _ if open.contains(&c) && depth > 0 => depth -= 1,
+            _ if open.contains(&c) => {
                 // In the quotient notation `a/(m/s^2)` the solidus is not part of the name.
                 let before = text[..at].trim_end();
-                let name = before.strip_suffix('/').unwrap_or(before);
-                return (!name.trim().is_empty()).then_some((name, at + 1..inner.len()));
+                let name = before.strip_suffix(SOLIDUS).unwrap_or(before);
+                let unit = at + c.len_utf8()..inner.len();
+                return (!name.trim().is_empty()).then_some((name, unit));
             }
             _ => {}
         }
@@ -207,9 +216,9 @@ fn last_group(text: &str, open: char, close: char) -> Option<(&str, Range<usize>
 
 /// The quotient notation `a/m`: everything behind the first solidus.
 fn after_solidus(text: &str) -> Option<(&str, Range<usize>)> {
-    let at = text.find('/')?;
+    let (at, solidus) = text.char_indices().find(|(_, c)| SOLIDUS.contains(c))?;
     let name = &text[..at];
-    let unit = at + 1..text.len();
+    let unit = at + solidus.len_utf8()..text.len();
     (!name.trim().is_empty() && !text[unit.clone()].trim().is_empty()).then_some((name, unit))
 }
 
@@ -257,6 +266,10 @@ mod tests {
         assert_eq!(parts("a/(m/s^2)"), pair("a", "m/s^2"));
         assert_eq!(parts("oven_degC"), pair("oven", "°C"));
         assert_eq!(parts("温度 [°C]"), pair("温度", "°C"));
+        assert_eq!(parts("时间（min）"), pair("时间", "min"));
+        assert_eq!(parts("位移 ［mm］"), pair("位移", "mm"));
+        assert_eq!(parts("加速度（m/(s·s)）"), pair("加速度", "m/(s·s)"));
+        assert_eq!(parts("力／kN"), pair("力", "kN"));
         assert_eq!(parts("resistivity_ohm_cm"), pair("resistivity", "Ω·cm"));
         assert_eq!(parts("rate_deg_per_s"), pair("rate", "°/s"));
         assert_eq!(parts("gyro_z_radps"), pair("gyro_z", "rad/s"));
@@ -292,6 +305,7 @@ mod tests {
     fn names_that_only_look_like_units() {
         for text in [
             "T (oven)",
+            "温度（室内）",
             "U/U0",
             "channel_A",
             "acc_x_g",

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::column_unit::unit_of;
 use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, SAME_NAME, UNIT_CLASH, UNREADABLE};
-use super::field::{Field, Instant, mend};
+use super::field::{Field, Instant, is_like_a_time, mend};
 use super::heading::Heading;
 use super::sheet::{Row, SHOWN, Sheet};
 use super::{Column, Data, Labels, Recording};
@@ -233,9 +233,15 @@ pub(crate) fn text_of(files: Files, path: &Path, name: &str) -> Result<String, R
         )
     })?;
     String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to() + 1;
-        let message = format!("{name} is not UTF-8 text from byte {at} on");
-        refuse(NOT_UTF8, message, "save the recording as CSV in UTF-8")
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
+        let at = valid.len() + 1;
+        let message = format!("{name} is not UTF-8 text from byte {at} on, in line {line}");
+        refuse(
+            NOT_UTF8,
+            message,
+            "save the recording as CSV in UTF-8: spreadsheets call it “CSV UTF-8”; or convert it, `iconv -f LATIN1 -t UTF-8 old.csv > new.csv`, with GBK for LATIN1 where the text is Chinese",
+        )
     })
 }
 
@@ -322,7 +328,12 @@ impl<'a> Draft<'a> {
             return;
         }
         self.refused += 1;
-        if self.faults.len() < SHOWN {
+        // Times that cannot be read are so in every row of the column: one says it.
+        let shown = match read.is_none() && is_like_a_time(field) {
+            true => 1,
+            false => SHOWN,
+        };
+        if self.faults.len() < shown {
             let (line, column) = (row.line, &self.heading.text);
             let message = format!("line {line}, column \"{column}\": \"{field}\" is not a number");
             let help = match read {
@@ -379,7 +390,7 @@ impl<'a> Draft<'a> {
     }
 
     fn take_faults(&mut self) -> Vec<Fault> {
-        let more = self.refused.saturating_sub(SHOWN);
+        let more = self.refused.saturating_sub(self.faults.len());
         if let Some(last) = self.faults.last_mut().filter(|_| more > 0) {
             last.message += &format!("; {more} more fields of the column are no numbers");
         }

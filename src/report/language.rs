@@ -87,6 +87,17 @@ impl Language {
         }
     }
 
+    /// Joins names of which one holds: `a or b or c`. Names may have commas in them, so that English has none
+    /// between them.
+    pub(super) fn either(self, names: &[String]) -> String {
+        match (self, names) {
+            (Language::Chinese, [front @ .., last]) if !front.is_empty() => {
+                format!("{}或{last}", front.join("、"))
+            }
+            _ => names.join(" or "),
+        }
+    }
+
     pub(super) fn word(self, word: Word) -> &'static str {
         let (english, chinese) = match word {
             Word::Author => ("Author", "编制"),
@@ -175,6 +186,9 @@ mod tests {
         let names: Vec<String> = ["a", "b", "c"].map(String::from).to_vec();
         assert_eq!(Language::English.list(&names), "a, b and c");
         assert_eq!(Language::Chinese.list(&names), "a、b和c");
+        assert_eq!(Language::English.either(&names), "a or b or c");
+        assert_eq!(Language::Chinese.either(&names), "a、b或c");
+        assert_eq!(Language::Chinese.either(&names[..1]), "a");
         assert_eq!(Language::English.list(&names[..1]), "a");
     }
 

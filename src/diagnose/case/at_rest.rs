@@ -52,6 +52,22 @@ pub(super) fn read(
         .collect()
 }
 
+/// The column of the recording that a response is, by its header.
+fn header<'c>(columns: &'c [Column], response: &Response) -> Option<&'c str> {
+    match response.observed {
+        Observed::Column(column) => columns.get(column).map(|column| column.header.as_str()),
+        Observed::Constant(_) => None,
+    }
+}
+
+/// That of the only response.
+pub(super) fn only_column<'c>(columns: &'c [Column], responses: &[Response]) -> Option<&'c str> {
+    match responses {
+        [only] => header(columns, only),
+        _ => None,
+    }
+}
+
 /// Hours in a unit of time.
 pub(in crate::diagnose) fn hours(unit: &Unit, units: &UnitTable) -> Option<f64> {
     let hour = units.parse("h").ok()?;
@@ -68,11 +84,7 @@ fn one(
     units: &UnitTable,
     times: Option<&[f64]>,
 ) -> Result<RestReadings, String> {
-    let own = match response.observed {
-        Observed::Column(column) => columns.get(column).map(|column| column.header.as_str()),
-        Observed::Constant(_) => None,
-    };
-    let Some(name) = named.or(own) else {
+    let Some(name) = named.or_else(|| header(columns, response)) else {
         return Err("name its `column`".into());
     };
     let first = |rejection: crate::budget::Rejection| {

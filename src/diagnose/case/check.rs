@@ -15,7 +15,7 @@ use crate::diagnose::faults::{MISSING, SETTING, UNIT_CLASH};
 use crate::fault::Fault;
 use crate::model::{Role as SymbolRole, Symbol};
 use crate::quantity::{Unit, UnitTable};
-use crate::recording::{Heading, Recording, Request, headings};
+use crate::recording::{Heading, Recording, Request, headings, text_of};
 
 /// Reads and checks a case.
 pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
@@ -79,7 +79,7 @@ impl Checker<'_> {
             return Err(Rejection::new(name, self.text, self.faults));
         };
         let csv_path = self.folder.join(&csv.value);
-        let headings = self.headings(&csv_path, csv)?;
+        let headings = self.headings(&csv_path)?;
         let constants = self.constants(file);
         // They need no column: what is wrong in them is told beside wrong columns.
         let settings = self.settings(file);
@@ -163,25 +163,10 @@ impl Checker<'_> {
         }
     }
 
-    fn headings(&self, path: &Path, csv: &Stated<String>) -> Result<Vec<Heading>, Rejection> {
-        // The recording's own reader has the words for what is wrong with the file.
-        let bytes = match self.files.read(path) {
-            Ok(bytes) => bytes,
-            Err(_) => {
-                let missing = Recording::open(self.files, path, &[], &self.units);
-                return Err(missing.err().unwrap_or_else(|| {
-                    let fault = Fault::new(
-                        UNREADABLE_FILE,
-                        csv.span.clone(),
-                        "the recording cannot be read",
-                    );
-                    Rejection::new("", self.text, vec![fault])
-                }));
-            }
-        };
-        let text = String::from_utf8_lossy(&bytes).into_owned();
-        headings(&text, &self.units)
-            .map_err(|fault| Rejection::new(&path.display().to_string(), &text, vec![*fault]))
+    fn headings(&self, path: &Path) -> Result<Vec<Heading>, Rejection> {
+        let name = path.display().to_string();
+        let text = text_of(self.files, path, &name)?;
+        headings(&text, &self.units).map_err(|fault| Rejection::new(&name, &text, vec![*fault]))
     }
 
     fn units(&mut self, file: &CaseTable) {

@@ -155,7 +155,8 @@ fn advised(fault: Fault, columns: &[Column], open: &[String]) -> Fault {
             ));
         }
     }
-    let clash = [CLASH, NOT_ONE, EXPONENT, RESULT_UNIT].contains(&fault.code);
+    // Points are none with columns as differences: what still is refused is so for want of a unit.
+    let clash = [CLASH, NOT_ONE, EXPONENT, POINT, RESULT_UNIT].contains(&fault.code);
     if !clash || open.is_empty() {
         return fault;
     }

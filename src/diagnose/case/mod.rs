@@ -171,6 +171,8 @@ pub enum NoiseClaim {
     AtRest {
         /// Its file.
         file: String,
+        /// The column of it, where there is one for all responses.
+        column: Option<String>,
         /// One for each response.
         readings: Vec<RestReadings>,
     },

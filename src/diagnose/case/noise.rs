@@ -121,6 +121,9 @@ impl Checker<'_> {
         match super::at_rest::read(self.files, &path, named, columns, responses, &self.units) {
             Ok(readings) => NoiseClaim::AtRest {
                 file: file.value.clone(),
+                column: named
+                    .or_else(|| super::at_rest::only_column(columns, responses))
+                    .map(str::to_owned),
                 readings,
             },
             Err(why) => {

@@ -45,6 +45,9 @@ pub(super) fn inferred_units(
             *unit = checker.unit(stated).or_else(|| Some(Unit::one()));
         }
     }
+    for ((_, outline), response) in outlines.iter().zip(responses) {
+        units = outline.completed_units(&plain, units, &known, &response.unit, &checker.units);
+    }
     search_units(
         checker, &plain, units, outlines, responses, columns, constants,
     )
@@ -69,11 +72,20 @@ fn search_units(
     }
     let one = Unit::one();
     let mut likely = vec![one.clone()];
+    // What the model does not use says nothing about the units in it.
+    let in_model = |name: &str| {
+        let mut needs = outlines.iter().flat_map(|(_, outline)| &outline.needs);
+        needs.any(|(needed, _)| needed == name)
+    };
     let used = columns
         .iter()
-        .filter(|c| matches!(c.data, Data::Numbers(_) | Data::Absent))
+        .filter(|c| matches!(c.data, Data::Numbers(_) | Data::Absent) && in_model(&c.name))
         .map(Column::unit_in_formulas);
-    let fixed = constants.iter().map(|c| c.unit.clone());
+    let fixed = constants
+        .iter()
+        .filter(|c| in_model(&c.name))
+        .map(|c| c.unit.clone());
+    likely.extend(responses.iter().map(|r| r.unit.difference()));
     for unit in used.chain(fixed) {
         let difference = unit.difference();
         let square = difference.product(&difference);

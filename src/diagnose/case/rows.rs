@@ -9,7 +9,7 @@ use super::{Case, Column, Data, HeldOut};
 use crate::budget::table::Stated;
 use crate::diagnose::faults::{MISSING, ROWS};
 use crate::fault::Fault;
-use crate::recording::{Content, Labels, Recording, Request, headings};
+use crate::recording::{Content, Labels, Recording, Request, headings, text_of};
 
 /// Rows with a value for each column of a case, in their order.
 #[derive(Debug, Clone)]
@@ -183,13 +183,14 @@ impl Checker<'_> {
     ) -> Option<Rows> {
         let full = self.folder.join(&path.value);
         let refused = |message: String| Fault::new(ROWS, path.span.clone(), message);
-        let Ok(bytes) = self.files.read(&full) else {
-            let message = format!("{} cannot be read", path.value);
-            self.faults.push(refused(message));
-            return None;
-        };
-        let text = String::from_utf8_lossy(&bytes).into_owned();
         let first = |faults: &[Fault]| faults.first().map_or("", |f| &f.message).to_owned();
+        let text = match text_of(self.files, &full, &path.value) {
+            Ok(text) => text,
+            Err(rejection) => {
+                self.faults.push(refused(first(&rejection.faults)));
+                return None;
+            }
+        };
         let known = match headings(&text, &self.units) {
             Ok(known) => known,
             Err(fault) => {

@@ -76,6 +76,8 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("T - 20 '°C'", "°C", "M0404", "T - 20 '°C'", "unit = \"K\""),
     ("L / t", "mm", "M0405", "L / t", "unit = \"mm/s\""),
     ("phi + 90", "°", "M0407", "90", "`90 '°'`"),
+    ("sin(phi * pi / 180)", "", "M0408", "phi * pi / 180", "write `phi` without"),
+    ("a + cos(a - 0.01745 * phi)", "", "M0408", "0.01745 * phi", "value_in(phi, '°')"),
     ("solve(a == b, d, 1)", "", "M0502", "a == b", "contains `d`"),
     ("solve(a == b, a, 1)", "", "M0502", "a", "new name"),
     ("solve(d == b, 2, 1)", "", "M0502", "2", "new name"),

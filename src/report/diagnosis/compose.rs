@@ -11,8 +11,8 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::labels::spoken;
 use super::words::{
-    formula, name, name_of_atom, noise, orders, p_found, probability, quantity, tentative, verdict,
-    weighs,
+    formula, name, name_of_atom, noise, orders, p_found, probability, prose, quantity, tentative,
+    verdict, weighs,
 };
 use super::{improvement, open};
 
@@ -95,7 +95,7 @@ fn as_differences(case: &Case, language: Language) -> String {
     if names.is_empty() {
         return String::new();
     }
-    let names = names.join(", ");
+    let names = names.join(language.pick(", ", "、"));
     language.pick(
         format!("; {names} count from 0 of their scale"),
         format!("；{names} 以其温标零点为起点"),
@@ -219,10 +219,14 @@ fn names(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
         if explained {
             let prose = match &cell.description {
                 Some(own) => own.clone(),
-                None => cell.words.fill(language.of(&cell.effect.prose)),
+                None => prose(cell, language),
             };
             blocks.push(Block::Paragraph(prose));
-            blocks.push(Block::Formula(vec![formula(diagnosis, alternative)]));
+            blocks.push(Block::Formula(vec![formula(
+                diagnosis,
+                alternative,
+                language,
+            )]));
         }
     }
     blocks

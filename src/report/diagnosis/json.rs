@@ -6,7 +6,7 @@ use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
 use crate::diagnose::{Diagnosis, Estimated, Measure, Omitted, Prediction, Quality};
 
-use super::words::{formula, measure, name, name_of_atom, noise, verdict};
+use super::words::{formula, measure, name, name_of_atom, noise, prose, verdict};
 use crate::report::language::Language;
 
 /// Name and version of the format.
@@ -148,8 +148,8 @@ fn alternative(diagnosis: &Diagnosis, alternative: &Alternative, language: Langu
         "id": cell.effect.id,
         "name": name(cell, language),
         "family": cell.effect.family,
-        "prose": cell.description.clone().unwrap_or_else(|| cell.words.fill(language.of(&cell.effect.prose))),
-        "formula": formula(diagnosis, alternative),
+        "prose": cell.description.clone().unwrap_or_else(|| prose(cell, language)),
+        "formula": formula(diagnosis, alternative, Language::English),
         "node": cell.place.node,
         "along": cell.place.along,
         "probability": alternative.probability,

@@ -66,6 +66,55 @@ const FORMS: [([&str; 2], [&str; 2]); 16] = [
     (["from ", " on"], ["自 ", " 起"]),
 ];
 
+/// Words in the formulas of effects, phrases before the words in them.
+const WORDS: [(&str, &str); 14] = [
+    (
+        "times the signal where it acts on the scale",
+        "作用于标度时再乘以信号",
+    ),
+    ("the reading before the stretch", "该段之前的读数"),
+    ("noise larger by a factor", "噪声增大若干倍"),
+    ("signal along the axis", "沿轴的信号"),
+    ("model at ", "模型代入 "),
+    ("model", "模型"),
+    ("mean", "均值"),
+    ("signal", "信号"),
+    ("direction", "方向"),
+    ("shape", "形状"),
+    ("axis", "轴"),
+    ("row", "行"),
+    ("or", "或"),
+    (", ", "，"),
+];
+
+/// The formula of an effect, before names of columns are put in, in the language of the report.
+pub(super) fn formula_in(formula: &str, language: Language) -> String {
+    match language {
+        Language::English => formula.to_owned(),
+        Language::Chinese => WORDS
+            .iter()
+            .fold(formula.to_owned(), |text, (english, chinese)| {
+                replaced(&text, english, chinese)
+            }),
+    }
+}
+
+/// A text with a word replaced where it is no part of another.
+fn replaced(text: &str, word: &str, by: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find(word) {
+        let (before, after) = (&rest[..at], &rest[at + word.len()..]);
+        let letter = |c: char| c.is_ascii_alphanumeric();
+        let begins = word.starts_with(letter) && before.ends_with(letter);
+        let goes_on = word.ends_with(letter) && after.starts_with(letter);
+        out += before;
+        out += if begins || goes_on { word } else { by };
+        rest = after;
+    }
+    out + rest
+}
+
 fn chinese(label: &str) -> String {
     if let Some((_, fixed)) = FIXED.iter().find(|(english, _)| *english == label) {
         return (*fixed).to_owned();

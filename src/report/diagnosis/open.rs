@@ -49,7 +49,7 @@ fn choices(diagnosis: &Diagnosis, estimates: &[Estimated], language: Language) -
                     "Not to know whether it is {names} costs u: {}.",
                     parts.join(", ")
                 ),
-                format!("不能判定是{names}所带来的 u：{}。", parts.join("，")),
+                format!("不能判定是 {names} 所带来的 u：{}。", parts.join("，")),
             )
         })
     });
@@ -219,7 +219,7 @@ fn separating(diagnosis: &Diagnosis, of: &Separating, language: Language) -> Vec
                 format!("{first}（唯一列出）；{others} 也可能表现相同，但可能性较小"),
             )
         }
-        _ => names.join(language.pick(" or ", " 或 ")),
+        _ => language.either(&names),
     };
     let kappa = significant(of.kappa, 2);
     let useful: Vec<_> = of
@@ -269,9 +269,9 @@ fn inseparable(of: &Separating, names: &[String], language: Language) -> String 
     classes.dedup();
     for class in classes {
         let own = names.iter().zip(&of.classes).filter(|(_, c)| **c == class);
-        let own: Vec<&str> = own.map(|(name, _)| name.as_str()).collect();
+        let own: Vec<String> = own.map(|(name, _)| name.clone()).collect();
         if own.len() > 1 {
-            let own = own.join(language.pick(" and ", " 与 "));
+            let own = language.pick(own.join(" and "), language.list(&own));
             text += &language.pick(
                 format!(" What says the same in all of these, and stays undecided: {own}."),
                 format!("在所有这些测量中表现相同、仍无法区分的是：{own}。"),

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use crate::diagnose::case::Case;
-use crate::diagnose::catalogue::{Cell, Text, Variation};
+use crate::diagnose::catalogue::{Cell, Text, Variation, Words};
 use crate::diagnose::evidence::{Alternative, Refusal, Slot, State, Verdict};
 use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
 
-use super::labels::spoken;
+use super::labels::{formula_in, spoken};
 use crate::report::language::Language;
 use crate::report::number::{freedom, percent, significant};
 
@@ -20,7 +20,23 @@ impl Language {
 
 /// The name of a candidate with its columns in it.
 pub(super) fn name(cell: &Cell, language: Language) -> String {
-    cell.words.fill(language.of(&cell.effect.name))
+    words(cell, language).fill(language.of(&cell.effect.name))
+}
+
+/// What an effect is, with the columns of the case.
+pub(super) fn prose(cell: &Cell, language: Language) -> String {
+    words(cell, language).fill(language.of(&cell.effect.prose))
+}
+
+/// What the texts of a cell speak of, in a language: offset, scale and signal have words, columns and
+/// parameters keep their names.
+fn words(cell: &Cell, language: Language) -> Words {
+    let mut words = cell.words.clone();
+    words.p = quantity(&words.p, language).to_owned();
+    if let Some(of) = words.x.strip_prefix("signal(") {
+        words.x = language.pick(format!("signal({of}"), format!("信号({of}"));
+    }
+    words
 }
 
 /// What distinguishes a variant; numbers without a unit stand alone.
@@ -261,7 +277,7 @@ pub(super) fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) 
                 format!("{first}（{p} %；不能排除：{others}）"),
             )
         }
-        _ => names.join(language.pick(" or ", " 或 ")),
+        _ => language.either(&names),
     }
 }
 
@@ -306,8 +322,13 @@ pub(super) fn orders(
 }
 
 /// The formula of an explanation, without the lag where its best variant has none.
-pub(super) fn formula(diagnosis: &Diagnosis, alternative: &Alternative) -> String {
+pub(super) fn formula(
+    diagnosis: &Diagnosis,
+    alternative: &Alternative,
+    language: Language,
+) -> String {
     let cell = &diagnosis.cells[alternative.candidate];
+    let fill = |text: &str| words(cell, language).fill(&formula_in(text, language));
     let lags = alternative.variants.first().is_none_or(|variant| {
         let (cell, variation) = diagnosis.atoms[variant.atom];
         let cell = &diagnosis.cells[cell];
@@ -317,10 +338,10 @@ pub(super) fn formula(diagnosis: &Diagnosis, alternative: &Alternative) -> Strin
     let general = &cell.effect.formula;
     match general.split_once("lag(") {
         Some((before, rest)) if !lags => match rest.split_once(", τ)") {
-            Some((within, after)) => cell.words.fill(&format!("{before}({within}){after}")),
-            None => cell.words.fill(general),
+            Some((within, after)) => fill(&format!("{before}({within}){after}")),
+            None => fill(general),
         },
-        _ => cell.words.fill(general),
+        _ => fill(general),
     }
 }
 

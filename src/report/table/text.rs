@@ -1,5 +1,7 @@
 //! Words and names on lines of a width.
 
+use std::ops::Range;
+
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// The text cut to a width, with an ellipsis where something is missing.
@@ -56,13 +58,15 @@ pub(in crate::report) fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-/// Smallest parts that stay on one line: words with the space after them, single wide characters
-/// with the punctuation that must not begin a line.
+/// Smallest parts that stay on one line: words with the space after them, short names of wide characters, other
+/// wide characters one by one, with the punctuation that must not begin a line.
 fn pieces(text: &str) -> Vec<&str> {
+    let names = short_names(text);
     let mut cuts = vec![0];
     let mut before = [' '; 2];
     for (i, c) in text.char_indices() {
-        if i > 0 && may_break(before, &text[i..]) {
+        let within = names.iter().any(|name| name.start < i && i < name.end);
+        if i > 0 && !within && may_break(before, &text[i..]) {
             cuts.push(i);
         }
         before = [before[1], c];
@@ -70,6 +74,32 @@ fn pieces(text: &str) -> Vec<&str> {
     cuts.push(text.len());
     cuts.dedup();
     cuts.windows(2).map(|w| &text[w[0]..w[1]]).collect()
+}
+
+/// Runs of a few wide letters that a space or bracket sets off from the text: names of columns, as in
+/// `标度对 电流 的敏感性（室温）`.
+fn short_names(text: &str) -> Vec<Range<usize>> {
+    /// Letters of a name that stays together.
+    const MOST: usize = 4;
+    let is_letter = |c: char| is_wide(c) && c.is_alphabetic();
+    let sets_off = |c: Option<char>| c.is_some_and(|c| " ()[]（）".contains(c));
+    let mut names = Vec::new();
+    let mut rest = text;
+    while let Some(begin) = rest.find(is_letter) {
+        let start = text.len() - rest.len() + begin;
+        let length = text[start..].find(|c| !is_letter(c));
+        let end = length.map_or(text.len(), |length| start + length);
+        let neighbours = [text[..start].chars().last(), text[end..].chars().next()];
+        let few = text[start..end].chars().count() <= MOST;
+        let alone = neighbours
+            .iter()
+            .all(|c| c.is_none_or(|c| !c.is_alphanumeric()));
+        if few && alone && neighbours.into_iter().any(sets_off) {
+            names.push(start..end);
+        }
+        rest = &text[end..];
+    }
+    names
 }
 
 /// Whether a line may end before `next`. `U = 0.12`, `1 000 000`, `95 %` and `94 nm` stay together.
@@ -92,8 +122,7 @@ fn may_break([second, last]: [char; 2], rest: &str) -> bool {
     }
     (is_wide(last) || is_wide(next))
         && next != ' '
-        && last != '（'
-        && last != '“'
+        && !"（“([".contains(last)
         && !ENDS.contains(next)
 }
 
@@ -122,5 +151,18 @@ mod tests {
             ["扩展不确定", "度。包含因子"]
         );
         assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
+    }
+
+    #[test]
+    fn short_chinese_names_stay_whole() {
+        assert_eq!(wrapped("标度的系数 (槽温)", 15), ["标度的系数", "(槽温)"]);
+        assert_eq!(
+            wrapped("标度的系数（室温）", 14),
+            ["标度的系数", "（室温）"]
+        );
+        assert_eq!(
+            wrapped("不能判定是：电流 引起的变化", 14),
+            ["不能判定是：", "电流 引起的变", "化"]
+        );
     }
 }

@@ -1,0 +1,192 @@
+//! Cases and recordings as users write them: units that follow from the model, angles, headers, times and
+//! encodings, and names in Chinese.
+
+mod common;
+
+use std::f64::consts::PI;
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use common::Noise;
+use common::cases::{diagnosed, diagnosed_with, folder, gumption, json};
+
+/// A platinum thermometer beside conditions that its model does not use.
+fn thermometer() -> String {
+    let mut noise = Noise(3);
+    let mut text = "t [s],T [°C],R [ohm],humidity [%],depth [mm]\n".to_owned();
+    for row in 0..30 {
+        let at = 5.0 * f64::from(row);
+        let ohms = 100.0 * (1.0 + 3.9083e-3 * at - 5.775e-7 * at * at) + 5e-4 * noise.normal();
+        let humidity = 40.0 + noise.normal();
+        let depth = 250.0 + noise.normal();
+        let _ = writeln!(text, "{},{at},{ohms:.5},{humidity:.2},{depth:.2}", 60 * row);
+    }
+    text
+}
+
+const THERMOMETER: &str = "[columns]\nR = \"output\"\nT = \"stimulus\"\nt = \"time\"\nhumidity = \"covariate\"\ndepth = \"covariate\"\n";
+
+/// Name, unit and value of the parameters of the declared model.
+fn parameters(found: &Value) -> Vec<(String, String, f64)> {
+    let list = found["parameters"].as_array().into_iter().flatten();
+    list.map(|one| {
+        let text = |key: &str| one[key].as_str().unwrap_or_default().to_owned();
+        let value = one["declared"]["value"].as_f64().or(one["value"].as_f64());
+        (text("name"), text("unit"), value.expect("a value"))
+    })
+    .collect()
+}
+
+fn units(found: &Value) -> Vec<String> {
+    let units = parameters(found).into_iter().map(|(_, unit, _)| unit);
+    units.collect()
+}
+
+#[test]
+fn units_follow_from_the_columns_of_the_model_alone() {
+    let case = format!("model = \"R = R0*(1 + A*T + B*T^2)\"\n{THERMOMETER}");
+    let found = diagnosed_with("polynomial", &thermometer(), &case);
+    assert_eq!(units(&found), ["Ω", "1/K", "1/K²"], "{found:#}");
+}
+
+#[test]
+fn the_first_error_asks_for_the_units_that_are_open() {
+    let folder = folder("open-units");
+    std::fs::write(folder.join("recording.csv"), thermometer()).expect("written");
+    let case = format!("recording = \"recording.csv\"\nmodel = \"R = a*b*c*d*T\"\n{THERMOMETER}");
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
+    assert!(!good && told.contains("[parameter] a = { unit"), "{told}");
+}
+
+/// A tumble of an accelerometer whose zero is off by 0.02°.
+fn tumble() -> String {
+    let mut noise = Noise(5);
+    let mut text = "head [deg],out [mV]\n".to_owned();
+    for row in 0..36 {
+        let head = 30.0 * f64::from(row % 12);
+        let out = 1.8 + 251.3 * libm::sin((head + 0.02) * PI / 180.0) + 4e-3 * noise.normal();
+        let _ = writeln!(text, "{head},{out:.4}");
+    }
+    text
+}
+
+const TUMBLE: &str = "[columns]\nhead = \"angle\"\nout = \"output\"\n[noise]\nu = \"0.004 mV\"\n";
+
+#[test]
+fn a_misalignment_is_an_angle_like_the_one_it_is_added_to() {
+    let case = format!("model = \"out = K0 + K1*sin(head + d0)\"\n{TUMBLE}");
+    let found = diagnosed_with("misalignment", &tumble(), &case);
+    assert_eq!(units(&found), ["mV", "mV", "°"], "{found:#}");
+    let values = parameters(&found);
+    assert!((values[1].2 - 251.3).abs() < 0.02, "{values:?}");
+    assert!((values[2].2 - 0.02).abs() < 0.005, "{values:?}");
+}
+
+#[test]
+fn angles_are_told_without_full_turns() {
+    // With these units the search starts a thousand turns away from the minimum.
+    let stated = "[parameter]\nK1 = { unit = \"mV·°\" }\nd0 = { unit = \"rad\" }\n";
+    let case = format!("model = \"out = K0 + K1*sin(head + d0)\"\n{TUMBLE}{stated}");
+    let found = diagnosed_with("turns", &tumble(), &case);
+    let values = parameters(&found);
+    assert!(values[2].2.abs() < PI, "{values:?}");
+}
+
+#[test]
+fn an_angle_is_converted_once() {
+    let folder = folder("twice");
+    std::fs::write(folder.join("recording.csv"), tumble()).expect("written");
+    let case = format!(
+        "recording = \"recording.csv\"\nmodel = \"out = K0 + K1*sin(head*pi/180)\"\n{TUMBLE}"
+    );
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
+    assert!(!good && told.contains("M0408"), "{told}");
+}
+
+#[test]
+fn an_improved_case_takes_its_recording_at_rest_with_it() {
+    let folder = folder("improved-rest");
+    let mut noise = Noise(11);
+    let mut text = "time [s],rate_dps,gyro_dps\n".to_owned();
+    for row in 0..60 {
+        let rate = 10.0 * f64::from(row % 7) - 30.0;
+        let gyro = 0.1 + rate + 1e-3 * rate * rate + 1e-3 * noise.normal();
+        let _ = writeln!(text, "{row},{rate},{gyro:.5}");
+    }
+    std::fs::write(folder.join("recording.csv"), text).expect("written");
+    let rest: Vec<String> = (0..200)
+        .map(|_| format!("{:.5}", 1e-3 * noise.normal()))
+        .collect();
+    let rest = format!("gyro_dps\n{}\n", rest.join("\n"));
+    std::fs::write(folder.join("rest.csv"), &rest).expect("written");
+    let case = "recording = \"recording.csv\"\nmodel = \"w = bias + k*rate\"\n[columns]\ntime = \"time\"\nrate = \"stimulus\"\nw = { role = \"output\", column = \"gyro_dps\" }\n[noise]\nat_rest = { file = \"rest.csv\", column = \"gyro_dps\" }\n";
+    assert_ne!(diagnosed(&folder, case)["verdict"], "none");
+    let arguments = ["diagnose", "case.toml", "--improved", "improved"];
+    assert!(gumption(&folder, &arguments).0);
+    let copy = std::fs::read_to_string(folder.join("improved/at_rest.csv")).expect("a copy");
+    assert_eq!(copy, rest);
+    let again = json(&folder, &["diagnose", "improved/case.toml", "--json"]);
+    assert_eq!(again["verdict"], "none", "{again:#}");
+}
+
+/// A line over columns with Chinese names, the units in the brackets of a Chinese keyboard.
+fn chinese() -> String {
+    let mut noise = Noise(7);
+    let mut text = "时间（min）,位移（mm）,室温 [°C],电压（mV）\n".to_owned();
+    for row in 0..40 {
+        let shift = f64::from(row % 8);
+        let room = 23.0 + libm::sin(0.7 * f64::from(row));
+        let volt = 0.5 + 2.0 * shift + 0.05 * (room - 23.0) + 1e-3 * noise.normal();
+        let _ = writeln!(text, "{row},{shift},{room:.3},{volt:.4}");
+    }
+    text
+}
+
+#[test]
+fn reports_in_chinese_are_in_chinese() {
+    let folder = folder("chinese");
+    std::fs::write(folder.join("recording.csv"), chinese()).expect("written");
+    let case = "recording = \"recording.csv\"\nmodel = \"电压 = a + b*位移\"\n[columns]\n\"时间\" = \"time\"\n\"位移\" = \"stimulus\"\n\"室温\" = \"covariate\"\n\"电压\" = \"output\"\n[noise]\nu = \"1 µV\"\n";
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let (good, page) = gumption(&folder, &["diagnose", "case.toml", "--lang", "zh"]);
+    assert!(good, "{page}");
+    for english in ["scale", "offset", "model", "mean", "signal", " 或 "] {
+        assert!(!page.contains(english), "{english} in\n{page}");
+    }
+    assert!(page.contains("模型"), "{page}");
+}
+
+#[test]
+fn a_recording_in_a_code_page_is_refused_as_such() {
+    let folder = folder("latin1");
+    let mut bytes = b"x [mm],y [mV],T (".to_vec();
+    bytes.extend([0xb0, b'C', b')', b'\n']);
+    bytes.extend(b"1,2,20\n2,3,20\n3,4,21\n");
+    std::fs::write(folder.join("recording.csv"), bytes).expect("written");
+    let case = "recording = \"recording.csv\"\nmodel = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nT = \"covariate\"\n";
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
+    assert!(
+        !good && told.contains("not UTF-8") && told.contains("CSV UTF-8"),
+        "{told}"
+    );
+}
+
+#[test]
+fn dates_with_the_month_in_doubt_are_refused_once() {
+    let folder = folder("dates");
+    let row = |row: usize, clock: &str| format!("{clock},{row},{}\n", 2 * row);
+    let head = "t,x [mm],y [mV]\n";
+    let case = "recording = \"recording.csv\"\nmodel = \"y = a + b*x\"\n[columns]\nt = \"time\"\ny = \"output\"\nx = \"stimulus\"\n";
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let american: String = (0..9)
+        .map(|i| row(i, &format!("3/4/2026 08:4{i}:00 AM")))
+        .collect();
+    std::fs::write(folder.join("recording.csv"), format!("{head}{american}")).expect("written");
+    let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
+    assert!(!good && told.matches("error[").count() == 1, "{told}");
+    assert!(told.contains("8 more fields"), "{told}");
+}

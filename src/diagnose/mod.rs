@@ -11,6 +11,7 @@
 //! | `extra`, `longer` | measurements that may follow, and the recording together with one of them |
 //! | `contender`, `separation` | explanations of the same mismatch, and what tells them apart |
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
+//! | `confirm`, `parts` | how well a model describes the recording, and its parts |
 //! | `held_out` | prediction of a recording that the fit has not seen |
 //! | `likeness` | what can stand in for something whose trace is known |
 //! | `inquiry` | candidates and recording as matrices, asked of `evidence` |
@@ -39,6 +40,7 @@ mod local;
 mod longer;
 mod noise;
 mod omitted;
+mod parts;
 mod place;
 mod plan;
 mod result;
@@ -51,7 +53,7 @@ mod typical;
 
 pub use adopt::{Addition, Extended};
 pub use compare::{Opinion, Pick, opinions};
-pub use confirm::{Confirmation, Quality};
+pub use confirm::Quality;
 pub use extra::{Extra, Measure};
 pub use fit::NoFit;
 pub use held_out::{HeldOutQuality, Prediction};
@@ -59,6 +61,7 @@ pub use improved::{RECORDING as IMPROVED_RECORDING, improved};
 pub use likeness::{Likeness, likenesses};
 pub use noise::{Claimed, Origin};
 pub use omitted::Omitted;
+pub use parts::Confirmation;
 pub use plan::{Outlook, Promise, Prospect, plan};
 pub use result::budget;
 pub use run::{Adopted, Diagnosis, Estimated, Failure, diagnose};

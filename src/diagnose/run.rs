@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::adopt;
 use super::case::Case;
 use super::catalogue::{Cell, Finer, Ground};
-use super::confirm::{self, Confirmation, Quality};
+use super::confirm::{self, Quality};
 use super::evidence::{self, Examination, Located, Refusal, Verdict};
 use super::faults::{NOT_FITTED, START, TOO_FEW};
 use super::fit::{Fit, NoFit};
@@ -18,6 +18,7 @@ use super::local;
 use super::longer::{Known, Recorded};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
+use super::parts::{self, Confirmation};
 use super::place;
 use super::separation::{self, Separating};
 use crate::fault::Code;
@@ -300,7 +301,7 @@ fn adopt_named(
     let quality = confirm::quality(&frame, &fit, claimed, claimed);
     let all = estimates(&frame, &fit, claimed, quality.scale);
     let added = extended.additions.len();
-    let confirmation = confirm::confirmation(&frame, &fit, claimed, added, fitted);
+    let confirmation = parts::confirmation(&frame, &fit, claimed, added, fitted);
     let is_added = |estimated: &Estimated| {
         extended
             .additions

@@ -9,7 +9,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use common::Noise;
-use common::cases::{diagnosed, folder, gumption, named, planned};
+use common::cases::{diagnosed, diagnosed_with, folder, gumption, named, planned};
 
 /// Two series of a load cell; `curvature` in mV/kN².
 fn load_cell(curvature: f64, seed: u64) -> String {
@@ -122,6 +122,45 @@ fn faults_are_shown_in_the_file() {
             && text.contains("did you mean \"room\"?"),
         "{text}"
     );
+}
+
+/// Two turns of a tumbled axis that reads `extra` at 90° too much; its position as angle and as gravity with
+/// so many digits.
+fn tumbled(digits: usize, extra: f64) -> String {
+    let mut noise = Noise(17);
+    let mut text = "elev [deg],g [gn],a [m/s^2]\n".to_owned();
+    for row in 0..48 {
+        let elev = f64::from(row) * 15.0;
+        let (sin, cos) = (libm::sin(elev.to_radians()), libm::cos(elev.to_radians()));
+        let read = 0.03 + 9.77 * cos + extra * sin + 8e-4 * noise.normal();
+        let _ = writeln!(text, "{elev},{cos:.digits$},{read:.5}");
+    }
+    text
+}
+
+#[test]
+fn what_a_parameter_absorbs_but_for_rounding_is_no_coefficient() {
+    let case = "model = \"a = b + S*g\"\n[columns]\nelev = \"angle\"\ng = \"stimulus\"\na = \"output\"\n[noise]\nu = \"0.0008 m/s^2\"\n[diagnosis]\ncatalogue = [\"periodic\"]\n";
+    for digits in [4, 6, 12] {
+        let found = diagnosed_with("rounded", &tumbled(digits, 0.004), case);
+        let improved = &found["improved"];
+        let coefficients = improved["coefficients"].as_array().expect("some");
+        assert_eq!(coefficients.len(), 1, "{digits} digits: {improved}");
+        assert_eq!(improved["additions"][0]["modifier"], "sin(1*elev)");
+        let scale = &improved["parameters"][1];
+        assert_eq!(scale["name"], "S");
+        let [value, u] = ["value", "u"].map(|key| scale[key].as_f64().expect("a number"));
+        assert!((value - 9.77).abs() < 3.0 * u && u < 2e-4, "{value} ± {u}");
+    }
+}
+
+#[test]
+fn parameters_that_only_rounding_tells_apart_are_uncertain() {
+    let case = "model = \"a = b + S*g + C*cos(elev)\"\n[columns]\nelev = \"angle\"\ng = \"stimulus\"\na = \"output\"\n[noise]\nu = \"0.0008 m/s^2\"\n";
+    let found = diagnosed_with("twice", &tumbled(6, 0.0), case);
+    for parameter in &found["parameters"].as_array().expect("some")[1..] {
+        assert!(parameter["u"].as_f64() > Some(100.0), "{parameter}");
+    }
 }
 
 /// Recordings that the examples of the documentation name.

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::fit::Fit;
 use super::frame::Frame;
+use super::inquiry::baseline;
 use super::noise::Claimed;
 
 /// How well a model describes the recording.
@@ -136,6 +137,10 @@ fn normal(
 
 /// Covariance matrix of the unknowns with the claimed noise.
 pub(super) fn covariance(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
+    // By orthogonal directions: a normal matrix has lost what hardly differs from another unknown.
+    if let Ok(baseline) = baseline(frame, fit, &claimed.uncorrelated()) {
+        return baseline.covariance();
+    }
     let all: Vec<usize> = (0..frame.observations()).collect();
     inverse(&normal(frame, fit, claimed, &all).0)
 }

@@ -51,7 +51,7 @@ mod simulate;
 mod spread;
 mod typical;
 
-pub use adopt::{Addition, Extended};
+pub use adopt::{Addition, Extended, Free};
 pub use compare::{Opinion, Pick, opinions};
 pub use confirm::Quality;
 pub use extra::{Extra, Measure};

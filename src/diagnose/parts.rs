@@ -111,12 +111,7 @@ impl Apart {
             jacobian: fit.jacobian.clone().remove_column(at),
             ..fit.clone()
         };
-        // The weights of the fit.
-        let weights = Claimed {
-            correlated: None,
-            ..claimed.clone()
-        };
-        let beside = baseline(&common, &rest, &weights).ok()?;
+        let beside = baseline(&common, &rest, &claimed.uncorrelated()).ok()?;
         let whole = columns.column_iter().map(|column| {
             let column = column.component_div(&claimed.u);
             column.norm_squared()

@@ -11,6 +11,7 @@
 //! | `extra`, `longer` | measurements that may follow, and the recording together with one of them |
 //! | `contender`, `separation` | explanations of the same mismatch, and what tells them apart |
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
+//! | `form` | whether the declared model has an effect already, by its form |
 //! | `confirm`, `parts` | how well a model describes the recording, and its parts |
 //! | `held_out` | prediction of a recording that the fit has not seen |
 //! | `likeness` | what can stand in for something whose trace is known |
@@ -31,6 +32,7 @@ pub mod evidence;
 mod extra;
 pub mod faults;
 mod fit;
+mod form;
 mod frame;
 mod held_out;
 mod improved;

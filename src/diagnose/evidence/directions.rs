@@ -83,6 +83,20 @@ pub(super) fn orthonormal(
     (columns.select_columns(&kept), kept)
 }
 
+/// Share of each column (squared) that others leave.
+pub fn left_beside(columns: &DMatrix<f64>, others: &DMatrix<f64>) -> Vec<f64> {
+    /// What cancellation leaves of a dependent column.
+    const NOTHING: f64 = 1e-24;
+    let lengths: Vec<f64> = others.column_iter().map(|c| c.norm()).collect();
+    let (basis, _) = orthonormal(others.clone(), &lengths, NOTHING);
+    let left = without(columns, &basis);
+    let share = |(left, whole): (f64, f64)| if whole > 0.0 { left / whole } else { 0.0 };
+    let squares = left.column_iter().zip(columns.column_iter());
+    squares
+        .map(|(left, whole)| share((left.norm_squared(), whole.norm_squared())))
+        .collect()
+}
+
 /// Columns with what lies along an orthonormal basis taken out.
 pub(super) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
     if basis.ncols() == 0 {

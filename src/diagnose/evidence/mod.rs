@@ -73,7 +73,7 @@ mod slots;
 mod space;
 
 pub use baseline::{Baseline, Prior};
-pub use directions::{TRACE, determined};
+pub use directions::{TRACE, determined, left_beside};
 pub use examine::examine;
 pub use findings::{
     Alternative, Confusion, Examination, Fitted, Invisible, Level, Rival, Slot, State, Variant,

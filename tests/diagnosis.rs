@@ -9,7 +9,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use common::Noise;
-use common::cases::{diagnosed, folder, gumption, named, planned};
+use common::cases::{diagnosed, diagnosed_with, folder, gumption, named, planned};
 
 /// Two series of a load cell; `curvature` in mV/kN².
 fn load_cell(curvature: f64, seed: u64) -> String {
@@ -122,6 +122,99 @@ fn faults_are_shown_in_the_file() {
             && text.contains("did you mean \"room\"?"),
         "{text}"
     );
+}
+
+/// Two turns of a tumbled axis that reads `extra` at 90° too much; its position as angle and as gravity with
+/// so many digits.
+fn tumbled(digits: usize, extra: f64) -> String {
+    let mut noise = Noise(17);
+    let mut text = "elev [deg],g [gn],a [m/s^2]\n".to_owned();
+    for row in 0..48 {
+        let elev = f64::from(row) * 15.0;
+        let (sin, cos) = (libm::sin(elev.to_radians()), libm::cos(elev.to_radians()));
+        let read = 0.03 + 9.77 * cos + extra * sin + 8e-4 * noise.normal();
+        let _ = writeln!(text, "{elev},{cos:.digits$},{read:.5}");
+    }
+    text
+}
+
+#[test]
+fn what_a_parameter_absorbs_but_for_rounding_is_no_coefficient() {
+    let case = "model = \"a = b + S*g\"\n[columns]\nelev = \"angle\"\ng = \"stimulus\"\na = \"output\"\n[noise]\nu = \"0.0008 m/s^2\"\n[diagnosis]\ncatalogue = [\"periodic\"]\n";
+    for digits in [4, 6, 12] {
+        let found = diagnosed_with("rounded", &tumbled(digits, 0.004), case);
+        let improved = &found["improved"];
+        let coefficients = improved["coefficients"].as_array().expect("some");
+        assert_eq!(coefficients.len(), 1, "{digits} digits: {improved}");
+        assert_eq!(improved["additions"][0]["modifier"], "sin(1*elev)");
+        let scale = &improved["parameters"][1];
+        assert_eq!(scale["name"], "S");
+        let [value, u] = ["value", "u"].map(|key| scale[key].as_f64().expect("a number"));
+        assert!((value - 9.77).abs() < 3.0 * u && u < 2e-4, "{value} ± {u}");
+    }
+}
+
+#[test]
+fn parameters_that_only_rounding_tells_apart_are_uncertain() {
+    let case = "model = \"a = b + S*g + C*cos(elev)\"\n[columns]\nelev = \"angle\"\ng = \"stimulus\"\na = \"output\"\n[noise]\nu = \"0.0008 m/s^2\"\n";
+    let found = diagnosed_with("twice", &tumbled(6, 0.0), case);
+    for parameter in &found["parameters"].as_array().expect("some")[1..] {
+        assert!(parameter["u"].as_f64() > Some(100.0), "{parameter}");
+    }
+}
+
+/// Identifiers of everything that may be there unseen.
+fn unseen(diagnosis: &Value) -> Vec<String> {
+    let omitted = diagnosis["omitted"].as_array().into_iter().flatten();
+    let ids = omitted.filter_map(|line| line["id"].as_str());
+    ids.map(str::to_owned).collect()
+}
+
+#[test]
+fn a_term_of_the_model_is_not_unseen() {
+    let mut noise = Noise(23);
+    let mut text = "T [°C],R [ohm]\n".to_owned();
+    for row in 0..24 {
+        let t = f64::from(row % 12) * 15.0 - 60.0;
+        let r = 100.0 * (1.0 + 3.9083e-3 * t - 5.775e-7 * t * t) + 4e-4 * noise.normal();
+        let _ = writeln!(text, "{t},{r:.5}");
+    }
+    let case = |model: &str, parameters: &str| {
+        format!(
+            "model = \"R = {model}\"\n[columns]\nT = \"stimulus\"\nR = \"output\"\n[parameter]\nR0 = {{ unit = \"ohm\" }}\nA = {{ unit = \"1/K\" }}\n{parameters}[noise]\nu = \"0.0004 ohm\"\n"
+        )
+    };
+    let square = case("R0 * (1 + A*T + B*T^2)", "B = { unit = \"1/K^2\" }\n");
+    let found = diagnosed_with("square-declared", &text, &square);
+    let ids = unseen(&found);
+    assert!(ids.iter().any(|id| id == "cubic"), "{ids:?}");
+    // 0 °C is a temperature like any other.
+    for id in ["tempco-quadratic", "asymmetry", "zero-step"] {
+        assert!(!ids.iter().any(|other| other == id), "{ids:?}");
+    }
+    let u = |key: &str| found[key]["R0"].as_f64();
+    let own = found["parameters"][0]["u"].as_f64().expect("a number");
+    assert!(u("u_with_unseen") < Some(5.0 * own), "{found}");
+    let line = diagnosed_with("line-declared", &text, &case("R0 * (1 + A*T)", ""));
+    assert_eq!(named(&line), ["tempco-quadratic"]);
+}
+
+#[test]
+fn what_four_positions_hide_may_be_there_unseen() {
+    let mut noise = Noise(29);
+    let mut text = "pos [deg],a [gn]\n".to_owned();
+    for row in 0..24 {
+        let pos = f64::from(row % 4) * 90.0;
+        let (sin, cos) = (libm::sin(pos.to_radians()), libm::cos(pos.to_radians()));
+        let a = 2e-3 + 0.999 * sin + 4e-4 * cos + 1e-5 * noise.normal();
+        let _ = writeln!(text, "{pos},{a:.6}");
+    }
+    let case = "model = \"a = b + S*sin(pos) + m*cos(pos)\"\n[columns]\npos = \"angle\"\na = \"output\"\n[noise]\nu = \"1e-5 gn\"\n";
+    let ids = unseen(&diagnosed_with("tumble", &text, case));
+    for id in ["quadratic", "cubic"] {
+        assert!(ids.iter().any(|other| other == id), "{ids:?}");
+    }
+    assert!(!ids.iter().any(|other| other == "periodic"), "{ids:?}");
 }
 
 /// Recordings that the examples of the documentation name.

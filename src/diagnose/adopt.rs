@@ -5,6 +5,7 @@ use nalgebra::DVector;
 
 use super::case::{Case, Column, Data, Parameter, Role};
 use super::catalogue::{Ground, Node, Term, Variation};
+use super::evidence::{Baseline, TRACE};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::quantity::Unit;
 
@@ -15,6 +16,51 @@ pub struct Extended {
     pub case: Case,
     /// What was added, one for each coefficient.
     pub additions: Vec<Addition>,
+    /// The effects that were added.
+    pub effects: Vec<Free>,
+}
+
+/// What of an effect is free beside the declared parameters. A term that they absorb, but for the rounding of
+/// recorded values, is theirs: a coefficient of its own could take any value.
+#[derive(Debug)]
+pub struct Free {
+    /// The effect with its free terms.
+    pub variation: Variation,
+    /// Which of its coefficients are free.
+    pub coefficients: Vec<usize>,
+    /// What the examination found for each of these; NaN where it did not determine it.
+    pub sizes: Vec<f64>,
+}
+
+impl Free {
+    /// From an effect and the sizes of all its coefficients.
+    pub(super) fn of(
+        ground: &Ground<'_>,
+        baseline: &Baseline,
+        variation: &Variation,
+        sizes: &[f64],
+    ) -> Free {
+        let shares = baseline.visibilities(&variation.columns(ground));
+        let shows = shares.iter().any(|share| *share > TRACE);
+        let is_free = |at: &usize| !shows || shares[*at] > TRACE;
+        let coefficients: Vec<usize> = (0..shares.len()).filter(is_free).collect();
+        let mut free = Variation {
+            terms: Vec::new(),
+            ..variation.clone()
+        };
+        let mut next = 0;
+        for term in &variation.terms {
+            next += usize::from(!term.tied);
+            if coefficients.contains(&(next.saturating_sub(1))) {
+                free.terms.push(term.clone());
+            }
+        }
+        Free {
+            sizes: coefficients.iter().map(|at| sizes[*at]).collect(),
+            coefficients,
+            variation: free,
+        }
+    }
 }
 
 /// One coefficient that was added.
@@ -26,11 +72,15 @@ pub struct Addition {
     pub column: String,
     /// The modifier as a formula.
     pub text: String,
+    /// Index of the effect.
+    pub effect: usize,
+    /// Which of the coefficients of the effect it is.
+    pub coefficient: usize,
 }
 
-/// Adds variations to the model of a case. Nothing if the equations cannot be written, which only
-/// unusual ones cannot.
-pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extended> {
+/// Adds effects to the model of a case. Nothing if the equations cannot be written, which only unusual ones
+/// cannot.
+pub(super) fn extended(ground: &Ground<'_>, effects: Vec<Free>) -> Option<Extended> {
     let mut case = ground.case().clone();
     let mut additions: Vec<Addition> = Vec::new();
     let mut equations: Vec<Extending> = (0..case.responses.len())
@@ -38,7 +88,11 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
         .collect();
     let parameters = case.parameters.len();
     let mut columns = Vec::new();
-    for term in variations.iter().flat_map(|variation| &variation.terms) {
+    let mut places = effects.iter().enumerate().flat_map(|(effect, free)| {
+        let coefficients = free.coefficients.iter();
+        coefficients.map(move |coefficient| (effect, *coefficient))
+    });
+    for term in effects.iter().flat_map(|free| &free.variation.terms) {
         let column = free(&case, "effect", columns.len() + 1);
         let shared = additions.last().filter(|_| term.tied);
         let parameter = match shared {
@@ -71,10 +125,13 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
                 prior: None,
                 per: None,
             });
+            let (effect, coefficient) = places.next()?;
             additions.push(Addition {
                 parameter,
                 column,
                 text: term.text.clone(),
+                effect,
+                coefficient,
             });
         }
     }
@@ -87,44 +144,40 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
         .collect();
     case.equations = compiled(&case, &texts)?;
     case.model = texts;
-    Some(Extended { case, additions })
+    Some(Extended {
+        case,
+        additions,
+        effects,
+    })
 }
 
-/// Takes the coefficients of each variation as scattered about zero, with the scatter that was found:
-/// `counts` are their numbers, variation by variation.
-pub fn scattered(extended: &mut Extended, counts: &[usize], coefficients: &DVector<f64>) {
+/// Takes the coefficients of some effects as scattered about zero, with the scatter that was found.
+pub(super) fn scattered(extended: &mut Extended, is_scattered: impl Fn(usize) -> bool) {
     let first = extended.case.parameters.len() - extended.additions.len();
-    let mut at = 0;
-    for count in counts {
-        let own = (at..at + count).filter_map(|i| coefficients.get(i).copied());
-        let own: Vec<f64> = own.filter(|size| size.is_finite()).collect();
+    let added = extended.case.parameters[first..].iter_mut();
+    for (parameter, addition) in added.zip(&extended.additions) {
+        let sizes = extended.effects[addition.effect].sizes.iter();
+        let own: Vec<f64> = sizes.copied().filter(|size| size.is_finite()).collect();
         let squares: f64 = own.iter().map(|size| size * size).sum();
         let scatter = (squares / own.len().max(1) as f64).sqrt();
-        for parameter in extended.case.parameters[first + at..]
-            .iter_mut()
-            .take(*count)
-        {
-            parameter.prior = (scatter > 0.0).then_some((0.0, scatter));
-        }
-        at += count;
+        let is_known = scatter > 0.0 && is_scattered(addition.effect);
+        parameter.prior = is_known.then_some((0.0, scatter));
     }
 }
 
 /// Where the search begins: the declared fit, with the coefficients that the examination found.
 pub fn start(
     ground: &Ground<'_>,
-    extended: &super::frame::Frame<'_>,
-    coefficients: &DVector<f64>,
+    frame: &super::frame::Frame<'_>,
+    effects: &[Free],
 ) -> DVector<f64> {
     use super::frame::UnknownKind;
+    let sizes: Vec<f64> = effects.iter().flat_map(|free| free.sizes.clone()).collect();
     let declared = ground.case().parameters.len();
     let mut own = ground.fit.unknowns.iter();
-    let of = extended.unknowns.iter().map(|unknown| match unknown.kind {
+    let of = frame.unknowns.iter().map(|unknown| match unknown.kind {
         UnknownKind::Parameter { parameter, .. } if parameter >= declared => {
-            let value = coefficients
-                .get(parameter - declared)
-                .copied()
-                .unwrap_or(0.0);
+            let value = sizes.get(parameter - declared).copied().unwrap_or(0.0);
             if value.is_finite() { value } else { 0.0 }
         }
         _ => own.next().copied().unwrap_or(0.0),

@@ -1,13 +1,11 @@
-//! How well a model describes the recording: χ², residual scatter, prediction of what was held out,
-//! agreement of the parts.
+//! How well a model describes the recording: χ², residual scatter, prediction of what was held out.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::evidence::Fitted;
 use super::fit::Fit;
 use super::frame::Frame;
+use super::inquiry::baseline;
 use super::noise::Claimed;
-use crate::special::chi_squared_sf;
 
 /// How well a model describes the recording.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,17 +23,6 @@ pub struct Quality {
     /// Factor on the claimed noise that uncertainties of the parameters have: √(χ²/dof) where the noise is
     /// estimated, else one.
     pub scale: f64,
-}
-
-/// Checks of an adopted effect.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Confirmation {
-    /// χ² that the linear prediction promised.
-    pub promised: f64,
-    /// The first coefficient estimated from parts of the recording: name of the part, value, u.
-    pub parts: Vec<(String, f64, f64)>,
-    /// Probability that the parts differ as much by chance (Cochran's Q).
-    pub agreement: Option<f64>,
 }
 
 /// Parts into which observations are divided for the prediction of what was held out.
@@ -72,7 +59,8 @@ pub(super) fn quality(
     }
 }
 
-fn degrees(frame: &Frame<'_>) -> f64 {
+/// Observations and priors less unknowns.
+pub(super) fn degrees(frame: &Frame<'_>) -> f64 {
     let priors = frame
         .unknowns
         .iter()
@@ -149,6 +137,10 @@ fn normal(
 
 /// Covariance matrix of the unknowns with the claimed noise.
 pub(super) fn covariance(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
+    // By orthogonal directions: a normal matrix has lost what hardly differs from another unknown.
+    if let Ok(baseline) = baseline(frame, fit, &claimed.uncorrelated()) {
+        return baseline.covariance();
+    }
     let all: Vec<usize> = (0..frame.observations()).collect();
     inverse(&normal(frame, fit, claimed, &all).0)
 }
@@ -169,108 +161,4 @@ fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
         inverse[(i, j)] * scale[i] * scale[j]
     })
-}
-
-/// The first effect, estimated from parts of the recording.
-pub(super) fn confirmation(
-    frame: &Frame<'_>,
-    fit: &Fit,
-    claimed: &Claimed,
-    added: usize,
-    fitted: &Fitted,
-) -> Confirmation {
-    let first = frame.case.parameters.len() - added;
-    let at = frame.unknown_of(first, 0);
-    let whitened = fit.residuals.component_div(&claimed.u);
-    let scale = if claimed.is_estimated() {
-        (whitened.norm_squared() / degrees(frame).max(1.0)).sqrt()
-    } else {
-        1.0
-    };
-    let mut parts = Vec::new();
-    for (name, members) in divided(frame) {
-        let covariance = inverse(&normal(frame, fit, claimed, &members).0);
-        let value = fit.unknowns[at] + solved(frame, fit, claimed, &members)[at];
-        let u = scale * covariance[(at, at)].max(0.0).sqrt();
-        let full = inverse(
-            &normal(
-                frame,
-                fit,
-                claimed,
-                &(0..frame.observations()).collect::<Vec<_>>(),
-            )
-            .0,
-        )[(at, at)]
-            .sqrt()
-            * scale;
-        // A part that hardly sees the effect says nothing.
-        if u.is_finite() && u > 0.0 && u < 20.0 * full {
-            parts.push((name, value, u));
-        }
-    }
-    Confirmation {
-        promised: fitted.chi_squared,
-        agreement: cochran(&parts),
-        parts,
-    }
-}
-
-/// Parts of the observations: runs where there are a few, else halves.
-fn divided(frame: &Frame<'_>) -> Vec<(String, Vec<usize>)> {
-    use super::case::Role;
-    let all = 0..frame.observations();
-    let runs = frame.case.with_role(Role::Run).find(|column| {
-        frame.case.columns[*column]
-            .labels()
-            .is_some_and(|labels| (2..=12).contains(&labels.levels.len()))
-    });
-    if let Some(column) = runs
-        && let Some(labels) = frame.case.columns[column].labels()
-    {
-        return (0..labels.levels.len())
-            .map(|level| {
-                let inside =
-                    |o: &usize| labels.of_row[frame.blocks[frame.place(*o).1][0]] as usize == level;
-                (
-                    format!(
-                        "{} {}",
-                        frame.case.columns[column].name, labels.levels[level]
-                    ),
-                    all.clone().filter(inside).collect(),
-                )
-            })
-            .collect();
-    }
-    let half = frame.blocks.len() / 2;
-    vec![
-        (
-            "first half".to_owned(),
-            all.clone().filter(|o| frame.place(*o).1 < half).collect(),
-        ),
-        (
-            "second half".to_owned(),
-            all.filter(|o| frame.place(*o).1 >= half).collect(),
-        ),
-    ]
-}
-
-/// Probability that values scatter as much by chance.
-fn cochran(parts: &[(String, f64, f64)]) -> Option<f64> {
-    if parts.len() < 2 {
-        return None;
-    }
-    let weights: Vec<f64> = parts.iter().map(|(_, _, u)| 1.0 / (u * u)).collect();
-    let total: f64 = weights.iter().sum();
-    let mean = parts
-        .iter()
-        .zip(&weights)
-        .map(|((_, value, _), w)| w * value)
-        .sum::<f64>()
-        / total;
-    let q: f64 = parts
-        .iter()
-        .zip(&weights)
-        .map(|((_, value, _), w)| w * (value - mean) * (value - mean))
-        .sum();
-    Some(chi_squared_sf(q, parts.len() as f64 - 1.0))
 }

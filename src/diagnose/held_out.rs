@@ -143,13 +143,12 @@ fn improved(
     let wide = Ground::new(&frame, &fit).refined(ground.finer.clone());
     let others = catalogue::cells(&wide);
     let mut rows = held.rows.clone();
-    for atom in &adopted.atoms {
-        let (cell, variation) = places[*atom];
-        let cell = &cells[cell];
+    for (atom, free) in adopted.atoms.iter().zip(&adopted.extended.effects) {
+        let cell = &cells[places[*atom].0];
         // Each harmonic of an angle is a cell of its own.
         let alike = |other: &&Cell| other.effect.id == cell.effect.id && other.words == cell.words;
         let alike: Vec<&Cell> = others.iter().filter(alike).collect();
-        for term in &cell.variants[variation].terms {
+        for term in &free.variation.terms {
             let modifier = continued(term, &alike, ground.rows())?;
             rows.data.push(Data::Numbers(modifier));
         }

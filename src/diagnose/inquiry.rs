@@ -5,19 +5,17 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::adopt;
+use super::adopt::{self, Free};
 use super::case::Case;
 use super::catalogue::{self, Cell, Finer, Ground, Variation};
 use super::evidence::{
-    self, Atom, Baseline, Candidate, Examination, Prior, Question, Refusal, Shape,
+    self, Atom, Baseline, Candidate, Examination, Prior, Question, Refusal, Shape, TRACE,
 };
 use super::fit::Fit;
 use super::frame::Frame;
 use super::noise::{self, Claimed};
 use super::run::Failure;
 
-/// Visible share of an effect below which it is the curvature of the model that shows.
-pub(super) const TRACE: f64 = 1e-4;
 /// λ from which on it matters that the parameter of an effect lies between the steps of its grid.
 const CLEAR: f64 = 15.0;
 
@@ -250,34 +248,50 @@ pub(super) fn adopted_fit(
     claimed: &Claimed,
 ) -> Option<(adopt::Extended, Fit)> {
     let fitted = examination.fitted.as_ref()?;
-    let variations: Vec<&Variation> = fitted
-        .atoms
-        .iter()
-        .map(|atom| &cells[places[*atom].0].variants[places[*atom].1])
-        .collect();
-    if variations.is_empty() {
+    if fitted.atoms.is_empty() {
         return None;
     }
-    let mut extended = adopt::extended(ground, &variations)?;
-    if let Some(fit) = refit(ground, &extended, fitted, claimed) {
-        return Some((extended, fit));
+    let baseline = baseline(ground.frame, ground.fit, claimed).ok()?;
+    let mut sizes = fitted.coefficients.as_slice();
+    let mut effects = Vec::new();
+    for atom in &fitted.atoms {
+        let variation = &cells[places[*atom].0].variants[places[*atom].1];
+        let (own, rest) = sizes.split_at_checked(variation.coefficients())?;
+        effects.push(Free::of(ground, &baseline, variation, own));
+        sizes = rest;
     }
+    let open = undetermined(ground, &baseline, &effects);
+    let mut extended = adopt::extended(ground, effects)?;
     // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
     // parameter's.
-    let counts: Vec<usize> = variations.iter().map(|v| v.coefficients()).collect();
-    adopt::scattered(&mut extended, &counts, &fitted.coefficients);
-    let fit = refit(ground, &extended, fitted, claimed)?;
+    adopt::scattered(&mut extended, |effect| open.contains(&effect));
+    if let Some(fit) = refit(ground, &extended, claimed) {
+        return Some((extended, fit));
+    }
+    adopt::scattered(&mut extended, |_| true);
+    let fit = refit(ground, &extended, claimed)?;
     Some((extended, fit))
 }
 
-fn refit(
-    ground: &Ground<'_>,
-    extended: &adopt::Extended,
-    fitted: &evidence::Fitted,
-    claimed: &Claimed,
-) -> Option<Fit> {
+/// Effects with coefficients that the recording does not determine beside the parameters and one another.
+fn undetermined(ground: &Ground<'_>, baseline: &Baseline, effects: &[Free]) -> Vec<usize> {
+    let columns: Vec<DMatrix<f64>> = (effects.iter())
+        .map(|free| free.variation.columns(ground))
+        .collect();
+    let all: Vec<_> = columns.iter().flat_map(|own| own.column_iter()).collect();
+    if all.is_empty() {
+        return Vec::new();
+    }
+    let kept = evidence::determined(baseline, &DMatrix::from_columns(&all));
+    let of = columns.iter().enumerate();
+    let of = of.flat_map(|(effect, own)| std::iter::repeat_n(effect, own.ncols()));
+    let open = of.enumerate().filter(|(at, _)| !kept.contains(at));
+    open.map(|(_, effect)| effect).collect()
+}
+
+fn refit(ground: &Ground<'_>, extended: &adopt::Extended, claimed: &Claimed) -> Option<Fit> {
     let frame = Frame::new(&extended.case);
-    let start = adopt::start(ground, &frame, &fitted.coefficients);
+    let start = adopt::start(ground, &frame, &extended.effects);
     let fit = super::fit::from(&frame, &claimed.u, start);
     fit.or_else(|_| super::fit::fit(&frame, &claimed.u)).ok()
 }

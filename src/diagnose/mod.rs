@@ -11,6 +11,8 @@
 //! | `extra`, `longer` | measurements that may follow, and the recording together with one of them |
 //! | `contender`, `separation` | explanations of the same mismatch, and what tells them apart |
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
+//! | `form` | whether the declared model has an effect already, by its form |
+//! | `confirm`, `parts` | how well a model describes the recording, and its parts |
 //! | `held_out` | prediction of a recording that the fit has not seen |
 //! | `likeness` | what can stand in for something whose trace is known |
 //! | `inquiry` | candidates and recording as matrices, asked of `evidence` |
@@ -30,6 +32,7 @@ pub mod evidence;
 mod extra;
 pub mod faults;
 mod fit;
+mod form;
 mod frame;
 mod held_out;
 mod improved;
@@ -39,6 +42,7 @@ mod local;
 mod longer;
 mod noise;
 mod omitted;
+mod parts;
 mod place;
 mod plan;
 mod result;
@@ -49,9 +53,9 @@ mod simulate;
 mod spread;
 mod typical;
 
-pub use adopt::{Addition, Extended};
+pub use adopt::{Addition, Extended, Free};
 pub use compare::{Opinion, Pick, opinions};
-pub use confirm::{Confirmation, Quality};
+pub use confirm::Quality;
 pub use extra::{Extra, Measure};
 pub use fit::NoFit;
 pub use held_out::{HeldOutQuality, Prediction};
@@ -59,6 +63,7 @@ pub use improved::improved;
 pub use likeness::{Likeness, likenesses};
 pub use noise::{Claimed, Origin};
 pub use omitted::Omitted;
+pub use parts::Confirmation;
 pub use plan::{Outlook, Promise, Prospect, plan};
 pub use result::budget;
 pub use run::{Adopted, Diagnosis, Estimated, Failure, diagnose};

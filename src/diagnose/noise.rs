@@ -58,6 +58,14 @@ impl Claimed {
         }
     }
 
+    /// The weights of a fit: no correlation.
+    pub fn uncorrelated(&self) -> Claimed {
+        Claimed {
+            correlated: None,
+            ..self.clone()
+        }
+    }
+
     /// Whether the size of the noise follows from the residuals alone.
     pub fn is_estimated(&self) -> bool {
         self.dof == 0.0

@@ -7,6 +7,7 @@ use super::catalogue::modifiers::range;
 use super::catalogue::{Cell, Ground, Variation};
 use super::evidence::{self, Baseline};
 use super::fit;
+use super::form;
 use super::frame::Frame;
 use super::inquiry::baseline;
 use super::noise::Claimed;
@@ -71,25 +72,56 @@ pub(super) fn lines(
     u: &[f64],
 ) -> Vec<Omitted> {
     let scales = typical::full_scales(ground);
-    let mut lines: Vec<Omitted> = cells
-        .iter()
-        .enumerate()
+    let line = |(index, number): (usize, usize), held: &[usize]| {
+        let (cell, baselines) = (&cells[index], (declared, improved));
+        let columns = cell.variants[number]
+            .columns(ground)
+            .remove_columns_at(held);
+        let line = line(
+            ground,
+            cell,
+            &cell.variants[number],
+            columns,
+            baselines,
+            &scales,
+        )?;
+        Some(Omitted {
+            cell: index,
+            variation: number,
+            ..line
+        })
+    };
+    let others = cells.iter().enumerate();
+    let mut every: Vec<Omitted> = others
         .filter(|(index, cell)| cell.effect.family != "unnamed" && !adopted.contains(index))
-        .filter_map(|(index, cell)| {
+        .flat_map(|(index, cell)| {
             let step = cell.variants.len().div_ceil(VARIANTS).max(1);
             let variants = cell.variants.iter().enumerate().step_by(step);
             let variants = variants.filter(|(_, variation)| acts(ground, cell, variation));
-            let of = variants.filter_map(|(number, variation)| {
-                let mut line = line(ground, cell, variation, (declared, improved), &scales)?;
-                (line.cell, line.variation) = (index, number);
-                Some(line)
-            });
-            // Where no size is known, the variant that shows best.
-            let dear = |line: &Omitted| match line.shift {
-                Some(_) => 1.0 + line.worst(u).map_or(0.0, |(_, ratio)| ratio),
-                None => line.visibility,
-            };
-            of.max_by(|a, b| dear(a).total_cmp(&dear(b)))
+            variants.map(move |(number, _)| (index, number))
+        })
+        .filter_map(|place| line(place, &[]))
+        .collect();
+    // What the declared model has is not left out.
+    let unseen = every.iter().filter(|line| line.is_invisible());
+    let unseen: Vec<(usize, usize)> = unseen.map(|line| (line.cell, line.variation)).collect();
+    let held = form::declared(ground, cells, &unseen);
+    every = (every.into_iter())
+        .filter_map(|own| match held.get(&(own.cell, own.variation)) {
+            Some(held) => line((own.cell, own.variation), held),
+            None => Some(own),
+        })
+        .collect();
+    // Where no size is known, the variant that shows best.
+    let dearest = |line: &Omitted| match line.shift {
+        Some(_) => 1.0 + line.worst(u).map_or(0.0, |(_, ratio)| ratio),
+        None => line.visibility,
+    };
+    let of_cell = every.chunk_by(|a, b| a.cell == b.cell);
+    let mut lines: Vec<Omitted> = of_cell
+        .filter_map(|of| {
+            let most = |a: &&Omitted, b: &&Omitted| dearest(a).total_cmp(&dearest(b));
+            of.iter().max_by(most).cloned()
         })
         .collect();
     lines.retain(|line| line.shift.is_some() || line.is_invisible());
@@ -123,10 +155,11 @@ fn line(
     ground: &Ground<'_>,
     cell: &Cell,
     variation: &Variation,
+    columns: DMatrix<f64>,
     (declared, improved): (&Baseline, Option<&Baseline>),
     scales: &DVector<f64>,
 ) -> Option<Omitted> {
-    let unified = typical::unified(variation.columns(ground))?;
+    let unified = typical::unified(columns)?;
     let columns = &unified.columns;
     let each = |j: usize| declared.visibility(&columns.column(j).into_owned());
     let visibility = (0..columns.ncols()).map(each).fold(1.0, f64::min);

@@ -7,17 +7,18 @@ use nalgebra::{DMatrix, DVector};
 use super::adopt;
 use super::case::Case;
 use super::catalogue::{Cell, Finer, Ground};
-use super::confirm::{self, Confirmation, Quality};
-use super::evidence::{self, Examination, Located, Refusal, Verdict};
+use super::confirm::{self, Quality};
+use super::evidence::{self, Examination, Located, Refusal, TRACE, Verdict};
 use super::faults::{NOT_FITTED, START, TOO_FEW};
 use super::fit::{Fit, NoFit};
 use super::frame::Frame;
 use super::held_out::{self, HeldOutQuality};
-use super::inquiry::{Inquiry, TRACE, adopted_fit, baseline, settings};
+use super::inquiry::{Inquiry, adopted_fit, baseline, settings};
 use super::local;
 use super::longer::{Known, Recorded};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
+use super::parts::{self, Confirmation};
 use super::place;
 use super::separation::{self, Separating};
 use crate::fault::Code;
@@ -300,7 +301,7 @@ fn adopt_named(
     let quality = confirm::quality(&frame, &fit, claimed, claimed);
     let all = estimates(&frame, &fit, claimed, quality.scale);
     let added = extended.additions.len();
-    let confirmation = confirm::confirmation(&frame, &fit, claimed, added, fitted);
+    let confirmation = parts::confirmation(&frame, &fit, claimed, added, fitted);
     let is_added = |estimated: &Estimated| {
         extended
             .additions
@@ -309,9 +310,14 @@ fn adopt_named(
     };
     let (mut coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
         all.into_iter().partition(is_added);
-    let count = |atom: &usize| cells[places[*atom].0].variants[places[*atom].1].coefficients();
-    let counts = fitted.atoms.iter().map(|atom| (*atom, count(atom)));
-    widen(&mut coefficients, counts, examination);
+    for (estimated, addition) in coefficients.iter_mut().zip(&extended.additions) {
+        widen(
+            estimated,
+            fitted.atoms[addition.effect],
+            addition.coefficient,
+            examination,
+        );
+    }
     let residuals = fit.residuals.clone();
     drop(frame);
     Some(Adopted {
@@ -325,27 +331,16 @@ fn adopt_named(
     })
 }
 
-/// Adds to the uncertainties of fitted coefficients, so many of each atom, what the fit does not know: that other
-/// effects may have other explanations, and that weak ones are found where they come out large.
-fn widen(
-    mut coefficients: &mut [Estimated],
-    counts: impl Iterator<Item = (usize, usize)>,
-    examination: &Examination,
-) {
-    for (atom, count) in counts {
-        let (own, rest) = coefficients.split_at_mut(count.min(coefficients.len()));
-        coefficients = rest;
-        let mut firsts = (examination.slots.iter()).filter_map(|slot| slot.named.first());
-        let is_it = |first: &&evidence::Alternative| {
-            first.variants.iter().take(1).any(|one| one.atom == atom)
-        };
-        let Some(found) = firsts.find(is_it) else {
-            continue;
-        };
-        for (estimated, choice) in own.iter_mut().zip(found.choice.iter()) {
-            let choice = if choice.is_finite() { *choice } else { 0.0 };
-            estimated.u = found.widened(estimated.u, choice);
-        }
+/// Adds to the uncertainty of a fitted coefficient of an atom what the fit does not know: that other effects
+/// may have other explanations, and that weak ones are found where they come out large.
+fn widen(estimated: &mut Estimated, atom: usize, coefficient: usize, examination: &Examination) {
+    let mut firsts = (examination.slots.iter()).filter_map(|slot| slot.named.first());
+    let is_it =
+        |first: &&evidence::Alternative| first.variants.iter().take(1).any(|one| one.atom == atom);
+    if let Some(found) = firsts.find(is_it) {
+        let choice = found.choice.get(coefficient).copied().unwrap_or(0.0);
+        let choice = if choice.is_finite() { choice } else { 0.0 };
+        estimated.u = found.widened(estimated.u, choice);
     }
 }
 

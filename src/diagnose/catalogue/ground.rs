@@ -194,6 +194,13 @@ impl<'f> Ground<'f> {
         like(&self.case().columns[column].unit, "K")
     }
 
+    /// Whether a column goes well to both sides of a zero that is nothing: 0 °C is a temperature like any
+    /// other.
+    pub fn passes_zero(&self, column: usize) -> bool {
+        let is_point = self.case().columns[column].unit.is_point();
+        !is_point && super::response::crosses_zero(self.numbers(column))
+    }
+
     /// Whether a column has the dimension of a unit.
     pub fn is_like(&self, column: usize, unit: &str) -> bool {
         like(&self.case().columns[column].unit, unit)

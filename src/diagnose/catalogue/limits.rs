@@ -3,7 +3,7 @@
 
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{figure, largest, map, range};
-use super::response::{crosses_zero, levels_of, on_node, on_output, plain, words};
+use super::response::{levels_of, on_node, on_output, plain, words};
 use super::sharp::sharpened;
 use super::{Cell, Term, Variants, Variation};
 
@@ -13,7 +13,7 @@ pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     const VALUES: usize = 6;
     let x = ground.numbers(column);
     let mut cells = Vec::new();
-    if crosses_zero(x) {
+    if ground.passes_zero(column) {
         cells.push(dead_band(ground, column));
     }
     if levels_of(x).len() < VALUES {
@@ -21,7 +21,7 @@ pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     }
     let ends = plateaus(ground, column);
     if ends.is_empty() {
-        if crosses_zero(x) {
+        if ground.passes_zero(column) {
             cells.push(soft_limit(ground, column));
         }
         cells.push(kink(ground, column));

@@ -243,9 +243,9 @@ fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         map(x, |x| (x - zero) * (x - zero) * (x - zero)),
         format!("{shift}^3"),
     );
-    if crosses_zero(x) {
+    if ground.passes_zero(column) {
         add("asymmetry", map(x, f64::abs), format!("abs({label})"));
-    } else {
+    } else if !ground.is_temperature(column) {
         cells[0].variants.extend(levelling(x, label));
     }
     cells

@@ -4,9 +4,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::beside::Beside;
 use super::closed_form::Scale;
+use super::directions::without;
 use super::findings::{Fitted, Rival};
 use super::question::{Kind, Question, Shape};
-use super::space::{Frame, Space, without};
+use super::space::{Frame, Space};
 use crate::special::normal_cdf;
 
 /// Two explanations of which less than this share of λ distinguishes them are one.

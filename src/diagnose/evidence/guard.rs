@@ -11,12 +11,13 @@ use nalgebra::{DMatrix, DVector};
 
 use super::beside::Beside;
 use super::closed_form::Scale;
+use super::directions::{joined, without};
 use super::fit::estimate;
 use super::gate::combined;
 use super::null::{Simulated, side_by_side};
 use super::question::{Kind, Question};
 use super::search::frame_of;
-use super::space::{Block, Form, Frame, Residual, Space, joined, smooth, without};
+use super::space::{Block, Form, Frame, Residual, Space, smooth};
 
 /// Simulated recordings behind a probability.
 const DRAWS: usize = 2048;

@@ -23,6 +23,7 @@
 //! | `findings` | verdict, slots, alternatives: what is answered |
 //! | `examine` | the examination from end to end |
 //! | `closed_form` | Bayes factors |
+//! | `directions` | columns as directions: what of them is visible, and which are free beside others |
 //! | `space` | atoms as directions in the space of z, and sets of them |
 //! | `beside` | all directions beside a set |
 //! | `null` | simulated recordings that the model alone explains |
@@ -51,6 +52,7 @@ mod beside;
 mod choice;
 mod closed_form;
 mod confusion;
+mod directions;
 mod examine;
 mod findings;
 mod fit;
@@ -71,6 +73,7 @@ mod slots;
 mod space;
 
 pub use baseline::{Baseline, Prior};
+pub use directions::{TRACE, determined, left_beside};
 pub use examine::examine;
 pub use findings::{
     Alternative, Confusion, Examination, Fitted, Invisible, Level, Rival, Slot, State, Variant,

@@ -3,8 +3,9 @@
 use nalgebra::DMatrix;
 
 use super::baseline::Baseline;
+use super::directions::INVISIBLE;
 use super::question::{Atom, Candidate, Kind, Question, Refusal, Settings, Shape};
-use super::space::{Block, INVISIBLE, Space};
+use super::space::{Block, Space};
 
 /// What an experiment of this design can see and tell apart. Sizes refer to the noise of the baseline.
 #[derive(Debug, Clone, PartialEq)]

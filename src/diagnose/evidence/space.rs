@@ -4,13 +4,11 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::baseline::Baseline;
 use super::closed_form::{Ladder, Scale, named, scatter};
+use super::directions::{INVISIBLE, joined, orthonormal, own, visible, without};
 use super::question::{Atom, Kind, Question, Refusal, Shape};
 
 /// Prior odds of all generics together, over those of all named candidates.
 const GENERIC_ODDS: f64 = 0.15;
-/// A column with less than this share of its whitened length (squared) left, by the parameters or by
-/// other columns of its atom, is invisible.
-pub(super) const INVISIBLE: f64 = 1e-6;
 /// An atom that lies this near (sine squared) to a set adds nothing that data can support.
 pub(super) const NEAR: f64 = 0.01;
 
@@ -333,7 +331,7 @@ fn block(baseline: &Baseline, index: usize, atom: &Atom, log_odds: f64) -> Optio
         ),
         Shape::Columns(h) => {
             let (columns, lengths) = visible(baseline, h);
-            let (basis, kept) = orthonormal(columns.clone(), &lengths, INVISIBLE);
+            let (basis, kept) = own(columns.clone(), lengths);
             if kept.is_empty() {
                 return None;
             }
@@ -365,14 +363,6 @@ fn block(baseline: &Baseline, index: usize, atom: &Atom, log_odds: f64) -> Optio
     })
 }
 
-/// PWH, and the lengths of the columns of WH.
-fn visible(baseline: &Baseline, columns: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
-    let whitened = baseline.whiten(columns);
-    let lengths = whitened.column_iter().map(|c| c.norm()).collect();
-    let along = baseline.absorbed().tr_mul(&whitened);
-    (whitened - baseline.absorbed() * along, lengths)
-}
-
 /// Principal directions and eigenvalues of MMᵀ.
 pub(super) fn smooth(columns: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
     let (ladder, turn) = principal(columns.tr_mul(&columns))?;
@@ -396,60 +386,6 @@ pub(super) fn principal(gram: DMatrix<f64>) -> Option<(Ladder, DMatrix<f64>)> {
         row /= e.sqrt();
     }
     Some((Ladder::new(&eigenvalues), turn))
-}
-
-/// Orthonormal directions of the columns, the column with the greatest remainder first; columns whose
-/// remainder is less than `tolerance` (squared) of `lengths` are left out. Also says which were kept,
-/// in that order.
-pub(super) fn orthonormal(
-    mut columns: DMatrix<f64>,
-    lengths: &[f64],
-    tolerance: f64,
-) -> (DMatrix<f64>, Vec<usize>) {
-    let mut kept: Vec<usize> = Vec::new();
-    let mut left: Vec<usize> = (0..columns.ncols()).filter(|j| lengths[*j] > 0.0).collect();
-    while !left.is_empty() {
-        let share = |j: usize| columns.column(j).norm_squared() / (lengths[j] * lengths[j]);
-        let (place, &best) = left
-            .iter()
-            .enumerate()
-            .max_by(|a, b| share(*a.1).total_cmp(&share(*b.1)))
-            .expect("some are left");
-        if !(share(best) > tolerance) {
-            break;
-        }
-        left.remove(place);
-        // Once more against those that were kept: cancellation leaves little of a nearly dependent one.
-        let mut direction = columns.column(best).into_owned();
-        for other in &kept {
-            let along = columns.column(*other).dot(&direction);
-            direction.axpy(-along, &columns.column(*other).into_owned(), 1.0);
-        }
-        direction /= direction.norm();
-        for other in &left {
-            let along = direction.dot(&columns.column(*other));
-            columns.column_mut(*other).axpy(-along, &direction, 1.0);
-        }
-        columns.set_column(best, &direction);
-        kept.push(best);
-    }
-    (columns.select_columns(&kept), kept)
-}
-
-/// Columns with what lies along an orthonormal basis taken out.
-pub(super) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
-    if basis.ncols() == 0 {
-        return columns.clone();
-    }
-    columns - basis * basis.tr_mul(columns)
-}
-
-pub(super) fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut out = DMatrix::zeros(right.nrows(), left.ncols() + right.ncols());
-    out.columns_mut(0, left.ncols()).copy_from(left);
-    out.columns_mut(left.ncols(), right.ncols())
-        .copy_from(right);
-    out
 }
 
 /// Prior odds: as likely as not nothing was left out, all usual named candidates alike, a share for those

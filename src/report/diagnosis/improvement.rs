@@ -214,12 +214,7 @@ fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
     let (Some(first), false) = (adopted.coefficients.first(), parts.is_empty()) else {
         return Vec::new();
     };
-    let agreement = adopted.confirmation.agreement.map_or(String::new(), |p| {
-        language.pick(
-            format!("; they agree with {}", p_is(p)),
-            format!("；一致性 {}", p_is(p)),
-        )
-    });
+    let agreement = (adopted.confirmation.agreement).map_or(String::new(), |p| agree(p, language));
     vec![Block::Paragraph(language.pick(
         format!(
             "{} from parts of the recording: {}{agreement}.",
@@ -232,6 +227,31 @@ fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
             parts.join("，")
         ),
     ))]
+}
+
+/// Whether parts agree that differ as much by chance with probability `p`.
+fn agree(p: f64, language: Language) -> String {
+    /// From here on they agree …
+    const AGREE: f64 = 0.05;
+    /// … and below it they do not.
+    const DIFFER: f64 = 0.01;
+    let is = p_is(p);
+    if p >= AGREE {
+        language.pick(
+            format!("; they agree ({is})"),
+            format!("；各部分一致（{is}）"),
+        )
+    } else if p >= DIFFER {
+        language.pick(
+            format!("; it is doubtful whether they agree ({is})"),
+            format!("；各部分是否一致存疑（{is}）"),
+        )
+    } else {
+        language.pick(
+            format!("; they do not agree ({is})"),
+            format!("；各部分不一致（{is}）"),
+        )
+    }
 }
 
 /// The parameters before and after, and with what may be there unseen.
@@ -297,4 +317,19 @@ pub(super) fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block
         ),
         Block::Table(table.without_empty_columns()),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_agree_as_their_probability_says() {
+        let said = [0.44, 0.03, 0.0085].map(|p| agree(p, Language::English));
+        assert_eq!(said[0], "; they agree (p = 0.44)");
+        assert!(said[1].starts_with("; it is doubtful"), "{}", said[1]);
+        assert_eq!(said[2], "; they do not agree (p = 0.0085)");
+        let said = [0.44, 0.0085].map(|p| agree(p, Language::Chinese));
+        assert!(said[0].contains("一致") && said[1].contains("不一致"));
+    }
 }

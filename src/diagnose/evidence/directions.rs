@@ -1,0 +1,148 @@
+//! Columns as directions: what of them is visible, and which are free beside others.
+
+use nalgebra::DMatrix;
+
+use super::baseline::Baseline;
+
+/// A column with less than this share of its whitened length (squared) left, by the parameters or by
+/// other columns of its atom, is invisible.
+pub(super) const INVISIBLE: f64 = 1e-6;
+/// Visible share (squared) of an effect below which it is not the effect that shows, but the curvature of the
+/// model, or the rounding of recorded values: of the cosine of an angle, its value to two digits leaves 10⁻⁵.
+pub const TRACE: f64 = 1e-4;
+
+/// Columns of which the parameters and the other columns leave enough for coefficients of their own, in
+/// ascending order.
+pub fn determined(baseline: &Baseline, columns: &DMatrix<f64>) -> Vec<usize> {
+    let (columns, lengths) = visible(baseline, columns);
+    let (_, mut kept) = own(columns, lengths);
+    kept.sort_unstable();
+    kept
+}
+
+/// Orthonormal directions of visible columns, from their lengths with what the parameters absorb, and which
+/// columns have one. Beside a column that shows, one of which a trace is left is not free.
+pub(super) fn own(columns: DMatrix<f64>, mut lengths: Vec<f64>) -> (DMatrix<f64>, Vec<usize>) {
+    let shares = columns.column_iter().zip(&lengths);
+    let shares: Vec<f64> = shares
+        .map(|(column, length)| column.norm_squared() / (length * length))
+        .collect();
+    if shares.iter().any(|share| *share > TRACE) {
+        for (length, share) in lengths.iter_mut().zip(shares) {
+            if !(share > TRACE) {
+                *length = 0.0;
+            }
+        }
+    }
+    orthonormal(columns, &lengths, INVISIBLE)
+}
+
+/// PWH, and the lengths of the columns of WH.
+pub(super) fn visible(baseline: &Baseline, columns: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
+    let whitened = baseline.whiten(columns);
+    let lengths = whitened.column_iter().map(|c| c.norm()).collect();
+    let along = baseline.absorbed().tr_mul(&whitened);
+    (whitened - baseline.absorbed() * along, lengths)
+}
+
+/// Orthonormal directions of the columns, the column with the greatest remainder first; columns whose
+/// remainder is less than `tolerance` (squared) of `lengths` are left out. Also says which were kept,
+/// in that order.
+pub(super) fn orthonormal(
+    mut columns: DMatrix<f64>,
+    lengths: &[f64],
+    tolerance: f64,
+) -> (DMatrix<f64>, Vec<usize>) {
+    let mut kept: Vec<usize> = Vec::new();
+    let mut left: Vec<usize> = (0..columns.ncols()).filter(|j| lengths[*j] > 0.0).collect();
+    while !left.is_empty() {
+        let share = |j: usize| columns.column(j).norm_squared() / (lengths[j] * lengths[j]);
+        let (place, &best) = left
+            .iter()
+            .enumerate()
+            .max_by(|a, b| share(*a.1).total_cmp(&share(*b.1)))
+            .expect("some are left");
+        if !(share(best) > tolerance) {
+            break;
+        }
+        left.remove(place);
+        // Once more against those that were kept: cancellation leaves little of a nearly dependent one.
+        let mut direction = columns.column(best).into_owned();
+        for other in &kept {
+            let along = columns.column(*other).dot(&direction);
+            direction.axpy(-along, &columns.column(*other).into_owned(), 1.0);
+        }
+        direction /= direction.norm();
+        for other in &left {
+            let along = direction.dot(&columns.column(*other));
+            columns.column_mut(*other).axpy(-along, &direction, 1.0);
+        }
+        columns.set_column(best, &direction);
+        kept.push(best);
+    }
+    (columns.select_columns(&kept), kept)
+}
+
+/// Share of each column (squared) that others leave.
+pub fn left_beside(columns: &DMatrix<f64>, others: &DMatrix<f64>) -> Vec<f64> {
+    /// What cancellation leaves of a dependent column.
+    const NOTHING: f64 = 1e-24;
+    let lengths: Vec<f64> = others.column_iter().map(|c| c.norm()).collect();
+    let (basis, _) = orthonormal(others.clone(), &lengths, NOTHING);
+    let left = without(columns, &basis);
+    let share = |(left, whole): (f64, f64)| if whole > 0.0 { left / whole } else { 0.0 };
+    let squares = left.column_iter().zip(columns.column_iter());
+    squares
+        .map(|(left, whole)| share((left.norm_squared(), whole.norm_squared())))
+        .collect()
+}
+
+/// Columns with what lies along an orthonormal basis taken out.
+pub(super) fn without(columns: &DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f64> {
+    if basis.ncols() == 0 {
+        return columns.clone();
+    }
+    columns - basis * basis.tr_mul(columns)
+}
+
+pub(super) fn joined(left: &DMatrix<f64>, right: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut out = DMatrix::zeros(right.nrows(), left.ncols() + right.ncols());
+    out.columns_mut(0, left.ncols()).copy_from(left);
+    out.columns_mut(left.ncols(), right.ncols())
+        .copy_from(right);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DVector;
+
+    use super::super::baseline::Prior;
+    use super::super::noise::{Covariance, Noise};
+    use super::*;
+
+    #[test]
+    fn what_rounding_leaves_of_a_parameter_is_not_free() {
+        let angle = |row: usize| 0.3 * row as f64;
+        let rounded = |row: usize, digits: f64| (libm::cos(angle(row)) * digits).round() / digits;
+        let free = |digits: f64, columns: &DMatrix<f64>| {
+            let jacobian = DMatrix::from_fn(20, 1, |row, _| rounded(row, digits));
+            let noise = Noise::known(Covariance::Diagonal(DVector::from_element(20, 1.0)));
+            let baseline =
+                Baseline::new(&jacobian, &DVector::zeros(20), &noise, &Prior::none(1)).unwrap();
+            determined(&baseline, columns)
+        };
+        let both = DMatrix::from_fn(20, 2, |row, column| match column {
+            0 => libm::cos(angle(row)),
+            _ => libm::sin(angle(row)),
+        });
+        assert_eq!(free(100.0, &both), [1]);
+        assert_eq!(free(1e6, &both), [1]);
+        assert!(free(1e6, &both.columns(0, 1).into_owned()).is_empty());
+        // A sum and a difference of which the parameter is a part: one of them is free.
+        let mixed = DMatrix::from_fn(20, 2, |row, column| {
+            both[(row, 1)] + both[(row, 0)] * [1.0, -1.0][column]
+        });
+        assert_eq!(free(1e6, &mixed).len(), 1);
+    }
+}

@@ -1,0 +1,141 @@
+//! Whether the declared model has an effect already: by its form, and not by the design of the recording.
+//!
+//! What the declared parameters absorb at the recorded inputs they may absorb because these are few or follow
+//! one another; it is left out all the same. At arbitrary inputs they reproduce an effect only where the model
+//! has a term of its form: the square of a temperature beside a declared one.
+
+use std::collections::BTreeMap;
+
+use gumption_lanes::{Block, Generator, LANES, level};
+use nalgebra::DMatrix;
+
+use super::case::{Blocks, Case, Data, Role, Rows};
+use super::catalogue::modifiers::range;
+use super::catalogue::{self, Cell, Ground};
+use super::evidence;
+use super::fit;
+use super::frame::Frame;
+use crate::recording::Labels;
+
+/// Part of the recorded range by which inputs go beyond it.
+const BEYOND: f64 = 0.2;
+/// Share of an effect that numbers of sixteen digits leave where the model has it.
+const ROUNDING: f64 = 1e-12;
+
+/// Columns of variations, given as cell and variation, that the declared model has already.
+pub(super) fn declared(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    wanted: &[(usize, usize)],
+) -> BTreeMap<(usize, usize), Vec<usize>> {
+    if wanted.is_empty() {
+        return BTreeMap::new();
+    }
+    let case = elsewhere(ground);
+    let frame = Frame::new(&case);
+    let fit = fit::at(&frame, ground.fit.unknowns.clone());
+    let there = Ground::new(&frame, &fit).refined(ground.finer.clone());
+    let others = catalogue::cells(&there);
+    let of = wanted.iter().filter_map(|(cell, variation)| {
+        let own = &cells[*cell];
+        let same = |other: &&Cell| {
+            other.effect.id == own.effect.id && other.words == own.words && other.place == own.place
+        };
+        let label = &own.variants[*variation].label;
+        let variants = &others.iter().find(same)?.variants;
+        let form = variants.iter().find(|variant| variant.label == *label)?;
+        let held = held(&fit.jacobian, &form.columns(&there));
+        (!held.is_empty()).then_some(((*cell, *variation), held))
+    });
+    of.collect()
+}
+
+/// Columns that others reproduce, as far as both are finite.
+fn held(others: &DMatrix<f64>, columns: &DMatrix<f64>) -> Vec<usize> {
+    let finite = |matrix: &DMatrix<f64>, row: usize| matrix.row(row).iter().all(|x| x.is_finite());
+    let rows: Vec<usize> = (0..columns.nrows())
+        .filter(|row| finite(others, *row) && finite(columns, *row))
+        .collect();
+    if rows.len() <= others.ncols() {
+        return Vec::new();
+    }
+    let left = evidence::left_beside(&columns.select_rows(&rows), &others.select_rows(&rows));
+    (0..left.len())
+        .filter(|column| left[*column] < ROUNDING)
+        .collect()
+}
+
+/// The case with inputs that nothing ties to one another, within its range and somewhat beyond.
+fn elsewhere(ground: &Ground<'_>) -> Case {
+    /// Rows for each unknown, and at least.
+    const EACH: usize = 8;
+    const LEAST: usize = 200;
+    let case = ground.case();
+    let count = (EACH * ground.frame.unknowns.len()).max(LEAST);
+    let data = case.columns.iter().enumerate().map(|(at, column)| {
+        let shares = uniform(at as u64, count);
+        match &column.data {
+            Data::Numbers(numbers) => Data::Numbers(match column.role {
+                Role::Stimulus | Role::Covariate | Role::Angle => spread(numbers, shares),
+                Role::Time | Role::Order => {
+                    let mut times = spread(numbers, shares);
+                    times.sort_by(f64::total_cmp);
+                    times
+                }
+                _ => numbers.iter().copied().cycle().take(count).collect(),
+            }),
+            Data::Labels(labels) => Data::Labels(scattered(labels, &shares)),
+            Data::Absent => Data::Absent,
+        }
+    });
+    let rows = Rows {
+        count,
+        data: data.collect(),
+    };
+    let mut case = case.with(&rows);
+    case.averaging.blocks = Blocks::Rows;
+    case.averaging.settle = 0;
+    case
+}
+
+/// Numbers over the range of others; what is nowhere negative stays so.
+fn spread(numbers: &[f64], shares: Vec<f64>) -> Vec<f64> {
+    let (least, most) = range(numbers);
+    let beyond = BEYOND * (most - least);
+    let low = if least >= 0.0 {
+        (least - beyond).max(0.5 * least)
+    } else {
+        least - beyond
+    };
+    let high = most + beyond;
+    shares
+        .into_iter()
+        .map(|share| low + share * (high - low))
+        .collect()
+}
+
+/// Every level once, and then as it comes.
+fn scattered(labels: &Labels, shares: &[f64]) -> Labels {
+    let levels = labels.levels.len();
+    let level = |(row, share): (usize, &f64)| {
+        let drawn = (share * levels as f64) as usize;
+        (if row < levels { row } else { drawn }) as u32
+    };
+    Labels {
+        levels: labels.levels.clone(),
+        of_row: shares.iter().enumerate().map(level).collect(),
+    }
+}
+
+/// Uniform numbers between 0 and 1, the same for every case.
+fn uniform(stream: u64, count: usize) -> Vec<f64> {
+    const SEED: u64 = 1;
+    let mut numbers = Vec::with_capacity(count + LANES);
+    let mut block = Block::ZERO;
+    for chunk in 0..count.div_ceil(LANES) {
+        Generator::new(SEED, chunk as u64, stream).uniforms(level(), &mut block);
+        numbers.extend_from_slice(&block.0);
+    }
+    numbers.truncate(count);
+    numbers
+}

@@ -1,0 +1,291 @@
+//! An adopted effect in parts of the recording, and whether the parts agree.
+//!
+//! The effect has a size of its own in each part; everything else is common to all of them. So a part that
+//! cannot tell the effect from the parameters by itself learns the parameters from the others.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+use super::case::Role;
+use super::confirm::degrees;
+use super::evidence::Fitted;
+use super::fit::Fit;
+use super::frame::Frame;
+use super::inquiry::baseline;
+use super::noise::Claimed;
+use crate::special::{chi_squared_sf, f_sf};
+
+/// Checks of an adopted effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Confirmation {
+    /// χ² that the linear prediction promised.
+    pub promised: f64,
+    /// The first coefficient in each part of the recording, all else being common: name of the part, value,
+    /// u. Empty where fewer than two parts show it.
+    pub parts: Vec<(String, f64, f64)>,
+    /// Probability that the parts differ as much by chance.
+    pub agreement: Option<f64>,
+}
+
+/// The first of the `added` coefficients, estimated from parts of the recording.
+pub(super) fn confirmation(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    added: usize,
+    fitted: &Fitted,
+) -> Confirmation {
+    let first = frame.case.parameters.len() - added;
+    let (names, members): (Vec<String>, Vec<Vec<usize>>) = divided(frame).into_iter().unzip();
+    let at = frame.unknown_of(first, 0);
+    let apart = Apart::new(frame, fit, claimed, at, &members);
+    let mut confirmation = Confirmation {
+        promised: fitted.chi_squared,
+        parts: Vec::new(),
+        agreement: None,
+    };
+    let Some((seen, values, covariance)) = apart.map(|apart| apart.estimates()) else {
+        return confirmation;
+    };
+    if seen.len() < 2 {
+        return confirmation;
+    }
+    let chi_squared = fit.residuals.component_div(&claimed.u).norm_squared();
+    let dof = degrees(frame);
+    let scale = if claimed.is_estimated() {
+        (chi_squared / dof.max(1.0)).sqrt()
+    } else {
+        1.0
+    };
+    let of = |(i, part): (usize, &usize)| {
+        let u = scale * covariance[(i, i)].max(0.0).sqrt();
+        (names[*part].clone(), values[i], u)
+    };
+    confirmation.parts = seen.iter().enumerate().map(of).collect();
+    let further = seen.len() as f64 - 1.0;
+    confirmation.agreement = spread(&values, &covariance).and_then(|q| {
+        if !claimed.is_estimated() {
+            return Some(chi_squared_sf(q, further));
+        }
+        let (left, dof) = (chi_squared - q, dof - further);
+        (left > 0.0 && dof > 0.0).then(|| f_sf(q / further / (left / dof), further, dof))
+    });
+    confirmation
+}
+
+/// An unknown with a value of its own in each part, beside everything that is common.
+struct Apart {
+    /// The common value.
+    start: f64,
+    /// What is known beforehand of each value: information, and how strongly it pulls.
+    known: (f64, f64),
+    /// What each part shows of it beside the other unknowns, in units of the noise.
+    columns: DMatrix<f64>,
+    /// The squares of what each part would show if the other unknowns were known.
+    whole: Vec<f64>,
+    /// What the fit leaves.
+    residuals: DVector<f64>,
+}
+
+impl Apart {
+    /// Takes the unknown `at` apart, one for each list of observations.
+    fn new(
+        frame: &Frame<'_>,
+        fit: &Fit,
+        claimed: &Claimed,
+        at: usize,
+        members: &[Vec<usize>],
+    ) -> Option<Apart> {
+        let mut columns = DMatrix::zeros(frame.observations(), members.len());
+        for (part, members) in members.iter().enumerate() {
+            for observation in members {
+                columns[(*observation, part)] = fit.jacobian[(*observation, at)];
+            }
+        }
+        let mut common = Frame::new(frame.case);
+        let own = common.unknowns.remove(at);
+        let known = own.prior.map_or((0.0, 0.0), |(value, u)| {
+            (1.0 / (u * u), (value - fit.unknowns[at]) / (u * u))
+        });
+        let rest = Fit {
+            unknowns: fit.unknowns.clone().remove_row(at),
+            jacobian: fit.jacobian.clone().remove_column(at),
+            ..fit.clone()
+        };
+        let beside = baseline(&common, &rest, &claimed.uncorrelated()).ok()?;
+        let whole = columns.column_iter().map(|column| {
+            let column = column.component_div(&claimed.u);
+            column.norm_squared()
+        });
+        Some(Apart {
+            start: fit.unknowns[at],
+            known,
+            whole: whole.collect(),
+            columns: beside.project(&columns),
+            residuals: beside.residuals().clone(),
+        })
+    }
+
+    /// The parts that show the effect, their values, and the covariance matrix of these.
+    fn estimates(&self) -> (Vec<usize>, DVector<f64>, DMatrix<f64>) {
+        /// Information below this part of what a part would show alone is rounding.
+        const NOTHING: f64 = 1e-9;
+        /// A direction that nothing determines takes part in a value from this share on.
+        const TAKES_PART: f64 = 1e-6;
+        /// A value with so many times the standard uncertainty of the common one says nothing.
+        const FAR: f64 = 20.0;
+        let parts = self.whole.len();
+        let unit = |whole: &f64| {
+            if *whole > 0.0 {
+                1.0 / whole.sqrt()
+            } else {
+                0.0
+            }
+        };
+        let units =
+            DMatrix::from_diagonal(&DVector::from_iterator(parts, self.whole.iter().map(unit)));
+        let mut information = self.columns.tr_mul(&self.columns);
+        let mut pull = self.columns.tr_mul(&self.residuals);
+        for part in 0..parts {
+            information[(part, part)] += self.known.0;
+            pull[part] += self.known.1;
+        }
+        let eigen = SymmetricEigen::new(&units * &information * &units);
+        let (mut inverse, mut open) = (DMatrix::zeros(parts, parts), DVector::zeros(parts));
+        for (value, direction) in eigen
+            .eigenvalues
+            .iter()
+            .zip(eigen.eigenvectors.column_iter())
+        {
+            if *value > NOTHING {
+                inverse += direction * direction.transpose() / *value;
+            } else {
+                open += direction.component_mul(&direction);
+            }
+        }
+        let covariance = &units * inverse * &units;
+        let values = (&covariance * pull).add_scalar(self.start);
+        let most = FAR * FAR / information.sum();
+        let shows = |part: &usize| open[*part] < TAKES_PART && covariance[(*part, *part)] < most;
+        let seen: Vec<usize> = (0..parts).filter(shows).collect();
+        let covariance = covariance.select_columns(&seen).select_rows(&seen);
+        (seen.clone(), values.select_rows(&seen), covariance)
+    }
+}
+
+/// Sum of squares of the deviations of correlated values from their mean, in units of their covariance matrix:
+/// Cochran's Q where they are independent.
+fn spread(values: &DVector<f64>, covariance: &DMatrix<f64>) -> Option<f64> {
+    let factor = covariance.clone().cholesky()?;
+    let ones = DVector::from_element(values.len(), 1.0);
+    let weights = factor.solve(&ones);
+    let deviations = values.add_scalar(-weights.dot(values) / weights.sum());
+    Some(deviations.dot(&factor.solve(&deviations)))
+}
+
+/// Parts of the observations: runs where there are a few, else halves.
+fn divided(frame: &Frame<'_>) -> Vec<(String, Vec<usize>)> {
+    let all = 0..frame.observations();
+    let runs = frame.case.with_role(Role::Run).find(|column| {
+        frame.case.columns[*column]
+            .labels()
+            .is_some_and(|labels| (2..=12).contains(&labels.levels.len()))
+    });
+    if let Some(column) = runs
+        && let Some(labels) = frame.case.columns[column].labels()
+    {
+        return (0..labels.levels.len())
+            .map(|level| {
+                let inside =
+                    |o: &usize| labels.of_row[frame.blocks[frame.place(*o).1][0]] as usize == level;
+                (
+                    format!(
+                        "{} {}",
+                        frame.case.columns[column].name, labels.levels[level]
+                    ),
+                    all.clone().filter(inside).collect(),
+                )
+            })
+            .collect();
+    }
+    let half = frame.blocks.len() / 2;
+    vec![
+        (
+            "first half".to_owned(),
+            all.clone().filter(|o| frame.place(*o).1 < half).collect(),
+        ),
+        (
+            "second half".to_owned(),
+            all.filter(|o| frame.place(*o).1 >= half).collect(),
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::evidence::{Baseline, Covariance, Noise, Prior};
+    use super::*;
+
+    #[test]
+    fn a_part_learns_the_parameters_from_the_others() {
+        // An offset, seen in four rows before a step; the step in two parts of two rows and of one row.
+        let jacobian = DMatrix::from_row_slice(7, 1, &[1.0; 7]);
+        let baseline = Baseline::new(
+            &jacobian,
+            &DVector::from_row_slice(&[0.0, 0.0, 0.0, 0.0, 3.0, 3.0, 5.0]),
+            &Noise::known(Covariance::Diagonal(DVector::from_element(7, 1.0))),
+            &Prior::none(1),
+        )
+        .unwrap();
+        let members = |row: usize, part: usize| match (row, part) {
+            (4 | 5, 1) | (6, 2) => 1.0,
+            _ => 0.0,
+        };
+        let apart = Apart {
+            start: 0.0,
+            known: (0.0, 0.0),
+            columns: baseline.project(&DMatrix::from_fn(7, 3, members)),
+            whole: vec![0.0, 2.0, 1.0],
+            residuals: baseline.residuals().clone(),
+        };
+        let (seen, values, covariance) = apart.estimates();
+        assert_eq!(seen, [1, 2]);
+        assert!((values[0] - 3.0).abs() < 1e-12 && (values[1] - 5.0).abs() < 1e-12);
+        // u² of the mean of the part and of the offset.
+        assert!((covariance[(0, 0)] - 0.75).abs() < 1e-12);
+        assert!((covariance[(1, 1)] - 1.25).abs() < 1e-12);
+        assert!((covariance[(0, 1)] - 0.25).abs() < 1e-12);
+        // 5 − 3, with u² = 1/2 + 1.
+        let q = spread(&values, &covariance).unwrap();
+        assert!((q - 4.0 / 1.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_no_part_determines_is_not_shown() {
+        // An effect that is constant in each part, beside an offset: only their differences are determined.
+        let rows = 6;
+        let jacobian = DMatrix::from_element(rows, 1, 1.0);
+        let baseline = Baseline::new(
+            &jacobian,
+            &DVector::zeros(rows),
+            &Noise::known(Covariance::Diagonal(DVector::from_element(rows, 1.0))),
+            &Prior::none(1),
+        )
+        .unwrap();
+        let level = [1.0, 2.0, 4.0];
+        let columns = DMatrix::from_fn(
+            rows,
+            3,
+            |row, part| {
+                if row / 2 == part { level[part] } else { 0.0 }
+            },
+        );
+        let apart = Apart {
+            start: 0.0,
+            known: (0.0, 0.0),
+            columns: baseline.project(&columns),
+            whole: level.map(|level| 2.0 * level * level).to_vec(),
+            residuals: baseline.residuals().clone(),
+        };
+        assert!(apart.estimates().0.is_empty());
+    }
+}

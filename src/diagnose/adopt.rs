@@ -26,6 +26,8 @@ pub struct Addition {
     pub column: String,
     /// The modifier as a formula.
     pub text: String,
+    /// The unit of the modifier.
+    pub unit: Unit,
 }
 
 /// Adds variations to the model of a case. Nothing if the equations cannot be written, which only
@@ -40,6 +42,7 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
     let mut columns = Vec::new();
     for term in variations.iter().flat_map(|variation| &variation.terms) {
         let column = free(&case, "effect", columns.len() + 1);
+        let written = term.written();
         let shared = additions.last().filter(|_| term.tied);
         let parameter = match shared {
             Some(addition) => addition.parameter.clone(),
@@ -55,8 +58,8 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
             name: column.clone(),
             header: column.clone(),
             role: Role::Covariate,
-            unit: Unit::one(),
-            data: Data::Numbers(term.modifier.clone()),
+            unit: written.unit.clone(),
+            data: Data::Numbers(written.values.clone()),
             u: None,
             u_common: None,
             full_scale: None,
@@ -74,7 +77,8 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
             additions.push(Addition {
                 parameter,
                 column,
-                text: term.text.clone(),
+                text: written.text.clone(),
+                unit: written.unit.clone(),
             });
         }
     }
@@ -144,15 +148,16 @@ fn free(case: &Case, stem: &str, number: usize) -> String {
     name
 }
 
-/// Unit of the coefficient: modifiers are numbers.
-fn unit_of(ground: &Ground<'_>, term: &Term) -> Unit {
+/// Unit of the coefficient: that of the node, for each unit of the modifier.
+pub(super) fn unit_of(ground: &Ground<'_>, term: &Term) -> Unit {
     let case = ground.case();
-    match term.node {
+    let node = match term.node {
         Node::Output => case.responses[term.response.unwrap_or(0)].unit.difference(),
         Node::Gain => Unit::one(),
         Node::Parameter(parameter) => case.parameters[parameter].unit.difference(),
         Node::Column(column) => case.columns[column].unit.difference(),
-    }
+    };
+    node.quotient(&term.written().unit)
 }
 
 /// An equation to which effects are added.

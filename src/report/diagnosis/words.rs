@@ -251,7 +251,7 @@ pub(super) fn formula(diagnosis: &Diagnosis, alternative: &Alternative) -> Strin
         let (cell, variation) = diagnosis.atoms[variant.atom];
         let cell = &diagnosis.cells[cell];
         let mut terms = cell.variants[variation].terms.iter();
-        terms.any(|term| term.text.contains("lag("))
+        terms.any(|term| term.modifier.text.contains("lag("))
     });
     let general = &cell.effect.formula;
     match general.split_once("lag(") {

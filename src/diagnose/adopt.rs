@@ -69,7 +69,7 @@ pub fn extended(ground: &Ground<'_>, variations: &[&Variation]) -> Option<Extend
         if is_new {
             case.parameters.push(Parameter {
                 name: parameter.clone(),
-                unit: unit_of(ground, term),
+                unit: term.unit_of_size(ground.case()),
                 start: None,
                 prior: None,
                 per: None,
@@ -146,18 +146,6 @@ fn free(case: &Case, stem: &str, number: usize) -> String {
         name.push('_');
     }
     name
-}
-
-/// Unit of the coefficient: that of the node, for each unit of the modifier.
-pub(super) fn unit_of(ground: &Ground<'_>, term: &Term) -> Unit {
-    let case = ground.case();
-    let node = match term.node {
-        Node::Output => case.responses[term.response.unwrap_or(0)].unit.difference(),
-        Node::Gain => Unit::one(),
-        Node::Parameter(parameter) => case.parameters[parameter].unit.difference(),
-        Node::Column(column) => case.columns[column].unit.difference(),
-    };
-    node.quotient(&term.written().unit)
 }
 
 /// An equation to which effects are added.

@@ -55,6 +55,7 @@ use serde::Deserialize;
 pub use finer::Finer;
 pub use ground::{Ground, Node};
 
+use super::case::Case;
 use super::evidence;
 use crate::quantity::Unit;
 
@@ -293,6 +294,17 @@ impl Term {
     /// What it follows, as it stands in the improved model.
     pub fn written(&self) -> &Modifier {
         self.written.as_ref().unwrap_or(&self.modifier)
+    }
+
+    /// The unit of its size: that of the node, for each unit of what it follows.
+    pub fn unit_of_size(&self, case: &Case) -> Unit {
+        let node = match self.node {
+            Node::Output => case.responses[self.response.unwrap_or(0)].unit.clone(),
+            Node::Gain => Unit::one(),
+            Node::Parameter(parameter) => case.parameters[parameter].unit.clone(),
+            Node::Column(column) => case.columns[column].unit.clone(),
+        };
+        node.quotient(&self.written().unit)
     }
 
     /// On one response only.

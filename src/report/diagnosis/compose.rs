@@ -11,8 +11,8 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::labels::spoken;
 use super::words::{
-    formula, name, name_of_atom, noise, orders, p_found, probability, quantity, tentative, verdict,
-    weighs,
+    fitted, formula, name, name_of_atom, noise, orders, p_found, probability, quantity, tentative,
+    verdict, weighs,
 };
 use super::{improvement, open};
 
@@ -202,7 +202,11 @@ fn slot_blocks(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Bl
                 None => cell.words.fill(language.of(&cell.effect.prose)),
             };
             blocks.push(Block::Paragraph(prose));
-            blocks.push(Block::Formula(vec![formula(diagnosis, alternative)]));
+            let multiplied = fitted(diagnosis, alternative).map(|terms| {
+                language.pick(format!("β multiplies {terms}"), format!("β 乘以 {terms}"))
+            });
+            let lines = [formula(diagnosis, alternative)].into_iter();
+            blocks.push(Block::Formula(lines.chain(multiplied).collect()));
         }
     }
     blocks

@@ -263,6 +263,20 @@ pub(super) fn formula(diagnosis: &Diagnosis, alternative: &Alternative) -> Strin
     }
 }
 
+/// What the sizes of the best variant multiply, as it was fitted; nothing where there are too many terms to
+/// read, none has a formula, or the size stands alone.
+pub(super) fn fitted(diagnosis: &Diagnosis, alternative: &Alternative) -> Option<String> {
+    /// More are in the table of the improved model.
+    const MOST: usize = 3;
+    let (cell, variation) = diagnosis.atoms[alternative.variants.first()?.atom];
+    let terms = &diagnosis.cells[cell].variants[variation].terms;
+    let texts = terms.iter().filter(|term| !term.tied);
+    let mut texts: Vec<&str> = texts.map(|term| term.written().text.as_str()).collect();
+    texts.dedup();
+    let readable = texts.len() <= MOST && texts.iter().all(|text| !text.is_empty() && *text != "1");
+    (readable && !texts.is_empty()).then(|| texts.join("; "))
+}
+
 /// Where the noise comes from.
 pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
     let dof = if claimed.dof.is_finite() && claimed.dof > 0.0 {

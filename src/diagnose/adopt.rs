@@ -72,6 +72,8 @@ pub struct Addition {
     pub column: String,
     /// The modifier as a formula.
     pub text: String,
+    /// The unit of the modifier.
+    pub unit: Unit,
     /// Index of the effect.
     pub effect: usize,
     /// Which of the coefficients of the effect it is.
@@ -94,6 +96,7 @@ pub(super) fn extended(ground: &Ground<'_>, effects: Vec<Free>) -> Option<Extend
     });
     for term in effects.iter().flat_map(|free| &free.variation.terms) {
         let column = free(&case, "effect", columns.len() + 1);
+        let written = term.written();
         let shared = additions.last().filter(|_| term.tied);
         let parameter = match shared {
             Some(addition) => addition.parameter.clone(),
@@ -109,8 +112,8 @@ pub(super) fn extended(ground: &Ground<'_>, effects: Vec<Free>) -> Option<Extend
             name: column.clone(),
             header: column.clone(),
             role: Role::Covariate,
-            unit: Unit::one(),
-            data: Data::Numbers(term.modifier.clone()),
+            unit: written.unit.clone(),
+            data: Data::Numbers(written.values.clone()),
             u: None,
             u_common: None,
             full_scale: None,
@@ -120,7 +123,7 @@ pub(super) fn extended(ground: &Ground<'_>, effects: Vec<Free>) -> Option<Extend
         if is_new {
             case.parameters.push(Parameter {
                 name: parameter.clone(),
-                unit: unit_of(ground, term),
+                unit: term.unit_of_size(ground.case()),
                 start: None,
                 prior: None,
                 per: None,
@@ -129,7 +132,8 @@ pub(super) fn extended(ground: &Ground<'_>, effects: Vec<Free>) -> Option<Extend
             additions.push(Addition {
                 parameter,
                 column,
-                text: term.text.clone(),
+                text: written.text.clone(),
+                unit: written.unit.clone(),
                 effect,
                 coefficient,
             });
@@ -195,17 +199,6 @@ fn free(case: &Case, stem: &str, number: usize) -> String {
         name.push('_');
     }
     name
-}
-
-/// Unit of the coefficient: modifiers are numbers.
-fn unit_of(ground: &Ground<'_>, term: &Term) -> Unit {
-    let case = ground.case();
-    match term.node {
-        Node::Output => case.responses[term.response.unwrap_or(0)].unit.difference(),
-        Node::Gain => Unit::one(),
-        Node::Parameter(parameter) => case.parameters[parameter].unit.difference(),
-        Node::Column(column) => case.columns[column].unit.difference(),
-    }
 }
 
 /// An equation to which effects are added.

@@ -190,12 +190,12 @@ fn continued(term: &Term, cells: &[&Cell], rows: usize) -> Option<Vec<f64>> {
     let terms = variants.flat_map(|variation| &variation.terms);
     let like = terms.filter(|other| other.node == term.node && other.response == term.response);
     let fits = like.filter_map(|other| {
-        let first = other.modifier.get(..rows)?;
-        let (factor, offset, left) = line_through(first, &term.modifier);
+        let first = other.written().values.get(..rows)?;
+        let (factor, offset, left) = line_through(first, &term.written().values);
         Some((other, factor, offset, left))
     });
     let (other, factor, offset, left) = fits.min_by(|a, b| a.3.total_cmp(&b.3))?;
-    let rest = other.modifier.get(rows..)?;
+    let rest = other.written().values.get(rows..)?;
     (left < LEFT).then(|| rest.iter().map(|x| factor * x + offset).collect())
 }
 

@@ -40,7 +40,7 @@ pub(super) fn nameless(
         let variant = examination.slots[slot].named.first()?.variants.first()?;
         let (cell, variation) = places[variant.atom];
         let modifier = &cells[cell].variants[variation].terms.first()?.modifier;
-        modifier.iter().position(|x| *x != 0.0)
+        modifier.values.iter().position(|x| *x != 0.0)
     };
     if let [one, other] = outliers[..]
         && let (Some(a), Some(b)) = (row(one), row(other))

@@ -148,7 +148,10 @@ fn acts(ground: &Ground<'_>, cell: &Cell, variation: &Variation) -> bool {
             let (least, most) = range(numbers);
             numbers.iter().all(|x| *x == least || *x == most)
         });
-    !two && !variation.terms.iter().all(|term| steady(&term.modifier))
+    !two && !variation
+        .terms
+        .iter()
+        .all(|term| steady(&term.modifier.values))
 }
 
 fn line(

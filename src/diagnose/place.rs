@@ -3,7 +3,7 @@
 
 use super::case::Role;
 use super::catalogue::modifiers::figure;
-use super::catalogue::{Ground, Node, Term};
+use super::catalogue::{Ground, Modifier, Node, Term};
 use super::evidence::Cell;
 
 /// Parts into which the range of a column, or the recording, is divided.
@@ -43,12 +43,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         for (factor, level, inside) in &regions {
             let responses = case.responses.len();
             for response in 0..responses {
-                let term = Term {
-                    node,
-                    response: (responses > 1).then_some(response),
-                    modifier: inside.clone(),
-                    text: String::new(),
-                    tied: false,
+                let term = Term::new(node, Modifier::unnamed(inside.clone()));
+                let term = if responses > 1 {
+                    term.on(response)
+                } else {
+                    term
                 };
                 let name = ground.name(node);
                 let node = if responses > 1 {

@@ -71,11 +71,11 @@ fn harmonics(ground: &Ground<'_>, column: usize) -> Variants {
         .map(|k| {
             let times = f64::from(k);
             let pair = vec![
-                (
+                Modifier::number(
                     map(&phi, |phi| libm::sin(times * phi)),
                     format!("sin({k}*{name})"),
                 ),
-                (
+                Modifier::number(
                     map(&phi, |phi| libm::cos(times * phi)),
                     format!("cos({k}*{name})"),
                 ),
@@ -119,11 +119,8 @@ fn play(ground: &Ground<'_>, column: usize) -> Option<Cell> {
         return None;
     }
     let modifier = map(&side, |side| -side / 2.0);
-    let term = Term::new(
-        Node::Column(column),
-        modifier,
-        format!("-direction({name})/2"),
-    );
+    let modifier = Modifier::number(modifier, format!("-direction({name})/2"));
+    let term = Term::new(Node::Column(column), modifier);
     Some(Cell::new(
         "play",
         words(ground, name),

@@ -2,17 +2,18 @@
 //! squared, as a rate, inversely, and together.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{centred, correlation, figure, lag, map, map2, mean, range, rate};
+use super::modifiers::{centred, correlation, figure, lag, map, map2, range};
 use super::response::{levels_of, on_node, on_outputs, time_constants, words};
 use super::sharp::sharpened;
 use super::{Cell, Modifier, Term, Variants, Words};
 use crate::diagnose::case::Role;
+use crate::quantity::Unit;
 
 /// Odds beforehand that pressure or humidity acts on an instrument, over those of another condition: they are
 /// recorded because laboratories record them.
 const AIR: f64 = 0.2;
-/// Odds beforehand of what is not first order in a condition: a square, a rate of change, a product.
-const HIGHER: f64 = 0.3;
+/// Odds beforehand of what is not of the lowest order: the square of a condition, its rate of change, a product.
+pub(super) const HIGHER: f64 = 0.3;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -39,9 +40,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 
 fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let label = ground.case().columns[column].name.clone();
-    let x = ground.numbers(column);
-    let own = centred(x);
-    let text = format!("({label} - {})", figure(mean(x)));
+    let own = ground.centred(column);
     let temperature = ground.is_temperature(column);
     let stimulus = ground.case().columns[column].role == Role::Stimulus;
     let mut cells = Vec::new();
@@ -50,9 +49,9 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         (_, true) => "cross-sensitivity",
         _ => "sensitivity",
     };
-    let on = |node: Node| delayed(ground, column, node, &own, &text);
+    let on = |node: Node| delayed(ground, column, node, &own);
     let linear = |delayed: &Variants| -> Variants {
-        let leading = leading(ground, column, &own, &text);
+        let leading = leading(ground, column, &own);
         delayed.iter().cloned().chain(leading).collect()
     };
     let delayed = on(Node::Output);
@@ -67,11 +66,8 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let square: Variants = delayed
         .iter()
         .map(|(variant, modifiers)| {
-            let (modifier, text) = &modifiers[0];
-            (
-                variant.clone(),
-                vec![(map(modifier, |x| x * x), format!("{text}^2"))],
-            )
+            let squares = modifiers.iter().take(1).map(Modifier::square);
+            (variant.clone(), squares.collect())
         })
         .collect();
     let square = square.into_iter().chain(squares(ground, column)).collect();
@@ -103,8 +99,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         } else {
             "sensitivity-rate"
         };
-        let modifier = rate(&ground.clock.values, x);
-        let variants = vec![(String::new(), vec![(modifier, format!("d{label}/dt"))])];
+        let variants = vec![(String::new(), vec![ground.rate(column)])];
         cells.push(on_outputs(ground, id, words, &label, variants));
     }
     if !stimulus && stands_for_temperature(ground, column) {
@@ -161,34 +156,28 @@ fn squares(ground: &Ground<'_>, column: usize) -> Variants {
     if !varies(&square) || is_line {
         return Vec::new();
     }
-    let text = format!("{label}^2");
-    let linear = (x.to_vec(), label.to_owned());
-    let mut variants = vec![(
-        "square alone".to_owned(),
-        vec![(square.clone(), text.clone())],
-    )];
+    let linear = Modifier::new(x.to_vec(), label, ground.step_unit(column));
+    let square = linear.square();
+    let mut variants = vec![("square alone".to_owned(), vec![square.clone()])];
     if levels_of(x).len() > FEW {
-        variants.push((
-            "with a linear part".to_owned(),
-            vec![(square, text), linear],
-        ));
+        variants.push(("with a linear part".to_owned(), vec![square, linear]));
     }
     variants
 }
 
 /// The modifier without a lag, and with each of a series of time constants where it has to get through
 /// something first.
-fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &[f64], text: &str) -> Variants {
-    let mut variants = vec![(String::new(), vec![(own.to_vec(), text.to_owned())])];
+fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &Modifier) -> Variants {
+    let mut variants = vec![(String::new(), vec![own.clone()])];
     if ground.is_timed() && !ground.is_immediate(column) {
         let unit = ground.time_unit();
-        let late = |tau: f64| lag(&ground.clock.values, own, tau);
-        let term = |tau: f64| Term::new(node, late(tau), String::new());
+        let late = |tau: f64| lag(&ground.clock.values, &own.values, tau);
+        let term = |tau: f64| Term::new(node, Modifier::unnamed(late(tau)));
         for tau in ground
             .finer
             .times(sharpened(ground, time_constants(ground), &term))
         {
-            let lagged = late(tau);
+            let text = &own.text;
             let inner = text
                 .strip_prefix('(')
                 .and_then(|text| text.strip_suffix(')'));
@@ -196,7 +185,7 @@ fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &[f64], text: &s
             let text = format!("lag({inner}, {tau} {unit})", tau = figure(tau));
             variants.push((
                 format!("τ = {tau} {unit}", tau = figure(tau)),
-                vec![(lagged, text)],
+                vec![Modifier::new(late(tau), text, own.unit.clone())],
             ));
         }
     }
@@ -205,18 +194,12 @@ fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &[f64], text: &s
 
 /// The modifier and its rate of change, each with a size of its own: the sensor follows before or behind
 /// the instrument that shows the condition, by less than a lag can be told.
-fn leading(
-    ground: &Ground<'_>,
-    column: usize,
-    own: &[f64],
-    text: &str,
-) -> Option<(String, Vec<Modifier>)> {
+fn leading(ground: &Ground<'_>, column: usize, own: &Modifier) -> Option<(String, Vec<Modifier>)> {
     let late = ground.is_timed() && !ground.is_immediate(column);
     late.then(|| {
-        let rate = (rate(&ground.clock.values, own), format!("d{text}/dt"));
         (
             "with its rate of change".to_owned(),
-            vec![(own.to_vec(), text.to_owned()), rate],
+            vec![own.clone(), ground.rate(column)],
         )
     })
 }
@@ -262,8 +245,12 @@ fn spreads(ground: &Ground<'_>, column: usize) -> bool {
 
 fn reciprocal(ground: &Ground<'_>, column: usize) -> Cell {
     let label = ground.case().columns[column].name.clone();
-    let modifier = map(ground.numbers(column), |x| 1.0 / x);
-    let variants = vec![(String::new(), vec![(modifier, format!("1/{label}"))])];
+    let modifier = Modifier::new(
+        map(ground.numbers(column), |x| 1.0 / x),
+        format!("1/{label}"),
+        Unit::one().quotient(&ground.step_unit(column)),
+    );
+    let variants = vec![(String::new(), vec![modifier])];
     let node = scale_or_offset(ground);
     on_node(
         ground,
@@ -290,12 +277,6 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
         z: name(z),
         ..words(ground, &name(x))
     };
-    let product = map2(
-        &centred(ground.numbers(x)),
-        &centred(ground.numbers(z)),
-        |x, z| x * z,
-    );
-    let text = format!("({} - mean)*({} - mean)", name(x), name(z));
     let mut cells = Vec::new();
     if meet(ground, x, z) {
         cells.push(Cell {
@@ -305,7 +286,7 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
                 "interaction",
                 pair.clone(),
                 &along,
-                vec![(String::new(), vec![(product, text)])],
+                vec![(String::new(), vec![ground.centred_product(x, z)])],
             )
         });
     }
@@ -314,8 +295,12 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
     let size = [x, z].iter().any(|c| ground.is_like(*c, "m"));
     let positive = range(of_x).0 > 0.0 && range(of_z).0 > 0.0;
     if positive && (gas && size || spreads(ground, x) && spreads(ground, z)) {
-        let inverse = map2(of_x, of_z, |x, z| 1.0 / (x * z));
-        let text = format!("1/({}*{})", name(x), name(z));
+        let inverse = Modifier::new(
+            map2(of_x, of_z, |x, z| 1.0 / (x * z)),
+            format!("(1/({}*{}))", name(x), name(z)),
+            Unit::one().quotient(&ground.step_unit(x).product(&ground.step_unit(z))),
+        );
+        let square = inverse.square();
         let id = if gas && size {
             "mean-free-path"
         } else {
@@ -330,14 +315,8 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
             node,
             // Large corrections are curved.
             vec![
-                (String::new(), vec![(inverse.clone(), text.clone())]),
-                (
-                    "with its square".to_owned(),
-                    vec![
-                        (inverse.clone(), text.clone()),
-                        (map(&inverse, |x| x * x), format!("({text})^2")),
-                    ],
-                ),
+                (String::new(), vec![inverse.clone()]),
+                ("with its square".to_owned(), vec![inverse, square]),
             ],
         ));
     }
@@ -353,6 +332,6 @@ fn meet(ground: &Ground<'_>, x: usize, z: usize) -> bool {
 }
 
 /// Variants of the same modifiers; for other chapters.
-pub(super) fn single(label: &str, modifier: Vec<f64>, text: String) -> Variants {
-    vec![(label.to_owned(), vec![(modifier, text)])]
+pub(super) fn single(label: &str, modifier: Modifier) -> Variants {
+    vec![(label.to_owned(), vec![modifier])]
 }

@@ -9,7 +9,7 @@ use super::angles::{angles, radians};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{largest, map2};
 use super::response::words;
-use super::{Cell, Term, Variation, tied};
+use super::{Cell, Modifier, Term, Variation, tied};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -168,11 +168,11 @@ impl<'g> Turning<'g> {
             let modifier: Vec<f64> = (0..self.ground.rows())
                 .map(|row| component(a, row))
                 .collect();
-            Term::new(Node::Output, modifier, text.to_owned()).on(a)
+            Term::new(Node::Output, Modifier::number(modifier, text)).on(a)
         });
         tied(
             terms
-                .filter(|term| largest(&term.modifier) > 1e-9)
+                .filter(|term| largest(&term.modifier.values) > 1e-9)
                 .collect(),
         )
     }
@@ -184,7 +184,7 @@ impl<'g> Turning<'g> {
         let own: Vec<f64> = self.axis.iter().map(|axis| axis[a]).collect();
         if varies(&own) {
             let text = "component along the axis".to_owned();
-            terms.push(Term::new(Node::Output, own, text).on(a));
+            terms.push(Term::new(Node::Output, Modifier::number(own, text)).on(a));
         }
         for (number, mount) in self.mounts.iter().enumerate() {
             if mount[a].abs() > 0.99 {
@@ -198,7 +198,7 @@ impl<'g> Turning<'g> {
             for (part, wave) in [("cos", libm::cos as fn(f64) -> f64), ("sin", libm::sin)] {
                 let modifier = map2(&inside, &self.psi, |inside, psi| inside * wave(psi));
                 let text = format!("{part}({name}), mount {}", number + 1);
-                terms.push(Term::new(Node::Output, modifier, text).on(a));
+                terms.push(Term::new(Node::Output, Modifier::number(modifier, text)).on(a));
             }
         }
         terms

@@ -107,13 +107,13 @@ fn same(a: f64, b: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Node, Term, Words};
+    use super::super::{Modifier, Node, Term, Words};
     use super::*;
     use crate::diagnose::evidence::Place;
 
     fn cell(id: &str, grid: &[f64]) -> Cell {
         let one = |tau: &f64| {
-            let term = Term::new(Node::Output, vec![*tau], String::new());
+            let term = Term::new(Node::Output, Modifier::unnamed(vec![*tau]));
             Variation::one("", term).shaped("τ", *tau, "s")
         };
         let variants = grid.iter().map(one).collect();

@@ -8,7 +8,7 @@ use super::ground::{Ground, Node};
 use super::levels::{indicator, present};
 use super::modifiers::{map, range};
 use super::response::words;
-use super::{Cell, Term, Variation};
+use super::{Cell, Modifier, Term, Variation};
 use crate::diagnose::case::{NoiseClaim, Role};
 use crate::diagnose::evidence::Place;
 
@@ -176,7 +176,7 @@ pub(super) fn over_signals(ground: &Ground<'_>, signals: &[(usize, &[f64])]) -> 
             .flat_map(|(response, waves)| waves.iter().map(move |wave| (response, wave)));
         let (terms, spectrum) = features
             .map(|(response, (wave, variance))| {
-                let term = Term::new(Node::Output, wave.clone(), String::new());
+                let term = Term::new(Node::Output, Modifier::unnamed(wave.clone()));
                 (term.on(*response), *variance)
             })
             .unzip();
@@ -194,7 +194,7 @@ fn unnamed(label: &str, terms: Vec<Term>, spectrum: Vec<f64>) -> Variation {
 
 /// On one response, and on each of them in its own way; an error of a column reaches all.
 fn generic(ground: &Ground<'_>, id: &str, node: Node, along: &str, features: &[Feature]) -> Cell {
-    let term = |(modifier, _): &Feature| Term::new(node, modifier.clone(), String::new());
+    let term = |(modifier, _): &Feature| Term::new(node, Modifier::unnamed(modifier.clone()));
     let variances = features.iter().map(|(_, variance)| *variance);
     let on = |response: usize| features.iter().map(move |f| term(f).on(response));
     let responses = &ground.case().responses;

@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::{Finer, Term};
+use super::{Finer, Modifier, Term};
 use crate::diagnose::case::{Case, Role};
 use crate::diagnose::fit::Fit;
 use crate::diagnose::frame::{Clock, Frame};
@@ -105,7 +105,7 @@ impl<'f> Ground<'f> {
             let slope = self.slope(term.node, response);
             slope
                 .iter()
-                .zip(&term.modifier)
+                .zip(&term.modifier.values)
                 .map(|(s, m)| s * m)
                 .collect()
         })
@@ -239,6 +239,76 @@ impl<'f> Ground<'f> {
             Some(column) => self.case().columns[column].name.clone(),
             None => "row".to_owned(),
         }
+    }
+
+    /// The unit in which a column differs from row to row.
+    pub fn step_unit(&self, column: usize) -> Unit {
+        self.case().columns[column].unit.difference()
+    }
+
+    /// The unit of the time; one where it is the number of the row.
+    pub fn clock_unit(&self) -> Unit {
+        (self.clock.column).map_or_else(Unit::one, |column| self.step_unit(column))
+    }
+
+    /// A number in the unit of a column.
+    pub fn figure(&self, column: usize, x: f64) -> String {
+        format!("{x} {}", self.unit(column)).trim_end().to_owned()
+    }
+
+    /// A column less a number, as a formula.
+    pub fn less(&self, column: usize, x: f64) -> String {
+        if x == 0.0 {
+            return self.label(column).to_owned();
+        }
+        format!("({} - {})", self.label(column), self.figure(column, x))
+    }
+
+    /// The time less a number, as a formula; rows are counted from one.
+    pub fn time_less(&self, x: f64) -> String {
+        match self.clock.column {
+            Some(column) => self.less(column, x),
+            None => format!("(row - {})", x + 1.0),
+        }
+    }
+
+    /// What a column follows less its middle.
+    pub fn centred(&self, column: usize) -> Modifier {
+        let x = self.numbers(column);
+        Modifier::new(
+            super::modifiers::centred(x),
+            self.less(column, super::modifiers::middle(x)),
+            self.step_unit(column),
+        )
+    }
+
+    /// The time less its middle.
+    pub fn centred_time(&self) -> Modifier {
+        let t = &self.clock.values;
+        Modifier::new(
+            super::modifiers::centred(t),
+            self.time_less(super::modifiers::middle(t)),
+            self.clock_unit(),
+        )
+    }
+
+    /// The product of two columns less their middles.
+    pub fn centred_product(&self, x: usize, z: usize) -> Modifier {
+        let (x, z) = (self.centred(x), self.centred(z));
+        Modifier::new(
+            super::modifiers::map2(&x.values, &z.values, |x, z| x * z),
+            format!("{}*{}", x.text, z.text),
+            x.unit.product(&z.unit),
+        )
+    }
+
+    /// The rate of change of a column.
+    pub fn rate(&self, column: usize) -> Modifier {
+        Modifier::new(
+            super::modifiers::rate(&self.clock.values, self.numbers(column)),
+            format!("d{}/dt", self.label(column)),
+            self.step_unit(column).quotient(&self.clock_unit()),
+        )
     }
 
     /// The unit of a column as text; nothing for a number.

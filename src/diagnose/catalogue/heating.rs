@@ -1,9 +1,10 @@
 //! Self-heating: the power of the signal warms what senses it, and warmth needs time.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{figure, grid, lag, largest, map};
+use super::inputs::Signal;
+use super::modifiers::{figure, grid, lag, largest};
 use super::response::words;
-use super::{Cell, Term, Variation};
+use super::{Cell, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -42,8 +43,9 @@ fn of_signals(ground: &Ground<'_>) -> Cell {
     for tau in ground.finer.times(scales(ground)) {
         let label = format!("τ = {} {unit}", figure(tau));
         let terms = responses.iter().map(|response| {
-            let (warmth, text) = warmth(ground, ground.signal(*response), "signal", tau);
-            Term::new(Node::Gain, warmth, text).on(*response)
+            let signal = Signal::new(ground, *response);
+            let power = Modifier::number(signal.parts, signal.text).square();
+            Term::new(Node::Gain, warmth(ground, power, tau)).on(*response)
         });
         let terms: Vec<Term> = terms.collect();
         if terms.len() > 1 {
@@ -63,20 +65,21 @@ fn of_signals(ground: &Ground<'_>) -> Cell {
 fn of_column(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let unit = ground.time_unit();
     let name = ground.label(column);
+    let x = ground.numbers(column).to_vec();
+    let power = Modifier::new(x, name, ground.step_unit(column)).square();
     let late = ground.finer.times(scales(ground)).into_iter().map(|tau| {
-        let (warmth, text) = warmth(ground, ground.numbers(column), name, tau);
         let label = format!("τ = {} {unit}", figure(tau));
-        Variation::one(label, Term::new(Node::Output, warmth, text)).shaped("τ", tau, &unit)
+        let term = Term::new(Node::Output, warmth(ground, power.clone(), tau));
+        Variation::one(label, term).shaped("τ", tau, &unit)
     });
     let mut on_offset: Vec<Variation> = late.collect();
-    let power = power(ground.numbers(column));
-    if ground.in_model(column) || !varies(&power) {
+    if ground.in_model(column) || !varies(&power.values) {
         return vec![cell(ground, Node::Output, name, on_offset)];
     }
     // Warm before the reading is taken: the power alone. The signal of a resistor is in proportion to its
     // resistance, and so is its power.
     let at_once = |node| {
-        let term = Term::new(node, power.clone(), format!("{name}^2"));
+        let term = Term::new(node, power.clone());
         Variation::one("at once", term)
     };
     on_offset.push(at_once(Node::Output));
@@ -87,17 +90,14 @@ fn of_column(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     cells
 }
 
-/// As a part of the largest.
-fn power(x: &[f64]) -> Vec<f64> {
-    let size = largest(x).max(f64::MIN_POSITIVE);
-    map(x, |x| (x / size) * (x / size))
-}
-
-/// The power of something as a part of the largest, late.
-fn warmth(ground: &Ground<'_>, x: &[f64], name: &str, tau: f64) -> (Vec<f64>, String) {
-    let power = power(x);
-    let text = format!("lag({name}^2, {} {})", figure(tau), ground.time_unit());
-    (lag(&ground.clock.values, &power, tau), text)
+/// A power, late.
+fn warmth(ground: &Ground<'_>, power: Modifier, tau: f64) -> Modifier {
+    let (shown, unit) = (figure(tau), ground.time_unit());
+    Modifier {
+        values: lag(&ground.clock.values, &power.values, tau),
+        text: format!("lag({}, {shown} {unit})", power.text),
+        ..power
+    }
 }
 
 fn cell(ground: &Ground<'_>, node: Node, along: &str, variants: Vec<Variation>) -> Cell {

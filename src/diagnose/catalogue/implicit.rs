@@ -1,16 +1,15 @@
 //! Models that hold a constant against several columns, such as |a| = g for a triad at rest.
 
 use super::ground::{Ground, Node};
-use super::modifiers::{centred, figure, map, range};
+use super::modifiers::{map, range, rounded};
 use super::response::words;
-use super::{Cell, Term, Variation, Words};
+use super::{Cell, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
+use crate::quantity::Unit;
 
 /// Disturbances of each column that the model uses.
 pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
-    let term = |column: usize, modifier: Vec<f64>, text: String| {
-        Term::new(Node::Column(column), modifier, text)
-    };
+    let term = |column: usize, modifier: Modifier| Term::new(Node::Column(column), modifier);
     let cell = |id: &str, variants: Vec<Variation>| {
         let names: Vec<&str> = used.iter().map(|c| ground.label(*c)).collect();
         let joined = names.join(", ");
@@ -31,11 +30,9 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
     let mut pairs = Vec::new();
     for (at, x) in used.iter().enumerate() {
         for z in &used[at + 1..] {
-            let other = centred(ground.numbers(*z));
-            let text = format!("({} - mean)", ground.label(*z));
             pairs.push((
                 format!("{} with {}", ground.label(*x), ground.label(*z)),
-                term(*x, other, text),
+                term(*x, ground.centred(*z)),
             ));
         }
     }
@@ -43,7 +40,8 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
     let own = used.iter().map(|column| {
         let label = ground.label(*column).to_owned();
         let x = ground.numbers(*column).to_vec();
-        (label.clone(), term(*column, x, label))
+        let own = Modifier::new(x, &label, ground.step_unit(*column));
+        (label, term(*column, own))
     });
     let mut scales = cell("axis-scale", singles_and_all(own.collect()));
     let absorbed = super::zero::Absorbed::by_parameters(ground);
@@ -54,24 +52,19 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
     });
     cells.push(scales);
     type Law = fn(f64) -> f64;
-    let laws: [(&str, &str, Law); 3] = [
-        ("axis-quadratic", "^2", |x| x * x),
-        ("axis-cubic", "^3", |x| x * x * x),
-        ("axis-asymmetry", " as modulus", f64::abs),
+    let laws: [(&str, [&str; 2], i32, Law); 3] = [
+        ("axis-quadratic", ["", "^2"], 2, |x| x * x),
+        ("axis-cubic", ["", "^3"], 3, |x| x * x * x),
+        ("axis-asymmetry", ["abs", ""], 1, f64::abs),
     ];
-    for (id, sign, law) in laws {
+    for (id, [before, after], power, law) in laws {
         let own = used.iter().map(|column| {
             let centre = mean_of_range(ground.numbers(*column));
             let modifier = map(ground.numbers(*column), |x| law(x - centre));
-            let label = ground.label(*column);
-            (
-                label.to_owned(),
-                term(
-                    *column,
-                    modifier,
-                    format!("({label} - {centre}){sign}", centre = figure(centre)),
-                ),
-            )
+            let text = format!("{before}{}{after}", ground.less(*column, centre));
+            let unit = ground.step_unit(*column).powr(power, 1);
+            let modifier = Modifier::new(modifier, text, unit.unwrap_or_else(Unit::one));
+            (ground.label(*column).to_owned(), term(*column, modifier))
         });
         cells.push(cell(id, singles_and_all(own.collect())));
     }
@@ -81,7 +74,7 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
 /// The middle of the range, where a sensor that turned through all positions has its zero.
 fn mean_of_range(x: &[f64]) -> f64 {
     let (least, most) = range(x);
-    (least + most) / 2.0
+    rounded((least + most) / 2.0, 1e-4 * (most - least))
 }
 
 fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {

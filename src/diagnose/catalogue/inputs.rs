@@ -8,12 +8,14 @@ use super::generics::over_signals;
 use super::ground::{Ground, Node, varies};
 use super::history::comes_back;
 use super::modifiers::{
-    correlation, creeps, figure, held_lag, lag, largest, map, map2, play_from, range, rate,
+    correlation, creeps, figure, five_digits, held_lag, lag, largest, map, map2, play_from, range,
+    rate,
 };
 use super::response::time_constants;
 use super::{Cell, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
+use crate::quantity::Unit;
 
 /// Cells of the inputs of all axes; none where a column is the input.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -44,6 +46,8 @@ pub(super) fn unnamed(ground: &Ground<'_>) -> Option<Cell> {
 /// What a response takes in.
 struct Input {
     response: usize,
+    /// `signal/2.5 V`, the formula of its own input.
+    text: String,
     /// Along its axis, from −1 to 1.
     own: Vec<f64>,
     /// Along the other axes, likewise.
@@ -63,9 +67,11 @@ fn inputs(ground: &Ground<'_>) -> Vec<Input> {
         let signal = ground.signal(response);
         let is_column = columns.iter().any(|c| ground.takes_in(response, *c));
         let formed = !ground.is_implicit(response) && varies(signal) && !is_column;
+        let Signal { parts, text } = Signal::new(ground, response);
         formed.then(|| Input {
             response,
-            own: whole(signal),
+            text,
+            own: parts,
             others: others(ground, response),
             came: came(ground, response),
         })
@@ -80,7 +86,7 @@ fn came(ground: &Ground<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
         return Vec::new();
     };
     let (x, t) = (ground.numbers(angle), &ground.clock.values);
-    let size = largest(ground.signal(response)).max(f64::MIN_POSITIVE);
+    let size = size(ground.signal(response));
     let mut came = vec![None; ground.rows()];
     for first in starts {
         let behind = 2.0 * x[first] - x[first + 1];
@@ -90,10 +96,40 @@ fn came(ground: &Ground<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
     came
 }
 
+/// The signal of a response as a part of its largest value, which the formula shows.
+pub(super) struct Signal {
+    /// Row by row.
+    pub parts: Vec<f64>,
+    /// Such as `(signal/(2.5 V))`.
+    pub text: String,
+}
+
+impl Signal {
+    pub(super) fn new(ground: &Ground<'_>, response: usize) -> Signal {
+        let signal = ground.signal(response);
+        let unit = ground.case().responses[response].unit.difference();
+        let part = part(signal, "signal", &unit);
+        Signal {
+            parts: part.values,
+            text: part.text,
+        }
+    }
+}
+
+/// The largest value, to five digits.
+fn size(x: &[f64]) -> f64 {
+    five_digits(largest(x).max(f64::MIN_POSITIVE))
+}
+
 /// As a part of the largest.
-fn whole(x: &[f64]) -> Vec<f64> {
-    let size = largest(x).max(f64::MIN_POSITIVE);
-    map(x, |x| x / size)
+fn part(x: &[f64], name: &str, unit: &Unit) -> Modifier {
+    let size = size(x);
+    let unit = if unit.is_one() {
+        String::new()
+    } else {
+        format!(" {}", unit.typeset())
+    };
+    Modifier::number(map(x, |x| x / size), format!("({name}/({size}{unit}))"))
 }
 
 /// Inputs of the other axes: where one angle turns the sensor, the slope of the signal by it; else what
@@ -106,8 +142,11 @@ fn others(ground: &Ground<'_>, response: usize) -> Vec<Modifier> {
         .collect();
     if let [angle] = angles[..] {
         let slope = ground.slope(Node::Column(angle), response);
-        let text = format!("(dsignal/d{})", ground.label(angle));
-        return vec![(whole(&slope), text)];
+        let name = format!("dsignal/d{}", ground.label(angle));
+        let unit = ground.case().responses[response]
+            .unit
+            .quotient(&ground.step_unit(angle));
+        return vec![part(&slope, &name, &unit)];
     }
     let signal = ground.signal(response);
     let is_other = |parameter: &usize| {
@@ -120,8 +159,9 @@ fn others(ground: &Ground<'_>, response: usize) -> Vec<Modifier> {
         .filter(is_other)
         .map(|parameter| {
             let slope = ground.slope(Node::Parameter(parameter), response);
-            let name = ground.name(Node::Parameter(parameter));
-            (whole(&slope), format!("(dsignal/d{name})"))
+            let name = format!("dsignal/d{}", case.parameters[parameter].name);
+            let unit = &case.parameters[parameter].unit;
+            part(&slope, &name, &case.responses[response].unit.quotient(unit))
         })
         .collect()
 }
@@ -153,9 +193,9 @@ fn cell(ground: &Ground<'_>, inputs: &[Input], id: &str, laws: Vec<Shaped<'_>>) 
     for Shaped { label, shape, law } in laws {
         let terms = |input: &Input| -> Vec<Term> {
             let modifiers = law(input).into_iter();
-            let moving = modifiers.filter(|(modifier, _)| varies(modifier));
+            let moving = modifiers.filter(|modifier| varies(&modifier.values));
             moving
-                .map(|(modifier, text)| Term::new(Node::Output, modifier, text).on(input.response))
+                .map(|modifier| Term::new(Node::Output, modifier).on(input.response))
                 .collect()
         };
         let mut add = |scope: &str, terms: Vec<Term>| {
@@ -213,14 +253,17 @@ fn along(ground: &Ground<'_>) -> String {
 }
 
 fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
-    type Power = (&'static str, &'static str, fn(f64) -> f64);
+    type Power = (&'static str, [&'static str; 2], fn(f64) -> f64);
     let laws: [Power; 3] = [
-        ("quadratic", "signal^2", |s| s * s),
-        ("cubic", "signal^3", |s| s * s * s),
-        ("asymmetry", "abs(signal)", f64::abs),
+        ("quadratic", ["", "^2"], |s| s * s),
+        ("cubic", ["", "^3"], |s| s * s * s),
+        ("asymmetry", ["abs", ""], f64::abs),
     ];
-    let one = |(id, text, law): Power| {
-        let law = move |input: &Input| vec![(map(&input.own, law), text.to_owned())];
+    let one = |(id, [before, after], law): Power| {
+        let law = move |input: &Input| {
+            let text = format!("{before}{}{after}", input.text);
+            vec![Modifier::number(map(&input.own, law), text)]
+        };
         cell(ground, inputs, id, vec![Shaped::plain("", law)])
     };
     let mut cells: Vec<Cell> = laws.into_iter().map(one).collect();
@@ -228,7 +271,8 @@ fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     let steps = [0.02, 0.1].map(|width: f64| {
         let law = move |input: &Input| {
             let modifier = map(&input.own, |s| (s / width).clamp(-1.0, 1.0));
-            vec![(modifier, format!("clamp(signal/{width}, -1, 1)"))]
+            let text = format!("clamp({}/{width}, -1, 1)", input.text);
+            vec![Modifier::number(modifier, text)]
         };
         Shaped::plain(&format!("within {} %", 100.0 * width), law)
     });
@@ -249,8 +293,8 @@ fn limits(ground: &Ground<'_>, inputs: &[Input]) -> Option<Cell> {
         shape: Some(("x₀", knee, String::new())),
         law: Box::new(move |input: &Input| {
             let modifier = map(&input.own, |s| -(s.abs() - knee).max(0.0) * s.signum());
-            let text = format!("-sign(signal)*max(abs(signal) - {knee}, 0)");
-            vec![(modifier, text)]
+            let text = format!("-sign(signal)*max(abs{} - {knee}, 0)", input.text);
+            vec![Modifier::number(modifier, text)]
         }),
     });
     Some(cell(ground, inputs, "saturation", knees.into()))
@@ -268,12 +312,11 @@ fn levels(x: &[f64]) -> usize {
 fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     /// A product that is never larger than this is a leak of one axis into the other.
     const LEAK: f64 = 0.05;
-    let product = |input: &Input, (other, text): &Modifier| {
-        let product = map2(&input.own, other, |s, q| s * q);
+    let product = |input: &Input, other: &Modifier| {
+        let product = map2(&input.own, &other.values, |s, q| s * q);
         let large = largest(&product) > LEAK;
-        large.then(|| (product, format!("signal*{text}")))
+        large.then(|| Modifier::number(product, format!("{}*{}", input.text, other.text)))
     };
-    let square = |(other, text): &Modifier| (map(other, |q| q * q), format!("{text}^2"));
     let most = inputs.iter().map(|input| input.others.len()).max();
     let each = 0..most.unwrap_or(0);
     let name = |other: usize| match each.len() {
@@ -302,7 +345,14 @@ fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     }
     // All squares together are the square of the own input: the field has a length.
     let squared = each.clone().map(|at| {
-        let law = move |input: &Input| input.others.get(at).map(square).into_iter().collect();
+        let law = move |input: &Input| {
+            input
+                .others
+                .get(at)
+                .map(Modifier::square)
+                .into_iter()
+                .collect()
+        };
         Shaped::plain(&name(at), law)
     });
     let squared = squared.collect();
@@ -332,8 +382,12 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
             held_lag(&t, own, &input.came, tau)
         };
         let modifier = map2(&late, own, |late, now| late - now);
-        let text = format!("(lag(signal, {} {unit}) - signal)", figure(tau));
-        (modifier, text)
+        let text = format!(
+            "(lag({own}, {} {unit}) - {own})",
+            figure(tau),
+            own = input.text
+        );
+        Modifier::number(modifier, text)
     };
     let lacks = &lacks;
     let singles = ground.finer.times(scales.clone());
@@ -350,12 +404,11 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     });
     cells.push(cell(ground, inputs, "lag", single.chain(double).collect()));
     let skew = |input: &Input| {
-        let modifier = rate(&t, &input.own);
+        let per_time = Unit::one().quotient(&ground.clock_unit());
+        let text = format!("d{}/dt", input.text);
+        let modifier = Modifier::new(rate(&t, &input.own), text, per_time);
         let moving = creeps(&input.own);
-        moving
-            .then(|| (modifier, "dsignal/dt".to_owned()))
-            .into_iter()
-            .collect()
+        moving.then_some(modifier).into_iter().collect()
     };
     let skew = vec![Shaped::plain("", skew)];
     cells.push(cell(ground, inputs, "timing-skew", skew));
@@ -376,8 +429,8 @@ fn loops() -> Vec<Shaped<'static>> {
             if most - least <= width {
                 return Vec::new();
             }
-            let text = format!("(signal - play(signal, {width}))");
-            vec![(behind(input, width), text)]
+            let text = format!("({own} - play({own}, {width}))", own = input.text);
+            vec![Modifier::number(behind(input, width), text)]
         })
     });
     let many = Shaped::plain("several widths", move |input: &Input| {
@@ -385,9 +438,13 @@ fn loops() -> Vec<Shaped<'static>> {
         for width in WIDTHS {
             sum = map2(&sum, &behind(input, width), |sum, one| sum + one);
         }
-        vec![(
+        let widths = WIDTHS.map(|width| width.to_string()).join(", ");
+        vec![Modifier::number(
             map(&sum, |sum| sum / WIDTHS.len() as f64),
-            "mean of (signal - play(signal, w)) over widths w".to_owned(),
+            format!(
+                "mean of ({own} - play({own}, w)) over w = {widths}",
+                own = input.text
+            ),
         )]
     });
     one.into_iter().chain([many]).collect()

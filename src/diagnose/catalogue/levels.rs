@@ -3,7 +3,7 @@
 use super::ground::{Ground, Node};
 use super::modifiers::map;
 use super::response::{on_node, words};
-use super::{Cell, Variants};
+use super::{Cell, Modifier, Variants};
 use crate::diagnose::case::Role;
 use crate::recording::Labels;
 
@@ -73,7 +73,7 @@ fn shifts(
     role: Role,
 ) -> Vec<Cell> {
     let column = |level: u32| {
-        (
+        Modifier::number(
             indicator(labels, level),
             format!("[{name} = {}]", text(labels, level)),
         )
@@ -133,7 +133,10 @@ fn changes(name: &str, labels: &Labels, levels: &[u32]) -> Variants {
             let label = text(labels, *first);
             (
                 format!("from {name} {label} on"),
-                vec![(modifier.collect(), format!("[{name} >= {label}]"))],
+                vec![Modifier::number(
+                    modifier.collect(),
+                    format!("[{name} >= {label}]"),
+                )],
             )
         })
         .collect()
@@ -144,7 +147,7 @@ fn directions(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) 
     let modifier = map(&last, |x| 2.0 * x - 1.0);
     let variants: Variants = vec![(
         String::new(),
-        vec![(modifier, format!("direction({name})"))],
+        vec![Modifier::number(modifier, format!("direction({name})"))],
     )];
     vec![on_node(
         ground,

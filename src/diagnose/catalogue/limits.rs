@@ -2,10 +2,10 @@
 //! nothing happens.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{figure, largest, map, range};
+use super::modifiers::{figure, five_digits, largest, map, range};
 use super::response::{levels_of, on_node, on_output, plain, words};
 use super::sharp::sharpened;
-use super::{Cell, Term, Variants, Variation};
+use super::{Cell, Modifier, Term, Variants, Variation};
 
 /// Cells of one column that is an input.
 pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
@@ -38,18 +38,18 @@ fn dead_band(ground: &Ground<'_>, column: usize) -> Cell {
     let most = largest(x);
     let step = (
         String::new(),
-        vec![(
+        vec![Modifier::number(
             map(x, |x| if x == 0.0 { 0.0 } else { x.signum() }),
             format!("sign({name})"),
         )],
     );
     let bands = [0.05, 0.1, 0.2].map(|share| {
-        let width = share * most;
+        let width = five_digits(share * most);
         let modifier = map(x, |x| (x / width).clamp(-1.0, 1.0));
-        let width = figure(width);
+        let text = format!("clamp({name}/({}), -1, 1)", ground.figure(column, width));
         (
             format!("within {width} {unit}"),
-            vec![(modifier, format!("clamp({name}/{width}, -1, 1)"))],
+            vec![Modifier::number(modifier, text)],
         )
     });
     let variants: Variants = [step].into_iter().chain(bands).collect();
@@ -64,9 +64,9 @@ fn soft_limit(ground: &Ground<'_>, column: usize) -> Cell {
     let most = largest(x);
     let beyond = |limit: f64| {
         let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * x.signum());
-        let shown = figure(limit);
+        let shown = ground.figure(column, five_digits(limit));
         let text = format!("-sign({name})*max(abs({name}) - {shown}, 0)");
-        on_output(modifier, text)
+        on_output(Modifier::new(modifier, text, ground.step_unit(column)))
     };
     let limits = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| share * most);
     let limits = ground
@@ -91,9 +91,12 @@ fn kink(ground: &Ground<'_>, column: usize) -> Cell {
     let variants = knees.into_iter().map(|at| {
         let modifier = map(x, |x| (x - at).max(0.0));
         let shown = figure(at);
-        let text = format!("max({name} - {shown}, 0)");
-        Variation::one(format!("at {shown} {unit}"), on_output(modifier, text))
-            .shaped("x₀", at, &unit)
+        let text = format!(
+            "max({name} - {}, 0)",
+            ground.figure(column, five_digits(at))
+        );
+        let modifier = Modifier::new(modifier, text, ground.step_unit(column));
+        Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
     });
     plain(ground, "kink", name, variants.collect())
 }
@@ -140,11 +143,13 @@ fn at_end(
         let knee = inside + (outside - inside) * step as f64 / KNEES as f64;
         let modifier = map(x, |x| -(away * (x - knee)).max(0.0));
         let shown = figure(knee);
+        let at = ground.figure(column, five_digits(knee));
         let text = match side {
-            "above" => format!("-max({name} - {shown}, 0)"),
-            _ => format!("-max({shown} - {name}, 0)"),
+            "above" => format!("-max({name} - {at}, 0)"),
+            _ => format!("-max({at} - {name}, 0)"),
         };
-        let term: Term = on_output(modifier, text);
+        let modifier = Modifier::new(modifier, text, ground.step_unit(column));
+        let term: Term = on_output(modifier);
         let label = format!("{side} {shown} {unit}");
         let (label, term) = match &ground.case().responses[..] {
             [_] => (label, term),
@@ -155,7 +160,9 @@ fn at_end(
         };
         Variation::one(label, term).shaped("x₀", knee, &unit)
     });
-    knees.filter(|v| varies(&v.terms[0].modifier)).collect()
+    knees
+        .filter(|v| varies(&v.terms[0].modifier.values))
+        .collect()
 }
 
 /// Where a plateau begins in an order of the rows that ends with it; nothing if there is none.

@@ -10,7 +10,7 @@
 //! | `modifiers` | what a disturbance may follow, computed row by row |
 //! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `ground` | slopes of the nodes, and which columns can be what |
-//! | `response`, `limits`, `history` | what a stimulus does otherwise than declared |
+//! | `response`, `powers`, `limits`, `history` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `implicit` | the same where the model holds a constant against several columns |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
@@ -35,6 +35,7 @@ mod levels;
 mod limits;
 pub(super) mod modifiers;
 mod parameters;
+mod powers;
 mod readout;
 mod response;
 mod rows;
@@ -54,7 +55,9 @@ use serde::Deserialize;
 pub use finer::Finer;
 pub use ground::{Ground, Node};
 
+use super::case::Case;
 use super::evidence;
+use crate::quantity::Unit;
 
 /// A text in both languages.
 #[derive(Debug, Clone, Deserialize)]
@@ -209,8 +212,45 @@ pub struct ShapeParameter {
     pub unit: String,
 }
 
-/// A modifier, row by row and as a formula.
-type Modifier = (Vec<f64>, String);
+/// What a disturbance follows.
+#[derive(Debug, Clone)]
+pub struct Modifier {
+    /// Row by row.
+    pub values: Vec<f64>,
+    /// As a formula, in which columns stand for numbers in their own units.
+    pub text: String,
+    /// Its unit: a size has that of the node divided by this.
+    pub unit: Unit,
+}
+
+impl Modifier {
+    /// In a unit.
+    pub fn new(values: Vec<f64>, text: impl Into<String>, unit: Unit) -> Modifier {
+        Modifier {
+            values,
+            text: text.into(),
+            unit,
+        }
+    }
+
+    /// A number.
+    pub fn number(values: Vec<f64>, text: impl Into<String>) -> Modifier {
+        Modifier::new(values, text, Unit::one())
+    }
+
+    /// For a search that shows no formula.
+    pub fn unnamed(values: Vec<f64>) -> Modifier {
+        Modifier::number(values, "")
+    }
+
+    fn square(&self) -> Modifier {
+        Modifier::new(
+            modifiers::map(&self.values, |x| x * x),
+            format!("{}^2", self.text),
+            self.unit.product(&self.unit),
+        )
+    }
+}
 
 /// Labels of variants with the modifiers of their terms.
 type Variants = Vec<(String, Vec<Modifier>)>;
@@ -222,10 +262,11 @@ pub struct Term {
     pub node: Node,
     /// The only response on which it acts; `None` for all.
     pub response: Option<usize>,
-    /// The modifier, row by row.
-    pub modifier: Vec<f64>,
-    /// The modifier as a formula.
-    pub text: String,
+    /// What it follows, as the search takes it.
+    pub modifier: Modifier,
+    /// The same effect as it stands in the improved model, where the search takes another form, which
+    /// differs from it by what the parameters absorb.
+    written: Option<Modifier>,
     /// Whether it has the coefficient of the term before it: one disturbance, which reaches the responses
     /// in different ways.
     pub tied: bool,
@@ -233,14 +274,37 @@ pub struct Term {
 
 impl Term {
     /// A disturbance of all responses alike, with a coefficient of its own.
-    pub fn new(node: Node, modifier: Vec<f64>, text: String) -> Term {
+    pub fn new(node: Node, modifier: Modifier) -> Term {
         Term {
             node,
             response: None,
             modifier,
-            text,
+            written: None,
             tied: false,
         }
+    }
+
+    /// With another form in the improved model.
+    #[must_use]
+    pub fn written_as(mut self, modifier: Modifier) -> Term {
+        self.written = Some(modifier);
+        self
+    }
+
+    /// What it follows, as it stands in the improved model.
+    pub fn written(&self) -> &Modifier {
+        self.written.as_ref().unwrap_or(&self.modifier)
+    }
+
+    /// The unit of its size: that of the node, for each unit of what it follows.
+    pub fn unit_of_size(&self, case: &Case) -> Unit {
+        let node = match self.node {
+            Node::Output => case.responses[self.response.unwrap_or(0)].unit.clone(),
+            Node::Gain => Unit::one(),
+            Node::Parameter(parameter) => case.parameters[parameter].unit.clone(),
+            Node::Column(column) => case.columns[column].unit.clone(),
+        };
+        node.quotient(&self.written().unit)
     }
 
     /// On one response only.
@@ -349,7 +413,7 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 fn distinct(cells: Vec<Cell>) -> Vec<Cell> {
     let terms = |cell: &Cell| -> Vec<(Node, Option<usize>, Vec<f64>)> {
         let all = cell.variants.iter().flat_map(|variation| &variation.terms);
-        all.map(|term| (term.node, term.response, term.modifier.clone()))
+        all.map(|term| (term.node, term.response, term.modifier.values.clone()))
             .collect()
     };
     let mut kept: Vec<Cell> = Vec::new();

@@ -1,9 +1,41 @@
 //! What a disturbance may follow, computed row by row along the recorded order.
 
-/// Less the mean.
+/// Less the middle.
 pub fn centred(x: &[f64]) -> Vec<f64> {
-    let mean = x.iter().sum::<f64>() / x.len().max(1) as f64;
-    x.iter().map(|x| x - mean).collect()
+    let middle = middle(x);
+    x.iter().map(|x| x - middle).collect()
+}
+
+/// The mean, rounded to a ten-thousandth of the range: formulas show the very number that is taken away.
+pub fn middle(x: &[f64]) -> f64 {
+    let (least, most) = range(x);
+    rounded(mean(x), 1e-4 * (most - least))
+}
+
+/// A number rounded to a decimal place not coarser than a step; as it is where there is no step.
+pub fn rounded(x: f64, step: f64) -> f64 {
+    /// A double has no more.
+    const MOST: i32 = 15;
+    let place = libm::floor(libm::log10(step));
+    if !(step > 0.0 && place.is_finite()) {
+        return x;
+    }
+    let decimals = (-place as i32).clamp(-MOST, MOST);
+    let shown = match usize::try_from(decimals) {
+        Ok(decimals) => format!("{x:.decimals$}"),
+        Err(_) => {
+            let power = libm::pow(10.0, place);
+            format!("{}", (x / power).round() * power)
+        }
+    };
+    let rounded = shown.parse().unwrap_or(x);
+    // No negative zero in a formula.
+    if rounded == 0.0 { 0.0 } else { rounded }
+}
+
+/// Five digits of a number: formulas show the very number by which something is divided.
+pub fn five_digits(x: f64) -> f64 {
+    format!("{x:.4e}").parse().unwrap_or(x)
 }
 
 /// Arithmetic mean.
@@ -155,8 +187,7 @@ pub fn grid(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
 
 /// A number as formulas and labels show it: five digits.
 pub fn figure(x: f64) -> String {
-    let rounded: f64 = format!("{x:.4e}").parse().unwrap_or(x);
-    format!("{rounded}")
+    format!("{}", five_digits(x))
 }
 
 /// The least and the largest number.
@@ -183,7 +214,11 @@ pub fn creeps(x: &[f64]) -> bool {
 
 /// Coefficient of correlation; 0 where one of both does not vary.
 pub fn correlation(x: &[f64], z: &[f64]) -> f64 {
-    let (x, z) = (centred(x), centred(z));
+    let from_mean = |x: &[f64]| {
+        let mean = mean(x);
+        map(x, |x| x - mean)
+    };
+    let (x, z) = (from_mean(x), from_mean(z));
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let size = libm::sqrt(dot(&x, &x) * dot(&z, &z));
     if size > 0.0 { dot(&x, &z) / size } else { 0.0 }
@@ -239,6 +274,16 @@ mod tests {
         let x = [0.0, 1.0, 2.0, 1.5, 1.0, 0.0];
         assert_eq!(play(&x, 1.0), [0.0, 0.5, 1.5, 1.5, 1.5, 0.5]);
         assert_eq!(direction(&x), [1.0, 1.0, 1.0, -1.0, -1.0, -1.0]);
+    }
+
+    #[test]
+    fn numbers_of_formulas_are_short() {
+        assert_eq!(middle(&[20.0, 21.0, 23.0]), 21.3333);
+        assert_eq!(rounded(45_231.518_3, 0.002), 45_231.518);
+        assert_eq!(rounded(1_234_567.0, 250.0), 1_234_600.0);
+        assert_eq!(rounded(-0.001, 0.1), 0.0);
+        assert_eq!(rounded(7.123, 0.0), 7.123);
+        assert_eq!(five_digits(2.500_001), 2.5);
     }
 
     #[test]

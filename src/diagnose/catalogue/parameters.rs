@@ -3,7 +3,7 @@
 
 use super::ground::{Ground, Node, varies};
 use super::levels::{indicator, present};
-use super::modifiers::{centred, figure, largest, mean};
+use super::modifiers::largest;
 use super::response::{on_node, words};
 use super::{Cell, Modifier};
 use crate::diagnose::case::Role;
@@ -59,18 +59,12 @@ fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
         if ground.in_model(column) {
             continue;
         }
-        let (x, name) = (ground.numbers(column), &case.columns[column].name);
-        let text = format!("({name} - {})", figure(mean(x)));
-        add("parameter-sensitivity", name, vec![(centred(x), text)]);
+        let name = &case.columns[column].name;
+        add("parameter-sensitivity", name, vec![ground.centred(column)]);
     }
     if ground.clock.column.is_some() {
         let along = ground.along_time();
-        let text = format!("({along} - {})", figure(mean(&ground.clock.values)));
-        add(
-            "parameter-drift",
-            &along,
-            vec![(centred(&ground.clock.values), text)],
-        );
+        add("parameter-drift", &along, vec![ground.centred_time()]);
     }
     let turns = turns_an_angle(ground, node);
     for column in case.columns.iter().filter(|_| !turns) {
@@ -86,7 +80,7 @@ fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
         let shifts = levels[1..].iter().map(|level| {
             let label = labels.levels.get(*level as usize);
             let label = label.map_or("", String::as_str);
-            (
+            Modifier::number(
                 indicator(labels, *level),
                 format!("[{} = {label}]", column.name),
             )

@@ -2,7 +2,7 @@
 
 use super::ground::{Ground, varies};
 use super::response::{on_output, plain};
-use super::{Cell, Variation, tied};
+use super::{Cell, Modifier, Variation, tied};
 
 /// Cells of the readout.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -28,10 +28,11 @@ fn quantisation(ground: &Ground<'_>, response: usize) -> Option<Cell> {
     let name = &ground.case().responses[response].name;
     let unit = ground.case().responses[response].unit.typeset();
     let shown = super::modifiers::figure(step);
-    let term = on_output(
+    let term = on_output(Modifier::new(
         modifier,
         format!("(round({name}/{shown})*{shown} - {name})"),
-    );
+        ground.case().responses[response].unit.difference(),
+    ));
     let label = format!("step {shown} {unit}");
     let mut cell = plain(
         ground,
@@ -77,9 +78,11 @@ fn shifted(ground: &Ground<'_>) -> Option<Cell> {
         let terms = (0..ground.case().responses.len()).map(|response| {
             let model = &ground.fit.linear.values[response];
             let modifier = (0..=last).map(|row| model[other(row)] - model[row]);
-            on_output(modifier.collect(), format!("outputs {label}")).on(response)
+            let unit = ground.case().responses[response].unit.difference();
+            let text = format!("outputs {label}");
+            on_output(Modifier::new(modifier.collect(), text, unit)).on(response)
         });
-        let terms = terms.filter(|term| varies(&term.modifier));
+        let terms = terms.filter(|term| varies(&term.modifier.values));
         Variation::of(label, tied(terms.collect()))
     };
     let variants = vec![

@@ -1,12 +1,14 @@
 //! How the response to the stimuli may differ from the declared one: powers, modulus, limits, cross terms,
 //! lag.
 
+use super::conditions::HIGHER;
 use super::ground::{Ground, Node};
 use super::modifiers::{
-    centred, creeps, delayed, figure, grid, late, map, map2, mean, range, rate,
+    creeps, delayed, figure, five_digits, grid, late, map, map2, mean, range, rate,
 };
+use super::powers::Power;
 use super::sharp::{best_pair, sharpened};
-use super::{Cell, Term, Variants, Variation, Words, effect};
+use super::{Cell, Modifier, Term, Variants, Variation, Words, effect};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -65,12 +67,9 @@ pub(super) fn on_node(
     let mut all = Vec::new();
     for (label, modifiers) in variants {
         let term = |response: Option<usize>| {
-            let terms = modifiers.iter().map(move |(modifier, text)| Term {
-                node,
+            let terms = modifiers.iter().map(move |modifier| Term {
                 response,
-                modifier: modifier.clone(),
-                text: text.clone(),
-                tied: false,
+                ..Term::new(node, modifier.clone())
             });
             terms.collect::<Vec<Term>>()
         };
@@ -127,11 +126,7 @@ fn aside(ground: &Ground<'_>, factors: &[usize]) -> Vec<Cell> {
     let of_vector = |vector: &Vec<usize>| {
         let names: Vec<&str> = vector.iter().map(|c| name(ground, *c)).collect();
         let names = names.join(", ");
-        let each = vector.iter().map(|column| {
-            let (x, label) = (ground.numbers(*column), name(ground, *column));
-            let text = format!("({label} - {})", figure(mean(x)));
-            (centred(x), text)
-        });
+        let each = vector.iter().map(|column| ground.centred(*column));
         let id = match ground.case().columns[vector[0]].role {
             _ if ground.is_temperature(vector[0]) => "tempco-bias",
             Role::Stimulus => "cross-sensitivity",
@@ -165,10 +160,10 @@ fn exponent(ground: &Ground<'_>, column: usize) -> Option<Cell> {
         return None;
     }
     let label = name(ground, column);
-    let middle = libm::exp(mean(&map(x, libm::log)));
+    let middle = five_digits(libm::exp(mean(&map(x, libm::log))));
     let modifier = map(x, |x| libm::log(x / middle));
-    let text = format!("ln({label}/{})", figure(middle));
-    let variants = vec![(String::new(), vec![(modifier, text)])];
+    let text = format!("ln({label}/({}))", ground.figure(column, middle));
+    let variants = vec![(String::new(), vec![Modifier::number(modifier, text)])];
     Some(on_node(
         ground,
         "exponent",
@@ -194,11 +189,17 @@ fn bends(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     if has_cosines || !one_output || ground.is_angle(column) || levels_of(x).len() < VALUES {
         return Vec::new();
     }
-    let (size, label) = (super::modifiers::largest(x), name(ground, column));
+    let size = five_digits(super::modifiers::largest(x));
+    let label = name(ground, column);
     let power = |id: &str, exponent: i32| {
         let modifier = map(x, |x| x * (x / size).powi(exponent - 1));
-        let text = format!("{label}^{exponent}/{}", figure(size.powi(exponent - 1)));
-        let variants = vec![(String::new(), vec![(modifier, text)])];
+        let shown = ground.figure(column, size);
+        let text = match exponent {
+            2 => format!("{label}*({label}/({shown}))"),
+            _ => format!("{label}*({label}/({shown}))^{}", exponent - 1),
+        };
+        let modifier = Modifier::new(modifier, text, ground.step_unit(column));
+        let variants = vec![(String::new(), vec![modifier])];
         let node = Node::Column(column);
         on_node(ground, id, words(ground, label), label, node, variants)
     };
@@ -210,60 +211,62 @@ fn name<'g>(ground: &'g Ground<'_>, column: usize) -> &'g str {
 }
 
 fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
-    let (x, label) = (ground.numbers(column), name(ground, column));
-    let zero = if crosses_zero(x) { 0.0 } else { mean(x) };
-    let shift = if zero == 0.0 {
-        label.to_owned()
-    } else {
-        format!("({label} - {zero})", zero = figure(zero))
-    };
-    let mut cells = Vec::new();
-    let mut add = |id: &str, modifier: Vec<f64>, text: String| {
-        let variants = vec![(String::new(), vec![(modifier, text)])];
-        cells.push(on_outputs(
-            ground,
-            id,
-            words(ground, label),
-            label,
-            variants,
-        ));
-    };
     let second = if ground.is_temperature(column) {
         "tempco-quadratic"
     } else {
         "quadratic"
     };
-    add(
-        second,
-        map(x, |x| (x - zero) * (x - zero)),
-        format!("{shift}^2"),
-    );
-    add(
-        "cubic",
-        map(x, |x| (x - zero) * (x - zero) * (x - zero)),
-        format!("{shift}^3"),
-    );
+    let [square, cube] = super::powers::of(ground, column);
+    let mut cells = vec![
+        power(ground, column, second, square),
+        power(ground, column, "cubic", cube),
+    ];
+    let (x, label) = (ground.numbers(column), name(ground, column));
     if ground.passes_zero(column) {
-        add("asymmetry", map(x, f64::abs), format!("abs({label})"));
+        let text = format!("abs({label})");
+        let modulus = Modifier::new(map(x, f64::abs), text, ground.step_unit(column));
+        let variants = vec![(String::new(), vec![modulus])];
+        let words = words(ground, label);
+        cells.push(on_outputs(ground, "asymmetry", words, label, variants));
     } else if !ground.is_temperature(column) {
-        cells[0].variants.extend(levelling(x, label));
+        cells[0].variants.extend(levelling(ground, column));
     }
     cells
 }
 
+fn power(ground: &Ground<'_>, column: usize, id: &str, power: Power) -> Cell {
+    let label = name(ground, column);
+    let variants = vec![(String::new(), vec![power.searched])];
+    let mut cell = on_outputs(ground, id, words(ground, label), label, variants);
+    // A series has its lower power first, and on one side of zero both look alike.
+    if id == "cubic" && !crosses_zero(ground.numbers(column)) {
+        cell.odds = HIGHER;
+    }
+    for variation in &mut cell.variants {
+        let terms = std::mem::take(&mut variation.terms).into_iter();
+        variation.terms = terms
+            .map(|term| term.written_as(power.written.clone()))
+            .collect();
+    }
+    cell
+}
+
 /// A square that levels off, as counting losses of a dead time do, and detectors near their limit.
-fn levelling(x: &[f64], label: &str) -> Vec<Variation> {
+fn levelling(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
     /// Where the loss is a half, in units of the largest value.
     const HALF: [f64; 3] = [0.5, 1.0, 3.0];
+    let (x, label) = (ground.numbers(column), name(ground, column));
     let most = super::modifiers::largest(x);
     let of = |part: f64| {
-        let half = part * most;
+        let half = five_digits(part * most);
         let modifier = map(x, |x| x * x / (1.0 + x.abs() / half));
-        let shown = figure(half);
-        let text = format!("{label}^2/(1 + abs({label})/{shown})");
+        let shown = ground.figure(column, half);
+        let text = format!("{label}^2/(1 + abs({label})/({shown}))");
+        let unit = ground.step_unit(column);
+        let modifier = Modifier::new(modifier, text, unit.product(&unit));
         Variation::one(
-            format!("levelling off, half at {shown}"),
-            on_output(modifier, text),
+            format!("levelling off, half at {}", figure(half)),
+            on_output(modifier),
         )
     };
     if x.iter().all(|x| *x >= 0.0) && least_share(x) < 0.3 {
@@ -285,8 +288,8 @@ pub(super) fn crosses_zero(x: &[f64]) -> bool {
     least < 0.0 && most > 0.0 && (-least).min(most) > 0.1 * (-least).max(most)
 }
 
-pub(super) fn on_output(modifier: Vec<f64>, text: String) -> Term {
-    Term::new(Node::Output, modifier, text)
+pub(super) fn on_output(modifier: Modifier) -> Term {
+    Term::new(Node::Output, modifier)
 }
 
 /// A cell on the offset, alike on all responses.
@@ -337,7 +340,10 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let lacks = |tau: f64| {
         let modifier = map2(&late(t, x, tau), x, |late, x| late - x);
         let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
-        Term::new(node, modifier, text)
+        Term::new(
+            node,
+            Modifier::new(modifier, text, ground.step_unit(column)),
+        )
     };
     let scales = sharpened(ground, time_constants(ground), &lacks);
     let singles = ground.finer.times(scales.clone());
@@ -363,11 +369,9 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let unbalanced = scales.iter().filter(|_| creeps(x)).map(|tau| {
         let shown = figure(*tau);
         let start = map(t, |t| libm::exp(-(t - began) / tau));
-        let start = Term::new(
-            node,
-            start,
-            format!("exp(-(t - {})/{shown})", figure(began)),
-        );
+        let since = ground.time_less(began);
+        let text = format!("exp(-{since}/({shown} {unit}))");
+        let start = Term::new(node, Modifier::number(start, text));
         let label = format!("τ = {shown} {unit}, not in balance at the start");
         Variation::of(label, vec![lacks(*tau), start]).shaped("τ", *tau, &unit)
     });
@@ -381,7 +385,7 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         },
         variants.collect(),
     );
-    let instant = Variation::one("", Term::new(node, rate(t, x), format!("d{label}/dt")));
+    let instant = Variation::one("", Term::new(node, ground.rate(column)));
     let (id, delays) = if ground.is_temperature(column) {
         ("temperature-rate", Vec::new())
     } else {
@@ -412,24 +416,19 @@ fn delays(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
         let then = delayed(t, x, delay);
         let shown = format!("{label}(t - {} {unit})", figure(delay));
         let moved = map2(&then, x, |then, now| then - now);
-        let terms = vec![
-            Term::new(Node::Column(column), moved, format!("({shown} - {label})")),
-            Term::new(Node::Column(column), rate(t, &then), format!("d{shown}/dt")),
-        ];
+        let (own, per_time) = (ground.step_unit(column), ground.rate(column).unit);
+        let moved = Modifier::new(moved, format!("({shown} - {label})"), own);
+        let rate = Modifier::new(rate(t, &then), format!("d{shown}/dt"), per_time);
+        let terms = [moved, rate].map(|m| Term::new(Node::Column(column), m));
+        let terms = terms.into();
         Variation::of(format!("by about {} {unit}", figure(delay)), terms)
     });
     variants.collect()
 }
 
 fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {
-    let modifier = map2(
-        &centred(ground.numbers(x)),
-        &centred(ground.numbers(z)),
-        |x, z| x * z,
-    );
+    let variants = vec![(String::new(), vec![ground.centred_product(x, z)])];
     let (x, z) = (name(ground, x).to_owned(), name(ground, z).to_owned());
-    let text = format!("({x} - mean)*({z} - mean)");
-    let variants = vec![(String::new(), vec![(modifier, text)])];
     let words = Words {
         z: z.clone(),
         ..words(ground, &x)

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::ground::{Ground, Node};
 use super::response::{on_output, plain};
-use super::{Cell, Term, Variation, tied};
+use super::{Cell, Modifier, Term, Variation, tied};
 use crate::diagnose::evidence::Place;
 
 /// Longer recordings are not searched row by row.
@@ -24,7 +24,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     }
     let outliers = blocks.iter().map(|rows| {
         let terms = (0..ground.case().responses.len()).map(|response| {
-            on_output(only(ground, rows, 1.0), format!("[{}]", named(rows))).on(response)
+            on_output(Modifier::number(
+                only(ground, rows, 1.0),
+                format!("[{}]", named(rows)),
+            ))
+            .on(response)
         });
         Variation::of(named(rows), terms.collect())
     });
@@ -73,7 +77,9 @@ fn swapped(ground: &Ground<'_>) -> Cell {
             let mut modifier = vec![0.0; rows];
             modifier[first] = step;
             modifier[second] = -step;
-            on_output(modifier, format!("exchange of {label}")).on(response)
+            let unit = ground.case().responses[response].unit.difference();
+            let text = format!("exchange of {label}");
+            on_output(Modifier::new(modifier, text, unit)).on(response)
         });
         // All responses of a row are exchanged together: one coefficient.
         Variation::of(label.clone(), tied(terms.collect()))
@@ -159,8 +165,10 @@ fn reversed(ground: &Ground<'_>) -> Cell {
             let label = format!("{} {}", column.name, labels.levels[level as usize]);
             let term = Term::new(
                 Node::Gain,
-                own.iter().map(|x| -2.0 * x).collect(),
-                format!("-2*[{label}]"),
+                Modifier::number(
+                    own.iter().map(|x| -2.0 * x).collect(),
+                    format!("-2*[{label}]"),
+                ),
             );
             variants.push(Variation::one(label, term));
         }

@@ -1,9 +1,9 @@
 //! Loss along the stem of a probe, which dies away with the depth of immersion.
 
 use super::ground::{Ground, Node};
-use super::modifiers::{figure, map, range};
+use super::modifiers::{figure, five_digits, map, range};
 use super::response::{levels_of, on_node, words};
-use super::{Cell, Variants};
+use super::{Cell, Modifier, Variants};
 
 /// Cells of columns that may be depths.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -22,11 +22,16 @@ fn stem(ground: &Ground<'_>, column: usize) -> Option<Cell> {
     let unit = ground.case().columns[column].unit.typeset();
     let variants: Variants = [0.1, 0.2, 0.4, 0.8]
         .map(|part| {
-            let depth = part * (most - least);
+            let depth = five_digits(part * (most - least));
             let shown = figure(depth);
             let modifier = map(x, |x| libm::exp(-(x - least) / depth));
-            let text = format!("exp(-({name} - {})/{shown})", figure(least));
-            (format!("over {shown} {unit}"), vec![(modifier, text)])
+            let text = format!(
+                "exp(-{}/({}))",
+                ground.less(column, least),
+                ground.figure(column, depth)
+            );
+            let modifier = Modifier::number(modifier, text);
+            (format!("over {shown} {unit}"), vec![modifier])
         })
         .into();
     let words = words(ground, name);

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{range, typical_step};
 use super::response::{on_output, plain};
-use super::{Cell, Variation};
+use super::{Cell, Modifier, Variation};
 
 /// Fewer readings in a row are alike by chance.
 const ROWS: usize = 5;
@@ -35,6 +35,7 @@ fn of_response(ground: &Ground<'_>, response: usize) -> Vec<Variation> {
         .collect();
     found.sort_by_key(|(first, last)| std::cmp::Reverse(last - first));
     let held = found.into_iter().take(STRETCHES);
+    let unit = ground.case().responses[response].unit.difference();
     held.filter_map(|(first, last)| {
         let model = beside(ground, response, &observed, first, last)?;
         let modifier: Vec<f64> = (0..observed.len())
@@ -44,7 +45,12 @@ fn of_response(ground: &Ground<'_>, response: usize) -> Vec<Variation> {
             })
             .collect();
         let label = format!("rows {} to {}", first + 1, last);
-        let term = on_output(modifier, format!("(reading held in {label})")).on(response);
+        let term = on_output(Modifier::new(
+            modifier,
+            format!("(reading held in {label})"),
+            unit.clone(),
+        ))
+        .on(response);
         Some(Variation::one(label, term))
     })
     .collect()

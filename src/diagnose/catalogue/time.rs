@@ -2,11 +2,12 @@
 
 use super::conditions::single;
 use super::ground::{Ground, Node};
-use super::modifiers::{centred, figure, grid, map, range};
+use super::modifiers::{figure, grid, map, range};
 use super::response::{on_node, words};
 use super::sharp::{self, sharpened};
 use super::{Cell, Modifier, Term, Variants};
 use crate::diagnose::case::Role;
+use crate::quantity::Unit;
 
 /// More steps than that are not scanned.
 const MOST_STEPS: usize = 80;
@@ -21,6 +22,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let along = ground.along_time();
     let (start, _) = range(t);
     let since = map(t, |t| t - start);
+    let began = ground.time_less(start);
     // Rows of factors without a time may stand in any order.
     let factors = ground
         .case()
@@ -56,7 +58,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             cells.push(cell);
         }
     };
-    let steady = single("", centred(t), format!("({along} - mean)"));
+    let steady = single("", ground.centred_time());
     let scales = grid(
         (span * 3e-3).max(ground.clock.interval()),
         span / 3.0,
@@ -67,10 +69,10 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     if ground.is_timed() {
         let slowing = |scale: f64| {
             let modifier = map(&since, |t| libm::log1p(t / scale));
-            Term::new(Node::Output, modifier, String::new())
+            Term::new(Node::Output, Modifier::unnamed(modifier))
         };
         let scales = sharpened(ground, scales.clone(), &slowing);
-        drifts.extend(curved(ground, &since, &ground.finer.times(scales)));
+        drifts.extend(curved(ground, &since, &began, &ground.finer.times(scales)));
     }
     add(["drift", "drift-scale"], drifts, Some("t₀"));
     add(["step", "step-scale"], steps(ground, &along), None);
@@ -78,9 +80,10 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         let unit = ground.time_unit();
         let decay = |tau: f64| {
             let modifier = map(&since, |t| libm::exp(-t / tau));
-            (modifier, format!("exp(-t/{})", figure(tau)))
+            let text = format!("exp(-{began}/({} {unit}))", figure(tau));
+            Modifier::number(modifier, text)
         };
-        let warming = |tau: f64| Term::new(Node::Output, decay(tau).0, String::new());
+        let warming = |tau: f64| Term::new(Node::Output, decay(tau));
         let scales = sharpened(ground, scales, &warming);
         let singles = ground.finer.times(scales.clone());
         let single = singles.iter().map(|tau| {
@@ -106,8 +109,8 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
                 let wave =
                     |f: fn(f64) -> f64| map(&since, |t| f(std::f64::consts::TAU * t / period));
                 let pair = vec![
-                    (wave(libm::sin), format!("sin(2*pi*t/{name})")),
-                    (wave(libm::cos), format!("cos(2*pi*t/{name})")),
+                    Modifier::number(wave(libm::sin), format!("sin(2*pi*{began}/({name}))")),
+                    Modifier::number(wave(libm::cos), format!("cos(2*pi*{began}/({name}))")),
                 ];
                 add([id, ""], vec![(String::new(), pair)], None);
             }
@@ -118,30 +121,24 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 
 /// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes
 /// relax, or with its root, as where something diffuses.
-fn curved(ground: &Ground<'_>, since: &[f64], scales: &[f64]) -> Variants {
+fn curved(ground: &Ground<'_>, since: &[f64], began: &str, scales: &[f64]) -> Variants {
     let unit = ground.time_unit();
     let logarithms = scales.iter().map(|scale| {
         let shown = figure(*scale);
         (
             format!("slowing down, t₀ = {shown} {unit}"),
-            vec![(
+            vec![Modifier::number(
                 map(since, |t| libm::log1p(t / scale)),
-                format!("ln(1 + t/{shown})"),
+                format!("ln(1 + {began}/({shown} {unit}))"),
             )],
         )
     });
-    let root = (
-        "with the root of time".to_owned(),
-        vec![(map(since, libm::sqrt), "sqrt(t)".to_owned())],
-    );
-    let linear = centred(since);
-    let bent = (
-        "bent".to_owned(),
-        vec![
-            (linear.clone(), "(t - mean)".to_owned()),
-            (map(&linear, |t| t * t), "(t - mean)^2".to_owned()),
-        ],
-    );
+    let per_root = ground.clock_unit().powr(1, 2).unwrap_or_else(Unit::one);
+    let root = Modifier::new(map(since, libm::sqrt), format!("sqrt({began})"), per_root);
+    let root = ("with the root of time".to_owned(), vec![root]);
+    let linear = ground.centred_time();
+    let square = linear.square();
+    let bent = ("bent".to_owned(), vec![linear, square]);
     logarithms.chain([root, bent]).collect()
 }
 
@@ -175,7 +172,10 @@ fn steps(ground: &Ground<'_>, along: &str) -> Variants {
         };
         (
             label,
-            vec![(modifier.collect(), format!("[row >= {}]", first + 1))],
+            vec![Modifier::number(
+                modifier.collect(),
+                format!("[row >= {}]", first + 1),
+            )],
         )
     };
     let begins = |block: &usize| begins(ground, blocks[*block][0]);
@@ -202,7 +202,7 @@ fn between(ground: &Ground<'_>, along: &str, stride: usize) -> Option<(String, V
         let after = |at: usize| f64::from(u8::from(at >= row));
         (0..ground.rows()).map(after).collect()
     };
-    let term = |row: usize| Term::new(Node::Output, from(row), String::new());
+    let term = |row: usize| Term::new(Node::Output, Modifier::unnamed(from(row)));
     let whole = blocks.iter().all(|rows| rows.len() == 1);
     if whole && stride == 1 || blocks.len() < 4 {
         return None;
@@ -227,5 +227,8 @@ fn between(ground: &Ground<'_>, along: &str, stride: usize) -> Option<(String, V
         ),
         None => format!("at row {}", row + 1),
     };
-    Some((label, vec![(from(row), format!("[row >= {}]", row + 1))]))
+    Some((
+        label,
+        vec![Modifier::number(from(row), format!("[row >= {}]", row + 1))],
+    ))
 }

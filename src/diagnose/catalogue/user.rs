@@ -1,7 +1,7 @@
 //! Explanations of the user's own.
 
 use super::ground::{Ground, Node};
-use super::{Cell, Term, Variation, Words, effect};
+use super::{Cell, Modifier, Term, Variation, Words, effect};
 use crate::diagnose::evidence::Place;
 
 /// One cell for each candidate of the case.
@@ -36,7 +36,10 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             },
             variants: vec![Variation::one(
                 "",
-                Term::new(node, modifier, format!("({})", candidate.formula)),
+                Term::new(
+                    node,
+                    Modifier::number(modifier, format!("({})", candidate.formula)),
+                ),
             )],
             typical: candidate.typical,
             description: candidate.description.clone(),

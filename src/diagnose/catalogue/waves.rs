@@ -4,11 +4,10 @@
 
 use std::f64::consts::TAU;
 
-use super::Cell;
-use super::Variants;
 use super::ground::Ground;
-use super::modifiers::{correlation, figure, map, range};
+use super::modifiers::{correlation, figure, map, range, rounded};
 use super::response::{on_outputs, words};
+use super::{Cell, Modifier, Variants};
 use crate::diagnose::case::Role;
 
 /// A wave with fewer periods is the business of drifts and smooth curves.
@@ -29,6 +28,8 @@ struct Course {
     /// What reports call it: where a stimulus went on with the time, both.
     words: String,
     unit: String,
+    /// Its column; none for the time.
+    column: Option<usize>,
     values: Vec<f64>,
 }
 
@@ -63,6 +64,7 @@ fn courses(ground: &Ground<'_>) -> Vec<Course> {
             name: case.columns[column].name.clone(),
             words: called(column),
             unit: ground.unit(column),
+            column: Some(column),
             values: ground.numbers(column).to_vec(),
         })
         .collect();
@@ -71,6 +73,7 @@ fn courses(ground: &Ground<'_>) -> Vec<Course> {
             name: ground.along_time(),
             words: ground.along_time(),
             unit: ground.time_unit(),
+            column: None,
             values: ground.clock.values.clone(),
         });
     }
@@ -94,25 +97,24 @@ fn wave(ground: &Ground<'_>, course: &Course) -> Option<Cell> {
         .map(|k| (FEWEST_PERIODS + step * k as f64) / span)
         .collect();
     move_to_peaks(ground, &blocks, &mut frequencies, step / span);
+    let least = rounded(least, 1e-4 * span);
+    let began = match course.column {
+        Some(column) => ground.less(column, least),
+        None => ground.time_less(least),
+    };
     let variants: Variants = frequencies
         .iter()
         .map(|frequency| {
             let period = 1.0 / frequency;
             let of =
                 |wave: fn(f64) -> f64| map(&course.values, |x| wave(TAU * frequency * (x - least)));
-            let argument = format!(
-                "2*pi*({} - {})/{}",
-                course.name,
-                figure(least),
-                figure(period)
-            );
+            let shown = format!("{} {}", figure(period), course.unit);
+            let argument = format!("2*pi*{began}/({})", shown.trim_end());
             (
-                format!("period {} {}", figure(period), course.unit)
-                    .trim_end()
-                    .to_owned(),
+                format!("period {}", shown.trim_end()),
                 vec![
-                    (of(libm::sin), format!("sin({argument})")),
-                    (of(libm::cos), format!("cos({argument})")),
+                    Modifier::number(of(libm::sin), format!("sin({argument})")),
+                    Modifier::number(of(libm::cos), format!("cos({argument})")),
                 ],
             )
         })
@@ -145,8 +147,8 @@ fn lines(ground: &Ground<'_>, column: usize) -> Option<Cell> {
         .map(|k| {
             let of = |wave: fn(f64) -> f64| map(&phi, |phi| wave(f64::from(k) * phi));
             let terms = vec![
-                (of(libm::sin), format!("sin({k}*{name})")),
-                (of(libm::cos), format!("cos({k}*{name})")),
+                Modifier::number(of(libm::sin), format!("sin({k}*{name})")),
+                Modifier::number(of(libm::cos), format!("cos({k}*{name})")),
             ];
             (format!("{k} per turn"), terms)
         })

@@ -3,9 +3,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::Cell;
 use super::ground::{Ground, Node};
 use super::response::{on_node, words};
+use super::{Cell, Modifier};
 use crate::diagnose::case::Role;
 
 /// Part of a regressor that must be left when the parameters have absorbed what they can.
@@ -18,8 +18,8 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         return Vec::new();
     }
     let rows = ground.rows();
-    let one = || vec![1.0; rows];
-    let mut cells = vec![cell(ground, "zero", Node::Output, one(), "1")];
+    let shift = || Modifier::number(vec![1.0; rows], "1");
+    let mut cells = vec![cell(ground, "zero", Node::Output, shift())];
     for (column, data) in ground.case().columns.iter().enumerate() {
         let exact = matches!(data.role, Role::Stimulus | Role::Angle | Role::Time);
         // A direction or a switch by which the model multiplies has no scale to be wrong.
@@ -29,14 +29,9 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             continue;
         };
         let node = Node::Column(column);
-        cells.push(cell(ground, "zero-of", node, one(), "1"));
-        cells.push(cell(
-            ground,
-            "factor-of",
-            node,
-            numbers.to_vec(),
-            &data.name,
-        ));
+        let own = Modifier::new(numbers.to_vec(), &data.name, ground.step_unit(column));
+        cells.push(cell(ground, "zero-of", node, shift()));
+        cells.push(cell(ground, "factor-of", node, own));
     }
     let absorbed = Absorbed::by_parameters(ground);
     for cell in &mut cells {
@@ -51,9 +46,9 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells
 }
 
-fn cell(ground: &Ground<'_>, id: &str, node: Node, modifier: Vec<f64>, text: &str) -> Cell {
+fn cell(ground: &Ground<'_>, id: &str, node: Node, modifier: Modifier) -> Cell {
     let name = ground.name(node);
-    let variants = vec![(String::new(), vec![(modifier, text.to_owned())])];
+    let variants = vec![(String::new(), vec![modifier])];
     let mut cell = on_node(ground, id, words(ground, &name), "", node, variants);
     cell.words.p = name;
     cell

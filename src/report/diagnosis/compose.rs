@@ -11,8 +11,8 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::labels::spoken;
 use super::words::{
-    formula, name, name_of_atom, noise, orders, p_found, probability, prose, quantity, tentative,
-    verdict, weighs,
+    fitted, formula, name, name_of_atom, noise, orders, p_found, probability, prose, quantity,
+    tentative, verdict, weighs,
 };
 use super::{improvement, open};
 
@@ -222,11 +222,11 @@ fn names(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
                 None => prose(cell, language),
             };
             blocks.push(Block::Paragraph(prose));
-            blocks.push(Block::Formula(vec![formula(
-                diagnosis,
-                alternative,
-                language,
-            )]));
+            let multiplied = fitted(diagnosis, alternative).map(|terms| {
+                language.pick(format!("β multiplies {terms}"), format!("β 乘以 {terms}"))
+            });
+            let lines = [formula(diagnosis, alternative, language)].into_iter();
+            blocks.push(Block::Formula(lines.chain(multiplied).collect()));
         }
     }
     blocks

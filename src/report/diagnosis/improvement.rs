@@ -26,6 +26,7 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> 
     if let Some(adopted) = &diagnosis.adopted {
         blocks.push(Block::Formula(improved_model(adopted)));
         blocks.push(Block::Table(coefficients(adopted, language)));
+        blocks.extend(signal(adopted, language));
     }
     blocks.push(Block::Table(qualities(
         case, diagnosis, before, after, language,
@@ -69,6 +70,22 @@ fn coefficients(adopted: &Adopted, language: Language) -> Table {
         ]);
     }
     table
+}
+
+/// What the formulas call the signal, where they do.
+fn signal(adopted: &Adopted, language: Language) -> Option<Block> {
+    let mut additions = adopted.extended.additions.iter();
+    let named = additions.any(|addition| addition.text.contains("signal"));
+    named.then(|| {
+        Block::Paragraph(
+            language
+                .pick(
+                    "signal: what the fitted declared model gives besides constant terms.",
+                    "signal：已拟合的声明模型中除常数项以外的部分。",
+                )
+                .to_owned(),
+        )
+    })
 }
 
 fn qualities(

@@ -36,7 +36,7 @@ pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
             "node": cell.node, "factor": cell.factor, "level": cell.level,
             "size": located.size, "u": located.u, "delta_chi_squared": located.chi_squared, "p": located.p,
         })).collect::<Vec<_>>(),
-        "effects": examination.slots.iter().map(|slot| effect(diagnosis, slot, language)).collect::<Vec<_>>(),
+        "effects": examination.slots.iter().map(|slot| effect(case, diagnosis, slot, language)).collect::<Vec<_>>(),
         "explained": finite(examination.explained),
         "generic_probability": finite(examination.generic_probability),
         "margin": finite(examination.margin),
@@ -48,6 +48,7 @@ pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
             "effects": adopted.atoms.iter().map(|atom| name_of_atom(diagnosis, *atom, language)).collect::<Vec<_>>(),
             "additions": adopted.extended.additions.iter().map(|addition| json!({
                 "parameter": addition.parameter, "column": addition.column, "modifier": addition.text,
+                "unit_of_modifier": addition.unit.typeset(),
             })).collect::<Vec<_>>(),
             "coefficients": estimates(&adopted.coefficients),
             "parameters": estimates(&adopted.unknowns),
@@ -128,21 +129,42 @@ fn verdict_word(verdict: Verdict) -> &'static str {
     }
 }
 
-fn effect(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Value {
+fn effect(case: &Case, diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Value {
     json!({
         "state": match slot.state {
             State::Identified => "identified",
             State::Ambiguous => "ambiguous",
             State::Unexplained => "unexplained",
         },
-        "named": slot.named.iter().map(|a| alternative(diagnosis, a, language)).collect::<Vec<_>>(),
-        "unnamed": slot.generic.iter().map(|a| alternative(diagnosis, a, language)).collect::<Vec<_>>(),
+        "named": slot.named.iter().map(|a| alternative(case, diagnosis, a, language)).collect::<Vec<_>>(),
+        "unnamed": slot.generic.iter().map(|a| alternative(case, diagnosis, a, language)).collect::<Vec<_>>(),
         "unnamed_share": finite(slot.generic_share),
         "family": slot.family.as_ref().map(|(family, p)| json!({ "name": family, "probability": p })),
     })
 }
 
-fn alternative(diagnosis: &Diagnosis, alternative: &Alternative, language: Language) -> Value {
+/// What each size of the best variant multiplies, and its unit.
+fn terms(case: &Case, diagnosis: &Diagnosis, alternative: &Alternative) -> Vec<Value> {
+    let best = alternative.variants.first().map(|variant| {
+        let (cell, variation) = diagnosis.atoms[variant.atom];
+        &diagnosis.cells[cell].variants[variation]
+    });
+    let terms = best.into_iter().flat_map(|variation| &variation.terms);
+    terms
+        .filter(|term| !term.tied)
+        .map(|term| {
+            let unit = term.unit_of_size(case);
+            json!({ "multiplies": term.written().text, "unit": unit.typeset() })
+        })
+        .collect()
+}
+
+fn alternative(
+    case: &Case,
+    diagnosis: &Diagnosis,
+    alternative: &Alternative,
+    language: Language,
+) -> Value {
     let cell = &diagnosis.cells[alternative.candidate];
     json!({
         "id": cell.effect.id,
@@ -158,6 +180,7 @@ fn alternative(diagnosis: &Diagnosis, alternative: &Alternative, language: Langu
             let cell = &diagnosis.cells[cell];
             json!({ "id": cell.effect.id, "label": cell.variants[variation].label, "share": variant.share })
         }).collect::<Vec<_>>(),
+        "terms": terms(case, diagnosis, alternative),
         "size": alternative.estimate.iter().map(|x| finite(*x)).collect::<Vec<_>>(),
         "u": alternative.u().iter().map(|u| finite(*u)).collect::<Vec<_>>(),
         "coverage_factor": finite(alternative.coverage_factor()),

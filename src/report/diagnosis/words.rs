@@ -333,7 +333,7 @@ pub(super) fn formula(
         let (cell, variation) = diagnosis.atoms[variant.atom];
         let cell = &diagnosis.cells[cell];
         let mut terms = cell.variants[variation].terms.iter();
-        terms.any(|term| term.text.contains("lag("))
+        terms.any(|term| term.modifier.text.contains("lag("))
     });
     let general = &cell.effect.formula;
     match general.split_once("lag(") {
@@ -343,6 +343,20 @@ pub(super) fn formula(
         },
         _ => fill(general),
     }
+}
+
+/// What the sizes of the best variant multiply, as it was fitted; nothing where there are too many terms to
+/// read, none has a formula, or the size stands alone.
+pub(super) fn fitted(diagnosis: &Diagnosis, alternative: &Alternative) -> Option<String> {
+    /// More are in the table of the improved model.
+    const MOST: usize = 3;
+    let (cell, variation) = diagnosis.atoms[alternative.variants.first()?.atom];
+    let terms = &diagnosis.cells[cell].variants[variation].terms;
+    let texts = terms.iter().filter(|term| !term.tied);
+    let mut texts: Vec<&str> = texts.map(|term| term.written().text.as_str()).collect();
+    texts.dedup();
+    let readable = texts.len() <= MOST && texts.iter().all(|text| !text.is_empty() && *text != "1");
+    (readable && !texts.is_empty()).then(|| texts.join("; "))
 }
 
 /// Where the noise comes from.

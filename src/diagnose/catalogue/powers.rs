@@ -9,53 +9,45 @@ use super::{Modifier, Term};
 
 /// A power, as the search takes it and as the improved model has it.
 pub(super) struct Power {
-    /// Differs from the other by a line at most, which the parameters absorb then.
+    /// Differs from the other by what the parameters absorb.
     pub searched: Modifier,
-    /// About the zero of the model.
+    /// As it is printed and fitted.
     pub written: Modifier,
 }
 
 /// The square and the cube of a column.
 pub(super) fn of(ground: &Ground<'_>, column: usize) -> [Power; 2] {
-    /// Powers about a zero that is farther away than the range over this are lines and constants up to
-    /// the rounding of the numbers.
-    const FAR: f64 = 0.05;
-    let x = ground.numbers(column);
-    let (least, most) = range(x);
-    let within =
-        |zero: f64, part: f64| most - least > part * (least - zero).abs().max((most - zero).abs());
-    if !absorbs_lines(ground, column) {
-        let zero = free_zero(ground, column, within);
-        return [2, 3].map(|exponent| {
-            let power = about(ground, column, zero, exponent);
-            Power {
-                searched: power.clone(),
-                written: power,
-            }
-        });
-    }
-    // Numbers about the middle lie at right angles to constant and slope; what that changes is a line.
-    let centre = middle(x);
-    let zero = own_zero(ground, column);
-    let searched = [2, 3].map(|exponent| about(ground, column, centre, exponent));
-    if !within(zero, FAR) {
-        return searched.map(|power| Power {
-            searched: power.clone(),
-            written: power,
-        });
-    }
-    // (d + a)³ = d³ + 3 a d² and a line, with d = x − centre and a = centre − zero.
-    let [square, mut cube] = searched;
-    let shift = centre - zero;
-    cube.values = map(x, |x| {
-        let d = x - centre;
-        d * d * (d + 3.0 * shift)
-    });
-    let power = |searched: Modifier, exponent: i32| Power {
-        searched,
-        written: about(ground, column, zero, exponent),
+    let lines = absorbs(ground, column, 1);
+    let [searched, zero] = match lines {
+        true => [search_zero(ground, column), own_zero(ground, column)],
+        false => [free_zero(ground, column); 2],
     };
-    [power(square, 2), power(cube, 3)]
+    // A power about another zero differs by the lower powers.
+    let squares = lines && absorbs(ground, column, 2);
+    let near = is_within(ground.numbers(column), zero, FAR);
+    [(2, lines), (3, squares)].map(|(exponent, absorbed)| Power {
+        searched: about(ground, column, searched, exponent),
+        written: match absorbed && near {
+            true => about(ground, column, zero, exponent),
+            false => about(ground, column, searched, exponent),
+        },
+    })
+}
+
+/// Powers about a zero that is farther away than the range over this are lines and constants up to the
+/// rounding of the numbers.
+const FAR: f64 = 0.05;
+
+/// Whether a range is more than a part of the distance from a zero to its farther end.
+fn is_within(x: &[f64], zero: f64, part: f64) -> bool {
+    let (least, most) = range(x);
+    most - least > part * (least - zero).abs().max((most - zero).abs())
+}
+
+/// Numbers about the middle lie at right angles to constant and slope.
+fn search_zero(ground: &Ground<'_>, column: usize) -> f64 {
+    let x = ground.numbers(column);
+    if crosses_zero(x) { 0.0 } else { middle(x) }
 }
 
 fn about(ground: &Ground<'_>, column: usize, zero: f64, exponent: i32) -> Modifier {
@@ -66,22 +58,20 @@ fn about(ground: &Ground<'_>, column: usize, zero: f64, exponent: i32) -> Modifi
     Modifier::new(values, text, unit)
 }
 
-/// Whether offset and slope of every output by a column are free parameters.
-fn absorbs_lines(ground: &Ground<'_>, column: usize) -> bool {
+/// Whether the powers of a column up to an exponent are free parameters of every output.
+fn absorbs(ground: &Ground<'_>, column: usize, exponent: i32) -> bool {
     let case = ground.case();
-    if case
-        .parameters
-        .iter()
-        .any(|parameter| parameter.prior.is_some())
-    {
+    if case.parameters.iter().any(|p| p.prior.is_some()) {
         return false;
     }
     let absorbed = Absorbed::by_parameters(ground);
-    let x = ground.numbers(column);
-    let lines = [vec![1.0; x.len()], x.to_vec()];
+    let centre = middle(ground.numbers(column));
+    let powers: Vec<Modifier> = (0..=exponent)
+        .map(|exponent| about(ground, column, centre, exponent))
+        .collect();
     (0..case.responses.len()).all(|response| {
-        lines.iter().all(|line| {
-            let term = Term::new(Node::Output, Modifier::unnamed(line.clone())).on(response);
+        powers.iter().all(|power| {
+            let term = Term::new(Node::Output, power.clone()).on(response);
             !absorbed.leaves(&ground.column(&term))
         })
     })
@@ -135,15 +125,13 @@ fn zero_of_line(x: &[f64], y: &[f64]) -> Option<f64> {
 
 /// Without offset and slope in the model: the zero of the quantity, unless its scale begins anywhere or the
 /// recording is far from it.
-fn free_zero(ground: &Ground<'_>, column: usize, within: impl Fn(f64, f64) -> bool) -> f64 {
+fn free_zero(ground: &Ground<'_>, column: usize) -> f64 {
     /// Range over largest value.
     const NEAR: f64 = 0.2;
-    let x = ground.numbers(column);
-    let has_zero = !ground.case().columns[column].unit.is_point() && within(0.0, NEAR);
-    if has_zero || crosses_zero(x) {
-        0.0
-    } else {
-        middle(x)
+    let has_zero = !ground.case().columns[column].unit.is_point();
+    match has_zero && is_within(ground.numbers(column), 0.0, NEAR) {
+        true => 0.0,
+        false => search_zero(ground, column),
     }
 }
 

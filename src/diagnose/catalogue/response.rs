@@ -1,7 +1,6 @@
 //! How the response to the stimuli may differ from the declared one: powers, modulus, limits, cross terms,
 //! lag.
 
-use super::conditions::HIGHER;
 use super::ground::{Ground, Node};
 use super::modifiers::{
     creeps, delayed, figure, five_digits, grid, late, map, map2, mean, range, rate,
@@ -238,10 +237,6 @@ fn power(ground: &Ground<'_>, column: usize, id: &str, power: Power) -> Cell {
     let label = name(ground, column);
     let variants = vec![(String::new(), vec![power.searched])];
     let mut cell = on_outputs(ground, id, words(ground, label), label, variants);
-    // A series has its lower power first, and on one side of zero both look alike.
-    if id == "cubic" && !crosses_zero(ground.numbers(column)) {
-        cell.odds = HIGHER;
-    }
     for variation in &mut cell.variants {
         let terms = std::mem::take(&mut variation.terms).into_iter();
         variation.terms = terms

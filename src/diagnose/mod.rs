@@ -41,6 +41,7 @@ mod noise;
 mod omitted;
 mod place;
 mod plan;
+mod replicates;
 mod result;
 pub mod rivals;
 mod run;

@@ -21,10 +21,10 @@ fn photodiode(seed: u64, u: impl Fn(usize, f64) -> f64) -> String {
     let mut pressure = 101.2;
     for row in 0..60 {
         let level = (row * 37 + 11) % 60 / 3;
-        let power = 10_f64.powf(3.0 * level as f64 / 19.0);
+        let power = libm::pow(10.0, 3.0 * level as f64 / 19.0);
         let current = 0.15 + 0.4123 * power;
         let reading = current + u(level, current) * noise.normal();
-        let lamp = 31.0 + 1.5 * (row as f64 * 0.157).sin() + 0.1 * noise.normal();
+        let lamp = 31.0 + 1.5 * libm::sin(row as f64 * 0.157) + 0.1 * noise.normal();
         pressure += 0.0125 * noise.normal();
         let _ = writeln!(
             text,
@@ -52,7 +52,7 @@ draws = 1024
 const REPLICATES: &str = "\n[noise]\nreplicates = [\"P\"]\n";
 
 fn growing(_: usize, current: f64) -> f64 {
-    0.05_f64.hypot(0.002 * current)
+    libm::hypot(0.05, 0.002 * current)
 }
 
 fn origin(found: &Value) -> &str {
@@ -95,7 +95,7 @@ fn replicates_of_one_scatter_have_one_uncertainty() {
 
 #[test]
 fn replicates_that_scatter_unevenly_are_told() {
-    let odd = |level: usize, _: f64| if level % 2 == 0 { 0.03 } else { 0.3 };
+    let odd = |level: usize, _: f64| if level.is_multiple_of(2) { 0.03 } else { 0.3 };
     let folder = folder("uneven-replicates");
     std::fs::write(folder.join("recording.csv"), photodiode(1, odd)).expect("written");
     let case = format!("recording = \"recording.csv\"\n{COLUMNS}{REPLICATES}");

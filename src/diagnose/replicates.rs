@@ -265,11 +265,12 @@ mod tests {
     fn scatter_that_grows_over_decades_is_described() {
         let mut squares = 0.0;
         for seed in 0..50 {
-            let groups = groups(|_, level| (0.05f64).hypot(0.002 * level), seed);
+            let groups = groups(|_, level| libm::hypot(0.05, 0.002 * level), seed);
             let likely = found(&groups).expect("growth");
             let scale = pooled(&groups, &likely.best).sqrt();
             for (level, u) in [(1.0, 0.05), (1000.0, 2.0)] {
-                squares += libm::log(scale * likely.best.at(level) / u).powi(2) / 100.0;
+                let off = libm::log(scale * likely.best.at(level) / u);
+                squares += off * off / 100.0;
             }
         }
         assert!(squares.sqrt() < 0.25, "{}", squares.sqrt());
@@ -286,7 +287,7 @@ mod tests {
 
     #[test]
     fn scatter_that_follows_something_else_is_uneven() {
-        let odd = |index: usize, _: f64| if index % 2 == 0 { 0.1 } else { 1.0 };
+        let odd = |index: usize, _: f64| if index.is_multiple_of(2) { 0.1 } else { 1.0 };
         let uneven = (0..50).filter(|seed| {
             let groups = groups(odd, *seed);
             let best = found(&groups).map_or(Spread::CONSTANT, |likely| likely.best);

@@ -128,6 +128,7 @@ pub(super) fn noise_of(known: &Known<'_>, frame: &Frame<'_>, fit: &Fit) -> Claim
             Claimed {
                 u,
                 correlated: None,
+                draws: Vec::new(),
                 ..known.claimed.clone()
             }
         }

@@ -45,6 +45,7 @@ mod omitted;
 mod parts;
 mod place;
 mod plan;
+mod replicates;
 mod result;
 pub mod rivals;
 mod run;

@@ -8,7 +8,8 @@ use super::correlation::{self, Correlated};
 use super::evidence::{Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
-use super::spread::{self, Growth};
+use super::replicates::{self, Scatter};
+use super::spread::{self, Growth, Spread};
 
 /// The noise of the observations.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +22,15 @@ pub struct Claimed {
     pub origin: Origin,
     /// How the observations are correlated; `None` if they are independent.
     pub correlated: Option<Correlated>,
-    /// How noise that was estimated grows with the reading, for each response; empty where it is claimed.
+    /// How noise that was estimated, or that replicates show, grows with the reading, for each response;
+    /// empty where it is claimed.
     pub growth: Vec<Option<Growth>>,
+    /// Standard uncertainties as they may be beside `u`, drawn from what the recording leaves open about how
+    /// they grow; empty where they do not.
+    pub draws: Vec<DVector<f64>>,
+    /// Probability that replicates scatter as unevenly from group to group by chance, where it is so small
+    /// that the claim does not describe them.
+    pub uneven: Option<f64>,
 }
 
 /// Where the noise comes from.
@@ -46,15 +54,24 @@ impl Claimed {
     /// For the examination.
     pub fn noise(&self) -> Noise {
         let Some(correlated) = &self.correlated else {
-            return Noise::with_scale_dof(Covariance::Diagonal(self.u.map(|u| u * u)), self.dof);
+            let diagonal = |u: &DVector<f64>| Covariance::Diagonal(u.map(|u| u * u));
+            return Noise {
+                draws: self.draws.iter().map(diagonal).collect(),
+                ..Noise::with_scale_dof(diagonal(&self.u), self.dof)
+            };
         };
-        let scaled = |matrix: &DMatrix<f64>| {
-            let of = |i: usize, j: usize| self.u[i] * self.u[j] * matrix[(i, j)];
+        let scaled = |matrix: &DMatrix<f64>, u: &DVector<f64>| {
+            let of = |i: usize, j: usize| u[i] * u[j] * matrix[(i, j)];
             Covariance::Dense(DMatrix::from_fn(matrix.nrows(), matrix.ncols(), of))
         };
+        let draw = |(at, matrix): (usize, &DMatrix<f64>)| {
+            // The two are open independently of each other: a step that meets every pair.
+            let u = self.draws.get((7 * at) % self.draws.len().max(1));
+            scaled(matrix, u.unwrap_or(&self.u))
+        };
         Noise {
-            draws: correlated.draws.iter().map(scaled).collect(),
-            ..Noise::with_scale_dof(scaled(&correlated.matrix), self.dof)
+            draws: correlated.draws.iter().enumerate().map(draw).collect(),
+            ..Noise::with_scale_dof(scaled(&correlated.matrix, &self.u), self.dof)
         }
     }
 
@@ -110,6 +127,8 @@ pub fn planned(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         origin: Origin::Estimated,
         correlated: None,
         growth: Vec::new(),
+        draws: Vec::new(),
+        uneven: None,
     })
 }
 
@@ -160,16 +179,40 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
             )
         }
         NoiseClaim::Replicates(columns) => {
-            let (pooled, dof) = replicates(frame, columns)?;
-            let variances = pooled.iter().map(|variance| vec![*variance; case.rows]);
-            (variances.collect(), dof, Origin::Replicates)
+            return replicated(frame, fit, &replicates::scatter(frame, columns)?);
         }
     };
-    let u = frame.observed_column(|_| vec![0.0; case.rows]);
-    let mut squares = u;
+    let claimed = Claimed {
+        u: standard(frame, fit, |response| variances.get(response))?,
+        dof,
+        origin,
+        correlated: None,
+        growth: Vec::new(),
+        draws: Vec::new(),
+        uneven: None,
+    };
+    match &case.noise {
+        NoiseClaim::AtRest { readings, .. } => {
+            Some(in_time(frame, fit, readings, &claimed).unwrap_or(claimed))
+        }
+        NoiseClaim::Stated { walk, .. } if walk.iter().any(|walk| *walk > 0.0) => {
+            Some(walking(frame, walk, &claimed).unwrap_or(claimed))
+        }
+        _ => Some(claimed),
+    }
+}
+
+/// Standard uncertainties of the observations with these variances of the rows of each response, and with
+/// what uncertain columns add; nothing where one is not positive.
+fn standard<'v>(
+    frame: &Frame<'_>,
+    fit: Option<&Fit>,
+    variances: impl Fn(usize) -> Option<&'v Vec<f64>>,
+) -> Option<DVector<f64>> {
+    let case = frame.case;
+    let mut squares = frame.observed_column(|_| vec![0.0; case.rows]);
     for response in 0..case.responses.len() {
-        let mut rows = variances
-            .get(response)
+        let mut rows = variances(response)
             .cloned()
             .unwrap_or_else(|| vec![0.0; case.rows]);
         add_columns(frame, fit, response, &mut rows);
@@ -183,22 +226,35 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
     let valid = squares
         .iter()
         .all(|variance| *variance > 0.0 && variance.is_finite());
-    let claimed = valid.then(|| Claimed {
-        u: squares.map(f64::sqrt),
-        dof,
-        origin,
+    valid.then(|| squares.map(f64::sqrt))
+}
+
+/// The noise that replicates of each response show.
+fn replicated(frame: &Frame<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> Option<Claimed> {
+    let growing = scatters.iter().filter(|scatter| scatter.growth.is_some());
+    let draws = growing.map(|scatter| scatter.draws.len()).min();
+    let draw = |at: usize| {
+        standard(frame, fit, |response| {
+            let scatter = scatters.get(response)?;
+            Some(scatter.draws.get(at).unwrap_or(&scatter.variances))
+        })
+    };
+    let dof = scatters.iter().map(|scatter| scatter.dof);
+    let uneven = scatters.iter().filter_map(|scatter| scatter.uneven);
+    Some(Claimed {
+        u: standard(frame, fit, |response| {
+            Some(&scatters.get(response)?.variances)
+        })?,
+        dof: dof.fold(f64::INFINITY, f64::min),
+        origin: Origin::Replicates,
         correlated: None,
-        growth: Vec::new(),
-    })?;
-    match &case.noise {
-        NoiseClaim::AtRest { readings, .. } => {
-            Some(in_time(frame, fit, readings, &claimed).unwrap_or(claimed))
-        }
-        NoiseClaim::Stated { walk, .. } if walk.iter().any(|walk| *walk > 0.0) => {
-            Some(walking(frame, walk, &claimed).unwrap_or(claimed))
-        }
-        _ => Some(claimed),
-    }
+        growth: scatters
+            .iter()
+            .map(|scatter| scatter.growth.clone())
+            .collect(),
+        draws: (0..draws.unwrap_or(0)).filter_map(draw).collect(),
+        uneven: uneven.reduce(f64::min),
+    })
 }
 
 /// Draws of the covariance matrix from what a recording at rest leaves open.
@@ -336,41 +392,76 @@ fn counts(case: &Case) -> Vec<f64> {
     )
 }
 
+/// As [`settle`]; noise that is estimated and grows with the reading weights the fit.
+///
+/// # Errors
+/// When the model cannot be fitted.
+pub fn settle_spread_out(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
+    let (fit, claimed) = settle(frame)?;
+    if !claimed.is_estimated() {
+        return Ok((fit, claimed));
+    }
+    let seen = spread_out(frame, &fit);
+    if seen.growth.iter().all(Option::is_none) {
+        return Ok((fit, claimed));
+    }
+    let Ok(weighted) = fit::from(frame, &seen.u, fit.unknowns.clone()) else {
+        return Ok((fit, seen));
+    };
+    let claimed = spread_out(frame, &weighted);
+    Ok((weighted, claimed))
+}
+
 /// The noise that a model leaves, where it grows with the reading.
 pub fn spread_out(frame: &Frame<'_>, fit: &Fit) -> Claimed {
     let mut claimed = estimated(frame, fit);
     let blocks = frame.blocks.len();
-    let freedom = (frame.observations() as f64 - frame.unknowns.len() as f64).max(1.0);
-    let share = freedom / frame.observations() as f64;
-    for (response, spread) in spread::estimate(frame, fit).into_iter().enumerate() {
-        let Some(spread) = spread else {
+    let found = spread::estimate(frame, fit);
+    let draws = found.iter().flatten().map(|likely| likely.draws.len());
+    claimed.draws = vec![claimed.u.clone(); draws.min().unwrap_or(0)];
+    for (response, likely) in found.into_iter().enumerate() {
+        let Some(likely) = likely else {
             claimed.growth.push(None);
             continue;
         };
+        let rows = response * blocks;
         let values = frame.reduced(&fit.linear.values[response]);
-        let mut u = claimed.u.rows_mut(response * blocks, blocks);
-        for (u, value) in u.iter_mut().zip(&values) {
-            *u *= spread.at(*value);
+        let own = fit.residuals.rows(rows, blocks).into_owned();
+        let plain = claimed.u.rows(rows, blocks).into_owned();
+        let grown = |spread: &Spread| {
+            let factors = values.iter().map(|value| spread.at(*value));
+            let u = plain.component_mul(&DVector::from_iterator(blocks, factors));
+            let scale = scale(frame, &own.component_div(&u));
+            u * scale
+        };
+        for (draw, spread) in claimed.draws.iter_mut().zip(&likely.draws) {
+            draw.rows_mut(rows, blocks).copy_from(&grown(spread));
         }
-        let own = fit.residuals.rows(response * blocks, blocks);
-        let scale = (own.component_div(&u).norm_squared() / (blocks as f64 * share)).sqrt();
-        u *= scale;
-        let at_level = u[0] / spread.at(values[0]);
+        let u = grown(&likely.best);
+        let at_level = u[0] / likely.best.at(values[0]);
         let unit = frame.case.responses[response].unit.typeset();
-        claimed.growth.push(Some(spread.growth(at_level, unit)));
+        claimed.u.rows_mut(rows, blocks).copy_from(&u);
+        claimed
+            .growth
+            .push(Some(likely.best.growth(at_level, unit)));
     }
     claimed
+}
+
+/// Root mean square of the residuals of one response, which share the degrees of freedom of all.
+fn scale(frame: &Frame<'_>, residuals: &DVector<f64>) -> f64 {
+    let observations = frame.observations() as f64;
+    let freedom = (observations - frame.unknowns.len() as f64).max(1.0);
+    (residuals.norm_squared() / (residuals.len() as f64 * freedom / observations)).sqrt()
 }
 
 /// One standard uncertainty for each response, from the residuals.
 fn estimated(frame: &Frame<'_>, fit: &Fit) -> Claimed {
     let blocks = frame.blocks.len();
-    let freedom = (frame.observations() as f64 - frame.unknowns.len() as f64).max(1.0);
-    let share = freedom / frame.observations() as f64;
     let mut u = DVector::zeros(frame.observations());
     for response in 0..frame.case.responses.len() {
-        let own = fit.residuals.rows(response * blocks, blocks);
-        let s = (own.norm_squared() / (blocks as f64 * share)).sqrt();
+        let own = fit.residuals.rows(response * blocks, blocks).into_owned();
+        let s = scale(frame, &own);
         // A perfect fit leaves nothing; any positive number serves.
         let s = if s > 0.0 { s } else { f64::MIN_POSITIVE.sqrt() };
         u.rows_mut(response * blocks, blocks).fill(s);
@@ -389,51 +480,7 @@ fn estimated(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         origin: Origin::Estimated,
         correlated: None,
         growth: Vec::new(),
+        draws: Vec::new(),
+        uneven: None,
     }
-}
-
-/// Pooled variance of rows that agree in all of these columns, for each response, and its degrees of
-/// freedom.
-fn replicates(frame: &Frame<'_>, columns: &[usize]) -> Option<(Vec<f64>, f64)> {
-    let case = frame.case;
-    let key = |row: usize| -> Vec<u64> {
-        let of = columns.iter().map(|column| {
-            match (
-                case.columns[*column].labels(),
-                case.columns[*column].numbers(),
-            ) {
-                (Some(labels), _) => u64::from(labels.of_row[row]),
-                (None, Some(numbers)) => numbers[row].to_bits(),
-                (None, None) => 0,
-            }
-        });
-        of.collect()
-    };
-    let mut groups: std::collections::BTreeMap<Vec<u64>, Vec<usize>> =
-        std::collections::BTreeMap::new();
-    for row in 0..case.rows {
-        groups.entry(key(row)).or_default().push(row);
-    }
-    let dof: usize = groups.values().map(|rows| rows.len() - 1).sum();
-    if dof < 2 {
-        return None;
-    }
-    let pooled = (0..case.responses.len()).map(|response| {
-        let observed = frame.observed(response);
-        let squares: f64 = groups
-            .values()
-            .map(|rows| {
-                let mean = rows.iter().map(|row| observed[*row]).sum::<f64>() / rows.len() as f64;
-                rows.iter()
-                    .map(|row| (observed[*row] - mean) * (observed[*row] - mean))
-                    .sum::<f64>()
-            })
-            .sum();
-        squares / dof as f64
-    });
-    let pooled: Vec<f64> = pooled.collect();
-    pooled
-        .iter()
-        .all(|variance| *variance > 0.0)
-        .then_some((pooled, dof as f64))
 }

@@ -154,20 +154,13 @@ pub fn diagnose(
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Diagnosis, Failure> {
     let frame = Frame::new(case);
-    let (fit, mut claimed) = noise::settle(&frame)?;
+    let (fit, mut claimed) = noise::settle_spread_out(&frame)?;
     let white = baseline(&frame, &fit, &claimed)?;
     let settings = settings(case);
     let mut inquiry = Inquiry::new(Ground::new(&frame, &fit), &claimed, &white);
     let part = |from: f64, to: f64| move |share: f64| progress(from + (to - from) * share);
     let first = if claimed.is_estimated() { 0.4 } else { 0.6 };
     let (mut baseline, mut examination) = inquiry.ask(&claimed, &settings, &part(0.0, first))?;
-    if claimed.is_estimated() && examination.verdict == Verdict::None {
-        let spread = noise::spread_out(&frame, &fit);
-        if spread.growth.iter().any(Option::is_some) {
-            claimed = spread;
-            (baseline, examination) = inquiry.ask(&claimed, &settings, &part(0.4, 0.6))?;
-        }
-    }
     if claimed.is_estimated() && examination.verdict != Verdict::None {
         // Noise and effects are estimated in turn: what an effect explains is no noise.
         for round in 0..ROUNDS {

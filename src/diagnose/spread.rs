@@ -2,8 +2,8 @@
 //!
 //! Whether it does is read from neighbours: each residual against the straight line between the residuals
 //! with the next smaller and the next larger modelled value, under the same labels. What a model leaves out
-//! varies little between neighbours, noise does not. The logarithms of these differences are compared with
-//! those of u, so that single wrong readings have little weight.
+//! varies little between neighbours, noise does not. The differences count by the likelihood of Student's
+//! distribution with few degrees of freedom, so that single wrong readings have little weight.
 
 use nalgebra::DVector;
 
@@ -11,17 +11,21 @@ use super::case::{Observed, Role};
 use super::fit::Fit;
 use super::frame::Frame;
 
-/// Variance of ln|x| of a normal variable, π²/8.
-const LOG_VARIANCE: f64 = 1.2337;
-/// Gain in the sum of squares from which noise counts as growing. For independent differences 6.6 is reached
-/// in 1 % of recordings with constant noise; neighbouring ones share residuals.
-const GAIN: f64 = 12.0;
+/// Degrees of freedom of the distribution of the differences.
+const TAILS: f64 = 4.0;
+/// Gain in −2 ln L from which noise counts as growing. For independent differences 5.4 is reached in 1 % of
+/// recordings with constant noise; neighbouring ones share residuals.
+const GAIN: f64 = 8.0;
 /// Fewer differences say too little.
 const LEAST: usize = 15;
-/// Parts of the mean square that may be proportional to the reading.
-const SHARES: [f64; 15] = [
-    0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.98, 0.995, 0.9999,
-];
+/// Ratios a/b that are tried.
+const RATIOS: usize = 32;
+/// Least and largest a/b relative to the root mean square of the readings: below the least reading nothing
+/// tells a from zero, above the largest nothing tells b from zero.
+const LEAST_RATIO: f64 = 1e-4;
+const LARGEST_RATIO: f64 = 5.0;
+/// Draws of a/b from what the recording leaves open.
+const DRAWS: usize = 24;
 
 /// Noise of one response that grows with the reading: u² = a² + (b·y)².
 #[derive(Debug, Clone, PartialEq)]
@@ -44,6 +48,12 @@ pub(super) struct Spread {
 }
 
 impl Spread {
+    /// Noise that does not grow.
+    pub const CONSTANT: Spread = Spread {
+        share: 0.0,
+        level: 1.0,
+    };
+
     /// Standard uncertainty at a modelled value, relative to that at the root mean square of all.
     pub fn at(&self, value: f64) -> f64 {
         let part = value / self.level;
@@ -60,8 +70,66 @@ impl Spread {
     }
 }
 
+/// A shape of the noise, and those that are likely beside it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Likely {
+    /// The likeliest.
+    pub best: Spread,
+    /// In proportion to their likelihood.
+    pub draws: Vec<Spread>,
+}
+
+/// The shape of least −2 ln L, where it is less by more than `gain` than that of constant noise.
+///
+/// The ratio a/b runs over the range of the readings in equal steps of its logarithm: readings over several
+/// decades have a noise that grows over several decades, however small a is in the mean square.
+pub(super) fn likely(values: &[f64], gain: f64, misfit: impl Fn(&Spread) -> f64) -> Option<Likely> {
+    let level = (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt();
+    let sizes = values.iter().map(|x| x.abs()).filter(|x| *x > 0.0);
+    let smallest = sizes.fold(f64::INFINITY, f64::min);
+    if !(level > 0.0 && level.is_finite() && smallest > 0.0) {
+        return None;
+    }
+    let least = libm::log((0.3 * smallest / level).max(LEAST_RATIO));
+    let step = (libm::log(LARGEST_RATIO) - least) / (RATIOS - 1) as f64;
+    let ratios = (0..RATIOS).map(|at| libm::exp(least + step * at as f64));
+    let shares = ratios.map(|ratio| 1.0 / (1.0 + ratio * ratio));
+    let constant = misfit(&Spread::CONSTANT);
+    let tried: Vec<(Spread, f64)> = shares
+        .map(|share| Spread { share, level })
+        .map(|spread| (spread, misfit(&spread)))
+        .filter(|(_, misfit)| misfit.is_finite())
+        .collect();
+    let best = tried.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (constant - best.1 > gain).then(|| Likely {
+        best: best.0,
+        draws: drawn(&tried, best.1),
+    })
+}
+
+/// Shapes in proportion to their likelihood, without chance: those at the middle of equal parts of the
+/// cumulated probability.
+fn drawn(tried: &[(Spread, f64)], least: f64) -> Vec<Spread> {
+    let weights = tried
+        .iter()
+        .map(|(_, misfit)| libm::exp(0.5 * (least - misfit)));
+    let weights: Vec<f64> = weights.collect();
+    let total: f64 = weights.iter().sum();
+    let at = |draw: usize| {
+        let mut left = (draw as f64 + 0.5) / DRAWS as f64 * total;
+        tried
+            .iter()
+            .zip(&weights)
+            .find_map(|((spread, _), weight)| {
+                left -= weight;
+                (left <= 0.0).then_some(*spread)
+            })
+    };
+    (0..DRAWS).filter_map(at).collect()
+}
+
 /// How the noise of each response grows; `None` where it does not, as far as can be seen.
-pub(super) fn estimate(frame: &Frame<'_>, fit: &Fit) -> Vec<Option<Spread>> {
+pub(super) fn estimate(frame: &Frame<'_>, fit: &Fit) -> Vec<Option<Likely>> {
     (0..frame.case.responses.len())
         .map(|response| of_response(frame, fit, response))
         .collect()
@@ -70,10 +138,10 @@ pub(super) fn estimate(frame: &Frame<'_>, fit: &Fit) -> Vec<Option<Spread>> {
 /// A residual that its neighbours do not explain, at a modelled value.
 struct Difference {
     value: f64,
-    logarithm: f64,
+    size: f64,
 }
 
-fn of_response(frame: &Frame<'_>, fit: &Fit, response: usize) -> Option<Spread> {
+fn of_response(frame: &Frame<'_>, fit: &Fit, response: usize) -> Option<Likely> {
     if matches!(
         frame.case.responses[response].observed,
         Observed::Constant(_)
@@ -87,24 +155,40 @@ fn of_response(frame: &Frame<'_>, fit: &Fit, response: usize) -> Option<Spread> 
     if differences.len() < LEAST {
         return None;
     }
-    let level = (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt();
-    let sum = |share: f64| {
-        let spread = Spread { share, level };
-        let left = differences
+    likely(&values, GAIN, |spread| misfit(&differences, spread))
+}
+
+/// −2 ln L of the differences, with the scale that fits best.
+fn misfit(differences: &[Difference], spread: &Spread) -> f64 {
+    let squares = differences.iter().map(|difference| {
+        let relative = difference.size / spread.at(difference.value);
+        relative * relative
+    });
+    let squares: Vec<f64> = squares.collect();
+    let scale = scale(&squares);
+    let each = differences
+        .iter()
+        .zip(&squares)
+        .map(|(difference, square)| {
+            2.0 * libm::log(spread.at(difference.value))
+                + libm::log(scale)
+                + (TAILS + 1.0) * libm::log1p(square / (TAILS * scale))
+        });
+    each.sum()
+}
+
+/// Squared scale of Student's distribution by maximum likelihood; each step adds to the likelihood.
+fn scale(squares: &[f64]) -> f64 {
+    const STEPS: u8 = 30;
+    let count = squares.len() as f64;
+    let mut scale = squares.iter().sum::<f64>() / count;
+    for _ in 0..STEPS {
+        let weighted = squares
             .iter()
-            .map(|difference| difference.logarithm - libm::log(spread.at(difference.value)));
-        let left: Vec<f64> = left.collect();
-        let mean = left.iter().sum::<f64>() / left.len() as f64;
-        left.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / LOG_VARIANCE
-    };
-    let best = SHARES
-        .into_iter()
-        .map(|share| (share, sum(share)))
-        .min_by(|a, b| a.1.total_cmp(&b.1))?;
-    (sum(0.0) - best.1 > GAIN).then_some(Spread {
-        share: best.0,
-        level,
-    })
+            .map(|square| (TAILS + 1.0) * square / (TAILS + square / scale));
+        scale = weighted.sum::<f64>() / count;
+    }
+    scale
 }
 
 fn differences(frame: &Frame<'_>, values: &[f64], residuals: &DVector<f64>) -> Vec<Difference> {
@@ -132,7 +216,7 @@ fn differences(frame: &Frame<'_>, values: &[f64], residuals: &DVector<f64>) -> V
         .filter(|_| floor > 0.0)
         .map(|(value, size)| Difference {
             value,
-            logarithm: libm::log(size.max(floor)),
+            size: size.max(floor),
         })
         .collect()
 }

@@ -381,7 +381,10 @@ pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
             language.pick(format!("from the column {name}"), format!("取自 {name} 列"))
         }
         Origin::Replicates => {
-            language.pick("from replicates".to_owned(), "由重复测量得到".to_owned())
+            language
+                .pick("from replicates", "由重复测量得到")
+                .to_owned()
+                + &growth(claimed, language)
         }
         Origin::AtRest(file) => language.pick(
             format!("from the recording at rest {file}"),
@@ -392,7 +395,19 @@ pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
             format!("取自不确定度评定文件 {file}"),
         ),
     };
-    text + &dof
+    text + &dof + &uneven(claimed, language)
+}
+
+/// That replicates scatter otherwise than the claim says.
+fn uneven(claimed: &Claimed, language: Language) -> String {
+    let Some(p) = claimed.uneven else {
+        return String::new();
+    };
+    let p = p_is(p);
+    language.pick(
+        format!("; replicates scatter unevenly from group to group (Bartlett's test, {p}): this noise does not describe them, state u for each row"),
+        format!("；各组重复测量的分散性不一致（Bartlett 检验，{p}）：上述模型不能描述，请逐行给出 u"),
+    )
 }
 
 /// A further measurement as a phrase.
@@ -437,7 +452,7 @@ pub(super) fn measure(measure: &Measure, language: Language) -> String {
     }
 }
 
-/// How estimated noise grows with the reading, if it does for any response.
+/// How noise that was estimated, or that replicates show, grows with the reading, if it does for any response.
 fn growth(claimed: &Claimed, language: Language) -> String {
     let grows: Vec<String> = claimed
         .growth

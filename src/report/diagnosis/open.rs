@@ -12,7 +12,7 @@ use crate::report::number::{percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
 use super::json::finite;
-use super::words::{full_name, measure, slot_name};
+use super::words::{full_name, measure, slot_names};
 
 /// More are in the JSON.
 const MOST: usize = 8;
@@ -42,7 +42,7 @@ fn choices(diagnosis: &Diagnosis, estimates: &[Estimated], language: Language) -
             .map(|(own, u)| format!("{} {} {}", own.name, significant(*u, 2), own.unit))
             .map(|text| text.trim().to_owned())
             .collect();
-        let names = slot_name(diagnosis, slot, language);
+        let names = language.either(&slot_names(diagnosis, slot, language));
         (!parts.is_empty()).then(|| {
             language.pick(
                 format!(

@@ -265,9 +265,8 @@ fn distinct(texts: Vec<String>) -> Vec<String> {
 }
 
 /// The names of a slot: joined by "or", unless one of them leads.
-pub(super) fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> String {
-    let full = |one| told(diagnosis, one, language) + &orders(diagnosis, one, language);
-    let names: Vec<String> = slot.named.iter().map(full).collect();
+fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> String {
+    let names = slot_names(diagnosis, slot, language);
     match (names.as_slice(), slot.named.first()) {
         ([first, others @ ..], Some(leading)) if !others.is_empty() && !is_open(slot) => {
             let (first, p) = (first.as_str(), percent(leading.probability));
@@ -279,6 +278,12 @@ pub(super) fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) 
         }
         _ => language.either(&names),
     }
+}
+
+/// What a slot may be, most probable first.
+pub(super) fn slot_names(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<String> {
+    let full = |one| told(diagnosis, one, language) + &orders(diagnosis, one, language);
+    slot.named.iter().map(full).collect()
 }
 
 /// The name of an alternative in a sentence; of bad rows, jumps and the like with their place.

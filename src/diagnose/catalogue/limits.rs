@@ -177,7 +177,9 @@ fn plateau(observed: &[f64], signal: &[f64], x: &[f64], order: &[usize]) -> Opti
         let values = levels_of(&rows.iter().map(|row| x[*row]).collect::<Vec<f64>>());
         let of = |y: &[f64]| -> Vec<f64> { rows.iter().map(|row| y[*row]).collect() };
         let (seen, expected) = (range(&of(observed)), range(&of(signal)));
-        values.len() >= VALUES && seen.1 - seen.0 < STILL * (expected.1 - expected.0)
+        // Readings that are still to be recorded have no range.
+        let still = 0.0..STILL * (expected.1 - expected.0);
+        values.len() >= VALUES && still.contains(&(seen.1 - seen.0))
     };
     // The longest; the line before it needs rows of its own.
     let shortest = order.len().checked_sub(ROWS)?;
@@ -199,5 +201,6 @@ mod tests {
         assert_eq!(plateau(&clipped, &x, &x, &order), Some(29));
         let straight: Vec<f64> = x.iter().map(|x| 2.0 * x).collect();
         assert_eq!(plateau(&straight, &straight, &x, &order), None);
+        assert_eq!(plateau(&[f64::NAN; 40], &x, &x, &order), None);
     }
 }

@@ -10,9 +10,9 @@ use crate::report::number::{NONE, aligned, percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
 use super::labels::spoken;
+use super::statement::{tentative, verdict, weighs};
 use super::words::{
     fitted, formula, name, name_of_atom, noise, orders, p_found, probability, prose, quantity,
-    tentative, verdict, weighs,
 };
 use super::{improvement, open};
 

@@ -6,7 +6,8 @@ use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
 use crate::diagnose::{Diagnosis, Estimated, Measure, Omitted, Prediction, Quality};
 
-use super::words::{formula, measure, name, name_of_atom, noise, prose, verdict};
+use super::statement::verdict;
+use super::words::{formula, measure, name, name_of_atom, noise, prose};
 use crate::report::language::Language;
 
 /// Name and version of the format.

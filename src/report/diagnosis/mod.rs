@@ -7,6 +7,7 @@ mod labels;
 mod open;
 mod outlook;
 mod plots;
+mod statement;
 mod words;
 
 use crate::diagnose::case::Case;

@@ -12,7 +12,8 @@ use crate::report::number::{percent, significant};
 use crate::report::table::{ColumnKind, Table};
 
 use super::json::finite;
-use super::words::{full_name, measure, slot_names};
+use super::statement::slot_names;
+use super::words::{full_name, measure};
 
 /// More are in the JSON.
 const MOST: usize = 8;

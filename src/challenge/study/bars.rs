@@ -61,7 +61,8 @@ impl Study<'_> {
         let by_noise = fixed.iter().map(|r| by_noise(r.dof)).sum::<f64>() / fixed.len() as f64;
         let made: Vec<Decision> = self.sequels().filter_map(Sequel::decision).collect();
         let row = |what: &str, bar: &str, got: Rate, holds: fn(f64, f64) -> bool, limit: f64| {
-            let verdict = if got.of == 0 {
+            // Without a bar there is nothing to hold.
+            let verdict = if got.of == 0 || bar == "–" {
                 "–"
             } else if holds(got.share(), limit) {
                 "yes"

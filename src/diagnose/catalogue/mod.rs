@@ -351,6 +351,20 @@ impl Variation {
         self
     }
 
+    /// The label for a reader: a knee or a time constant is the best of some that were tried, and has three
+    /// digits.
+    pub fn short_label(&self) -> String {
+        let Some(shape) = &self.shape else {
+            return self.label.clone();
+        };
+        let exact = modifiers::figure(shape.value);
+        let short = format!("{:.2e}", shape.value).parse();
+        let short = short.map_or_else(|_| exact.clone(), modifiers::figure);
+        let words = self.label.split(' ');
+        let words = words.map(|word| if word == exact { &short } else { word });
+        words.collect::<Vec<&str>>().join(" ")
+    }
+
     /// Number of coefficients.
     pub fn coefficients(&self) -> usize {
         self.terms.iter().filter(|term| !term.tied).count()
@@ -438,6 +452,17 @@ mod tests {
         assert!(reversed.admits(0.99, 1e-4) && reversed.admits(0.5, 0.2));
         assert!(!reversed.admits(0.002, 1e-4));
         assert!(effect("cubic").admits(0.002, 1e-4));
+    }
+
+    #[test]
+    fn what_was_tried_is_said_with_three_digits() {
+        let of = |label: &str| Variation::of(label, Vec::new()).shaped("τ", 2641.4, "s");
+        assert_eq!(of("τ = 2641.4 s").short_label(), "τ = 2640 s");
+        assert_eq!(of("ay, τ = 2641.4 s").short_label(), "ay, τ = 2640 s");
+        assert_eq!(
+            Variation::of("row 26414", Vec::new()).short_label(),
+            "row 26414"
+        );
     }
 
     #[test]

@@ -12,7 +12,8 @@ use crate::report::table::{ColumnKind, Table};
 use super::labels::spoken;
 use super::statement::{tentative, verdict, weighs};
 use super::words::{
-    fitted, formula, name, name_of_atom, noise, orders, p_found, probability, prose, quantity,
+    amplitude, fitted, formula, name, name_of_atom, noise, orders, p_found, probability, prose,
+    quantity,
 };
 use super::{improvement, open};
 
@@ -27,7 +28,7 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> 
         Block::Fields(fields(case, diagnosis, language)),
     ];
     blocks.extend(located(diagnosis, language));
-    blocks.extend(slots(diagnosis, language));
+    blocks.extend(slots(case, diagnosis, language));
     blocks.extend(improvement::blocks(case, diagnosis, language));
     blocks.extend(improvement::parameters(diagnosis, language));
     blocks.extend(open::lines(diagnosis, language));
@@ -145,7 +146,7 @@ fn located(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
     ]
 }
 
-fn slots(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+fn slots(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
     let slots = &diagnosis.examination.slots;
     if slots.is_empty() {
         return Vec::new();
@@ -160,7 +161,7 @@ fn slots(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
             blocks.extend(introduction.clone().map(Block::Paragraph));
             before = introduction;
         }
-        blocks.extend(names(diagnosis, slot, language));
+        blocks.extend(names(case, diagnosis, slot, language));
     }
     blocks
 }
@@ -205,7 +206,7 @@ fn certain_not(language: Language) -> &'static str {
     )
 }
 
-fn names(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
+fn names(case: &Case, diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
     let explained = slot.state != State::Unexplained;
     let mut blocks = Vec::new();
     for alternative in slot.named.iter().filter(|one| explained || weighs(one)) {
@@ -226,7 +227,9 @@ fn names(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
                 language.pick(format!("β multiplies {terms}"), format!("β 乘以 {terms}"))
             });
             let lines = [formula(diagnosis, alternative, language)].into_iter();
-            blocks.push(Block::Formula(lines.chain(multiplied).collect()));
+            let amplitude = amplitude(case, diagnosis, alternative, language);
+            let lines = lines.chain(multiplied).chain(amplitude);
+            blocks.push(Block::Formula(lines.collect()));
         }
     }
     blocks

@@ -207,6 +207,8 @@ fn is_alone(diagnosis: &Diagnosis, of: &Separating) -> bool {
 fn separating(diagnosis: &Diagnosis, of: &Separating, language: Language) -> Vec<Block> {
     /// Measurements that are shown.
     const SHOWN: usize = 4;
+    /// What decides less often than this is no help.
+    const DECIDES: f64 = 0.005;
     let names = of.rivals.iter();
     let names: Vec<String> = names
         .map(|cell| full_name(&diagnosis.cells[*cell], language))
@@ -226,12 +228,12 @@ fn separating(diagnosis: &Diagnosis, of: &Separating, language: Language) -> Vec
     let useful: Vec<_> = of
         .extras
         .iter()
-        .filter(|(_, worth)| worth.kappa > 1.0)
+        .filter(|(_, worth)| worth.kappa > 1.0 && worth.resolved >= DECIDES)
         .collect();
     if useful.is_empty() {
         return vec![Block::Paragraph(language.pick(
-            format!("{names}: κ = {kappa}, and no measurement that is known here tells them apart. Name others as [[action]]."),
-            format!("{names}：κ = {kappa}，已知的补充测量都不能区分它们；请用 [[action]] 给出其他测量。"),
+            format!("{names}: κ = {kappa}, and no measurement that is known here is likely to decide. Name others as [[action]]."),
+            format!("{names}：κ = {kappa}，已知的补充测量都难以判定；请用 [[action]] 给出其他测量。"),
         ))];
     }
     let mut table = Table::new([

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::diagnose::case::Case;
-use crate::diagnose::catalogue::{Cell, Text, Variation, Words};
+use crate::diagnose::catalogue::{Cell, Term, Text, Variation, Words};
 use crate::diagnose::evidence::{Alternative, Refusal};
 use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
 
 use super::labels::{formula_in, spoken};
 use crate::report::language::Language;
-use crate::report::number::{freedom, percent, significant};
+use crate::report::number::{aligned, freedom, percent, significant};
 
 impl Language {
     /// The text of this language.
@@ -41,8 +41,8 @@ fn words(cell: &Cell, language: Language) -> Words {
 
 /// What distinguishes a variant; numbers without a unit stand alone.
 pub(super) fn label(variation: &Variation, language: Language) -> String {
-    let label = variation.label.as_str();
-    spoken(label.strip_suffix(" 1").unwrap_or(label), language)
+    let label = variation.short_label();
+    spoken(label.strip_suffix(" 1").unwrap_or(&label), language)
 }
 
 /// A quantity of the model in a language: offset and scale have words, others their names.
@@ -140,6 +140,35 @@ pub(super) fn fitted(diagnosis: &Diagnosis, alternative: &Alternative) -> Option
     texts.dedup();
     let readable = texts.len() <= MOST && texts.iter().all(|text| !text.is_empty() && *text != "1");
     (readable && !texts.is_empty()).then(|| texts.join("; "))
+}
+
+/// The amplitude of what repeats with the sine and the cosine of one argument.
+pub(super) fn amplitude(
+    case: &Case,
+    diagnosis: &Diagnosis,
+    alternative: &Alternative,
+    language: Language,
+) -> Option<String> {
+    let (cell, variation) = diagnosis.atoms[alternative.variants.first()?.atom];
+    let terms = &diagnosis.cells[cell].variants[variation].terms;
+    let terms: Vec<&Term> = terms.iter().filter(|term| !term.tied).collect();
+    let [sine, cosine] = terms.as_slice() else {
+        return None;
+    };
+    let argument = sine.written().text.strip_prefix("sin(")?;
+    if cosine.written().text.strip_prefix("cos(") != Some(argument) {
+        return None;
+    }
+    let size = alternative.estimate.norm();
+    let gradient = &alternative.estimate / size;
+    let of_noise = gradient.dot(&(&alternative.covariance * &gradient)).sqrt();
+    let of_choice = gradient.component_mul(&alternative.choice).norm();
+    let u = alternative.widened(of_noise, of_choice);
+    let unit = sine.unit_of_size(case).typeset();
+    let text = format!("{} ± {} {unit}", aligned(size, u, 2), significant(u, 2));
+    let text = text.trim_end();
+    u.is_finite()
+        .then(|| language.pick(format!("amplitude {text}"), format!("幅值 {text}")))
 }
 
 /// Where the noise comes from.

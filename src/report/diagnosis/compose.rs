@@ -209,6 +209,7 @@ fn certain_not(language: Language) -> &'static str {
 fn names(case: &Case, diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
     let explained = slot.state != State::Unexplained;
     let mut blocks = Vec::new();
+    let mut said: Vec<String> = Vec::new();
     for alternative in slot.named.iter().filter(|one| explained || weighs(one)) {
         blocks.push(Block::Paragraph(headline(
             diagnosis,
@@ -222,7 +223,10 @@ fn names(case: &Case, diagnosis: &Diagnosis, slot: &Slot, language: Language) ->
                 Some(own) => own.clone(),
                 None => prose(cell, language),
             };
-            blocks.push(Block::Paragraph(prose));
+            if !said.contains(&prose) {
+                blocks.push(Block::Paragraph(prose.clone()));
+                said.push(prose);
+            }
             let multiplied = fitted(diagnosis, alternative).map(|terms| {
                 language.pick(format!("β multiplies {terms}"), format!("β 乘以 {terms}"))
             });

@@ -58,7 +58,7 @@ pub(super) fn quantity(node: &str, language: Language) -> &str {
 pub(super) fn full_name(cell: &Cell, language: Language) -> String {
     let name = name(cell, language);
     match cell.variants.as_slice() {
-        [only] if !only.label.is_empty() => format!("{name} ({})", label(only, language)),
+        [only] if !only.label.is_empty() => distinguished(&name, &label(only, language), language),
         _ => name,
     }
 }
@@ -70,8 +70,12 @@ pub(super) fn name_of_atom(diagnosis: &Diagnosis, atom: usize, language: Languag
     let name = name(cell, language);
     match label(&cell.variants[variation], language) {
         label if label.is_empty() => name,
-        label => format!("{name} ({label})"),
+        label => distinguished(&name, &label, language),
     }
+}
+
+fn distinguished(name: &str, label: &str, language: Language) -> String {
+    language.pick(format!("{name} ({label})"), format!("{name}（{label}）"))
 }
 
 /// That the order of a cause is open, where it is: what else than the name may hold.

@@ -69,6 +69,26 @@ fn exchanged_rows_are_found_however_they_bend_the_fit() {
 }
 
 #[test]
+fn dwells_of_one_reading_after_settling_are_no_rows() {
+    let mut noise = Noise(37);
+    let mut rows = "position,head [deg],U [mV]\n".to_owned();
+    for row in 0..24 {
+        let head = f64::from(row) * 15.0;
+        for _ in 0..2 {
+            let value = 2.0 + 250.0 * libm::sin(head.to_radians()) + 0.01 * noise.normal();
+            let _ = writeln!(rows, "p{row},{head},{value:.4}");
+        }
+    }
+    let folder = folder("dwells");
+    std::fs::write(folder.join("recording.csv"), rows).expect("written");
+    let found = common::cases::diagnosed(
+        &folder,
+        "recording = { file = \"recording.csv\", dwells = [\"position\"], settle_rows = 1 }\nmodel = \"U = K0 + K1*sin(head)\"\n[columns]\nposition = \"position\"\nhead = \"angle\"\nU = \"output\"\n",
+    );
+    assert_eq!(found["verdict"], "none", "{}", found["statement"]);
+}
+
+#[test]
 fn a_scale_of_its_own_is_no_reversed_polarity() {
     let mut noise = Noise(5);
     let mut rows = "operator,nominal [mm],reading [mm]\n".to_owned();

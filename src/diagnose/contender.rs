@@ -133,6 +133,8 @@ impl Contender {
                     .project(&longer.recorded(recorded, columns))
             })
             .collect();
+        /// A variant that leaves more of the effect (squared) is another one.
+        const MOST_LEFT: f64 = 0.5;
         // The variant there that does the same to the rows of the recording.
         let effects = self.likely.iter().map(|likely| {
             let ranked = before.iter().zip(&variants).filter_map(|(before, whole)| {
@@ -140,8 +142,9 @@ impl Contender {
                 let left = (&likely.seen - before * &sizes).norm_squared();
                 Some((left, whole, sizes))
             });
-            let (_, whole, sizes) = ranked.min_by(|a, b| a.0.total_cmp(&b.0))?;
-            Some(longer.baseline.project(&(whole * sizes)))
+            let (left, whole, sizes) = ranked.min_by(|a, b| a.0.total_cmp(&b.0))?;
+            let same = left <= MOST_LEFT * likely.seen.norm_squared();
+            same.then(|| longer.baseline.project(&(whole * sizes)))
         });
         let effects: Option<Vec<DMatrix<f64>>> = effects.collect();
         let variants = variants.iter().cloned();

@@ -91,23 +91,25 @@ fn without_turns(frame: &Frame<'_>, mut fit: Fit) -> Fit {
         let mut unwound = fit.unknowns.clone();
         unwound[place] -= turns * turn;
         let unwound = at(frame, unwound);
-        if same_values(&fit.linear, &unwound.linear) {
+        if same_values(&fit, &unwound) {
             fit = unwound;
         }
     }
     fit
 }
 
-/// Whether a model has the same values but for rounding.
-fn same_values(one: &Linear, other: &Linear) -> bool {
+/// Whether a model has the same values, but for rounding and what nobody would see beside the residuals.
+fn same_values(one: &Fit, other: &Fit) -> bool {
     /// Sines of some thousand turns lose this much.
-    const ROUNDING: f64 = 1e-9;
-    one.values.iter().zip(&other.values).all(|(one, other)| {
-        let largest = one
-            .iter()
-            .fold(0.0_f64, |most, value| most.max(value.abs()));
-        let mut pairs = one.iter().zip(other);
-        pairs.all(|(a, b)| (a - b).abs() <= ROUNDING * largest)
+    const ROUNDING: f64 = 1e-12;
+    /// Share of the residuals that does not show.
+    const UNSEEN: f64 = 1e-3;
+    let rms = one.residuals.norm() / (one.residuals.len().max(1) as f64).sqrt();
+    let values = one.linear.values.iter().zip(&other.linear.values);
+    values.into_iter().all(|(one, other)| {
+        let largest = (one.iter()).fold(0.0_f64, |most, value| most.max(value.abs()));
+        let near = (UNSEEN * rms).min(1e-9 * largest).max(ROUNDING * largest);
+        one.iter().zip(other).all(|(a, b)| (a - b).abs() <= near)
     })
 }
 

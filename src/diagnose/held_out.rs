@@ -56,7 +56,7 @@ pub(super) fn held_out(
         covariance: &covariance,
     };
     let fit = model.at(&frame);
-    let claimed = noise_of(known, &frame, &fit);
+    let claimed = noise_of(known, &frame, &fit, 0);
     let after = adopted.and_then(|adopted| improved(known, ground, cells, places, adopted));
     let rms = |values: &DVector<f64>| root_mean_squares(&frame, values);
     Some(HeldOutQuality {
@@ -176,7 +176,7 @@ fn improved(
     let case = extended.with(&rows);
     let frame = Frame::new(&case);
     let fit = model.at(&frame);
-    let claimed = noise_of(known, &frame, &fit);
+    let claimed = noise_of(known, &frame, &fit, 0);
     Some(model.prediction(&frame, &fit, &claimed))
 }
 

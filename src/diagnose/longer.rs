@@ -54,7 +54,8 @@ pub(super) fn examined<R>(
     };
     let ground = Ground::new(&frame, &fit).refined(recorded.ground.finer.clone());
     let cells = catalogue::cells(&ground);
-    let baseline = baseline(&frame, &fit, &noise_of(known, &frame, &fit)).ok()?;
+    let noise = noise_of(known, &frame, &fit, known.frame.blocks.len());
+    let baseline = baseline(&frame, &fit, &noise).ok()?;
     Some(examine(&Longer {
         ground,
         cells,
@@ -112,8 +113,14 @@ pub(super) fn unknowns(known: &Known<'_>, frame: &Frame<'_>) -> DVector<f64> {
     DVector::from_iterator(frame.unknowns.len(), values)
 }
 
-/// The noise of another design: what is claimed, or for each response what the rows at hand have.
-pub(super) fn noise_of(known: &Known<'_>, frame: &Frame<'_>, fit: &Fit) -> Claimed {
+/// The noise of another design, of which so many blocks at the beginning are those of the recording: what is
+/// claimed, or for each response what the rows at hand have.
+pub(super) fn noise_of(
+    known: &Known<'_>,
+    frame: &Frame<'_>,
+    fit: &Fit,
+    recorded: usize,
+) -> Claimed {
     match &known.case.noise {
         NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow(_) => {
             noise::planned(frame, fit)
@@ -124,7 +131,14 @@ pub(super) fn noise_of(known: &Known<'_>, frame: &Frame<'_>, fit: &Fit) -> Claim
                 let part = known.claimed.u.rows(response * own, own);
                 (part.norm_squared() / own as f64).sqrt()
             };
-            let u = DVector::from_fn(frame.observations(), |at, _| rms(at / blocks));
+            let u = DVector::from_fn(frame.observations(), |at, _| {
+                let (response, block) = (at / blocks, at % blocks);
+                if block < recorded {
+                    known.claimed.u[response * own + block]
+                } else {
+                    rms(response)
+                }
+            });
             Claimed {
                 u,
                 correlated: None,

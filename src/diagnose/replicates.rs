@@ -69,7 +69,8 @@ fn agreeing(frame: &Frame<'_>, columns: &[usize]) -> Vec<Vec<usize>> {
                 case.columns[*column].numbers(),
             ) {
                 (Some(labels), _) => u64::from(labels.of_row[row]),
-                (None, Some(numbers)) => numbers[row].to_bits(),
+                // Zero has one sign.
+                (None, Some(numbers)) => (numbers[row] + 0.0).to_bits(),
                 (None, None) => 0,
             }
         });

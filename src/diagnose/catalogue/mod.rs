@@ -351,10 +351,10 @@ impl Variation {
         self
     }
 
-    /// The label for a reader: a knee or a time constant is the best of some that were tried, and has three
-    /// digits.
+    /// The label for a reader: a time constant is the best of some that were tried, and has three digits. A
+    /// knee may need more, where the range is far from zero.
     pub fn short_label(&self) -> String {
-        let Some(shape) = &self.shape else {
+        let Some(shape) = self.shape.as_ref().filter(|shape| shape.symbol != "x₀") else {
             return self.label.clone();
         };
         let exact = modifiers::figure(shape.value);

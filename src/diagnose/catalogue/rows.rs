@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::ground::{Ground, Node};
 use super::response::{on_output, plain};
+use super::zero::Absorbed;
 use super::{Cell, Modifier, Term, Variation, tied};
 use crate::diagnose::evidence::Place;
 
@@ -33,8 +34,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         Variation::of(named(rows), terms.collect())
     });
     let mut cells = vec![plain(ground, "outlier", "row", outliers.collect())];
-    if blocks.iter().all(|rows| rows.len() == 1) && ground.has_signal() && blocks.len() <= MOST / 2
-    {
+    if blocks.len() == ground.rows() && ground.has_signal() && blocks.len() <= MOST / 2 {
         cells.push(swapped(ground));
         cells.push(reversed(ground));
     }
@@ -87,61 +87,80 @@ fn swapped(ground: &Ground<'_>) -> Cell {
     plain(ground, "swapped", "row", variants.collect())
 }
 
-/// The model fitted without single rows, which may have bent the fit.
+/// The model fitted without single rows, which may have bent the fit; all rows alike.
 struct Deleted<'g, 'f> {
     ground: &'g Ground<'f>,
-    /// Orthonormal, of what the parameters can do.
-    basis: DMatrix<f64>,
+    absorbed: Absorbed,
+    /// What the parameters leave of the residuals; what is still to be recorded has none.
+    rest: DVector<f64>,
+    /// What they take up of them, where rows had weights.
+    taken: DVector<f64>,
 }
 
 impl<'g, 'f> Deleted<'g, 'f> {
     fn new(ground: &'g Ground<'f>) -> Self {
+        let absorbed = Absorbed::by_parameters(ground);
+        let known = |r: f64| if r.is_finite() { r } else { 0.0 };
+        let residuals = ground.fit.residuals.map(known);
+        let rest = absorbed.rest(&residuals);
         Deleted {
             ground,
-            basis: ground.fit.jacobian.clone().qr().q(),
+            absorbed,
+            taken: residuals - &rest,
+            rest,
         }
     }
 
-    /// What the model gives for some rows if it is fitted without them, by response. Without rows I with the
-    /// residuals r the model is there m − H(1 − H)⁻¹r, H being their block of the hat matrix.
-    fn model(&self, rows: &[usize]) -> Vec<Vec<f64>> {
-        let fit = self.ground.fit;
+    fn places(&self, rows: &[usize]) -> Vec<usize> {
         let responses = self.ground.case().responses.len();
-        let of_response =
-            |response| (rows.iter()).map(move |row| response * self.ground.rows() + row);
-        let places: Vec<usize> = (0..responses).flat_map(of_response).collect();
-        let own = self.basis.select_rows(&places);
-        let hat = &own * own.transpose();
-        let residuals = DVector::from_fn(places.len(), |i, _| fit.residuals[places[i]]);
+        let of = |response| (rows.iter()).map(move |row| response * self.ground.rows() + row);
+        (0..responses).flat_map(of).collect()
+    }
+
+    /// How far some observations bend the fit where they stand: H(1 − H)⁻¹r with their residuals r and their block
+    /// H of the hat matrix.
+    fn bent(&self, places: &[usize]) -> DVector<f64> {
+        let hat = self.absorbed.hat(places);
         let left = DMatrix::identity(places.len(), places.len()) - &hat;
         // Rows without which a parameter is not determined say nothing of themselves.
         let determined = left.symmetric_eigenvalues().min() > UNDETERMINED;
+        let residuals = DVector::from_fn(places.len(), |i, _| self.rest[places[i]]);
         let solved = determined.then(|| left.lu().solve(&residuals)).flatten();
-        let bent = solved.map_or_else(|| DVector::zeros(places.len()), |solved| hat * solved);
-        (0..responses)
-            .map(|response| {
-                let bent = bent.rows(response * rows.len(), rows.len());
-                let model = &fit.linear.values[response];
-                let rows = rows.iter().zip(&bent);
-                rows.map(|(row, bent)| model[*row] - bent).collect()
-            })
-            .collect()
+        solved.map_or_else(|| DVector::zeros(places.len()), |solved| hat * solved)
+    }
+
+    /// What the model gives for some rows if it is fitted without them, by response.
+    fn model(&self, rows: &[usize]) -> Vec<Vec<f64>> {
+        let places = self.places(rows);
+        let bent = self.bent(&places);
+        let values = places.iter().zip(&bent).map(|(place, bent)| {
+            let (response, row) = (place / self.ground.rows(), place % self.ground.rows());
+            self.ground.fit.linear.values[response][row] + self.taken[*place] - bent
+        });
+        let values: Vec<f64> = values.collect();
+        values.chunks(rows.len()).map(<[f64]>::to_vec).collect()
     }
 
     /// The rows that are farthest from what the others say, ascending.
     fn worst(&self) -> Vec<usize> {
         let rows = self.ground.rows();
         let mut squares = vec![0.0; rows];
+        let distances: Vec<Vec<f64>> = (0..rows)
+            .map(|row| {
+                let places = self.places(&[row]);
+                let bent = self.bent(&places);
+                let of = places.iter().zip(&bent);
+                of.map(|(place, bent)| self.rest[*place] + bent).collect()
+            })
+            .collect();
         for response in 0..self.ground.case().responses.len() {
-            let observed = self.ground.frame.observed(response);
-            let distance = |row: usize| observed[row] - self.model(&[row])[response][0];
-            let distances: Vec<f64> = (0..rows).map(distance).collect();
-            let whole: f64 = distances.iter().map(|d| d * d).sum();
-            for (square, d) in squares.iter_mut().zip(distances) {
-                *square += d * d / whole;
+            let own = || distances.iter().map(|of| of[response] * of[response]);
+            let whole: f64 = own().sum();
+            for (square, d) in squares.iter_mut().zip(own()).filter(|_| whole > 0.0) {
+                *square += d / whole;
             }
         }
-        let mut order: Vec<usize> = (0..rows).collect();
+        let mut order: Vec<usize> = (0..rows).filter(|row| squares[*row] > 0.0).collect();
         order.sort_by(|a, b| squares[*b].total_cmp(&squares[*a]));
         order.truncate(WORST);
         order.sort_unstable();

@@ -89,6 +89,12 @@ impl Absorbed {
         column - &self.basis * self.basis.tr_mul(column)
     }
 
+    /// The block of the hat matrix of some observations.
+    pub(super) fn hat(&self, observations: &[usize]) -> DMatrix<f64> {
+        let own = self.basis.select_rows(observations);
+        &own * own.transpose()
+    }
+
     /// Directions that the parameters take up.
     pub(super) fn directions(&self) -> usize {
         self.basis.ncols()

@@ -59,7 +59,7 @@ mod tests {
         assert!(coverage(4.0, |_| 1.0) < 0.9, "without it, too few do");
     }
 
-    /// The figures in docs/diagnose.md; these here by a sum over 6000 strengths up to 60 in another language.
+    /// The figures in docs/diagnose.md; these here by a sum over 6000 strengths up to 60.
     #[test]
     fn the_factors_of_the_documentation() {
         for (strength, expected) in [(6.0, 1.93), (7.0, 1.19), (8.0, 1.04)] {

@@ -1,13 +1,19 @@
 //! Counting into equal bins, and picking out the values of some of them.
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, dispatch, f64x8};
 
+use crate::elementary::INTEGER;
+use crate::sift::{FEW, Stretch};
 use crate::{Block, LANES};
 
 /// Bins of a [`Grid`].
 pub const BINS: usize = 4096;
 
 const LAST: f64 = (BINS - 1) as f64;
+
+/// Numbers that are looked at together.
+const ROW: usize = 8;
 
 /// Equal bins side by side; the first and the last one also take what lies beyond.
 ///
@@ -38,7 +44,8 @@ impl Grid {
 
     /// The lower edge of a bin, up to rounding.
     pub fn edge(&self, bin: usize) -> f64 {
-        (bin as f64 - 0.5).mul_add(self.width, self.origin)
+        // Not fused: outside of a dispatch that would be a call.
+        (bin as f64 - 0.5) * self.width + self.origin
     }
 
     /// The bin of a number; NaN goes to the first.
@@ -54,6 +61,102 @@ impl Grid {
         let v = if v < LAST { v } else { LAST };
         // Rounded to an integer, which then stands in the low bits.
         (v + 4_503_599_627_370_496.0).to_bits() as u32
+    }
+}
+
+/// Grids over stretches that ascend and have no number in common, their bins numbered through.
+#[derive(Debug, Clone, Default)]
+pub struct Grids {
+    parts: Vec<Part>,
+    bins: usize,
+}
+
+/// A grid of a [`Grids`].
+#[derive(Debug, Clone)]
+struct Part {
+    stretch: Stretch,
+    grid: Grid,
+    /// The number of the first bin and, counted from there, of the last one.
+    first: f64,
+    last: f64,
+}
+
+impl Part {
+    /// The bin of a number of the stretch.
+    #[inline(always)]
+    fn place(&self, x: f64) -> f64 {
+        let v = (x - self.grid.origin) * self.grid.inverse;
+        let v = if v > 0.0 { v } else { 0.0 };
+        let v = if v < self.last { v } else { self.last };
+        self.first + ((v + INTEGER) - INTEGER)
+    }
+
+    /// The bins of some numbers of the stretch.
+    #[inline(always)]
+    fn places<S: Simd>(&self, simd: S, x: f64x8<S>) -> f64x8<S> {
+        let v = (x - self.grid.origin) * self.grid.inverse;
+        let v = v.max(f64x8::splat(simd, 0.0));
+        let v = v.min(f64x8::splat(simd, self.last));
+        self.first + ((v + INTEGER) - INTEGER)
+    }
+}
+
+impl Grids {
+    /// Adds the first so many bins of a grid, of which the last also takes what lies beyond in its stretch.
+    pub fn push(&mut self, stretch: Stretch, grid: Grid, bins: usize) {
+        let bins = bins.clamp(1, BINS);
+        self.parts.push(Part {
+            stretch,
+            grid,
+            first: self.bins as f64,
+            last: (bins - 1) as f64,
+        });
+        self.bins += bins;
+    }
+
+    /// Bins of all grids.
+    pub fn bins(&self) -> usize {
+        self.bins
+    }
+
+    /// The bin of every number; for one that lies in no stretch the number of bins.
+    pub fn places(&self, level: Level, x: &[f64], out: &mut Vec<u32>) {
+        out.clear();
+        if self.parts.len() > FEW {
+            out.extend(x.iter().map(|x| self.place(*x)));
+            return;
+        }
+        out.resize(x.len(), 0);
+        let (rows, rest) = x.as_chunks::<ROW>();
+        let (out_rows, out_rest) = out.as_chunks_mut::<ROW>();
+        dispatch!(level, simd => for (row, out) in rows.iter().zip(out_rows) {
+            let row = f64x8::from_slice(simd, row);
+            let mut places = f64x8::splat(simd, self.bins as f64);
+            for part in &self.parts {
+                let [low, high] = part.stretch.map(|end| f64x8::splat(simd, end));
+                let inside = row.simd_ge(low) & row.simd_le(high);
+                places = inside.select(part.places(simd, row), places);
+            }
+            // An integer below 2⁵² stands in the low bits when that is added.
+            let bits = <[f64; ROW]>::from(places + 4_503_599_627_370_496.0);
+            for (out, bits) in out.iter_mut().zip(bits) {
+                *out = bits.to_bits() as u32;
+            }
+        });
+        for (out, x) in out_rest.iter_mut().zip(rest) {
+            *out = self.place(*x);
+        }
+    }
+
+    /// The same for one number.
+    fn place(&self, x: f64) -> u32 {
+        let part = self
+            .parts
+            .get(self.parts.partition_point(|part| part.stretch[1] < x));
+        match part.filter(|part| part.stretch[0] <= x) {
+            Some(part) => part.place(x) as u32,
+            None => self.bins as u32,
+        }
     }
 }
 
@@ -137,6 +240,46 @@ mod tests {
         assert_eq!(grid.bin(f64::INFINITY), BINS - 1);
         assert_eq!(grid.bin(grid.edge(17) + 1e-9), 17);
         assert_eq!(grid.bin(grid.edge(17) - 1e-9), 16);
+    }
+
+    #[test]
+    fn places_of_several_grids_are_those_of_each() {
+        places_are_right(&[
+            ([-2.0, -1.0], Grid::new(-2.0, 0.25), 4),
+            ([0.25, 1.5], Grid::new(0.25, 0.125), 11),
+        ]);
+        let many = (0..FEW + 3).map(|i| i as f64 * 0.1);
+        let many = many.map(|x| ([x, x + 0.05], Grid::new(x, 0.01), 5));
+        places_are_right(&many.collect::<Vec<_>>());
+    }
+
+    fn places_are_right(grids: &[(Stretch, Grid, usize)]) {
+        let mut all = Grids::default();
+        for &(stretch, grid, bins) in grids {
+            all.push(stretch, grid, bins);
+        }
+        let total: usize = grids.iter().map(|(.., bins)| bins).sum();
+        assert_eq!(all.bins(), total);
+        let mut values = awkward().0.to_vec();
+        values.extend((0..900).map(|i| f64::from(i) * 0.006 - 3.0));
+        let place = |x: f64| {
+            let mut first = 0;
+            for &([low, high], grid, bins) in grids {
+                if low <= x && x <= high {
+                    return first + grid.bin(x).min(bins - 1) as u32;
+                }
+                first += bins as u32;
+            }
+            first
+        };
+        let expected: Vec<u32> = values.iter().map(|x| place(*x)).collect();
+        for level in levels() {
+            let mut places = vec![77];
+            all.places(level, &values, &mut places);
+            assert_eq!(places, expected, "{level:?}");
+        }
+        let found = (0..=total as u32).filter(|place| expected.contains(place));
+        assert!(found.count() > total * 2 / 3);
     }
 
     #[test]

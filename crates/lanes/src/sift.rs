@@ -74,21 +74,14 @@ impl Sifted {
         let Some(rest) = self.rest.get_mut(self.left..self.left + LANES + ROW) else {
             return false;
         };
-        let (left, in_first) = if *first == EMPTY {
+        let (left, in_first, finite) = if *first == EMPTY {
             rest[..LANES].copy_from_slice(&x.0);
-            (LANES, 0)
+            (LANES, 0, all_finite(simd, x))
         } else {
             let second = if *second == EMPTY { first } else { second };
             outside(simd, x, [first, second], rest)
         };
-        // What is not finite lies in no stretch.
-        let infinity = f64x8::splat(simd, f64::INFINITY);
-        let mut finite = infinity.simd_eq(infinity);
-        let (rows, last) = rest[..left].as_chunks::<ROW>();
-        for row in rows {
-            finite &= f64x8::from_slice(simd, row).abs().simd_lt(infinity);
-        }
-        if !finite.all_true() || !last.iter().all(|x| x.is_finite()) {
+        if !finite {
             return false;
         }
         self.left += left;
@@ -98,18 +91,21 @@ impl Sifted {
     }
 }
 
-/// Writes what lies outside of two stretches to `rest`; how much that was, and how much lay in the first.
+/// Writes what lies outside of two stretches to `rest`; how much that was, how much lay in the first, and whether all
+/// is finite.
 #[inline(always)]
 fn outside<S: Simd>(
     simd: S,
     x: &Block,
     stretches: [&Stretch; 2],
     rest: &mut [f64],
-) -> (usize, u64) {
+) -> (usize, u64, bool) {
     let [first, second] = stretches.map(|ends| ends.map(|end| f64x8::splat(simd, end)));
     let (mut left, mut in_first) = (0, 0);
+    let mut check = Finite::new(simd);
     for row in x.0.as_chunks::<ROW>().0 {
         let row = f64x8::from_slice(simd, row);
+        check.take(row);
         // What is not changed by being moved between the ends lies there; that takes fewer steps than two
         // comparisons.
         let inside = row.max(first[0]).min(first[1]).simd_eq(row);
@@ -119,7 +115,100 @@ fn outside<S: Simd>(
         left += outside.to_bitmask().count_ones() as usize;
         in_first += u64::from(inside.to_bitmask().count_ones());
     }
-    (left, in_first)
+    (left, in_first, check.all())
+}
+
+/// Whether everything is finite: zero times a finite number is zero, times any other NaN.
+struct Finite<S: Simd> {
+    zero: f64x8<S>,
+    sum: f64x8<S>,
+}
+
+impl<S: Simd> Finite<S> {
+    #[inline(always)]
+    fn new(simd: S) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        Finite { zero, sum: zero }
+    }
+
+    #[inline(always)]
+    fn take(&mut self, row: f64x8<S>) {
+        self.sum += row * self.zero;
+    }
+
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.sum.simd_eq(self.zero).all_true()
+    }
+}
+
+#[inline(always)]
+fn all_finite<S: Simd>(simd: S, x: &Block) -> bool {
+    let mut check = Finite::new(simd);
+    for row in x.0.as_chunks::<ROW>().0 {
+        check.take(f64x8::from_slice(simd, row));
+    }
+    check.all()
+}
+
+/// Stretches that are all looked at for every value; of more, the right one is looked for.
+pub(crate) const FEW: usize = 16;
+
+/// Drops the values from `first` on that lie in no stretch. The stretches ascend and have no number in common and
+/// no infinite end.
+pub fn keep_inside(level: Level, values: &mut Vec<f64>, first: usize, stretches: &[Stretch]) {
+    let later = &mut values[first..];
+    let kept = if stretches.len() > FEW {
+        move_one_by_one(later, |value| {
+            let found = stretches.get(stretches.partition_point(|[_, high]| *high < value));
+            found.is_some_and(|[low, _]| *low <= value)
+        })
+    } else {
+        dispatch!(level, simd => move_inside(simd, later, stretches))
+    };
+    values.truncate(first + kept);
+}
+
+/// Moves the values for which something holds to the front, in their order; how many there are.
+fn move_one_by_one(values: &mut [f64], holds: impl Fn(f64) -> bool) -> usize {
+    let mut kept = 0;
+    for index in 0..values.len() {
+        let value = values[index];
+        // Every value is moved: a branch on what cannot be foreseen would cost more.
+        values[kept] = value;
+        kept += usize::from(holds(value));
+    }
+    kept
+}
+
+/// Moves the values that lie in some stretch to the front, in their order; how many there are.
+#[inline(always)]
+fn move_inside<S: Simd>(simd: S, values: &mut [f64], stretches: &[Stretch]) -> usize {
+    let mut kept = 0;
+    let rows = values.len() / ROW * ROW;
+    for start in (0..rows).step_by(ROW) {
+        let row = f64x8::from_slice(simd, &values[start..start + ROW]);
+        let mut inside = row.simd_eq(f64x8::splat(simd, f64::NAN));
+        for [low, high] in stretches {
+            let (low, high) = (f64x8::splat(simd, *low), f64x8::splat(simd, *high));
+            inside |= row.max(low).min(high).simd_eq(row);
+        }
+        // Up to the end of this row at most, which has been read.
+        row.compress(inside)
+            .store_slice(&mut values[kept..kept + ROW]);
+        kept += inside.to_bitmask().count_ones() as usize;
+    }
+    for index in rows..values.len() {
+        let value = values[index];
+        if stretches
+            .iter()
+            .any(|[low, high]| *low <= value && value <= *high)
+        {
+            values[kept] = value;
+            kept += 1;
+        }
+    }
+    kept
 }
 
 #[cfg(test)]
@@ -178,6 +267,42 @@ mod tests {
             assert!(!sifted.sift(level, &finite(), &[EMPTY, EMPTY]));
             sifted.clear();
             assert!(sifted.sift(level, &finite(), &[EMPTY, EMPTY]));
+        }
+    }
+
+    #[test]
+    fn what_lies_inside_is_kept_in_order() {
+        let mut values = awkward().0.to_vec();
+        values.extend((0..77).map(|i| f64::from(i) * 0.1 - 3.0));
+        for stretches in [
+            vec![],
+            vec![[-1.0, 2.0]],
+            vec![[-f64::MAX, -2.0], [0.0, 0.0], [1.0, 3.0]],
+            (0..=FEW as i32)
+                .map(|i| f64::from(i) * 0.2)
+                .map(|x| [x, x + 0.1])
+                .collect(),
+        ] {
+            let inside = |x: f64| stretches.iter().any(|s: &Stretch| s[0] <= x && x <= s[1]);
+            for first in [0, 5] {
+                let mut expected = values.clone();
+                let mut index = 0;
+                expected.retain(|x| {
+                    index += 1;
+                    index <= first || inside(*x)
+                });
+                for level in levels() {
+                    let mut found = values.clone();
+                    keep_inside(level, &mut found, first, &stretches);
+                    assert!(
+                        found
+                            .iter()
+                            .map(|x| x.to_bits())
+                            .eq(expected.iter().map(|x| x.to_bits())),
+                        "{level:?} {stretches:?}"
+                    );
+                }
+            }
         }
     }
 }

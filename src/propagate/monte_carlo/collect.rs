@@ -14,13 +14,17 @@ use super::sieve::Sieve;
 use super::strainer::Strainer;
 
 /// Trials that are kept before the others are sieved.
-pub(super) const PILOT: u64 = 4 * CHUNK;
+pub(super) const PILOT: u64 = CHUNK;
 
 /// Fewest values that tell which ones will matter.
 const FEWEST: u64 = 1 << 12;
 
-/// Most chunks between two looks at what is to be kept.
-const MOST_CHUNKS: u64 = 1 << 12;
+/// Trials after a look at what is to be kept, for each one before. Seldom looks let more be kept than need be,
+/// frequent ones take time themselves.
+const GROWTH: u64 = 3;
+
+/// Most chunks between two looks.
+const MOST_CHUNKS: u64 = 1 << 10;
 
 /// Says which order statistics of so many values will be wanted.
 pub(super) type Ask<'a> = dyn Fn(u64) -> Wanted + 'a;
@@ -118,7 +122,9 @@ impl<'a, S: Source> Collector<'a, S> {
         while self.chunks < chunks {
             let end = match self.held {
                 Held::Columns(_) => chunks.min(self.chunks + PILOT / CHUNK),
-                Held::Sieved(_) => chunks.min(self.chunks + self.chunks.min(MOST_CHUNKS)),
+                Held::Sieved(_) => {
+                    chunks.min(self.chunks + (GROWTH * self.chunks).min(MOST_CHUNKS))
+                }
             };
             let next = self.chunks..end;
             let Plan {

@@ -9,6 +9,8 @@
 //! Two kinds of evidence: what is known of the budget ([`super::heavy`]), and Hill's estimate of α
 //! from the largest deviations on either side.
 
+use gumption_lanes::{Block, LANES, level, ops};
+
 use super::heavy::HeavyComponent;
 use super::interval::Ranked;
 
@@ -155,7 +157,16 @@ fn hill(sample: &impl Ranked, side: Side, k: usize) -> f64 {
     if threshold <= 0.0 {
         return f64::INFINITY;
     }
-    let sum: f64 = (1..=k).map(|i| libm::log(deviation(i) / threshold)).sum();
+    let mut sum = 0.0;
+    let (mut ratios, mut logarithms) = (Block([1.0; LANES]), Block::ZERO);
+    for start in (0..k).step_by(LANES) {
+        ratios.0.fill(1.0);
+        for (ratio, i) in ratios.0.iter_mut().zip(start + 1..=k) {
+            *ratio = deviation(i) / threshold;
+        }
+        ops::ln(level(), &ratios, &mut logarithms);
+        sum += logarithms.0.iter().sum::<f64>();
+    }
     if sum > 0.0 {
         k as f64 / sum
     } else {

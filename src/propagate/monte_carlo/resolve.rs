@@ -4,13 +4,16 @@
 //! again; where they are too many to be kept at once, they are first counted in a finer grid. The
 //! results are those of a full sort of all values, to the last bit.
 
-use gumption_lanes::bins::{BINS, Grid};
-use gumption_lanes::{Block, LANES};
+use std::ops::Range;
+
+use gumption_lanes::bins::{BINS, Grid, Grids};
+use gumption_lanes::sift::{self, Stretch};
+use gumption_lanes::{Block, LANES, level};
 
 use super::cells::{Cell, Slack, Wanted, cell_of, for_each_pair};
 use super::engine::{Layout, Sink, Source, parallel_map, simulate};
 use super::interval::{Ranked, Ranks};
-use super::sieve::{MOST_KEPT, Sieve, keep_only};
+use super::sieve::{MOST_KEPT, Sieve};
 
 /// Values that are sorted without a look at finer counts.
 const SORTED: u64 = 1 << 13;
@@ -22,6 +25,12 @@ struct Run {
     high: f64,
     below: u64,
     count: u64,
+}
+
+impl Run {
+    fn stretch(&self) -> Stretch {
+        [self.low, self.high]
+    }
 }
 
 /// Where values can be had again.
@@ -259,59 +268,41 @@ fn runs(cells: &[Cell], chosen: &[bool]) -> Vec<Run> {
     runs
 }
 
-/// The run that holds a value; runs ascend.
-fn run_of(runs: &[Run], value: f64) -> Option<usize> {
-    let index = if runs.len() <= FEW_RUNS {
-        // Without a branch on what cannot be foreseen.
-        runs.iter().map(|run| usize::from(run.high < value)).sum()
-    } else {
-        runs.partition_point(|run| run.high < value)
-    };
-    let run = runs.get(index)?;
-    (run.low <= value).then_some(index)
-}
-
 /// The values that lie in runs.
 fn inside(runs: &[Run], mut values: Vec<f64>) -> Vec<f64> {
-    let holds = |run: &Run, value: f64| (run.low <= value) & (value <= run.high);
-    if runs.len() <= FEW_RUNS {
-        // Without a branch on what cannot be foreseen.
-        let any = |value| runs.iter().fold(false, |any, run| any | holds(run, value));
-        keep_only(&mut values, any);
-    } else {
-        keep_only(&mut values, |value| run_of(runs, value).is_some());
-    }
+    sift::keep_inside(level(), &mut values, 0, &stretches(runs));
     values
 }
 
-/// Runs that are looked at one by one.
-const FEW_RUNS: usize = 8;
+fn stretches(runs: &[Run]) -> Vec<Stretch> {
+    runs.iter().map(Run::stretch).collect()
+}
 
-/// Takes values one by one.
+/// Takes values, also such as are not finite.
 trait Keeper: Send {
-    fn add(&mut self, value: f64);
+    fn add(&mut self, values: &[f64]);
 }
 
 /// Keeps the values of some runs.
 struct Gather {
-    runs: Vec<Run>,
+    stretches: Vec<Stretch>,
     values: Vec<f64>,
 }
 
 impl Gather {
     fn new(runs: &[Run]) -> Self {
         Gather {
-            runs: runs.to_vec(),
+            stretches: stretches(runs),
             values: Vec::new(),
         }
     }
 }
 
 impl Keeper for Gather {
-    fn add(&mut self, value: f64) {
-        if run_of(&self.runs, value).is_some() {
-            self.values.push(value);
-        }
+    fn add(&mut self, values: &[f64]) {
+        let first = self.values.len();
+        self.values.extend_from_slice(values);
+        sift::keep_inside(level(), &mut self.values, first, &self.stretches);
     }
 }
 
@@ -327,28 +318,31 @@ const PER_BIN: usize = 8;
 
 /// Counts of some runs in finer bins.
 struct Finer {
-    runs: Vec<Run>,
-    /// Per run.
-    grids: Vec<Grid>,
-    /// Per run and bin: count, smallest and largest value.
-    bins: Vec<Vec<(u64, f64, f64)>>,
+    /// With the numbers of their bins.
+    runs: Vec<(Run, Range<usize>)>,
+    grids: Grids,
+    /// Count, smallest and largest value; the last bin is for values of no run.
+    bins: Vec<(u64, f64, f64)>,
+    /// The bins of the values at hand.
+    places: Vec<u32>,
 }
 
 impl Finer {
     fn new(runs: &[Run]) -> Self {
-        let bins = |run: &Run| (run.count as usize / PER_BIN).clamp(2, BINS);
-        let grid = |run: &Run| {
-            let steps = (bins(run) - 1) as f64;
+        let mut grids = Grids::default();
+        let mut grid = |run: &Run| {
+            let (first, bins) = (grids.bins(), (run.count as usize / PER_BIN).clamp(2, BINS));
+            let steps = (bins - 1) as f64;
             let width = run.high / steps - run.low / steps;
-            Grid::new(run.low, width.max(4.0 * f64::MIN_POSITIVE))
+            let grid = Grid::new(run.low, width.max(4.0 * f64::MIN_POSITIVE));
+            grids.push(run.stretch(), grid, bins);
+            (*run, first..grids.bins())
         };
         Finer {
-            runs: runs.to_vec(),
-            grids: runs.iter().map(grid).collect(),
-            bins: runs
-                .iter()
-                .map(|run| vec![(0, f64::INFINITY, f64::NEG_INFINITY); bins(run)])
-                .collect(),
+            runs: runs.iter().map(&mut grid).collect(),
+            bins: vec![(0, f64::INFINITY, f64::NEG_INFINITY); grids.bins() + 1],
+            grids,
+            places: Vec::new(),
         }
     }
 
@@ -357,19 +351,13 @@ impl Finer {
         let parts: Vec<&[f64]> = parts.iter().map(Vec::as_slice).collect();
         of_each(parts, threads, |part| {
             let mut finer = Finer::new(runs);
-            part.iter().for_each(|value| finer.add(*value));
+            part.chunks(LANES).for_each(|values| finer.add(values));
             finer
         })
     }
 
-    /// The bin of a value of a run.
-    fn bin(&self, run: usize, value: f64) -> usize {
-        self.grids[run].bin(value).min(self.bins[run].len() - 1)
-    }
-
     fn merged(mut self, other: Finer) -> Finer {
-        let theirs = other.bins.iter().flatten();
-        for (all, bin) in self.bins.iter_mut().flatten().zip(theirs) {
+        for (all, bin) in self.bins.iter_mut().zip(&other.bins) {
             *all = (all.0 + bin.0, all.1.min(bin.1), all.2.max(bin.2));
         }
         self
@@ -378,27 +366,35 @@ impl Finer {
     /// Those of the values that were added that lie in some `runs` of its cells.
     fn inside(&self, runs: &[Run], mut values: Vec<f64>) -> Vec<f64> {
         let mut runs = runs.iter().peekable();
-        let mut chosen = vec![[false; BINS]; self.runs.len()];
-        for (chosen, bins) in chosen.iter_mut().zip(&self.bins) {
-            let filled = chosen.iter_mut().zip(bins).filter(|(_, bin)| bin.0 > 0);
-            for (chosen, &(_, low, high)) in filled {
-                while runs.next_if(|run| run.high < low).is_some() {}
-                *chosen = runs
-                    .peek()
-                    .is_some_and(|run| run.low <= low && high <= run.high);
+        let mut chosen = vec![false; self.bins.len()];
+        let filled = chosen.iter_mut().zip(&self.bins[..self.grids.bins()]);
+        for (chosen, &(_, low, high)) in filled.filter(|(_, bin)| bin.0 > 0) {
+            while runs.next_if(|run| run.high < low).is_some() {}
+            *chosen = runs
+                .peek()
+                .is_some_and(|run| run.low <= low && high <= run.high);
+        }
+        let mut places = Vec::new();
+        let mut kept = 0;
+        for start in (0..values.len()).step_by(LANES) {
+            let end = values.len().min(start + LANES);
+            self.grids.places(level(), &values[start..end], &mut places);
+            for (index, place) in (start..end).zip(&places) {
+                // Every value is moved: a branch on what cannot be foreseen would cost more.
+                values[kept] = values[index];
+                kept += usize::from(chosen[*place as usize]);
             }
         }
-        keep_only(&mut values, |value| {
-            run_of(&self.runs, value).is_some_and(|run| chosen[run][self.bin(run, value)])
-        });
+        values.truncate(kept);
         values
     }
 
     fn cells(&self) -> Vec<Cell> {
-        let filled = self.bins.iter().flatten().filter(|(count, ..)| *count > 0);
+        let filled = self.bins.iter().filter(|(count, ..)| *count > 0);
         let mut cells = Vec::with_capacity(filled.count());
-        for (run, bins) in self.runs.iter().zip(&self.bins) {
+        for (run, bins) in &self.runs {
             let mut below = run.below;
+            let bins = &self.bins[bins.clone()];
             for &(count, low, high) in bins.iter().filter(|(count, ..)| *count > 0) {
                 cells.push(Cell {
                     low,
@@ -414,16 +410,16 @@ impl Finer {
 }
 
 impl Keeper for Finer {
-    fn add(&mut self, value: f64) {
-        if let Some(run) = run_of(&self.runs, value) {
-            let bin = self.bin(run, value);
-            let bin = &mut self.bins[run][bin];
+    fn add(&mut self, values: &[f64]) {
+        self.grids.places(level(), values, &mut self.places);
+        for (place, &value) in self.places.iter().zip(values) {
+            let bin = &mut self.bins[*place as usize];
             *bin = (bin.0 + 1, bin.1.min(value), bin.2.max(value));
         }
     }
 }
 
-/// Shows the finite values of one output to a keeper.
+/// Shows the values of one output to a keeper.
 struct Watch<T> {
     output: usize,
     keeper: T,
@@ -439,10 +435,7 @@ impl<T: Keeper> Sink for Watch<T> {
     type Chunk = ();
 
     fn take(&mut self, outputs: &[Block], lanes: usize) {
-        let values = &outputs[self.output].0[..lanes.min(LANES)];
-        for value in values.iter().filter(|value| value.is_finite()) {
-            self.keeper.add(*value);
-        }
+        self.keeper.add(&outputs[self.output].0[..lanes.min(LANES)]);
     }
 
     fn close(&mut self) {}

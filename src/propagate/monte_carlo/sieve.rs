@@ -18,7 +18,7 @@ use super::strainer::{Gap, Strained, Strainer};
 use crate::propagate::Histogram;
 
 /// Most values kept.
-pub(super) const MOST_KEPT: usize = 1 << 21;
+pub(super) const MOST_KEPT: usize = 1 << 22;
 
 /// Values that make the picture of the distribution; bins are counted one by one until then.
 const PICTURED: u64 = 1 << 18;
@@ -82,8 +82,7 @@ impl Sieve {
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .pop();
-        let mut part = part.unwrap_or_default();
-        keep_only(&mut part, |value| self.keeps[self.grid.bin(value)]);
+        let part = part.unwrap_or_default();
         Strainer::new(self.grid, |bin| self.keeps[bin], &self.gaps, part)
     }
 
@@ -144,6 +143,24 @@ impl Sieve {
         if self.count() >= PICTURED && self.keeps.contains(&true) {
             self.lump(&cells, &rows, wanted.middle());
         }
+        self.forget();
+    }
+
+    /// Forgets values of bins that are kept no longer, where they are most of what is held.
+    fn forget(&mut self) {
+        let counts = self.counts.iter().zip(&self.keeps);
+        let needed: u64 = counts
+            .filter(|(_, keep)| **keep)
+            .map(|(count, _)| count)
+            .sum();
+        let mut kept = std::mem::take(self.kept());
+        let held: usize = kept.iter().map(Vec::len).sum();
+        if held as u64 > needed + needed / 2 {
+            for part in &mut kept {
+                keep_only(part, |value| self.keeps[self.grid.bin(value)]);
+            }
+        }
+        *self.kept() = kept;
     }
 
     /// From now on does not tell the bins of the two richest rows apart that are not kept and hold the
@@ -284,7 +301,7 @@ impl Sieve {
 }
 
 /// As [`Vec::retain`], for conditions that cannot be foreseen: every value is moved, no branch taken.
-pub(super) fn keep_only(values: &mut Vec<f64>, condition: impl Fn(f64) -> bool) {
+fn keep_only(values: &mut Vec<f64>, condition: impl Fn(f64) -> bool) {
     let mut kept = 0;
     for index in 0..values.len() {
         let value = values[index];

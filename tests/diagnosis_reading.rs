@@ -132,6 +132,61 @@ fn an_improved_case_takes_its_recording_at_rest_with_it() {
     assert_eq!(again["verdict"], "none", "{again:#}");
 }
 
+/// Two outputs that wander, at rest or not: rows of the time and both readings.
+fn wandering(noise: &mut Noise, rows: usize, reading: impl Fn(f64, f64) -> f64) -> String {
+    let mut levels = [0.0; 2];
+    let row = |row: usize| {
+        let mut text = format!("{}", 20 * row);
+        for (level, gain) in levels.iter_mut().zip([1.0, 2.0]) {
+            *level += 2e-3 * noise.normal();
+            let shown = reading(gain, row as f64) + *level + 1e-3 * noise.normal();
+            let _ = write!(text, ",{shown:.5}");
+        }
+        text + "\n"
+    };
+    (0..rows).map(row).collect()
+}
+
+/// The recordings have other names than the model, and the one at rest has other units.
+#[test]
+fn an_improved_case_has_the_noise_of_the_first_one() {
+    let folder = folder("improved-wander");
+    let mut noise = Noise(17);
+    let load = |row: f64| 10.0 * (row % 7.0) - 30.0;
+    let rest = wandering(&mut noise, 200, |_, _| 0.0);
+    let rest = format!("clock [s],left [V],right [V]\n{rest}");
+    std::fs::write(folder.join("rest.csv"), rest).expect("written");
+    let loaded = wandering(&mut noise, 60, |gain, row| {
+        gain * load(row) + 1e-3 * load(row).powi(2)
+    });
+    let rows = loaded.lines().enumerate();
+    let rows = rows.map(|(row, text)| format!("{text},{}\n", load(row as f64)));
+    let recording = format!("clock,left [V],right [V],kN\n{}", rows.collect::<String>());
+    std::fs::write(folder.join("recording.csv"), recording).expect("written");
+    let case = r#"
+recording = "recording.csv"
+model = ["l = a + b*load", "r = c + d*load"]
+
+[columns]
+t = { role = "time", column = "clock", unit = "s" }
+load = { role = "stimulus", column = "kN", unit = "kN" }
+l = { role = "output", column = "left" }
+r = { role = "output", column = "right" }
+
+[noise]
+at_rest = { file = "rest.csv" }
+"#;
+    let found = diagnosed(&folder, case);
+    assert_ne!(found["verdict"], "none", "{found:#}");
+    let arguments = ["diagnose", "case.toml", "--improved", "improved"];
+    assert!(gumption(&folder, &arguments).0);
+    let again = json(&folder, &["diagnose", "improved/case.toml", "--json"]);
+    assert_eq!(again["verdict"], "none", "{again:#}");
+    let misfit = |quality: &Value| quality["chi_squared"].as_f64().expect("noise is claimed");
+    let (before, after) = (misfit(&again["before"]), misfit(&found["after"]));
+    assert!((before / after - 1.0).abs() < 1e-9, "{before} {after}");
+}
+
 /// A line over columns with Chinese names, the units in the brackets of a Chinese keyboard.
 fn chinese() -> String {
     let mut noise = Noise(7);

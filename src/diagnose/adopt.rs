@@ -192,7 +192,10 @@ pub fn start(
 fn free(case: &Case, stem: &str, number: usize) -> String {
     let taken = |name: &str| {
         case.parameters.iter().any(|p| p.name == name)
-            || case.columns.iter().any(|c| c.name == name)
+            || case
+                .columns
+                .iter()
+                .any(|c| c.name == name || c.header == name)
     };
     let mut name = format!("{stem}_{number}");
     while taken(&name) {

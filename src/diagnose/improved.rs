@@ -2,11 +2,11 @@
 //! need.
 
 use super::Diagnosis;
-use super::case::{Case, Data, NoiseClaim, NoiseOrigin, Role};
-use super::simulate::recorded;
+use super::case::{Case, Column, Data, NoiseClaim, NoiseOrigin, Role};
+use super::simulate::{heading, recorded};
 use crate::budget::writing::{key, quoted};
 use crate::files::Files;
-use crate::recording::text_of;
+use crate::recording::{Heading, text_of};
 
 /// Name of the recording beside the improved case.
 const RECORDING: &str = "recording.csv";
@@ -58,7 +58,11 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
             .iter()
             .find(|addition| addition.column == column.name);
         let remark = addition.map_or(String::new(), |addition| format!("  # {}", addition.text));
-        text += &format!("{} = {}{remark}\n", key(&column.name), entry(column));
+        text += &format!(
+            "{} = {}{remark}\n",
+            key(&column.name),
+            entry(column, extended)
+        );
     }
     text += "\n[parameter]\n";
     let values = adopted.unknowns.iter().chain(&adopted.coefficients);
@@ -116,12 +120,16 @@ fn averaging(diagnosis: &Diagnosis) -> String {
     }
 }
 
-fn entry(column: &super::case::Column) -> String {
+fn entry(column: &Column, case: &Case) -> String {
     let role = match column.role {
         Role::Uncertainty => "u",
         other => other.word(),
     };
     let mut parts = vec![format!("role = \"{role}\"")];
+    if !is_found_by_name(column, case) {
+        let heading = heading(column, &case.units);
+        parts.push(format!("column = {}", quoted(&heading)));
+    }
     if let Some(u) = column.u {
         parts.push(format!("u = {u:e}"));
     }
@@ -136,6 +144,14 @@ fn entry(column: &super::case::Column) -> String {
     } else {
         format!("{{ {} }}", parts.join(", "))
     }
+}
+
+/// Whether the first line of the recording calls a column, and no other, as the model does.
+fn is_found_by_name(column: &Column, case: &Case) -> bool {
+    let headers = case.columns.iter().map(|other| &other.header);
+    let names = headers.map(|header| Heading::read(header, &case.units).name);
+    let headed = Heading::read(&column.header, &case.units).name;
+    headed == column.name && names.filter(|name| *name == headed).count() == 1
 }
 
 fn constants(case: &Case) -> String {
@@ -199,7 +215,6 @@ fn claims(case: &Case, at_rest: Option<&str>) -> String {
         }
         NoiseClaim::AtRest { file, column, .. } => {
             let file = at_rest.map_or_else(|| path(case, file), |_| quoted(AT_REST));
-            // The output may have another name in the recording at rest than in the improved one.
             let column = column.as_ref();
             let column = column.map_or(String::new(), |c| format!(", column = {}", quoted(c)));
             format!("\n[noise]\nat_rest = {{ file = {file}{column} }}\n")

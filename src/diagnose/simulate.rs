@@ -9,6 +9,8 @@ use super::confirm;
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
 use super::noise::{self, Claimed};
+use crate::quantity::UnitTable;
+use crate::recording::Heading;
 use crate::special::normal_two_sided_quantile;
 
 /// Coverage probability of the band.
@@ -46,11 +48,15 @@ impl Sheet {
 
 /// The columns of a case, as they are.
 pub fn recorded(case: &Case) -> Sheet {
-    let columns: Vec<&Column> = case
-        .columns
-        .iter()
-        .filter(|c| !matches!(c.data, Data::Absent))
-        .collect();
+    let heading = |column: &Column| heading(column, &case.units);
+    let mut columns: Vec<&Column> = Vec::new();
+    for column in &case.columns {
+        // One column of the file may have several roles.
+        let is_there = columns.iter().any(|c| heading(c) == heading(column));
+        if !matches!(column.data, Data::Absent) && !is_there {
+            columns.push(column);
+        }
+    }
     let field = |column: &Column, row: usize| match &column.data {
         Data::Numbers(numbers) => numbers[row].to_string(),
         Data::Labels(labels) => labels.text(row).to_owned(),
@@ -64,12 +70,15 @@ pub fn recorded(case: &Case) -> Sheet {
     }
 }
 
-/// Name and unit of a column.
-fn heading(column: &Column) -> String {
-    if column.labels().is_some() || column.unit.is_one() {
-        return column.name.clone();
+/// Name and unit of a column as its recording has them, so that the case, and a recording at rest with the
+/// same first line, find it again.
+pub(super) fn heading(column: &Column, units: &UnitTable) -> String {
+    let header = &column.header;
+    let has_unit = matches!(Heading::read(header, units).unit, Ok(Some(_)));
+    if has_unit || column.labels().is_some() || column.unit.is_one() {
+        return header.clone();
     }
-    format!("{} [{}]", column.name, column.unit.symbol)
+    format!("{header} [{}]", column.unit.symbol)
 }
 
 /// Simulates the outputs of a case: the model at its parameters (fitted to the recording, or where the
@@ -95,7 +104,7 @@ pub fn simulate(case: &Case, seed: u64) -> Result<Sheet, NoFit> {
             .collect();
         let replaced = match declared.observed {
             Observed::Column(column) => {
-                let heading = heading(&case.columns[column]);
+                let heading = heading(&case.columns[column], &case.units);
                 sheet.header.iter().position(|text| *text == heading)
             }
             Observed::Constant(_) => None,

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::tables::RoleWord;
 use super::{Column, Observed, Response, RestReadings};
-use crate::budget::Files;
+use crate::budget::{Files, Rejection};
 use crate::quantity::{Unit, UnitTable};
-use crate::recording::{Recording, Request};
+use crate::recording::{Heading, Recording, Request};
 
 /// Readings of every response: of the column that is named, or of the one that is called like the
 /// output. Times are those of the column that is called like the time of the recording, if it is there.
@@ -20,8 +20,7 @@ pub(super) fn read(
 ) -> Result<Vec<RestReadings>, String> {
     let time = columns.iter().find(|column| column.role == RoleWord::Time);
     let with_time = time.and_then(|time| {
-        let request = Request::numbers("time", &time.header);
-        let recording = Recording::open(files, path, &[request], units).ok()?;
+        let recording = open(files, path, "time", &time.header, units).ok()?;
         let unit = recording
             .column("time")?
             .unit
@@ -75,6 +74,19 @@ pub(in crate::diagnose) fn hours(unit: &Unit, units: &UnitTable) -> Option<f64> 
         .map(|conversion| conversion.factor)
 }
 
+/// A recording at rest with one column: as the recording itself heads it, or by its name alone, as the unit
+/// may be another.
+fn open(
+    files: Files<'_>,
+    path: &Path,
+    role: &str,
+    header: &str,
+    units: &UnitTable,
+) -> Result<Recording, Rejection> {
+    let named = |name: &str| Recording::open(files, path, &[Request::numbers(role, name)], units);
+    named(header).or_else(|_| named(&Heading::read(header, units).name))
+}
+
 fn one(
     files: Files<'_>,
     path: &Path,
@@ -87,14 +99,13 @@ fn one(
     let Some(name) = named.or_else(|| header(columns, response)) else {
         return Err("name its `column`".into());
     };
-    let first = |rejection: crate::budget::Rejection| {
+    let first = |rejection: Rejection| {
         rejection
             .faults
             .first()
             .map_or_else(String::new, |fault| fault.message.clone())
     };
-    let recording =
-        Recording::open(files, path, &[Request::numbers("rest", name)], units).map_err(first)?;
+    let recording = open(files, path, "rest", name, units).map_err(first)?;
     let unit = recording
         .column("rest")
         .and_then(|column| column.unit.clone());

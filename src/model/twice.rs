@@ -33,7 +33,7 @@ impl Lowering<'_> {
     ) -> Option<()> {
         /// Rounding of 0.01745 by the user.
         const NEAR: f64 = 1e-3;
-        let (mut number, mut unit, mut angle) = (1.0, Unit::one(), None);
+        let (mut number, mut unit, mut quantities) = (1.0, Unit::one(), Vec::new());
         let factors = std::iter::once((Infix::Mul, first)).chain(rest.iter().map(|(i, e)| (*i, e)));
         for (infix, factor) in factors {
             if !is_simple(factor) {
@@ -46,20 +46,23 @@ impl Lowering<'_> {
             match (constant, infix) {
                 (Some(constant), Infix::Div) => number /= constant,
                 (Some(constant), _) => number *= constant,
-                (None, Infix::Div) => unit = unit.quotient(&own),
                 (None, _) => {
-                    unit = unit.product(&own);
-                    angle.get_or_insert(factor);
+                    unit = match infix {
+                        Infix::Div => unit.quotient(&own),
+                        _ => unit.product(&own),
+                    };
+                    quantities.push((infix, factor.clone()));
                 }
             }
         }
         let factor = unit.factor.value();
         let by_hand = (number / factor - 1.0).abs() < NEAR;
         let is_angle = unit.dimension == Dimension::NONE && unit.factor.pi != 0;
-        let Some(angle) = angle.filter(|_| is_angle && by_hand) else {
+        if !(is_angle && by_hand) {
             return Some(());
-        };
-        let (text, symbol) = (printer::expression(angle), &unit.symbol);
+        }
+        let angle = product(quantities, term);
+        let (text, symbol) = (printer::expression(&angle), &unit.symbol);
         self.report(
             Fault::new(
                 faults::CONVERTED_TWICE,
@@ -76,6 +79,27 @@ impl Lowering<'_> {
         );
         None
     }
+}
+
+/// The product of some factors of a term, without the others.
+fn product(mut factors: Vec<(Infix, Expr)>, term: &Expr) -> Expr {
+    let part = |node: Node| Expr {
+        span: term.span.clone(),
+        node,
+    };
+    let multiplied = factors.iter().position(|(infix, _)| *infix == Infix::Mul);
+    let first = match multiplied {
+        Some(at) => factors.remove(at).1,
+        None => part(Node::Number {
+            value: 1.0,
+            text: "1".to_owned(),
+            unit: None,
+        }),
+    };
+    part(Node::Chain {
+        first: Box::new(first),
+        rest: factors,
+    })
 }
 
 /// Whether an expression is made of numbers and names only.

@@ -77,6 +77,8 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("L / t", "mm", "M0405", "L / t", "unit = \"mm/s\""),
     ("phi + 90", "°", "M0407", "90", "`90 '°'`"),
     ("sin(phi * pi / 180)", "", "M0408", "phi * pi / 180", "write `phi` without"),
+    ("sin(n * phi / n * pi / 180)", "", "M0408", "n * phi / n * pi / 180", "write `n * phi / n` without the factor, or `value_in(n * phi / n, '°')`"),
+    ("sin(pi / 180 / t * (phi * t))", "", "M0408", "pi / 180 / t * (phi * t)", "write `phi * t / t` without the factor"),
     ("a + cos(a - 0.01745 * phi)", "", "M0408", "0.01745 * phi", "value_in(phi, '°')"),
     ("solve(a == b, d, 1)", "", "M0502", "a == b", "contains `d`"),
     ("solve(a == b, a, 1)", "", "M0502", "a", "new name"),

@@ -237,11 +237,16 @@ fn dates_with_the_month_in_doubt_are_refused_once() {
     let head = "t,x [mm],y [mV]\n";
     let case = "recording = \"recording.csv\"\nmodel = \"y = a + b*x\"\n[columns]\nt = \"time\"\ny = \"output\"\nx = \"stimulus\"\n";
     std::fs::write(folder.join("case.toml"), case).expect("written");
-    let american: String = (0..9)
-        .map(|i| row(i, &format!("3/4/2026 08:4{i}:00 AM")))
-        .collect();
-    std::fs::write(folder.join("recording.csv"), format!("{head}{american}")).expect("written");
-    let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
-    assert!(!good && told.matches("error[").count() == 1, "{told}");
-    assert!(told.contains("8 more fields"), "{told}");
+    for (date, mend) in [
+        ("3/4/2026 08:41:00 AM", "write 2026-03-04, or 2026-04-03"),
+        ("03.13.2026", "write 2026-03-13"),
+        ("01.03.26", "write the year first, with its four digits"),
+    ] {
+        let rows: String = (0..9).map(|i| row(i, date)).collect();
+        std::fs::write(folder.join("recording.csv"), format!("{head}{rows}")).expect("written");
+        let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
+        assert!(!good && told.matches("error[").count() == 1, "{told}");
+        assert!(told.contains("8 more fields"), "{told}");
+        assert!(told.contains(mend), "{told}");
+    }
 }

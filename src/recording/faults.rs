@@ -18,7 +18,7 @@ codes! {
     ROW_LENGTH = "R0107", "a row has more or fewer fields than the first line",
         "A recorder that was stopped while it wrote leaves half a line; a decimal comma makes two fields out of one number. No row is padded or cut silently.";
     NOT_A_NUMBER = "R0108", "a field is not a number",
-        "Numbers have a decimal point and no thousands separators: `1013.25`, `-2.5e-3`; where columns are separated by semicolons or tabs, a decimal comma is read too. A missing value is an empty field or `NaN`. Times are numbers in a unit such as s or h, or of the form `2026-03-01T09:00:01.25`, `01.03.2026 09:00:01` or `09:00:01.25`; `3/1/2026` leaves open which is the month. All fields of a column are written alike.";
+        "Numbers have a decimal point and no thousands separators: `1013.25`, `-2.5e-3`; where columns are separated by semicolons or tabs, a decimal comma is read too. A missing value is an empty field or `NaN`. Times are numbers in a unit such as s or h, or of the form `2026-03-01T09:00:01.25`, `01.03.2026 09:00:01` (with points the day goes first) or `09:00:01.25`; `3/1/2026` leaves open which is the month, `01.03.26` which is the year. All fields of a column are written alike.";
     UNIT = "R0109", "the unit of a column is not known",
         "The unit stands in the header: `U [mV]`, `U (mV)`, `U（mV）`, `U/mV` or, for common units, `U_mV`. Square brackets hold nothing else.";
     NO_UNIT = "R0110", "the unit of a column is missing",

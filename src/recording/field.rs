@@ -187,7 +187,8 @@ fn zone(clock: &str) -> Option<(&str, i64)> {
 
 /// Whether a field is meant as a time of the calendar or the day, written as it may be.
 pub(super) fn is_like_a_time(field: &str) -> bool {
-    field.len() >= 8 && field.matches([':', '-', '/']).count() >= 2
+    let signs = field.matches([':', '-', '/', '年', '月']).count();
+    (field.len() >= 8 && signs >= 2) || date_parts(field).is_some()
 }
 
 /// How a field becomes a number.
@@ -202,14 +203,58 @@ pub(super) fn mend(field: &str) -> String {
         return format!("write {minus}, with the hyphen as minus");
     }
     if is_like_a_time(field) {
-        return "write times as 2026-03-01T09:00:01.25, as 01.03.2026 09:00:01, as 2026-03-01, as 09:00:01.25, or as seconds since the start; 3/1/2026 leaves open which is the month"
-            .to_owned();
+        return mend_of_time(field);
     }
     if field.starts_with(|c: char| c.is_ascii_digit()) {
         return "write the number alone; its unit belongs into the first line".to_owned();
     }
     "leave the field empty if the value is missing; units belong into the first line: name [unit]"
         .to_owned()
+}
+
+fn mend_of_time(field: &str) -> String {
+    let forms = "times are read as 2026-03-01T09:00:01.25, as 01.03.2026 09:00:01 (the day first), as 2026-03-01, as 09:00:01.25, or as seconds since the start";
+    match date_meant(field) {
+        Some(meant) => format!("{forms}; write {meant}"),
+        None if field.ends_with(['M', 'm']) => {
+            format!("{forms}; hours go from 00 to 23, without AM and PM")
+        }
+        None => forms.to_owned(),
+    }
+}
+
+/// How a date is written that has its year at the end, where year or month are in doubt.
+fn date_meant(field: &str) -> Option<String> {
+    let [first, second, year] = date_parts(field).filter(|[first, ..]| first.len() < 4)?;
+    if days(&format!("{first}.{second}.{year}")).is_some() && field.contains('.') {
+        return None;
+    }
+    if year.len() < 4 {
+        return Some("the year first, with its four digits".to_owned());
+    }
+    let date = |month: &str, day: &str| {
+        let date = format!("{year}-{month:0>2}-{day:0>2}");
+        days(&date).map(|_| date)
+    };
+    match (date(first, second), date(second, first)) {
+        (Some(one), Some(other)) if one != other => {
+            Some(format!("{one}, or {other} if the day goes first"))
+        }
+        (one, other) => one.or(other),
+    }
+}
+
+/// The three numbers of what may be a date: one or two digits, but for a year of four at an end.
+fn date_parts(field: &str) -> Option<[&str; 3]> {
+    let date = field.split(['T', ' ']).next()?;
+    let parts: Vec<&str> = date.split(['-', '/', '.']).collect();
+    let [first, second, third] = parts[..] else {
+        return None;
+    };
+    let all_digits = |part: &&str| part.bytes().all(|byte| byte.is_ascii_digit());
+    let lengths = [first, second, third].map(str::len);
+    let is_date = matches!(lengths, [1 | 2, 1 | 2, 2 | 4] | [4, 1 | 2, 1 | 2]);
+    (is_date && parts.iter().all(all_digits)).then_some([first, second, third])
 }
 
 #[cfg(test)]
@@ -255,6 +300,29 @@ mod tests {
             "a:b",
         ] {
             assert_eq!(seconds(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn dates_in_doubt_are_told_apart() {
+        for (field, meant) in [
+            ("01.03.26", "write the year first, with its four digits"),
+            ("03.13.2026 08:46:58", "write 2026-03-13"),
+            ("3/4/2026 8:46:58 AM", "write 2026-03-04, or 2026-04-03 if"),
+            ("4/4/2026", "write 2026-04-04"),
+            ("4/4/26", "write the year first"),
+            ("1.3.2026 8:46:58 PM", "without AM and PM"),
+            ("2026年3月1日", "times are read as 2026-03-01T"),
+        ] {
+            assert!(is_like_a_time(field), "{field}");
+            let mend = mend(field);
+            assert!(
+                mend.contains(meant) && mend.contains("the day first"),
+                "{mend}"
+            );
+        }
+        for number in ["1.234.567", "1.2.3", "12.5", "10.1.0.7", "5 V/m"] {
+            assert!(!is_like_a_time(number), "{number}");
         }
     }
 

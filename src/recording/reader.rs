@@ -329,20 +329,22 @@ impl<'a> Draft<'a> {
         }
         self.refused += 1;
         // Times that cannot be read are so in every row of the column: one says it.
-        let shown = match read.is_none() && is_like_a_time(field) {
-            true => 1,
-            false => SHOWN,
+        let is_time = read.is_none() && is_like_a_time(field);
+        let (shown, expected) = match is_time {
+            true => (1, "a time of a known form"),
+            false => (SHOWN, "a number"),
         };
         if self.faults.len() < shown {
             let (line, column) = (row.line, &self.heading.text);
-            let message = format!("line {line}, column \"{column}\": \"{field}\" is not a number");
+            let message =
+                format!("line {line}, column \"{column}\": \"{field}\" is not {expected}");
             let help = match read {
                 Some(_) => "write all numbers of a column alike: all with a decimal point, all with a decimal comma, or all as times".to_owned(),
                 None => mend(field),
             };
             self.faults.push(
                 Fault::new(NOT_A_NUMBER, sheet.place(row, self.place), message)
-                    .label("expected a number")
+                    .label(format!("expected {expected}"))
                     .related(self.span.clone(), "the column")
                     .help(help),
             );

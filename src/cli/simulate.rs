@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Failure, simulate};
-use gumption::report::Language;
+use gumption::report::{self, Language};
 
 use super::diagnose::failed;
 use super::{Outcome, output};
@@ -28,10 +28,15 @@ pub(super) fn run(args: &Args) -> Outcome {
         Err(rejection) => return output::refused(&rejection),
     };
     match simulate(&case, args.seed) {
-        Ok(sheet) => match &args.output {
-            Some(path) => output::replace(path, &sheet.csv()),
-            None => output::print(&sheet.csv()),
-        },
+        Ok(simulation) => {
+            let noise = report::assumed_noise(&case, &simulation.noise, Language::English);
+            output::warn(&format!("note: the noise is {noise}\n"));
+            let text = simulation.sheet.csv();
+            match &args.output {
+                Some(path) => output::replace(path, &text),
+                None => output::print(&text),
+            }
+        }
         Err(why) => failed(&args.case, &case, &Failure::Fit(why), Language::English),
     }
 }

@@ -69,5 +69,5 @@ pub use plan::{Outlook, Promise, Prospect, plan};
 pub use result::budget;
 pub use run::{Adopted, Diagnosis, Estimated, Failure, diagnose};
 pub use separation::Separating;
-pub use simulate::{Sheet, simulate};
+pub use simulate::{Sheet, Simulation, simulate};
 pub use spread::Growth;

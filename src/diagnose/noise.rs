@@ -36,6 +36,8 @@ pub struct Claimed {
 /// Where the noise comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Origin {
+    /// Nothing yet: outputs that would show it are not recorded.
+    Unknown,
     /// The residuals; only the ratios between observations are claimed.
     Estimated,
     /// The case.
@@ -119,12 +121,31 @@ pub fn refined(frame: &Frame<'_>, fit: &Fit) -> Claimed {
     claimed
 }
 
+/// The model at the values that the case states, or at one where it states none, with the noise that it
+/// claims, or with one where that needs data.
+///
+/// # Errors
+/// When the model has no finite value there.
+pub fn stated(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
+    let values = frame.unknowns.iter().map(|unknown| {
+        let known = unknown.start.or(unknown.prior.map(|(value, _)| value));
+        known.unwrap_or(1.0)
+    });
+    let fit = fit::at(frame, DVector::from_iterator(frame.unknowns.len(), values));
+    let mut values = fit.linear.values.iter().flatten();
+    if !values.all(|value| value.is_finite()) || !fit.jacobian.iter().all(|x| x.is_finite()) {
+        return Err(NoFit::NoStart);
+    }
+    let claimed = planned(frame, &fit);
+    Ok((fit, claimed))
+}
+
 /// The noise without data: what is claimed, or one.
 pub fn planned(frame: &Frame<'_>, fit: &Fit) -> Claimed {
     claimed(frame, Some(fit)).unwrap_or(Claimed {
         u: DVector::from_element(frame.observations(), 1.0),
         dof: f64::INFINITY,
-        origin: Origin::Estimated,
+        origin: Origin::Unknown,
         correlated: None,
         growth: Vec::new(),
         draws: Vec::new(),

@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::case::{Case, Observed};
+use super::case::Case;
 use super::catalogue::{self, Cell, Ground};
 use super::contender::Contender;
 use super::evidence::{self, Atom, Refusal, Shape};
 use super::extra::{Extra, extras};
-use super::fit::{self, Fit, NoFit};
+use super::fit::Fit;
 use super::frame::Frame;
 use super::inquiry::{baseline, question};
 use super::longer::{Known, Recorded, examined};
@@ -26,7 +26,7 @@ pub struct Outlook {
     pub cells: Vec<Cell>,
     /// The noise that was assumed.
     pub noise: Claimed,
-    /// Whether the case claims no noise: then one row has the standard uncertainty one.
+    /// Whether the noise is not known: then one row has the standard uncertainty one.
     pub relative: bool,
     /// Parameters on whose value slopes depend and of which nothing is known: they were taken as one.
     pub assumed: Vec<String>,
@@ -139,7 +139,7 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
     };
     promises.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
     Ok(Outlook {
-        relative: claimed.origin == noise::Origin::Estimated && claimed.dof.is_infinite(),
+        relative: claimed.origin == noise::Origin::Unknown,
         noise: claimed,
         assumed,
         observations: frame.observations(),
@@ -169,27 +169,16 @@ fn assumed(frame: &Frame<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> {
         .filter(|unknown| unknown.start.is_none() && unknown.prior.is_none())
         .map(|unknown| unknown.name.clone())
         .collect();
-    let recorded = frame.case.responses.iter().all(|r| match r.observed {
-        Observed::Column(column) => frame.case.columns[column].numbers().is_some(),
-        Observed::Constant(_) => true,
-    });
-    if recorded && let Ok((fit, claimed)) = noise::settle(frame) {
+    if frame.case.is_recorded()
+        && let Ok((fit, claimed)) = noise::settle_spread_out(frame)
+    {
         let known = Claimed {
             dof: f64::INFINITY,
             ..claimed
         };
         return Ok((fit, known, Vec::new()));
     }
-    let values = frame.unknowns.iter().map(|unknown| {
-        let known = unknown.start.or(unknown.prior.map(|(value, _)| value));
-        known.unwrap_or(1.0)
-    });
-    let values = DVector::from_iterator(frame.unknowns.len(), values);
-    let fit = fit::at(frame, values);
-    if !fit.jacobian.iter().all(|x| x.is_finite()) {
-        return Err(Failure::Fit(NoFit::NoStart));
-    }
-    let claimed = noise::planned(frame, &fit);
+    let (fit, claimed) = noise::stated(frame)?;
     Ok((fit, claimed, open))
 }
 

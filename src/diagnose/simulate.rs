@@ -6,7 +6,7 @@ use nalgebra::DVector;
 
 use super::case::{Blocks, Case, Column, Data, Observed};
 use super::confirm;
-use super::fit::{self, Fit, NoFit};
+use super::fit::{Fit, NoFit};
 use super::frame::Frame;
 use super::noise::{self, Claimed};
 use crate::quantity::UnitTable;
@@ -81,26 +81,38 @@ pub(super) fn heading(column: &Column, units: &UnitTable) -> String {
     format!("{header} [{}]", column.unit.symbol)
 }
 
+/// A simulated recording.
+#[derive(Debug)]
+pub struct Simulation {
+    /// The recording.
+    pub sheet: Sheet,
+    /// The noise that its outputs have.
+    pub noise: Claimed,
+}
+
 /// Simulates the outputs of a case: the model at its parameters (fitted to the recording, or where the
-/// outputs were not recorded as the case states them) with the claimed noise. Each output is followed by
-/// the model and the ends of the band that covers it with 95 %.
+/// outputs were not recorded as the case states them) with the noise that is claimed or that the recording
+/// shows. Each output is followed by the model and the ends of the band that covers it with 95 %.
 ///
 /// # Errors
 /// When the model cannot be fitted.
-pub fn simulate(case: &Case, seed: u64) -> Result<Sheet, NoFit> {
+pub fn simulate(case: &Case, seed: u64) -> Result<Simulation, NoFit> {
     let mut by_row = case.clone();
     by_row.averaging.blocks = Blocks::Rows;
     by_row.averaging.settle = 0;
     let frame = Frame::new(&by_row);
-    let (fit, claimed) = settled(&frame)?;
+    let (fit, claimed) = match case.is_recorded() {
+        true => noise::settle_spread_out(&frame)?,
+        false => noise::stated(&frame)?,
+    };
     let band = half_widths(&frame, &fit, &claimed);
+    let errors = drawn(&claimed, case, seed);
     let mut sheet = recorded(case);
     for (response, declared) in case.responses.iter().enumerate() {
-        let noise = normals(seed, response as u64, case.rows);
         let at = |row: usize| response * case.rows + row;
         let modelled = &fit.linear.values[response];
         let simulated: Vec<String> = (0..case.rows)
-            .map(|row| (modelled[row] + claimed.u[at(row)] * noise[row]).to_string())
+            .map(|row| (modelled[row] + errors[at(row)]).to_string())
             .collect();
         let replaced = match declared.observed {
             Observed::Column(column) => {
@@ -126,40 +138,24 @@ pub fn simulate(case: &Case, seed: u64) -> Result<Sheet, NoFit> {
             }
         }
     }
-    Ok(sheet)
+    Ok(Simulation {
+        sheet,
+        noise: claimed,
+    })
 }
 
-/// The model at its parameters, with the noise that is claimed.
-pub(super) fn settled<'c>(frame: &Frame<'c>) -> Result<(Fit, Claimed), NoFit> {
-    let recorded = frame
-        .case
-        .responses
-        .iter()
-        .all(|response| match response.observed {
-            Observed::Column(column) => frame.case.columns[column].numbers().is_some(),
-            Observed::Constant(_) => true,
-        });
-    if recorded {
-        return noise::settle(frame);
-    }
-    let values = frame.unknowns.iter().map(|unknown| {
-        unknown
-            .start
-            .or(unknown.prior.map(|(value, _)| value))
-            .unwrap_or(1.0)
-    });
-    let fit = fit::at(frame, DVector::from_iterator(frame.unknowns.len(), values));
-    if fit
-        .linear
-        .values
-        .iter()
-        .flatten()
-        .any(|value| !value.is_finite())
-    {
-        return Err(NoFit::NoStart);
-    }
-    let claimed = noise::planned(frame, &fit);
-    Ok((fit, claimed))
+/// Errors of all observations, correlated as the noise is.
+fn drawn(claimed: &Claimed, case: &Case, seed: u64) -> DVector<f64> {
+    let streams = 0..case.responses.len() as u64;
+    let independent = streams.flat_map(|response| normals(seed, response, case.rows));
+    let independent = DVector::from_vec(independent.collect());
+    let factor = claimed.correlated.as_ref();
+    let factor = factor.and_then(|correlated| correlated.matrix.clone().cholesky());
+    let errors = match factor {
+        Some(factor) => factor.l() * independent,
+        None => independent,
+    };
+    errors.component_mul(&claimed.u)
 }
 
 /// Half-widths of the band: noise and parameters together.

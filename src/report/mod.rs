@@ -43,7 +43,7 @@ pub use calibration::{
     plan_markdown, plan_text,
 };
 pub use diagnosis::{
-    FORMAT as DIAGNOSIS_FORMAT, OUTLOOK_FORMAT, failure as diagnosis_failure,
+    FORMAT as DIAGNOSIS_FORMAT, OUTLOOK_FORMAT, assumed_noise, failure as diagnosis_failure,
     json as diagnosis_json, markdown as diagnosis_markdown, outlook_json, outlook_markdown,
     outlook_text, plots as diagnosis_plots, text as diagnosis_text,
 };

@@ -301,6 +301,16 @@ impl Case {
         (0..self.columns.len()).filter(move |i| self.columns[*i].role == role)
     }
 
+    /// Whether all outputs of the model were recorded.
+    pub fn is_recorded(&self) -> bool {
+        self.responses
+            .iter()
+            .all(|response| match response.observed {
+                Observed::Column(column) => self.columns[column].numbers().is_some(),
+                Observed::Constant(_) => true,
+            })
+    }
+
     /// Length of the symbols' vector of the model: parameters and columns.
     pub fn symbols(&self) -> usize {
         self.parameters.len() + self.columns.len()

@@ -40,4 +40,4 @@ pub fn outlook_markdown(case: &Case, outlook: &Outlook, language: Language) -> S
     super::markdown::draw(&outlook::blocks(case, outlook, language))
 }
 
-pub use words::failure;
+pub use words::{assumed_noise, failure};

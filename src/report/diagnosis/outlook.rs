@@ -11,7 +11,7 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::json::{estimates, finite, measure_json};
 use super::open;
-use super::words::{full_name, label, measure, name, noise};
+use super::words::{assumed_noise, full_name, label, measure, name};
 
 /// Name and version of the format.
 pub const FORMAT: &str = "gumption-outlook-1";
@@ -73,16 +73,6 @@ fn useful(promise: &Promise) -> bool {
 }
 
 fn fields(case: &Case, outlook: &Outlook, language: Language) -> Vec<(String, String)> {
-    let known = if outlook.relative {
-        language
-            .pick(
-                "not claimed: all sizes are multiples of the standard uncertainty of one row, in units of the output",
-                "未声明：所有大小均以单行标准不确定度为 1 计",
-            )
-            .to_owned()
-    } else {
-        noise(&outlook.noise, language)
-    };
     let mut fields = vec![
         (
             language.pick("Declared model", "声明的模型").into(),
@@ -95,7 +85,10 @@ fn fields(case: &Case, outlook: &Outlook, language: Language) -> Vec<(String, St
                 format!("{} 行，{} 个观测值", case.rows, outlook.observations),
             ),
         ),
-        (language.pick("Noise", "噪声").into(), known),
+        (
+            language.pick("Noise", "噪声").into(),
+            assumed_noise(case, &outlook.noise, language),
+        ),
     ];
     if !outlook.assumed.is_empty() {
         let names = outlook.assumed.join(", ");
@@ -285,7 +278,7 @@ pub fn json(case: &Case, outlook: &Outlook, language: Language) -> Value {
         "model": case.model,
         "rows": case.rows,
         "observations": outlook.observations,
-        "noise": { "claimed": !outlook.relative, "origin": noise(&outlook.noise, language) },
+        "noise": { "claimed": !outlook.relative, "origin": assumed_noise(case, &outlook.noise, language) },
         "assumed": outlook.assumed,
         "parameters": estimates(&outlook.unknowns).into_iter().map(|mut one| {
             if let Some(fields) = one.as_object_mut() { fields.remove("value"); }

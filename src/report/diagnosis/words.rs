@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::diagnose::case::Case;
+use crate::diagnose::case::{Case, NoiseClaim};
 use crate::diagnose::catalogue::{Cell, Term, Text, Variation, Words};
 use crate::diagnose::evidence::{Alternative, Refusal};
 use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
@@ -175,6 +175,27 @@ pub(super) fn amplitude(
         .then(|| language.pick(format!("amplitude {text}"), format!("幅值 {text}")))
 }
 
+/// The noise that was assumed, and why, where it needs outputs that are not recorded.
+pub fn assumed_noise(case: &Case, claimed: &Claimed, language: Language) -> String {
+    if claimed.origin != Origin::Unknown {
+        return noise(claimed, language);
+    }
+    let why = match case.noise {
+        NoiseClaim::Replicates(_) => language.pick(
+            "replicates show it once their outputs are recorded",
+            "重复测量须待输出记录后才能给出噪声",
+        ),
+        _ => language.pick(
+            "not claimed, and no outputs are recorded",
+            "未声明，且输出尚未记录",
+        ),
+    };
+    language.pick(
+        format!("not known ({why}): taken as 1 for one row, in the unit of the output; `[noise] u` states it"),
+        format!("未知（{why}）：单行标准不确定度以 1 计（输出的单位）；可用 `[noise] u` 声明"),
+    )
+}
+
 /// Where the noise comes from.
 pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
     let dof = if claimed.dof.is_finite() && claimed.dof > 0.0 {
@@ -183,6 +204,7 @@ pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
         String::new()
     };
     let text = match &claimed.origin {
+        Origin::Unknown => language.pick("not known", "未知").to_owned(),
         Origin::Estimated => {
             language
                 .pick("estimated from the residuals", "由残差估计")

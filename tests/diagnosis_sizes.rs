@@ -126,3 +126,38 @@ fn sizes_are_per_unit_of_what_they_multiply() {
         (&text.into(), &"1/K".into())
     );
 }
+
+/// Where a column is far from zero, as pressures about that of the air are, knees are found all the same, and the
+/// formula that is printed has the digits that the fit has.
+#[test]
+fn a_knee_far_from_zero_is_found_and_written_as_it_was_fitted() {
+    let mut noise = Noise(31);
+    let mut rows = "p [Pa],U [V]\n".to_owned();
+    for row in 0..80 {
+        let p = 0.125 * f64::from(row * 7 % 80);
+        let bent = 0.05 * (p - 6.2837f64).max(0.0);
+        let u = 1.0 + 2.0 * p + bent + 1e-3 * noise.normal();
+        let _ = writeln!(rows, "{},{u:.6}", 101_320.0 + p);
+    }
+    let case = "model = \"U = a + b*p\"\n[columns]\nU = \"output\"\np = \"stimulus\"\n[noise]\nu = \"0.001 V\"\n";
+    let found = diagnosed("barometer", &rows, case);
+    let (text, _, size) = first(&found);
+    let knee = text
+        .strip_prefix("max(p - ")
+        .and_then(|rest| rest.strip_suffix(" Pa, 0)"));
+    let knee: f64 = knee.and_then(|knee| knee.parse().ok()).expect(text);
+    assert!(
+        (knee - 101_326.2837).abs() < 0.02 && (size - 0.05).abs() < 1e-3,
+        "{found:#}"
+    );
+    let model =
+        format!("model = \"U = a + b*(p - 101325 'Pa') + c*max(p - {knee} 'Pa', 0 'Pa')\"\n");
+    let again = diagnosed(
+        "barometer-written",
+        &rows,
+        &case.replace("model = \"U = a + b*p\"\n", &model),
+    );
+    let misfit = |quality: &Value| quality["chi_squared"].as_f64().expect("a misfit");
+    let (written, fitted) = (misfit(&again["before"]), misfit(&found["after"]));
+    assert!((written - fitted).abs() < 1e-3, "{written} {fitted}");
+}

@@ -2,7 +2,7 @@
 //! columns.
 
 use super::case::Role;
-use super::catalogue::modifiers::figure;
+use super::catalogue::modifiers::{figure_to, range};
 use super::catalogue::{Ground, Modifier, Node, Term};
 use super::evidence::Cell;
 
@@ -88,6 +88,7 @@ fn ranges(name: &str, unit: &str, numbers: &[f64]) -> Vec<(String, String, Vec<f
         quantiles.dedup();
         quantiles
     };
+    let step = step(numbers);
     let part = |at: usize| {
         let (from, to) = (
             edges[at],
@@ -106,18 +107,28 @@ fn ranges(name: &str, unit: &str, numbers: &[f64]) -> Vec<(String, String, Vec<f
         };
         let least = members().fold(f64::INFINITY, f64::min);
         let most = members().fold(f64::NEG_INFINITY, f64::max);
-        (name.to_owned(), extent(least, most, unit), inside)
+        (name.to_owned(), extent((least, most), step, unit), inside)
     };
     (0..edges.len()).map(part).collect()
 }
 
+/// What places are told to.
+fn step(numbers: &[f64]) -> f64 {
+    let (least, most) = range(numbers);
+    1e-3 * (most - least)
+}
+
 /// A part of a range as text.
-fn extent(least: f64, most: f64, unit: &str) -> String {
+fn extent((least, most): (f64, f64), step: f64, unit: &str) -> String {
     let unit = if unit == "1" { "" } else { unit };
     let text = if least == most {
         format!("{least} {unit}")
     } else {
-        format!("{} to {} {unit}", figure(least), figure(most))
+        format!(
+            "{} to {} {unit}",
+            figure_to(least, step),
+            figure_to(most, step)
+        )
     };
     text.trim().to_owned()
 }
@@ -138,7 +149,7 @@ fn spans(ground: &Ground<'_>) -> Vec<(String, String, Vec<f64>)> {
         match ground.clock.column {
             Some(column) => (
                 ground.case().columns[column].name.clone(),
-                extent(t[first], t[last], &unit),
+                extent((t[first], t[last]), step(t), &unit),
                 inside.collect(),
             ),
             None => (

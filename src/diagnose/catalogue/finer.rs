@@ -1,11 +1,13 @@
 //! Values between those of a grid. Variants step through time constants and knees; where an effect was found,
 //! the values about it are tried as well, in that effect alone.
 
+use super::modifiers::range;
 use super::{Cell, Variation};
 
 /// Parts into which the distance from a value to its neighbours is divided.
 const PARTS: usize = 4;
-/// Values are the same if they differ by no more than labels round off, as a share.
+/// Values are the same if they differ by no more than labels round off, as a share of the values or of the
+/// grid that they span.
 const ROUNDED: f64 = 1e-4;
 
 /// What is tried beside the grids.
@@ -20,6 +22,7 @@ struct Around {
     along: String,
     is_time: bool,
     values: Vec<f64>,
+    span: f64,
 }
 
 impl Finer {
@@ -36,8 +39,11 @@ impl Finer {
         let of_kind = of_kind.filter(|other| other.symbol == shape.symbol);
         let all: Vec<f64> = of_kind.map(|other| other.value).collect();
         let own = shape.value;
-        let below = all.iter().copied().filter(|x| *x < own && !same(*x, own));
-        let above = all.iter().copied().filter(|x| *x > own && !same(*x, own));
+        let is_time = shape.symbol != "x₀";
+        let span = span(&all, is_time);
+        let other = |x: &f64| !same(*x, own, span);
+        let below = all.iter().copied().filter(|x| *x < own && other(x));
+        let above = all.iter().copied().filter(|x| *x > own && other(x));
         let neighbours = [below.reduce(f64::max), above.reduce(f64::min)];
         let between =
             |next: f64| (1..PARTS).map(move |part| own + (next - own) * part as f64 / PARTS as f64);
@@ -46,8 +52,9 @@ impl Finer {
         self.0.push(Around {
             id: &cell.effect.id,
             along: cell.place.along.clone(),
-            is_time: shape.symbol != "x₀",
+            is_time,
             values,
+            span,
         });
         new
     }
@@ -63,13 +70,13 @@ impl Finer {
     }
 
     fn with(&self, mut grid: Vec<f64>, is_time: bool) -> Vec<f64> {
-        let low = grid.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = grid.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = range(&grid);
+        let span = span(&grid, is_time);
         let around = self.0.iter().filter(|around| around.is_time == is_time);
         let values = around.flat_map(|around| &around.values);
         grid.extend(values.filter(|x| (low..=high).contains(*x)));
         grid.sort_by(f64::total_cmp);
-        grid.dedup_by(|a, b| same(*a, *b));
+        grid.dedup_by(|a, b| same(*a, *b, span));
         grid
     }
 
@@ -97,12 +104,21 @@ impl Finer {
 
 impl Around {
     fn has(&self, x: f64) -> bool {
-        self.values.iter().any(|value| same(*value, x))
+        self.values.iter().any(|value| same(*value, x, self.span))
     }
 }
 
-fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= ROUNDED * a.abs().max(b.abs())
+/// What a grid spans; times are told apart by their ratios alone.
+fn span(grid: &[f64], is_time: bool) -> f64 {
+    if is_time {
+        return f64::INFINITY;
+    }
+    let (low, high) = range(grid);
+    high - low
+}
+
+fn same(a: f64, b: f64, span: f64) -> bool {
+    (a - b).abs() <= ROUNDED * a.abs().max(b.abs()).min(span)
 }
 
 #[cfg(test)]
@@ -131,6 +147,24 @@ mod tests {
         assert!(finer.add(&lag, &lag.variants[1]));
         assert_eq!(finer.times(vec![1.0, 1.5])[1..4], [1.0625, 1.125, 1.1875]);
         assert_eq!(finer.levels(vec![1.0, 2.0]), [1.0, 2.0]);
+    }
+
+    #[test]
+    fn values_far_from_zero_are_told_apart() {
+        let grid: Vec<f64> = (0..15).map(|knee| 101_320.0 + f64::from(knee)).collect();
+        assert_eq!(Finer::default().levels(grid.clone()), grid);
+        let mut finer = Finer::default();
+        let mut kink = cell("kink", &grid);
+        for variant in &mut kink.variants {
+            *variant = variant
+                .clone()
+                .shaped("x₀", variant.shape.as_ref().unwrap().value, "Pa");
+        }
+        assert!(finer.add(&kink, &kink.variants[6]));
+        assert_eq!(
+            finer.levels(grid)[6..9],
+            [101_325.25, 101_325.5, 101_325.75]
+        );
     }
 
     #[test]

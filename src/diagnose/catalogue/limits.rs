@@ -2,10 +2,16 @@
 //! nothing happens.
 
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{figure, five_digits, largest, map, range};
+use super::modifiers::{figure, figure_to, five_digits, largest, map, range, rounded};
 use super::response::{levels_of, on_node, on_output, plain, words};
 use super::sharp::sharpened;
 use super::{Cell, Modifier, Term, Variants, Variation};
+
+/// Rounding of knees in formulas, as a share of the range: whoever writes the formula into a model has the
+/// fit again.
+const KNEE: f64 = 1e-6;
+/// Rounding of knees in labels, which tell them apart.
+const LABEL: f64 = 1e-4;
 
 /// Cells of one column that is an input.
 pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
@@ -64,7 +70,7 @@ fn soft_limit(ground: &Ground<'_>, column: usize) -> Cell {
     let most = largest(x);
     let beyond = |limit: f64| {
         let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * x.signum());
-        let shown = ground.figure(column, five_digits(limit));
+        let shown = ground.figure(column, rounded(limit, KNEE * most));
         let text = format!("-sign({name})*max(abs({name}) - {shown}, 0)");
         on_output(Modifier::new(modifier, text, ground.step_unit(column)))
     };
@@ -90,11 +96,9 @@ fn kink(ground: &Ground<'_>, column: usize) -> Cell {
     let knees = ground.finer.levels(knees.collect());
     let variants = knees.into_iter().map(|at| {
         let modifier = map(x, |x| (x - at).max(0.0));
-        let shown = figure(at);
-        let text = format!(
-            "max({name} - {}, 0)",
-            ground.figure(column, five_digits(at))
-        );
+        let shown = figure_to(at, LABEL * (most - least));
+        let knee = ground.figure(column, rounded(at, KNEE * (most - least)));
+        let text = format!("max({name} - {knee}, 0)");
         let modifier = Modifier::new(modifier, text, ground.step_unit(column));
         Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
     });
@@ -137,13 +141,14 @@ fn at_end(
         return Vec::new();
     };
     let unit = ground.case().columns[column].unit.typeset();
+    let (least, most) = range(x);
     let (inside, outside) = (x[order[first - 1]], x[order[first]]);
     let away = (outside - inside).signum();
     let knees = (1..=KNEES).map(|step| {
         let knee = inside + (outside - inside) * step as f64 / KNEES as f64;
         let modifier = map(x, |x| -(away * (x - knee)).max(0.0));
-        let shown = figure(knee);
-        let at = ground.figure(column, five_digits(knee));
+        let shown = figure_to(knee, LABEL * (most - least));
+        let at = ground.figure(column, rounded(knee, KNEE * (most - least)));
         let text = match side {
             "above" => format!("-max({name} - {at}, 0)"),
             _ => format!("-max({at} - {name}, 0)"),

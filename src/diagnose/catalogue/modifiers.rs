@@ -190,6 +190,14 @@ pub fn figure(x: f64) -> String {
     format!("{}", five_digits(x))
 }
 
+/// A number as labels show it where steps count: five digits, or more where these do not tell steps apart.
+pub fn figure_to(x: f64, step: f64) -> String {
+    if (five_digits(x) - x).abs() <= 0.5 * step {
+        return figure(x);
+    }
+    format!("{}", rounded(x, step))
+}
+
 /// The least and the largest number.
 pub fn range(x: &[f64]) -> (f64, f64) {
     let least = x.iter().copied().fold(f64::INFINITY, f64::min);
@@ -284,6 +292,8 @@ mod tests {
         assert_eq!(rounded(-0.001, 0.1), 0.0);
         assert_eq!(rounded(7.123, 0.0), 7.123);
         assert_eq!(five_digits(2.500_001), 2.5);
+        assert_eq!(figure_to(2.500_001, 1e-4), "2.5");
+        assert_eq!(figure_to(101_326.283_7, 1e-3), "101326.284");
     }
 
     #[test]

@@ -8,8 +8,11 @@ use crate::budget::table::Stated;
 use crate::diagnose::faults::{CANDIDATE, UNKNOWN_NAME};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::{Fault, nearest};
-use crate::model::Symbol;
+use crate::model::{Role, Symbol, outline};
 use crate::quantity::Unit;
+
+/// The left side of a candidate: no user calls a column so.
+const LEFT: &str = "the_candidate";
 
 /// The user's own explanations.
 pub(super) fn candidates(
@@ -55,9 +58,12 @@ pub(super) fn candidates(
             }
         }
         if let Some(equations) = formula_of(checker, formula, columns, constants, declared) {
+            let numbers = &equations;
+            let unit = unit_of(checker, formula, columns, constants, declared, numbers);
             found.push(UserCandidate {
                 name: name.value.clone(),
                 formula: formula.value.clone(),
+                unit: unit.unwrap_or_else(Unit::one),
                 equations,
                 node: table.node.as_ref().map(|node| node.value.clone()),
                 typical: table.typical.as_ref().map(|typical| typical.value),
@@ -76,8 +82,6 @@ fn formula_of(
     constants: &[Symbol],
     declared: &Declared,
 ) -> Option<Equations> {
-    /// No user calls a column so.
-    const LEFT: &str = "the_candidate";
     let text = format!("{LEFT} = {}", formula.value);
     // The coefficient takes whatever unit is left over: numbers are taken as they stand in their columns.
     let pure = |name: &str| Quantity {
@@ -117,4 +121,62 @@ fn formula_of(
             None
         }
     }
+}
+
+/// The unit of a formula, where it is one of quantities too: its parts fit together, and units are converted
+/// nowhere, so that its values are those of the formula of numbers.
+fn unit_of(
+    checker: &Checker<'_>,
+    formula: &Stated<String>,
+    columns: &[Column],
+    constants: &[Symbol],
+    declared: &Declared,
+    numbers: &Equations,
+) -> Option<Unit> {
+    /// Its unit is one over that of what it multiplies.
+    const SIZE: &str = "the_size";
+    let parameters = declared.parameters.iter();
+    let quantities = parameters.map(|p| (&p.name, &p.unit));
+    let quantities = quantities.chain(columns.iter().map(|c| (&c.name, &c.unit)));
+    let symbols: Vec<Quantity> = quantities
+        .map(|(name, unit)| Quantity {
+            name: name.clone(),
+            unit: unit.difference(),
+        })
+        .collect();
+    let inputs = symbols.iter().enumerate().map(|(at, quantity)| Symbol {
+        name: quantity.name.clone(),
+        unit: quantity.unit.clone(),
+        role: Role::Input(at),
+    });
+    let known: Vec<Symbol> = constants.iter().cloned().chain(inputs).collect();
+    let text = format!("{LEFT} = {SIZE} * ({})", formula.value);
+    let size = outline(&text, &checker.units)
+        .ok()?
+        .parameter_units(&[SIZE.to_owned()], &known, &Unit::one(), &checker.units)
+        .pop()??;
+    let unit = Unit::one().quotient(&size);
+    let response = Quantity {
+        name: LEFT.to_owned(),
+        unit: unit.clone(),
+    };
+    let text = format!("{LEFT} = {}", formula.value);
+    let equation = EquationText {
+        text: &text,
+        at: formula.span.clone(),
+    };
+    let quantities = Equations::compile(
+        &[equation],
+        &symbols,
+        &[response],
+        constants,
+        &checker.units,
+    )
+    .ok()?;
+    // Values of no meaning, different from symbol to symbol: what agrees there is the same formula.
+    let values: Vec<f64> = (0..symbols.len())
+        .map(|at| 1.0 + 0.37 * at as f64)
+        .collect();
+    let (one, other) = (numbers.value(0, &values), quantities.value(0, &values));
+    ((one - other).abs() <= 1e-9 * one.abs()).then_some(unit)
 }

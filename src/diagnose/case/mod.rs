@@ -203,8 +203,10 @@ pub struct UserCandidate {
     pub name: String,
     /// Its formula as the file has it.
     pub formula: String,
-    /// The compiled formula, over the same symbols as the model.
+    /// The compiled formula, over the same symbols as the model, in which all count as numbers.
     pub equations: Equations,
+    /// The unit of its value; one where it has none but as a number.
+    pub unit: Unit,
     /// What it changes; the outputs if nothing is stated.
     pub node: Option<String>,
     /// A size that would not surprise.

@@ -38,7 +38,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
                 "",
                 Term::new(
                     node,
-                    Modifier::number(modifier, format!("({})", candidate.formula)),
+                    Modifier::new(
+                        modifier,
+                        format!("({})", candidate.formula),
+                        candidate.unit.clone(),
+                    ),
                 ),
             )],
             typical: candidate.typical,

@@ -169,3 +169,28 @@ fn a_wrong_role_does_not_hide_wrong_settings() {
         assert!(text.contains(hint), "{hint} is missing in\n{text}");
     }
 }
+
+#[test]
+fn a_name_that_the_recording_does_not_have_is_given_to_a_column() {
+    let folder = folder("other-names");
+    let case = CASE.replace("room = \"covariate\"", "\"槽温\" = \"covariate\"");
+    let (good, text) = &said(&folder, &case, &recording(|_, _| None))[0];
+    assert!(!good);
+    for hint in [
+        "its columns are: x, y, t, room, run",
+        "\"槽温\" = { role = \"covariate\", column = \"…\" }",
+    ] {
+        assert!(text.contains(hint), "{hint} is missing in\n{text}");
+    }
+}
+
+#[test]
+fn noise_that_is_stated_twice_is_told_by_both() {
+    let folder = folder("noise-twice");
+    let case = format!("{CASE}\n[noise]\nu = \"1 mV\"\nreplicates = [\"x\"]\n");
+    let (good, text) = &said(&folder, &case, &recording(|_, _| None))[0];
+    assert!(
+        !good && text.contains("stated by `u` and `replicates`"),
+        "{text}"
+    );
+}

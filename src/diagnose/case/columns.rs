@@ -7,6 +7,7 @@ use super::tables::{CaseTable, ColumnTable, RoleWord};
 use super::{Column, Data, Purpose};
 use crate::budget::table::Stated;
 use crate::budget::values::{Amount, OneOrMany};
+use crate::budget::writing::key;
 use crate::diagnose::faults::{MISSING, TOO_FEW, UNKNOWN_NAME};
 use crate::fault::{Fault, nearest};
 use crate::model::Symbol;
@@ -55,11 +56,14 @@ impl Checker<'_> {
                 .any(|h| h.text == *header || h.name == *header);
             let expected = self.purpose == Purpose::Plan && role == RoleWord::Output;
             if !present && !expected {
-                let span = table
-                    .column
-                    .as_ref()
-                    .map_or(stated.key.clone(), |column| column.span.clone());
-                self.no_column(header, span, headings);
+                let asked = table.column.as_ref();
+                let span = asked.map_or(&stated.key, |column| &column.span).clone();
+                let renamed = asked.is_none().then(|| {
+                    let role = role.word();
+                    format!("{} = {{ role = \"{role}\", column = \"…\" }}", key(name))
+                });
+                self.faults
+                    .push(no_column(header, span, headings, renamed.as_deref()));
                 continue;
             }
             let unit = match &table.unit {
@@ -100,24 +104,6 @@ impl Checker<'_> {
             }
         }
         wanted
-    }
-
-    fn no_column(&mut self, name: &str, span: Range<usize>, headings: &[Heading]) {
-        let names: Vec<&str> = headings.iter().map(|h| h.name.as_str()).collect();
-        let texts = headings.iter().map(|h| h.text.as_str());
-        let help = match nearest(name, names.iter().copied().chain(texts)) {
-            Some(near) => format!("did you mean \"{near}\"?"),
-            None => format!("its columns are: {}", names.join(", ")),
-        };
-        self.faults.push(
-            Fault::new(
-                UNKNOWN_NAME,
-                span,
-                format!("the recording has no column \"{name}\""),
-            )
-            .label("not in the first line of the recording")
-            .help(help),
-        );
     }
 
     /// The columns without the rows that lack a value.
@@ -197,6 +183,28 @@ impl Checker<'_> {
         }
         found
     }
+}
+
+/// A column that the recording does not have; `renamed` declares another one under its name.
+fn no_column(name: &str, span: Range<usize>, headings: &[Heading], renamed: Option<&str>) -> Fault {
+    let names: Vec<&str> = headings.iter().map(|h| h.name.as_str()).collect();
+    let texts = headings.iter().map(|h| h.text.as_str());
+    let near = nearest(name, names.iter().copied().chain(texts));
+    let help = match (near, renamed) {
+        (Some(near), _) => format!("did you mean \"{near}\"?"),
+        (None, None) => format!("its columns are: {}", names.join(", ")),
+        (None, Some(renamed)) => format!(
+            "its columns are: {}; to call one of them {name}, write {renamed}",
+            names.join(", ")
+        ),
+    };
+    Fault::new(
+        UNKNOWN_NAME,
+        span,
+        format!("the recording has no column \"{name}\""),
+    )
+    .label("not in the first line of the recording")
+    .help(help)
 }
 
 /// No row has all that the case declares: the column that lacks most of it.

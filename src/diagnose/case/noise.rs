@@ -1,5 +1,7 @@
 //! What a case claims about the noise.
 
+use std::ops::Range;
+
 use super::at_rest::hours;
 use super::check::Checker;
 use super::declared::Declared;
@@ -25,19 +27,18 @@ impl Checker<'_> {
         };
         let table = &stated.value;
         let ways = [
-            table.u.is_some(),
-            table.replicates.is_some(),
-            table.at_rest.is_some(),
-            table.budget.is_some(),
-            table.from.is_some(),
-            per_row.is_some(),
+            ("`u`", table.u.is_some()),
+            ("`replicates`", table.replicates.is_some()),
+            ("`at_rest`", table.at_rest.is_some()),
+            ("`budget`", table.budget.is_some()),
+            ("`from`", table.from.is_some()),
+            ("a column with the role \"u\"", per_row.is_some()),
         ];
-        if ways.iter().filter(|way| **way).count() != 1 {
+        let present = ways.iter().filter(|(_, is_there)| *is_there);
+        let present: Vec<&str> = present.map(|(way, _)| *way).collect();
+        if present.len() != 1 {
             if !table.refused {
-                self.faults.push(
-                    Fault::new(NOISE, stated.span.clone(), "the noise is to be stated in one way")
-                        .label("expected one of `u`, `replicates`, `at_rest`, `budget`, `from`, or a column \"u\""),
-                );
+                self.faults.push(not_one_way(stated.span.clone(), &present));
             }
             return NoiseClaim::Estimated;
         }
@@ -246,4 +247,18 @@ impl Checker<'_> {
         let of = |response: &Response| self.spread(stated, &response.unit).unwrap_or(0.0);
         responses.iter().map(of).collect()
     }
+}
+
+/// Noise that is claimed twice, or not at all.
+fn not_one_way(span: Range<usize>, present: &[&str]) -> Fault {
+    let fault = Fault::new(NOISE, span, "the noise is to be stated in one way");
+    if present.is_empty() {
+        return fault.label(
+            "expected one of `u`, `replicates`, `at_rest`, `budget`, `from`, or a column \"u\"",
+        );
+    }
+    let present = present.join(" and ");
+    fault
+        .label(format!("stated by {present}"))
+        .help("keep one of them")
 }

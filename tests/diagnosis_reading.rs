@@ -214,6 +214,32 @@ fn reports_in_chinese_are_in_chinese() {
     assert!(page.contains("模型"), "{page}");
 }
 
+/// Two outputs, each with a stimulus of its own, one of which takes part in the other.
+#[test]
+fn reports_on_several_outputs_are_in_chinese_too() {
+    let folder = folder("chinese-axes");
+    let mut noise = Noise(13);
+    let mut text = "gx [gn],gy [gn],ax [V],ay [V]\n".to_owned();
+    for row in 0..36 {
+        let phi = f64::from(row % 12) * PI / 6.0;
+        let (gx, gy) = (libm::sin(phi), libm::cos(phi));
+        let ax = 0.01 + 2.0 * gx + 0.003 * gy + 2e-4 * noise.normal();
+        let ay = -0.02 + 1.98 * gy + 2e-4 * noise.normal();
+        let _ = writeln!(text, "{gx:.6},{gy:.6},{ax:.5},{ay:.5}");
+    }
+    std::fs::write(folder.join("recording.csv"), text).expect("written");
+    let case = "recording = \"recording.csv\"\nmodel = [\"ax = bx + Sx*gx\", \"ay = by + Sy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = { role = \"stimulus\", u_common = \"0.1 mgn\" }\ngy = \"stimulus\"\n[noise]\nu = \"0.2 mV\"\n";
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let (good, page) = gumption(&folder, &["diagnose", "case.toml", "--lang", "zh"]);
+    assert!(good, "{page}");
+    for english in ["offset of", "scale of", " with ", "common error", "half"] {
+        assert!(!page.contains(english), "{english} in\n{page}");
+    }
+    for chinese in ["ax 的零位", "gx 的共同误差", "前半段："] {
+        assert!(page.contains(chinese), "{chinese} is missing in\n{page}");
+    }
+}
+
 #[test]
 fn a_recording_in_a_code_page_is_refused_as_such() {
     let folder = folder("latin1");

@@ -195,3 +195,25 @@ fn sizes_of_own_formulas_have_the_unit_that_is_left() {
         assert!((size - 0.02).abs() < 1e-3, "{found:#}");
     }
 }
+
+#[test]
+fn formulas_add_where_an_origin_is_below_zero() {
+    let mut noise = Noise(35);
+    let mut rows = "x [V],y [V]\n".to_owned();
+    for row in 0..60 {
+        let x = 0.2 * f64::from(row * 7 % 60) - 6.0;
+        let bent = 0.05 * (x + 2.137f64).max(0.0);
+        let _ = writeln!(
+            rows,
+            "{x:.1},{:.6}",
+            1.0 + 2.0 * x + bent + 5e-4 * noise.normal()
+        );
+    }
+    let case = "model = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\n[noise]\nu = \"0.5 mV\"\n";
+    let found = diagnosed("below-zero", &rows, case);
+    let (text, _, _) = first(&found);
+    assert!(
+        text.starts_with("max(x + 2.1") && text.ends_with(" V, 0)"),
+        "{text}"
+    );
+}

@@ -256,12 +256,19 @@ impl<'f> Ground<'f> {
         format!("{x} {}", self.unit(column)).trim_end().to_owned()
     }
 
-    /// A column less a number, as a formula.
+    /// A column less a number, as a formula that binds like a name.
     pub fn less(&self, column: usize, x: f64) -> String {
         if x == 0.0 {
             return self.label(column).to_owned();
         }
-        format!("({} - {})", self.label(column), self.figure(column, x))
+        format!("({})", self.beyond(column, x))
+    }
+
+    /// How far a column is beyond a number, as a formula.
+    pub fn beyond(&self, column: usize, x: f64) -> String {
+        let sign = if x < 0.0 { '+' } else { '-' };
+        let size = self.figure(column, x.abs());
+        format!("{} {sign} {size}", self.label(column))
     }
 
     /// The time less a number, as a formula; rows are counted from one.

@@ -89,7 +89,7 @@ fn soft_limit(ground: &Ground<'_>, column: usize) -> Cell {
 fn kink(ground: &Ground<'_>, column: usize) -> Cell {
     /// Parts into which the range is divided.
     const PARTS: usize = 16;
-    let (x, name) = (ground.numbers(column), ground.label(column));
+    let x = ground.numbers(column);
     let unit = ground.case().columns[column].unit.typeset();
     let (least, most) = range(x);
     let knees = (1..PARTS).map(|part| least + part as f64 / PARTS as f64 * (most - least));
@@ -97,12 +97,12 @@ fn kink(ground: &Ground<'_>, column: usize) -> Cell {
     let variants = knees.into_iter().map(|at| {
         let modifier = map(x, |x| (x - at).max(0.0));
         let shown = figure_to(at, LABEL * (most - least));
-        let knee = ground.figure(column, rounded(at, KNEE * (most - least)));
-        let text = format!("max({name} - {knee}, 0)");
+        let beyond = ground.beyond(column, rounded(at, KNEE * (most - least)));
+        let text = format!("max({beyond}, 0)");
         let modifier = Modifier::new(modifier, text, ground.step_unit(column));
         Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
     });
-    plain(ground, "kink", name, variants.collect())
+    plain(ground, "kink", ground.label(column), variants.collect())
 }
 
 /// Ends of the range at which the readings pile up at one value although the model moves on: what is
@@ -148,10 +148,10 @@ fn at_end(
         let knee = inside + (outside - inside) * step as f64 / KNEES as f64;
         let modifier = map(x, |x| -(away * (x - knee)).max(0.0));
         let shown = figure_to(knee, LABEL * (most - least));
-        let at = ground.figure(column, rounded(knee, KNEE * (most - least)));
+        let at = rounded(knee, KNEE * (most - least));
         let text = match side {
-            "above" => format!("-max({name} - {at}, 0)"),
-            _ => format!("-max({at} - {name}, 0)"),
+            "above" => format!("-max({}, 0)", ground.beyond(column, at)),
+            _ => format!("-max({} - {name}, 0)", ground.figure(column, at)),
         };
         let modifier = Modifier::new(modifier, text, ground.step_unit(column));
         let term: Term = on_output(modifier);

@@ -6,14 +6,14 @@ use crate::diagnose::evidence::{Alternative, Slot, State};
 
 use crate::report::document::Block;
 use crate::report::language::Language;
-use crate::report::number::{NONE, aligned, percent, significant};
+use crate::report::number::{NONE, aligned, significant};
 use crate::report::table::{ColumnKind, Table};
 
 use super::labels::spoken;
 use super::statement::{tentative, verdict, weighs};
 use super::words::{
-    amplitude, fitted, formula, name, name_of_atom, noise, orders, p_found, probability, prose,
-    quantity,
+    amplitude, chance, fitted, formula, name, name_of_atom, noise, orders, p_found, probability,
+    prose, quantity,
 };
 use super::{improvement, open};
 
@@ -172,11 +172,9 @@ fn introduction(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Optio
         return None;
     }
     let places = slot.generic.iter().filter(|one| weighs(one)).map(|a| {
-        format!(
-            "{} ({} %)",
-            name(&diagnosis.cells[a.candidate], language),
-            percent(a.probability)
-        )
+        let name = name(&diagnosis.cells[a.candidate], language);
+        let p = chance(a.probability);
+        language.pick(format!("{name} ({p} %)"), format!("{name}（{p} %）"))
     });
     let places: Vec<String> = places.collect();
     let has_names = slot.named.iter().any(weighs);
@@ -250,7 +248,7 @@ fn headline(
         Some(variant) => name_of_atom(diagnosis, variant.atom, language),
         None => name(&diagnosis.cells[alternative.candidate], language),
     } + &orders(diagnosis, alternative, language);
-    let posterior = percent(alternative.probability);
+    let posterior = chance(alternative.probability);
     let separate = match &alternative.nearest {
         Some(rival) => {
             let other = name(&diagnosis.cells[rival.candidate], language);

@@ -10,7 +10,7 @@ use crate::report::table::{ColumnKind, Table};
 use crate::special::chi_squared_sf;
 
 use super::labels::spoken;
-use super::words::p_is;
+use super::words::{self, p_is};
 
 /// Before and after.
 pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
@@ -220,12 +220,9 @@ fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
         .parts
         .iter()
         .map(|(part, value, u)| {
-            format!(
-                "{}: {} ± {}",
-                spoken(part, language),
-                aligned(*value, *u, 2),
-                significant(*u, 2)
-            )
+            let part = spoken(part, language);
+            let size = format!("{} ± {}", aligned(*value, *u, 2), significant(*u, 2));
+            language.pick(format!("{part}: {size}"), format!("{part}：{size}"))
         })
         .collect();
     let (Some(first), false) = (adopted.coefficients.first(), parts.is_empty()) else {
@@ -307,12 +304,10 @@ pub(super) fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block
             .as_ref()
             .and_then(|adopted| adopted.unknowns.get(index));
         table.push(vec![
-            unknown.name.as_str().into(),
-            aligned(unknown.value, unknown.u, 2).into(),
+            words::unknown(&unknown.name, language).into(),
+            words::estimate(unknown).into(),
             significant(unknown.u, 2).into(),
-            after
-                .map_or(String::new(), |after| aligned(after.value, after.u, 2))
-                .into(),
+            after.map_or(String::new(), words::estimate).into(),
             after
                 .map_or(String::new(), |after| significant(after.u, 2))
                 .into(),

@@ -67,7 +67,7 @@ const FORMS: [([&str; 2], [&str; 2]); 16] = [
 ];
 
 /// Words in the formulas of effects, phrases before the words in them.
-const WORDS: [(&str, &str); 14] = [
+const WORDS: [(&str, &str); 13] = [
     (
         "times the signal where it acts on the scale",
         "作用于标度时再乘以信号",
@@ -84,7 +84,6 @@ const WORDS: [(&str, &str); 14] = [
     ("axis", "轴"),
     ("row", "行"),
     ("or", "或"),
-    (", ", "，"),
 ];
 
 /// The formula of an effect, before names of columns are put in, in the language of the report.
@@ -93,10 +92,24 @@ pub(super) fn formula_in(formula: &str, language: Language) -> String {
         Language::English => formula.to_owned(),
         Language::Chinese => WORDS
             .iter()
-            .fold(formula.to_owned(), |text, (english, chinese)| {
+            .fold(listed(formula), |text, (english, chinese)| {
                 replaced(&text, english, chinese)
             }),
     }
+}
+
+/// Formulas one after the other with Chinese commas between them; those between the arguments of a function stay.
+fn listed(formulas: &str) -> String {
+    let mut depth = 0_i32;
+    let parts = formulas.split_inclusive(", ").map(|part| {
+        let inside = |c: char| i32::from(c == '(') - i32::from(c == ')');
+        depth += part.chars().map(inside).sum::<i32>();
+        match part.strip_suffix(", ") {
+            Some(formula) if depth == 0 => format!("{formula}，"),
+            _ => part.to_owned(),
+        }
+    });
+    parts.collect()
 }
 
 /// A text with a word replaced where it is no part of another.
@@ -134,8 +147,20 @@ fn chinese(label: &str) -> String {
     }
 }
 
-/// Two figures: `3.5 to 7.1 h`, `τ = 0.5 and 2 h`.
+/// Two figures: `3.5 to 7.1 h`, `τ = 0.5 and 2 h`; two names: `ax with gy`; a number of rows.
 fn ranges(text: &str) -> String {
+    let is_name = |part: &str| !part.contains(' ');
+    match text.split_once(" with ") {
+        Some((first, second)) if is_name(first) && is_name(second) => {
+            return format!("{first} 与 {second}");
+        }
+        _ => {}
+    }
+    if let Some(rows) = text.strip_suffix(" row")
+        && rows.parse::<f64>().is_ok()
+    {
+        return format!("{rows} 行");
+    }
     for (english, chinese) in [(" to ", " 至 "), (" and ", " 与 ")] {
         if let Some((first, second)) = text.split_once(english) {
             let figure = first.rsplit(' ').next().unwrap_or(first);
@@ -153,6 +178,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn commas_of_functions_stay() {
+        let told = |formula: &str| formula_in(formula, Language::Chinese);
+        assert_eq!(
+            told("{y} = model + β·max({x} − x₀, 0)"),
+            "{y} = 模型 + β·max({x} − x₀, 0)"
+        );
+        assert_eq!(told("β·t, ln(1 + t/t₀) or √t"), "β·t，ln(1 + t/t₀) 或 √t");
+    }
+
+    #[test]
     fn labels_are_told_in_chinese() {
         for (english, chinese) in [
             ("2 per turn", "每转 2 次"),
@@ -163,6 +198,8 @@ mod tests {
             ("width 15 % of the range", "宽度 15 % 量程"),
             ("levelling off, half at 3 h", "趋于饱和，半值点 3 h"),
             ("place front", "place front"),
+            ("ax with gy", "ax 与 gy"),
+            ("period 10.993 row", "周期 10.993 行"),
             ("from run 3 on", "自 run 3 起"),
             ("above 0.9 of the largest", "超过最大值的 0.9 倍"),
             ("deflection, above 4.2 V", "deflection，高于 4.2 V"),

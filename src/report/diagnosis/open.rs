@@ -13,7 +13,7 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::json::finite;
 use super::statement::slot_names;
-use super::words::{full_name, measure};
+use super::words::{full_name, measure, unknown};
 
 /// More are in the JSON.
 const MOST: usize = 8;
@@ -40,7 +40,10 @@ fn choices(diagnosis: &Diagnosis, estimates: &[Estimated], language: Language) -
             .zip(u)
             .filter(|(own, u)| **u > MATTERS * own.u);
         let parts: Vec<String> = parts
-            .map(|(own, u)| format!("{} {} {}", own.name, significant(*u, 2), own.unit))
+            .map(|(own, u)| {
+                let name = unknown(&own.name, language);
+                format!("{name} {} {}", significant(*u, 2), own.unit)
+            })
             .map(|text| text.trim().to_owned())
             .collect();
         let names = language.either(&slot_names(diagnosis, slot, language));
@@ -95,7 +98,10 @@ pub(super) fn omitted(
                 line.shift
                     .map_or(String::new(), |s| significant(s, 2))
                     .into(),
-                estimates.get(*at).map_or("", |e| e.name.as_str()).into(),
+                estimates
+                    .get(*at)
+                    .map_or(String::new(), |e| unknown(&e.name, language))
+                    .into(),
                 significant(line.after.u[*at], 2).into(),
                 significant(u[*at], 2).into(),
             ]);

@@ -11,7 +11,7 @@ use crate::report::table::{ColumnKind, Table};
 
 use super::json::{estimates, finite, measure_json};
 use super::open;
-use super::words::{assumed_noise, full_name, label, measure, name};
+use super::words::{self, assumed_noise, full_name, label, measure, name};
 
 /// Name and version of the format.
 pub const FORMAT: &str = "gumption-outlook-1";
@@ -179,7 +179,7 @@ fn parameters(outlook: &Outlook, language: Language) -> Vec<Block> {
     ]);
     for unknown in outlook.unknowns.iter().take(30) {
         table.push(vec![
-            unknown.name.as_str().into(),
+            words::unknown(&unknown.name, language).into(),
             significant(unknown.u, 2).into(),
             unknown.unit.as_str().into(),
         ]);

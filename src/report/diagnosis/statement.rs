@@ -3,9 +3,8 @@
 use crate::diagnose::Diagnosis;
 use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
 
-use super::words::{full_name, name, name_of_atom, orders};
+use super::words::{chance, full_name, name, name_of_atom, orders};
 use crate::report::language::Language;
-use crate::report::number::percent;
 
 /// The verdict in one sentence.
 pub(super) fn verdict(diagnosis: &Diagnosis, language: Language) -> String {
@@ -162,7 +161,7 @@ fn undecided(diagnosis: &Diagnosis, language: Language) -> Option<String> {
     let slot = diagnosis.examination.slots.first()?;
     let first = slot.named.first().filter(|one| one.probability >= LEAST);
     let first = first.filter(|one| !describes(diagnosis, one))?;
-    let p = percent(first.probability);
+    let p = chance(first.probability);
     slot.generic.first()?;
     let name = told(diagnosis, first, language);
     Some(language.pick(format!("{name} ({p} %)"), format!("{name}（{p} %）")))
@@ -202,7 +201,7 @@ fn slot_name(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> String {
     let names = slot_names(diagnosis, slot, language);
     match (names.as_slice(), slot.named.first()) {
         ([first, others @ ..], Some(leading)) if !others.is_empty() && !is_open(slot) => {
-            let (first, p) = (first.as_str(), percent(leading.probability));
+            let (first, p) = (first.as_str(), chance(leading.probability));
             let others = others.join(language.pick(", ", "、"));
             language.pick(
                 format!("{first} ({p} %; not excluded: {others})"),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::diagnose::case::{Case, NoiseClaim};
 use crate::diagnose::catalogue::{Cell, Term, Text, Variation, Words};
 use crate::diagnose::evidence::{Alternative, Refusal};
-use crate::diagnose::{Claimed, Diagnosis, Failure, Measure, NoFit, Origin};
+use crate::diagnose::{Claimed, Diagnosis, Estimated, Failure, Measure, NoFit, Origin};
 
 use super::labels::{formula_in, spoken};
 use crate::report::language::Language;
@@ -32,7 +32,10 @@ pub(super) fn prose(cell: &Cell, language: Language) -> String {
 /// parameters keep their names.
 fn words(cell: &Cell, language: Language) -> Words {
     let mut words = cell.words.clone();
-    words.p = quantity(&words.p, language).to_owned();
+    words.p = quantity(&words.p, language);
+    if words.x == "row" {
+        words.x = language.pick("row", "行号").to_owned();
+    }
     if let Some(of) = words.x.strip_prefix("signal(") {
         words.x = language.pick(format!("signal({of}"), format!("信号({of}"));
     }
@@ -45,13 +48,35 @@ pub(super) fn label(variation: &Variation, language: Language) -> String {
     spoken(label.strip_suffix(" 1").unwrap_or(&label), language)
 }
 
-/// A quantity of the model in a language: offset and scale have words, others their names.
-pub(super) fn quantity(node: &str, language: Language) -> &str {
+/// A quantity of the model in a language: offset and scale, of one output or of all, have words, others their
+/// names.
+pub(super) fn quantity(node: &str, language: Language) -> String {
+    if let Some((part, output)) = node.split_once(" of ") {
+        let part = quantity(part, language);
+        return language.pick(format!("{part} of {output}"), format!("{output} 的{part}"));
+    }
     match node {
         "offset" => language.pick("offset", "零位"),
         "scale" => language.pick("scale", "标度"),
         other => other,
     }
+    .to_owned()
+}
+
+/// What was fitted, in a language: a parameter by its name, or the error that all values of a column share.
+pub(super) fn unknown(name: &str, language: Language) -> String {
+    match name.strip_prefix("common error of ") {
+        Some(column) => language.pick(name.to_owned(), format!("{column} 的共同误差")),
+        None => name.to_owned(),
+    }
+}
+
+/// The value of what was fitted; what its rounding leaves of zero is zero.
+pub(super) fn estimate(fitted: &Estimated) -> String {
+    /// Part of the standard uncertainty.
+    const NOTHING: f64 = 1e-9;
+    let is_zero = fitted.value.abs() < NOTHING * fitted.u;
+    aligned(if is_zero { 0.0 } else { fitted.value }, fitted.u, 2)
 }
 
 /// The name, and what distinguishes a cell whose only variant has a label: the harmonic of an angle.
@@ -312,6 +337,14 @@ fn growth(claimed: &Claimed, language: Language) -> String {
         .pick(", growing with the reading: ", "，随示值增大：")
         .to_owned()
         + &grows.join("; ")
+}
+
+/// A probability in percent: nothing that is tested is certain.
+pub(super) fn chance(p: f64) -> String {
+    if p > 0.9995 {
+        return ">99.9".to_owned();
+    }
+    percent(p)
 }
 
 /// A probability as an equation or inequality.

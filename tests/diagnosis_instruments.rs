@@ -403,3 +403,44 @@ fn a_step_within_a_mean_leaves_no_wrong_reading() {
     assert_eq!(listed.len(), 1, "{listed:?}");
     assert!(listed[0].contains(&"step".to_owned()), "{listed:?}");
 }
+
+#[test]
+fn an_axis_takes_part_in_the_other_one() {
+    let mut noise = Noise(43);
+    let mut rows = "gx [gn],gy [gn],ax [V],ay [V]\n".to_owned();
+    for row in 0..36 {
+        let phi = f64::from(row % 12) * TAU / 12.0;
+        let (gx, gy) = (libm::sin(phi), libm::cos(phi));
+        let ax = 0.01 + 2.0 * gx + 0.003 * gy + 2e-4 * noise.normal();
+        let ay = -0.02 + 1.98 * gy + 2e-4 * noise.normal();
+        let _ = writeln!(rows, "{gx:.6},{gy:.6},{ax:.5},{ay:.5}");
+    }
+    let case = "model = [\"ax = bx + Sx*gx\", \"ay = by + Sy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = \"stimulus\"\ngy = \"stimulus\"\n[noise]\nu = \"0.2 mV\"\n";
+    let found = diagnosed("two-axes", &rows, case);
+    assert_eq!(first_names(&found), ["cross-axis"], "{found:#}");
+    assert_eq!(variant(&found, 0), "ax with gy");
+    assert!((size(&found).0 - 0.003).abs() < 3e-4, "{found:#}");
+}
+
+/// The bath scatters about its set points by more than is claimed: a wave whose period is their distance would
+/// follow that scatter on its steep flanks.
+#[test]
+fn scatter_about_set_points_is_no_wave() {
+    let mut noise = Noise(44);
+    let mut rows = "t [min],bath [°C],R [Ω]\n".to_owned();
+    for row in 0..66 {
+        let bath = 10.0 * f64::from((row * 7) % 11);
+        let ohms = 100.0 * (1.0 + 3.9083e-3 * bath) + 1e-3 * noise.normal();
+        let read = bath + 0.01 * noise.normal();
+        let _ = writeln!(rows, "{},{read:.3},{ohms:.4}", 5 * row);
+    }
+    let case = "model = \"R = R0*(1 + A*bath)\"\n[columns]\nR = \"output\"\nbath = \"stimulus\"\nt = \"time\"\n[noise]\nu = \"1 mΩ\"\n";
+    let found = diagnosed("set-points", &rows, case);
+    assert!(
+        named_apart(&found)
+            .concat()
+            .iter()
+            .all(|name| name != "wave"),
+        "{found:#}"
+    );
+}

@@ -77,7 +77,8 @@ fn mean_of_range(x: &[f64]) -> f64 {
     rounded((least + most) / 2.0, 1e-4 * (most - least))
 }
 
-fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {
+/// A variant for each term alone, and one with all of them.
+pub(super) fn singles_and_all(terms: Vec<(String, Term)>) -> Vec<Variation> {
     let all: Vec<Term> = terms.iter().map(|(_, term)| term.clone()).collect();
     let mut variants: Vec<Variation> = terms
         .into_iter()

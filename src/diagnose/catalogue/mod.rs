@@ -13,6 +13,7 @@
 //! | `response`, `powers`, `limits`, `history` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `implicit` | the same where the model holds a constant against several columns |
+//! | `cross` | what an output takes of the stimuli of others |
 //! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
 //! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
 //! | `heating`, `stem`, `waves` | power of the signal, loss along a stem, what repeats |
@@ -23,6 +24,7 @@
 
 mod angles;
 mod conditions;
+mod cross;
 mod fields;
 mod finer;
 mod generics;
@@ -391,6 +393,7 @@ impl Variation {
 pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut cells = response::cells(ground);
     cells.extend(inputs::cells(ground));
+    cells.extend(cross::cells(ground));
     cells.extend(fields::cells(ground));
     cells.extend(conditions::cells(ground));
     cells.extend(zero::cells(ground));

@@ -87,11 +87,15 @@ fn wave(ground: &Ground<'_>, course: &Course) -> Option<Cell> {
     distinct.sort_by(f64::total_cmp);
     distinct.dedup();
     let span = most - least;
-    if distinct.len() < LEAST_VALUES || span <= 0.0 {
+    let values = match course.column {
+        Some(_) => set_points(&distinct),
+        None => distinct.len(),
+    };
+    if values < LEAST_VALUES || span <= 0.0 {
         return None;
     }
-    let step = if distinct.len() <= FINE { 0.5 } else { 1.0 };
-    let highest = (distinct.len() - 1) as f64 / 2.0;
+    let step = if values <= FINE { 0.5 } else { 1.0 };
+    let highest = (values - 1) as f64 / 2.0;
     let count = ((highest - FEWEST_PERIODS) / step).floor() as usize;
     let mut frequencies: Vec<f64> = (0..=count)
         .map(|k| (FEWEST_PERIODS + step * k as f64) / span)
@@ -126,6 +130,23 @@ fn wave(ground: &Ground<'_>, course: &Course) -> Option<Cell> {
         &course.name,
         variants,
     ))
+}
+
+/// How many values tell waves apart: readings that scatter about set points are no more than these. A wave
+/// from one set point to the next would follow their scatter.
+fn set_points(ascending: &[f64]) -> usize {
+    /// Values belong together that are closer than this part of the mean distance.
+    const TOGETHER: f64 = 0.2;
+    let (least, most) = range(ascending);
+    let near = TOGETHER * (most - least) / ascending.len() as f64;
+    let apart = ascending.windows(2).filter(|pair| pair[1] - pair[0] > near);
+    let points = 1 + apart.count();
+    // Values that lie anywhere come close to one another by chance.
+    if 2 * points <= ascending.len() {
+        points
+    } else {
+        ascending.len()
+    }
 }
 
 /// Whole numbers of waves per turn, beyond those of wobble and eccentricity, as far as the positions on the

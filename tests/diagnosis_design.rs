@@ -364,3 +364,19 @@ fn plan_knows_what_a_file_is() {
     let (good, told) = gumption(&folder, &["plan", "nowhere.toml"]);
     assert!(!good && told.contains("cannot read nowhere.toml"), "{told}");
 }
+
+#[test]
+fn variants_are_told_with_their_units() {
+    let folder = folder("units-of-variants");
+    let rows: String = (0..66).map(|row| format!("{}\n", (row * 7) % 11)).collect();
+    std::fs::write(folder.join("design.csv"), format!("p [bar]\n{rows}")).expect("written");
+    let plan = planned(
+        &folder,
+        "recording = \"design.csv\"\nmodel = \"y = a + b*p\"\n[columns]\ny = { role = \"output\", unit = \"bar\" }\np = \"stimulus\"\n[noise]\nu = \"2 mbar\"\n",
+    );
+    let square = entry(&plan["effects"], "quadratic");
+    assert_eq!(
+        square["variant"], "levelling off, half at 30 bar",
+        "{square:#}"
+    );
+}

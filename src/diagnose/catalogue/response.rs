@@ -260,7 +260,7 @@ fn levelling(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
         let unit = ground.step_unit(column);
         let modifier = Modifier::new(modifier, text, unit.product(&unit));
         Variation::one(
-            format!("levelling off, half at {}", figure(half)),
+            format!("levelling off, half at {shown}"),
             on_output(modifier),
         )
     };

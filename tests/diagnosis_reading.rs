@@ -126,6 +126,11 @@ fn an_improved_case_takes_its_recording_at_rest_with_it() {
     assert_ne!(diagnosed(&folder, case)["verdict"], "none");
     let arguments = ["diagnose", "case.toml", "--improved", "improved"];
     assert!(gumption(&folder, &arguments).0);
+    // It has no time.
+    for (language, words) in [("en", "as white noise"), ("zh", "按白噪声处理")] {
+        let (good, page) = gumption(&folder, &["diagnose", "case.toml", "--lang", language]);
+        assert!(good && page.contains(words), "{page}");
+    }
     let copy = std::fs::read_to_string(folder.join("improved/at_rest.csv")).expect("a copy");
     assert_eq!(copy, rest);
     let again = json(&folder, &["diagnose", "improved/case.toml", "--json"]);
@@ -178,6 +183,8 @@ at_rest = { file = "rest.csv" }
 "#;
     let found = diagnosed(&folder, case);
     assert_ne!(found["verdict"], "none", "{found:#}");
+    let origin = found["noise"]["origin"].as_str().unwrap_or_default();
+    assert!(!origin.contains("white"), "{origin}");
     let arguments = ["diagnose", "case.toml", "--improved", "improved"];
     assert!(gumption(&folder, &arguments).0);
     let again = json(&folder, &["diagnose", "improved/case.toml", "--json"]);

@@ -250,8 +250,11 @@ pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
                 + &growth(claimed, language)
         }
         Origin::AtRest(file) => language.pick(
-            format!("from the recording at rest {file}"),
-            format!("取自静态记录 {file}"),
+            format!(
+                "from the recording at rest {file}{}",
+                white(claimed, language)
+            ),
+            format!("取自静态记录 {file}{}", white(claimed, language)),
         ),
         Origin::Budget(file) => language.pick(
             format!("from the budget {file}"),
@@ -259,6 +262,17 @@ pub(super) fn noise(claimed: &Claimed, language: Language) -> String {
         ),
     };
     text + &dof + &uneven(claimed, language)
+}
+
+/// That a recording at rest tells nothing of the course of the noise.
+fn white(claimed: &Claimed, language: Language) -> &'static str {
+    match claimed.correlated {
+        Some(_) => "",
+        None => language.pick(
+            ", as white noise (its course needs the time, by one name in both recordings, and 20 readings)",
+            "，按白噪声处理（计入其时间相关性需要两份记录有同名时间列，且至少 20 个读数）",
+        ),
+    }
 }
 
 /// That replicates scatter otherwise than the claim says.

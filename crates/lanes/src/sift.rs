@@ -159,7 +159,7 @@ pub(crate) const FEW: usize = 16;
 pub fn keep_inside(level: Level, values: &mut Vec<f64>, first: usize, stretches: &[Stretch]) {
     let later = &mut values[first..];
     let kept = if stretches.len() > FEW {
-        move_one_by_one(later, |value| {
+        to_front(later, |value| {
             let found = stretches.get(stretches.partition_point(|[_, high]| *high < value));
             found.is_some_and(|[low, _]| *low <= value)
         })
@@ -169,12 +169,12 @@ pub fn keep_inside(level: Level, values: &mut Vec<f64>, first: usize, stretches:
     values.truncate(first + kept);
 }
 
-/// Moves the values for which something holds to the front, in their order; how many there are.
-fn move_one_by_one(values: &mut [f64], holds: impl Fn(f64) -> bool) -> usize {
+/// Moves the values for which something holds to the front, in their order; how many there are. For conditions
+/// that cannot be foreseen: every value is moved, no branch taken.
+pub fn to_front(values: &mut [f64], holds: impl Fn(f64) -> bool) -> usize {
     let mut kept = 0;
     for index in 0..values.len() {
         let value = values[index];
-        // Every value is moved: a branch on what cannot be foreseen would cost more.
         values[kept] = value;
         kept += usize::from(holds(value));
     }

@@ -10,6 +10,7 @@ use std::ops::RangeInclusive;
 use std::sync::{Mutex, PoisonError};
 
 use gumption_lanes::bins::{BINS, Grid};
+use gumption_lanes::sift::to_front;
 
 use super::cells::{Cell, ERRORS, Slack, Wanted};
 use super::histogram;
@@ -146,7 +147,7 @@ impl Sieve {
         self.forget();
     }
 
-    /// Forgets values of bins that are kept no longer, where they are most of what is held.
+    /// Forgets values of bins that are kept no longer, where they are more than a third of what is held.
     fn forget(&mut self) {
         let counts = self.counts.iter().zip(&self.keeps);
         let needed: u64 = counts
@@ -157,7 +158,8 @@ impl Sieve {
         let held: usize = kept.iter().map(Vec::len).sum();
         if held as u64 > needed + needed / 2 {
             for part in &mut kept {
-                keep_only(part, |value| self.keeps[self.grid.bin(value)]);
+                let count = to_front(part, |value| self.keeps[self.grid.bin(value)]);
+                part.truncate(count);
             }
         }
         *self.kept() = kept;
@@ -298,17 +300,6 @@ impl Sieve {
         let counts = self.picture.as_ref().unwrap_or(&self.counts);
         histogram::from_grid(&self.grid, counts, self.range, interval)
     }
-}
-
-/// As [`Vec::retain`], for conditions that cannot be foreseen: every value is moved, no branch taken.
-fn keep_only(values: &mut Vec<f64>, condition: impl Fn(f64) -> bool) {
-    let mut kept = 0;
-    for index in 0..values.len() {
-        let value = values[index];
-        values[kept] = value;
-        kept += usize::from(condition(value));
-    }
-    values.truncate(kept);
 }
 
 /// Values at either end of a sample that do not make its grid any wider.

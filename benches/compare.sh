@@ -16,7 +16,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cargo build --release --quiet --bin gumption
-cargo bench --bench limits --bench quasi --no-run --quiet
+cargo bench --bench limits --bench quasi --bench throughput --no-run --quiet
 
 # In turns, so that whatever else the machine does falls on all of them.
 for turn in 1 2; do

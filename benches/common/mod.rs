@@ -18,6 +18,21 @@ pub fn best_of<T>(runs: usize, mut run: impl FnMut() -> T) -> Duration {
     (0..runs.max(1)).map(time).min().unwrap_or_default()
 }
 
+/// CPU seconds of this process so far; the time that has passed where the system does not tell them.
+pub fn cpu_time() -> f64 {
+    #[cfg(unix)]
+    {
+        use rustix::time::{ClockId, clock_gettime};
+        let time = clock_gettime(ClockId::ProcessCPUTime);
+        time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
+    }
+    #[cfg(not(unix))]
+    {
+        static START: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
+        START.get_or_init(Instant::now).elapsed().as_secs_f64()
+    }
+}
+
 /// The budget of a text.
 ///
 /// # Panics

@@ -177,10 +177,13 @@ fn near_root(
     dispatch!(level, _ => for lane in 0..LANES {
         let (a, b) = (start.0[lane], slope.0[lane]);
         let [root, twice] = discriminant(y, [a, b, bend.0[lane]]);
-        x.0[lane] = 2.0 * (y - a) / twice;
         // Zero beyond the vertex, where there is no density.
         let least = 1e-9 * b.abs();
-        weight.0[lane] = (1.0 / if root > least { root } else { least }).copysign(b);
+        let root = if root > least { root } else { least };
+        // One division for both.
+        let inverse = 1.0 / (twice * root);
+        x.0[lane] = 2.0 * (y - a) * root * inverse;
+        weight.0[lane] = twice * inverse.abs();
     })
 }
 
@@ -208,8 +211,9 @@ fn roots(
 
 /// Adds probabilities and densities of one branch; where dE/dy is negative, values below y come from E above.
 fn add_one(level: Level, [below, density, weight]: [&Block; 3], sum: &mut [f64; 2]) {
-    let mut sums = [[0.0; WIDTH]; 2];
-    dispatch!(level, _ => {
+    let sums = dispatch!(level, _ => {
+        // Here, so that the compiler keeps them in registers.
+        let mut sums = [[0.0; WIDTH]; 2];
         for ((below, density), weight) in rows(below).iter().zip(rows(density)).zip(rows(weight)) {
             for lane in 0..WIDTH {
                 let p = below[lane];
@@ -217,6 +221,7 @@ fn add_one(level: Level, [below, density, weight]: [&Block; 3], sum: &mut [f64; 
                 sums[1][lane] += density[lane] * weight[lane].abs();
             }
         }
+        sums
     });
     sum[0] += sums[0].iter().sum::<f64>();
     sum[1] += sums[1].iter().sum::<f64>();
@@ -225,8 +230,8 @@ fn add_one(level: Level, [below, density, weight]: [&Block; 3], sum: &mut [f64; 
 /// Adds probabilities and densities of both branches: between the roots of a parabola that opens upwards the values
 /// are below y.
 fn add_between(level: Level, [difference, density, weight, bend]: [&Block; 4], sum: &mut [f64; 2]) {
-    let mut sums = [[0.0; WIDTH]; 2];
-    dispatch!(level, _ => {
+    let sums = dispatch!(level, _ => {
+        let mut sums = [[0.0; WIDTH]; 2];
         let both = rows(difference).iter().zip(rows(density));
         for ((difference, density), (weight, bend)) in both.zip(rows(weight).iter().zip(rows(bend))) {
             for lane in 0..WIDTH {
@@ -235,6 +240,7 @@ fn add_between(level: Level, [difference, density, weight, bend]: [&Block; 4], s
                 sums[1][lane] += density[lane] * weight[lane];
             }
         }
+        sums
     });
     sum[0] += sums[0].iter().sum::<f64>();
     sum[1] += sums[1].iter().sum::<f64>();

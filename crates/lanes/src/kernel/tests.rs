@@ -145,7 +145,9 @@ fn convolution_adds_quantities() {
 fn all_instruction_sets_agree() {
     let (start, slope) = lines();
     let kernel = Kernel::Unbounded {
-        steps: Steps::new([-1.0, 1.0], |s| 0.5 + 0.5 * s),
+        steps: Steps::new([-1.0, 1.0], |block| {
+            block.0 = block.0.map(|s| 0.5 + 0.5 * s)
+        }),
         width: 2.0,
     };
     let all: Vec<[[f64; 2]; 1]> = levels()

@@ -259,7 +259,7 @@ fn cumulated(cells: &[f64], reach: f64) -> Curve {
 
 /// From a distribution function.
 fn bounded(range: [f64; 2], curve: &Curve) -> Kernel {
-    Kernel::Bounded(Steps::new(range, |x| curve.at(x)))
+    Kernel::Bounded(Steps::new(range, |block| curve.apply(level(), block)))
 }
 
 /// From the distribution function of a symmetric distribution about zero.
@@ -271,7 +271,7 @@ fn unbounded(sd: f64, cdf: impl Fn(f64) -> f64) -> Kernel {
         if s < 0.0 { below } else { 1.0 - below }
     });
     Kernel::Unbounded {
-        steps: Steps::new([-1.0, 1.0], |s| curve.at(s)),
+        steps: Steps::new([-1.0, 1.0], |block| curve.apply(level(), block)),
         width,
     }
 }

@@ -100,18 +100,42 @@ impl Tails {
     }
 
     /// Where the densities at both ends are equal, or the end of the range that is nearer to it: the width
-    /// grows with the fraction below by 1/f(high) − 1/f(low).
+    /// grows with the fraction below by 1/f(high) − 1/f(low). By the rule of false position, halving the value of an
+    /// end that stays (Illinois).
     fn refined(&self, [mut least, mut most]: [f64; 2], p: f64) -> f64 {
-        for _ in 0..14 {
-            let middle = 0.5 * (least + most);
-            let [low, high] = self.interval(middle, p);
-            if self.density(high) > self.density(low) {
-                least = middle;
-            } else {
-                most = middle;
-            }
+        let enough = 1e-5 * (most - least);
+        let excess = |below: f64| {
+            let [low, high] = self.interval(below, p);
+            self.density(high) - self.density(low)
+        };
+        let (mut at_least, mut at_most) = (excess(least), excess(most));
+        if at_least <= 0.0 {
+            return least;
         }
-        0.5 * (least + most)
+        if at_most >= 0.0 {
+            return most;
+        }
+        let (mut middle, mut rose) = (least, None);
+        for _ in 0..40 {
+            let before = middle;
+            middle = (least * at_most - most * at_least) / (at_most - at_least);
+            if (middle - before).abs() < enough {
+                break;
+            }
+            let at_middle = excess(middle);
+            let rises = at_middle > 0.0;
+            if rises {
+                (least, at_least) = (middle, at_middle);
+            } else {
+                (most, at_most) = (middle, at_middle);
+            }
+            if rose == Some(rises) {
+                let stays = if rises { &mut at_most } else { &mut at_least };
+                *stays *= 0.5;
+            }
+            rose = Some(rises);
+        }
+        middle
     }
 
     /// The interval that leaves this fraction below it.

@@ -11,8 +11,8 @@ const ROWS: usize = 2048;
 /// Nodes before the first one, as there: with one that is the value itself, enough for a slope of zero.
 const BEFORE: usize = 2;
 
-/// Cells of the range; the rows beyond are as its end.
-const CELLS: usize = ROWS - BEFORE - 1;
+/// Cells of the range; two rows beyond are as its end.
+const CELLS: usize = ROWS - BEFORE - 2;
 
 /// A function known at many equidistant arguments, between which it is the parabola through the next one, too: a
 /// look into the table is what it costs. Beyond the ends it stays as it is there.
@@ -59,7 +59,7 @@ impl Steps {
 
     /// Value and slope.
     pub(super) fn functions(&self, level: Level, x: &Block, value: &mut Block, slope: &mut Block) {
-        const LAST: f64 = (BEFORE + CELLS) as f64;
+        const LAST: f64 = (BEFORE + CELLS + 1) as f64;
         /// Lanes whose rows are fetched before they are looked at.
         const PART: usize = 64;
         let density = self.density;

@@ -1,8 +1,10 @@
-"""Times gumption, and puts the figures of compare.sh into a table.
+"""Times gumption beside others, and puts the figures into a table.
 
-    compare.py measure GUMPTION    one JSON line per model, number of trials and threads, of whole programs
-                                   and of the calculation alone (benches/throughput.rs)
-    compare.py report FOLDER       Markdown from all JSON lines in the folder
+    compare.py measure GUMPTION BASELINES    one JSON line for each turn of a model and a number of trials
+    compare.py report FILE QUASI             Markdown from these lines and the output of the bench `quasi`
+
+In a turn everything that is compared runs within seconds, because the clock of a machine drifts: ratios
+are of one turn, and medians over the turns.
 """
 
 import json
@@ -27,13 +29,19 @@ GAUGE = "budgets/length/gauge-block-gum-s1-9-5.toml"
 TRIALS = [10**6, 10**7, 10**8]
 #: Runs of one measurement, of which the median counts, as with the others.
 RUNS = {10**6: 9, 10**7: 5, 10**8: 3}
+#: Turns of a model and a number of trials.
+TURNS = {10**6: 5, 10**7: 5, 10**8: 3}
 #: Most trials of the long models.
 MOST = {"gauge": 10**8, "twenty": 10**7, "thousand": 10**6}
+#: Names in the lines of the baselines, for the table, and the script that prints them.
 PEERS = {
-    "numpy-best": "NumPy, best practice",
-    "numba": "numba",
-    "suncal": "suncal",
+    "numpy-best": ("NumPy, best practice", "bench_numpy.py"),
+    "numba": ("numba", "bench_numba.py"),
+    "suncal": ("suncal", "bench_suncal.py"),
 }
+#: What the baselines know.
+PEER_MODELS = ("add", "mm0", "mm9", "gauge")
+PEER_TRIALS = 10**7
 
 
 def budget(model):
@@ -73,90 +81,144 @@ def run(program, file, trials, threads):
     return usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024
 
 
-def calculation(file, trials, threads):
-    """CPU and wall seconds of the evaluation inside a process."""
-    command = ["cargo", "bench", "--quiet", "--bench", "throughput", "--"]
-    command += [str(word) for word in (file, trials, threads, RUNS[trials])]
-    return json.loads(subprocess.run(command, stdout=subprocess.PIPE, check=True).stdout)
+def lines_of(command, folder="."):
+    """The JSON lines that a command prints; none where it fails."""
+    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}
+    done = subprocess.run(
+        [str(word) for word in command],
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    if done.returncode:
+        return []
+    return [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
 
 
-def measure(program):
+def bench(name, *words):
+    """The JSON line of one of our benchmarks."""
+    lines = lines_of(["cargo", "bench", "--quiet", "--bench", name, "--", *words])
+    if len(lines) != 1:
+        sys.exit(f"the benchmark {name} failed")
+    return lines[0]
+
+
+def own(program, file, trials, threads):
+    """Seconds of whole programs, and of the calculation inside a process."""
+    runs = [run(program, file, trials, threads) for _ in range(RUNS[trials])]
+    cpu, wall, memory = (statistics.median(column) for column in zip(*runs))
+    record = {"program": cpu, "program_wall": wall, "memory": memory}
+    return record | bench("throughput", file, trials, threads, RUNS[trials])
+
+
+def peers(baselines, model, trials):
+    """CPU seconds of the others."""
+    times = {}
+    if model not in PEER_MODELS or trials > PEER_TRIALS:
+        return times
+    for peer, (_, script) in PEERS.items():
+        if not pathlib.Path(baselines, script).exists():
+            continue
+        command = [sys.executable, script, "throughput", f"--n={trials}", "--runs=3", f"--models={model}"]
+        for line in lines_of(command, baselines):
+            if line.get("peer") == peer:
+                times[peer] = line["cpu_median_s"]
+    return times
+
+
+def measure(program, baselines):
+    """All turns of one cell after the other: a slow minute falls on one cell of one turn only."""
     with tempfile.TemporaryDirectory() as work:
         for model in MODELS:
             file = pathlib.Path(work) / f"{model}.toml"
             file.write_text(budget(model))
-            for trials in TRIALS:
-                if trials > MOST.get(model, trials):
-                    continue
-                for threads in (1, 2):
-                    runs = [run(program, file, trials, threads) for _ in range(RUNS[trials])]
-                    cpu, wall, memory = (statistics.median(column) for column in zip(*runs))
-                    record = {"gumption": model, "n": trials, "threads": threads}
-                    record |= {"program": cpu, "program_wall": wall, "memory": memory}
-                    print(json.dumps(record | calculation(file, trials, threads)), flush=True)
+        for turn in range(max(TURNS.values())):
+            for model in MODELS:
+                file = pathlib.Path(work) / f"{model}.toml"
+                for trials in TRIALS:
+                    if trials > MOST.get(model, trials) or turn >= TURNS[trials]:
+                        continue
+                    record = {"model": model, "n": trials}
+                    record["limit"] = bench("limits", model)["per_second"]
+                    record["own"] = {threads: own(program, file, trials, threads) for threads in (1, 2)}
+                    record["peers"] = peers(baselines, model, trials)
+                    print(json.dumps(record), flush=True)
+        for limit in ("uniform", "normal"):
+            print(json.dumps(bench("limits", limit)))
 
 
-#: What is measured of gumption.
-OWN = ("cpu", "wall", "program", "program_wall", "memory")
-
-
-def read(folder):
-    """The best of all turns: gumption's runs, those of the others, rates of the limits."""
-    own, others, limits = {}, {}, {}
-    for file in sorted(pathlib.Path(folder).glob("*.jsonl")):
-        for line in file.read_text().splitlines():
-            record = json.loads(line)
-            if "limit" in record:
-                name = record["limit"]
-                limits[name] = max(limits.get(name, 0), record["per_second"])
-            elif "gumption" in record:
-                key = record["gumption"], record["n"], record["threads"]
-                before = own.get(key, record)
-                own[key] = {column: min(before[column], record[column]) for column in OWN}
-            elif record.get("task") == "throughput":
-                key = record["peer"], record["model"], record["n"]
-                others[key] = min(others.get(key, float("inf")), record["cpu_median_s"])
-    return own, others, limits
+def read(file):
+    """The turns of each model and number of trials, and the rates of random numbers."""
+    turns, limits = {}, {}
+    for line in pathlib.Path(file).read_text().splitlines():
+        record = json.loads(line)
+        if "model" in record:
+            turns.setdefault((record["model"], record["n"]), []).append(record)
+        else:
+            limits[record["limit"]] = record["per_second"]
+    for (model, _), records in turns.items():
+        limits[model] = statistics.median(record["limit"] for record in records)
+    return turns, limits
 
 
 def power(trials):
     return f"10^{len(str(trials)) - 1}"
 
 
-def ratio_row(model, trials, own, others, limits):
-    one = own[model, trials, 1]
-    cells = [model, power(trials), f"{1000 * one['cpu']:.1f}"]
+def median(records, figure):
+    return statistics.median(figure(record) for record in records)
+
+
+def mine(column, threads="1"):
+    """A figure of gumption in a turn."""
+    return lambda record: record["own"][threads][column]
+
+
+def ratio_row(model, trials, records):
+    cells = [model, power(trials), f"{1000 * median(records, mine('cpu')):.1f}"]
     for peer in PEERS:
-        other = others.get((peer, model, trials))
-        cells.append(f"{other / one['cpu']:.1f} × ({other / one['program']:.1f} ×)" if other else "–")
-    kernel = limits.get(model)
-    cells.append(f"{100 * trials / one['cpu'] / kernel:.0f} %" if kernel else "–")
-    cells.append(f"{one['wall'] / own[model, trials, 2]['wall']:.2f} ×")
+        with_peer = [record for record in records if peer in record["peers"]]
+        if not with_peer:
+            cells.append("–")
+            continue
+        inside, program = (
+            median(with_peer, lambda record: record["peers"][peer] / mine(column)(record))
+            for column in ("cpu", "program")
+        )
+        cells.append(f"{inside:.1f} × ({program:.1f} ×)")
+    share = median(records, lambda record: trials / mine("cpu")(record) / record["limit"])
+    cells.append(f"{100 * share:.0f} %")
+    threads = median(records, lambda record: mine("wall")(record) / mine("wall", "2")(record))
+    cells.append(f"{threads:.2f} ×")
     return cells
 
 
-def program_row(model, trials, own, *_):
-    one, two = own[model, trials, 1], own[model, trials, 2]
-    times = [one["program"], one["program_wall"], two["program_wall"]]
-    return [model, power(trials), *(f"{1000 * time:.1f}" for time in times), f"{one['memory']:.0f}"]
+def program_row(model, trials, records):
+    figures = mine("program"), mine("program_wall"), mine("program_wall", "2")
+    times = [f"{1000 * median(records, figure):.1f}" for figure in figures]
+    return [model, power(trials), *times, f"{median(records, mine('memory')):.0f}"]
 
 
-def table(heads, row, *measured):
+def table(heads, row, turns):
     print("| " + " | ".join(heads) + " |")
     print("|---|" + "--:|" * (len(heads) - 1))
     for model in MODELS:
         for trials in TRIALS:
-            if (model, trials, 1) in measured[0]:
-                print("| " + " | ".join(row(model, trials, *measured)) + " |")
+            if (model, trials) in turns:
+                print("| " + " | ".join(row(model, trials, turns[model, trials])) + " |")
 
 
-def report(folder):
-    measured = own, others, limits = read(folder)
+def report(file, quasi):
+    turns, limits = read(file)
     print("# Performance of the Monte Carlo method\n")
     print("Written by `benches/compare.sh`. All figures are from one session on one machine")
-    print(f"({platform.machine()}, {os.cpu_count()} processors; load average {os.getloadavg()[0]:.1f} at the end), the")
-    print("programs in turns, medians of several runs, of two turns the better one.\n")
-    absent = [text for peer, text in PEERS.items() if not any(key[0] == peer for key in others)]
+    print(f"({platform.machine()}, {os.cpu_count()} processors; load average {os.getloadavg()[0]:.1f} at the end).")
+    print("What is compared ran in turns of seconds; figures and ratios are medians over the turns, ratios of")
+    print("figures of the same turn.\n")
+    met = {peer for records in turns.values() for record in records for peer in record["peers"]}
+    absent = [text for peer, (text, _) in PEERS.items() if peer not in met]
     if absent:
         print(f"Not installed, hence not compared: {', '.join(absent)}.\n")
     print("## Calculation\n")
@@ -166,17 +228,17 @@ def report(folder):
     print("file and the JSON, where the others' interpreters have been started before. *Of the kernel*: the rate")
     print("over that of the same model written by hand on the same kernels (draws, model and moments only). *Two")
     print("threads*: wall time of one over that of two.\n")
-    heads = ["model", "trials", "CPU ms", *PEERS.values(), "of the kernel", "two threads"]
-    table(heads, ratio_row, *measured)
+    heads = ["model", "trials", "CPU ms", *(text for text, _ in PEERS.values()), "of the kernel", "two threads"]
+    table(heads, ratio_row, turns)
     print("\n## Whole program\n")
     print("Milliseconds of `gumption eval --json` from start to end.\n")
     heads = ["model", "trials", "CPU ms", "wall ms", "wall ms, two threads", "peak MB"]
-    table(heads, program_row, *measured)
+    table(heads, program_row, turns)
     print("\n## Time to two stable digits\n")
     print("Quasi-random points beside random trials of gumption, each until it guarantees estimate, u and both ends")
     print("of the 95 % interval to two digits of u ([docs/monte-carlo.md](../docs/monte-carlo.md)).\n")
     print("```text")
-    print(pathlib.Path(folder, "quasi.txt").read_text().strip())
+    print(pathlib.Path(quasi).read_text().strip())
     print("```")
     print("\n## Models\n")
     for model, text in MODELS.items():
@@ -188,4 +250,4 @@ def report(folder):
         print(f"| {name} | {rate / 1e6:.1f} |")
 
 
-{"measure": measure, "report": report}[sys.argv[1]](sys.argv[2])
+{"measure": measure, "report": report}[sys.argv[1]](*sys.argv[2:])

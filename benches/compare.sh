@@ -18,18 +18,7 @@ trap 'rm -rf "$work"' EXIT
 cargo build --release --quiet --bin gumption
 cargo bench --bench limits --bench quasi --bench throughput --no-run --quiet
 
-# In turns, so that whatever else the machine does falls on all of them.
-for turn in 1 2; do
-    cargo bench --bench limits --quiet >>"$work/limits.jsonl"
-    "$python" benches/compare.py measure "$target/release/gumption" >>"$work/gumption.jsonl"
-    for peer in numpy numba suncal; do
-        [ -f "$baselines/bench_$peer.py" ] || continue
-        (cd "$baselines" && PYTHONDONTWRITEBYTECODE=1 "$python" "bench_$peer.py" throughput --n=1e6,1e7 --runs=3) \
-            >>"$work/$peer.jsonl" 2>/dev/null || echo "$peer: not run" >&2
-    done
-done
-
+"$python" benches/compare.py measure "$target/release/gumption" "$baselines" >"$work/turns.jsonl"
 cargo bench --bench quasi --quiet >"$work/quasi.txt"
-
-"$python" benches/compare.py report "$work" >"$work/performance.md"
+"$python" benches/compare.py report "$work/turns.jsonl" "$work/quasi.txt" >"$work/performance.md"
 mv "$work/performance.md" reports/performance.md

@@ -1,10 +1,13 @@
 //! What this machine can do at best: random numbers, and models written by hand on the kernels,
 //! with nothing but draws, model and moments. One JSON line each, for `compare.sh`.
+//!
+//! ```text
+//! cargo bench --bench limits -- [NAME...]
+//! ```
 
-// Of what benchmarks share, this one needs the clock only.
 mod common;
 
-use common::best_of;
+use common::{median_of, words};
 use gumption_lanes::moments::PowerSums;
 use gumption_lanes::sampler::normal_block;
 use gumption_lanes::{Block, Generator, LANES, Level, Sampler, level, ops};
@@ -14,10 +17,10 @@ const RUNS: usize = 9;
 
 fn main() {
     let mut bench = Bench::new();
-    bench.line("uniform numbers", [0.0, 1.0], |level, generators, _, y| {
+    bench.line("uniform", [0.0, 1.0], |level, generators, _, y| {
         generators[0].uniforms(level, y);
     });
-    bench.line("normal numbers", [0.0, 1.0], |level, generators, _, y| {
+    bench.line("normal", [0.0, 1.0], |level, generators, _, y| {
         normal_block(level, &mut generators[0], y);
     });
     bench.line("add", [0.0, 0.5], add);
@@ -40,6 +43,8 @@ struct Bench {
     level: Level,
     generators: Vec<Generator>,
     x: Vec<Block>,
+    /// Names from the command line; all lines where there are none.
+    wanted: Vec<String>,
 }
 
 type Step<'a> = dyn FnMut(Level, &mut [Generator], &mut [Block], &mut Block) + 'a;
@@ -50,6 +55,7 @@ impl Bench {
             level: level(),
             generators: (0..1000).map(|i| Generator::new(1, 0, i)).collect(),
             x: vec![Block::ZERO; 64],
+            wanted: words().collect(),
         }
     }
 
@@ -64,6 +70,9 @@ impl Bench {
     }
 
     fn measure(&mut self, name: &str, pivot: [f64; 2], step: &mut Step) {
+        if !self.wanted.is_empty() && !self.wanted.iter().any(|wanted| wanted == name) {
+            return;
+        }
         let mut y = Block::ZERO;
         let mut sums = PowerSums::default();
         let blocks = if name == "thousand" {
@@ -71,7 +80,7 @@ impl Bench {
         } else {
             BLOCKS
         };
-        let time = best_of(RUNS, || {
+        let time = median_of(RUNS, || {
             for _ in 0..blocks {
                 step(self.level, &mut self.generators, &mut self.x, &mut y);
                 sums.add(self.level, std::hint::black_box(&y), pivot);

@@ -5,7 +5,7 @@ mod common;
 
 use std::fmt::Write;
 
-use common::{best_of, budget};
+use common::{best_of, budget, words};
 use gumption::propagate::{MonteCarloChoice, Options, evaluate};
 
 const RUNS: usize = 5;
@@ -16,7 +16,7 @@ fn main() {
         "{:<34}{:>8}{:>14}{:>14}",
         "model", "inputs", "evaluation", "reading"
     );
-    let wanted = std::env::args().skip(1).find(|a| !a.starts_with("--"));
+    let wanted = words().next();
     for (name, inputs, text) in cases() {
         if wanted.as_ref().is_none_or(|wanted| name.contains(wanted)) {
             line(name, inputs, &text);

@@ -8,7 +8,7 @@ mod common;
 
 use std::time::{Duration, Instant};
 
-use common::budget;
+use common::{budget, words};
 use gumption::budget::{Adaptive, MonteCarloSettings, Points, Trials};
 use gumption::propagate::{MonteCarloChoice, Options, Quasi, Run, evaluate};
 
@@ -18,7 +18,7 @@ fn main() {
         "{:<26}{:>14}{:>12}{:>12}{:>12}{:>9}  averaged over",
         "model", "random trials", "time", "points", "time", "ratio"
     );
-    let chosen = std::env::args().skip(1).find(|word| !word.starts_with('-'));
+    let chosen = words().next();
     for (name, text) in models() {
         if chosen.as_ref().is_none_or(|part| name.contains(part)) {
             line(name, &text);

@@ -10,15 +10,12 @@ mod common;
 
 use std::time::Instant;
 
-use common::{budget, cpu_time};
+use common::{budget, cpu_time, words};
 use gumption::budget::{MonteCarloSettings, Points, Trials};
 use gumption::propagate::{MonteCarloChoice, Options, evaluate};
 
 fn main() {
-    let words: Vec<String> = std::env::args()
-        .skip(1)
-        .filter(|word| !word.starts_with('-'))
-        .collect();
+    let words: Vec<String> = words().collect();
     let [file, numbers @ ..] = words.as_slice() else {
         println!("needs BUDGET TRIALS THREADS RUNS");
         return;

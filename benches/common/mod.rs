@@ -18,6 +18,18 @@ pub fn best_of<T>(runs: usize, mut run: impl FnMut() -> T) -> Duration {
     (0..runs.max(1)).map(time).min().unwrap_or_default()
 }
 
+/// The time of the middle run, as the others that are compared with give it.
+pub fn median_of<T>(runs: usize, mut run: impl FnMut() -> T) -> Duration {
+    let mut times: Vec<Duration> = (0..runs.max(1)).map(|_| best_of(1, &mut run)).collect();
+    times.sort();
+    times[times.len() / 2]
+}
+
+/// The words of the command line that are no options (cargo passes `--bench`).
+pub fn words() -> impl Iterator<Item = String> {
+    std::env::args().skip(1).filter(|word| !word.starts_with('-'))
+}
+
 /// CPU seconds of this process so far; the time that has passed where the system does not tell them.
 pub fn cpu_time() -> f64 {
     #[cfg(unix)]

@@ -27,7 +27,9 @@ pub fn median_of<T>(runs: usize, mut run: impl FnMut() -> T) -> Duration {
 
 /// The words of the command line that are no options (cargo passes `--bench`).
 pub fn words() -> impl Iterator<Item = String> {
-    std::env::args().skip(1).filter(|word| !word.starts_with('-'))
+    std::env::args()
+        .skip(1)
+        .filter(|word| !word.starts_with('-'))
 }
 
 /// CPU seconds of this process so far; the time that has passed where the system does not tell them.

@@ -10,7 +10,7 @@ mod common;
 
 use std::time::Instant;
 
-use common::{budget, cpu_time, words};
+use common::{budget, cpu_time, warm_up, words};
 use gumption::budget::{MonteCarloSettings, Points, Trials};
 use gumption::propagate::{MonteCarloChoice, Options, evaluate};
 
@@ -39,10 +39,12 @@ fn main() {
         }),
         threads: threads as usize,
     };
+    let run = || evaluate(&budget, &options).expect("the budget has a result");
+    warm_up(run);
     let mut times: Vec<[f64; 2]> = (0..runs.max(1))
         .map(|_| {
             let (cpu, wall) = (cpu_time(), Instant::now());
-            std::hint::black_box(evaluate(&budget, &options)).expect("the budget has a result");
+            std::hint::black_box(run());
             [cpu_time() - cpu, wall.elapsed().as_secs_f64()]
         })
         .collect();

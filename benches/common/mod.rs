@@ -18,8 +18,18 @@ pub fn best_of<T>(runs: usize, mut run: impl FnMut() -> T) -> Duration {
     (0..runs.max(1)).map(time).min().unwrap_or_default()
 }
 
+/// Runs for a while, until the clock of the processor has risen: what is compared with has been running
+/// for seconds.
+pub fn warm_up<T>(mut run: impl FnMut() -> T) {
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_millis(300) {
+        std::hint::black_box(run());
+    }
+}
+
 /// The time of the middle run, as the others that are compared with give it.
 pub fn median_of<T>(runs: usize, mut run: impl FnMut() -> T) -> Duration {
+    warm_up(&mut run);
     let mut times: Vec<Duration> = (0..runs.max(1)).map(|_| best_of(1, &mut run)).collect();
     times.sort();
     times[times.len() / 2]

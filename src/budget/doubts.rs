@@ -7,8 +7,8 @@ use toml::de::DeTable;
 
 use super::Budget;
 use super::check::{self, Origin, Variant};
-use super::reader::{elsewhere, leaves_the_rest, syntax_faults};
 use super::shelf::Shelf;
+use super::syntax::{elsewhere, leaves_the_rest, syntax_faults};
 use super::table::{Reader, Table, read_table};
 use super::tables::FileTable;
 use crate::fault::{Fault, Rejection};

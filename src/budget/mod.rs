@@ -24,6 +24,7 @@ pub(crate) mod saved;
 mod series;
 mod shelf;
 pub(crate) mod strings;
+mod syntax;
 pub(crate) mod table;
 pub(crate) mod tables;
 pub(crate) mod values;
@@ -39,9 +40,9 @@ pub use decision::{
 };
 pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
 pub use profile::{PROFILES, Profile, profile_named};
-pub(crate) use reader::syntax_faults;
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use saved::{RESULT_FORMAT, result_schema};
+pub(crate) use syntax::syntax_faults;
 pub use table::KeyRow;
 
 pub use crate::fault::Rejection;
@@ -310,6 +311,12 @@ impl Conventions {
             rounding: self.rounding,
             up_if_lowered_by_5_percent: self.up_if_lowered_by_5_percent,
         }
+    }
+
+    /// Whether the file itself states a convention, rather than its profile.
+    pub fn states(&self, key: &str) -> bool {
+        let stated = |text: &String| text.split_once(" = ").is_some_and(|(name, _)| name == key);
+        self.overrides.iter().any(stated)
     }
 }
 

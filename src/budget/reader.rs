@@ -7,17 +7,15 @@ use serde_json::{Value, json};
 use toml::de::DeTable;
 
 use super::check::{self, Origin, Variant};
-use super::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE, UNUSED};
+use super::faults::{NOT_UTF8, UNREADABLE_FILE};
 use super::series;
 use super::shelf::Shelf;
+use super::syntax::{elsewhere, leaves_the_rest, syntax_faults};
 use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
 use super::{Heading, Profile, Row};
 use crate::fault::{Fault, Rejection};
 use crate::files::Files;
-
-/// After so many syntax errors the rest of the file is hardly a budget.
-const MAX_SYNTAX_FAULTS: usize = 8;
 
 /// A file that was accepted.
 #[derive(Debug, Clone)]
@@ -229,118 +227,6 @@ fn tables(table: &DeTable<'_>, profile: Option<&Profile>, reader: &mut Reader<'_
         });
     }
     file
-}
-
-/// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
-pub(crate) fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
-    let mut faults: Vec<Fault> = Vec::new();
-    let mut seen = Vec::new();
-    for error in errors {
-        let fault = syntax_fault(error, text);
-        let line = text[..text.floor_char_boundary(fault.span.start)]
-            .matches('\n')
-            .count();
-        if !seen.contains(&line) {
-            seen.push(line);
-            faults.push(fault);
-        }
-        if faults.len() == MAX_SYNTAX_FAULTS {
-            break;
-        }
-    }
-    faults
-}
-
-/// Whether what stands on the other lines can be judged all the same.
-pub(super) fn leaves_the_rest(error: &toml::de::Error) -> bool {
-    let message = error.message();
-    [
-        "string values must be quoted",
-        "invalid unquoted key",
-        "string, expected",
-        "duplicate key",
-    ]
-    .iter()
-    .any(|words| message.contains(words))
-}
-
-/// The faults that no line with a syntax error has part in.
-pub(super) fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str) -> Vec<Fault> {
-    let line = |at: usize| text[..text.floor_char_boundary(at)].matches('\n').count();
-    let broken: Vec<usize> = syntax.iter().map(|fault| line(fault.span.start)).collect();
-    let touches = |fault: &Fault| {
-        let lines = line(fault.span.start)..=line(fault.span.end);
-        broken.iter().any(|broken| lines.contains(broken))
-    };
-    // What a broken line would have used seems unused.
-    faults
-        .into_iter()
-        .filter(|fault| fault.code != UNUSED && !touches(fault))
-        .collect()
-}
-
-fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
-    let end = text.len();
-    let span = error.span().unwrap_or(end..end);
-    let marked = text.get(span.clone()).unwrap_or_default();
-    let message = error.message();
-    let says = |words: &str| message.contains(words);
-    let fault = |message: String| Fault::new(TOML_SYNTAX, span.clone(), message);
-    if says("duplicate key") {
-        fault(format!("`{marked}` is stated a second time"))
-            .label("stated before")
-            .help("a key can be stated once in a table; several components stand in a list")
-    } else if says("string values must be quoted") && marked.is_empty() {
-        fault("there is nothing behind the `=`".into())
-            .label("expected a value")
-            .help("write a number, or a text in quotes; remove the line if there is nothing to say")
-    } else if says("string values must be quoted")
-        && let Some((number, unit)) = amount(marked)
-    {
-        fault(format!("`{marked}` needs quotes"))
-            .label("an amount with a unit is a text")
-            .help(format!("write \"{number} {unit}\""))
-    } else if says("invalid unquoted key") && !marked.is_empty() {
-        fault(format!("`{marked}` needs quotes where it is a key"))
-            .label("only A-Z a-z 0-9 _ - may stand without quotes here")
-            .help(format!(
-                "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
-            ))
-    } else if says("string values must be quoted") {
-        fault(format!("`{marked}` is no number, and a text needs quotes"))
-            .label("expected a number or a text in quotes")
-            .help(format!(
-                "write \"{}\" for the text",
-                marked.replace('"', "'")
-            ))
-    } else if says("string, expected") {
-        fault("the text is not closed".into())
-            .label("expected the closing quote")
-            .help("add the quote at the end of the text")
-    } else if says("unclosed array") || says("unclosed inline table") {
-        let bracket = if says("array") { "]" } else { "}" };
-        fault(format!("the list is not closed by `{bracket}`"))
-            .label(format!("expected `,` or `{bracket}`"))
-    } else if says("key with no value") {
-        fault(format!("`{marked}` has no `=` and no value"))
-            .label("expected `=`")
-            .help("write `key = value`; a remark stands behind `#`")
-    } else {
-        fault(format!("not well-formed TOML: {message}")).label("not understood here")
-    }
-}
-
-/// Number and unit of an amount that was written without quotes.
-fn amount(text: &str) -> Option<(&str, &str)> {
-    let end = text
-        .char_indices()
-        .take_while(|(_, c)| c.is_ascii_digit() || "+-._".contains(*c))
-        .map(|(at, c)| at + c.len_utf8())
-        .last()?;
-    let (number, unit) = text.split_at(end);
-    let unit = unit.trim();
-    let plausible = number.parse::<f64>().is_ok() && !unit.is_empty() && !unit.contains(' ');
-    plausible.then_some((number, unit))
 }
 
 /// JSON Schema (draft-07) of the budget file, for editors.

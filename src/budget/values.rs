@@ -27,6 +27,23 @@ fn number(value: &DeValue<'_>) -> Option<f64> {
     }
 }
 
+/// `"95 %"` where a number stands, such as a probability.
+fn quoted_percent(value: &Raw<'_>, text: &str) -> Option<Fault> {
+    let percent: f64 = text.trim().strip_suffix(['%', '％'])?.trim().parse().ok()?;
+    // Digit by digit: 99.73 % is 0.9973.
+    let fraction = format!("{percent}e-2").parse::<f64>().ok()?;
+    let fault = Fault::new(
+        WRONG_TYPE,
+        value.span(),
+        format!("expected a number, found the text {text:?}"),
+    );
+    Some(
+        fault
+            .label("expected a number")
+            .help(format!("write {fraction}")),
+    )
+}
+
 fn quoted_number(value: &Raw<'_>, text: &str) -> Option<Fault> {
     let number = text.trim();
     number.parse::<f64>().ok()?;
@@ -60,6 +77,10 @@ impl FromToml for f64 {
             ),
             (None, DeValue::String(text)) if quoted_number(value, text).is_some() => {
                 reader.faults.extend(quoted_number(value, text));
+                None
+            }
+            (None, DeValue::String(text)) if quoted_percent(value, text).is_some() => {
+                reader.faults.extend(quoted_percent(value, text));
                 None
             }
             _ => reader.wrong_type(WRONG_TYPE, value, "a number"),
@@ -267,7 +288,9 @@ fn split_amount(text: &str) -> Option<(f64, Range<usize>)> {
         .find_map(|end| body[..end].parse::<f64>().ok().map(|number| (end, number)))?;
     let gap = body[end..].len() - body[end..].trim_start().len();
     let unit = lead + end + gap..lead + body.len();
-    (number.is_finite() && !unit.is_empty()).then_some((number, unit))
+    // Of `0,1 °C` the number is not 0.
+    let goes_on = body[end..].starts_with([',', '，']);
+    (number.is_finite() && !unit.is_empty() && !goes_on).then_some((number, unit))
 }
 
 /// A value that is neither a number nor a text.
@@ -315,6 +338,9 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
         let DeValue::Array(list) = value.get_ref() else {
             return reader.wrong_type(WRONG_TYPE, value, &Self::expected());
         };
+        if let Some(fault) = decimal_commas(value, list, reader.file) {
+            return reader.refuse(fault);
+        }
         let read: Vec<Option<Stated<T>>> =
             list.iter().map(|item| read_item(item, reader)).collect();
         read.into_iter().collect()
@@ -327,6 +353,53 @@ impl<T: FromToml> FromToml for Vec<Stated<T>> {
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {
         T::tables(&format!("{path}[]"), rows);
     }
+}
+
+/// `[10,13, 10,15]`: whole numbers whose commas stand close and apart in turns are numbers with decimal
+/// commas, and would be read as twice as many.
+fn decimal_commas(value: &Raw<'_>, list: &[Raw<'_>], file: &str) -> Option<Fault> {
+    let texts: Vec<&str> = list
+        .iter()
+        .map(|item| file.get(item.span()))
+        .collect::<Option<_>>()?;
+    let whole = |item: &Raw<'_>| matches!(item.get_ref(), DeValue::Integer(_));
+    let close = |pair: &[Raw<'_>]| file.get(pair[0].span().end..pair[1].span().start) == Some(",");
+    let in_turns = list
+        .windows(2)
+        .enumerate()
+        .all(|(place, pair)| close(pair) == (place % 2 == 0));
+    if list.len() < 4 || list.len() % 2 != 0 || !list.iter().all(whole) || !in_turns {
+        return None;
+    }
+    let numbers: Vec<String> = texts.chunks(2).map(|pair| pair.join(".")).collect();
+    Some(
+        Fault::new(
+            AMOUNT,
+            value.span(),
+            format!(
+                "{} numbers with decimal commas, or {} whole numbers?",
+                numbers.len(),
+                list.len()
+            ),
+        )
+        .label("every second comma stands close")
+        .help(format!(
+            "write decimal points: [{}]; or a space behind every comma: [{}]",
+            excerpt(&numbers),
+            excerpt(&texts)
+        )),
+    )
+}
+
+/// The first entries of a list.
+fn excerpt<T: AsRef<str>>(entries: &[T]) -> String {
+    let shown: Vec<&str> = entries.iter().take(4).map(AsRef::as_ref).collect();
+    let more = if entries.len() > shown.len() {
+        ", …"
+    } else {
+        ""
+    };
+    format!("{}{more}", shown.join(", "))
 }
 
 fn read_item<T: FromToml>(item: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Stated<T>> {

@@ -81,6 +81,8 @@ codes! {
 
     CONVERTED_TWICE = "M0408", "an angle is converted to radians twice",
         "An angle with a unit is converted to radians by `sin`, `cos` and `tan` themselves; a factor pi/180 beside it would do so again.\n\n    y = sin(phi * pi/180)                     wrong, when phi is in °\n    y = sin(phi)                              right\n    y = sin(value_in(phi, '°') * pi/180)      right";
+    REVOLUTIONS = "M0409", "revolutions would be converted with a hidden 2π",
+        "In `r/min`, `rpm` and `°/s` a revolution is an angle, 2π; in `Hz`, `1/min` and seconds it is counted. Say which is meant.\n\n    [measurand.f] model = \"n\", unit = \"Hz\"               wrong, when n is in r/min\n    [measurand.f] model = \"n / (1 'r')\", unit = \"Hz\"     right: revolutions per second\n    [measurand.w] model = \"n\", unit = \"rad/s\"            right: angular velocity";
 
     TOO_LARGE = "M0501", "the model is too large",
         "Written out element by element the model has too many operations. Shorten the vectors or the functions that call one another.\n\n    g(x) = f(f(f(x))) …      each level multiplies the work";

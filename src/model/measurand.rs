@@ -12,7 +12,7 @@ use super::syntax::{Expr, Infix, Node, Statement};
 use super::units::in_words;
 use super::{MeasurandSource, Place};
 use crate::fault::Fault;
-use crate::quantity::{Dimension, Unit, hint_for_clash};
+use crate::quantity::{Dimension, Unit, hint_for_clash, revolutions_as_angle};
 
 /// A measurand may be a vector of up to so many elements.
 const MOST_ELEMENTS: usize = 100;
@@ -240,6 +240,20 @@ impl Check<'_> {
         }
         if found.is_point() != wanted.is_point() {
             self.point_result(measurand.name, expr, &found, wanted);
+            return None;
+        }
+        if let Some(help) = revolutions_as_angle(&found, wanted, &printer::factor(expr)) {
+            let message = format!(
+                "the value is {}, but `{}` is wanted {}",
+                in_words(&found),
+                measurand.name,
+                in_words(wanted)
+            );
+            self.l.report(
+                Fault::new(faults::REVOLUTIONS, expr.span.clone(), message)
+                    .label(in_words(&found))
+                    .help(help),
+            );
             return None;
         }
         let out = self.l.converted(&value, wanted)?;

@@ -18,6 +18,11 @@ pub fn statement(statement: &Statement, measurand: &str) -> String {
     }
 }
 
+/// An expression as a factor of a product, in brackets where it needs them.
+pub fn factor(e: &Expr) -> String {
+    bracketed(e, Infix::Mul.level())
+}
+
 /// An expression on one line.
 pub fn expression(e: &Expr) -> String {
     match &e.node {

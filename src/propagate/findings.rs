@@ -36,16 +36,17 @@ const SHORTER: f64 = 0.01;
 /// are reported.
 ///
 /// Clause 8 compares intervals for a probability. With a fixed k the statement claims y, u and k, and
-/// it is enough that Monte Carlo confirms the first two.
+/// it is enough that Monte Carlo confirms the first two; `missing` says why it has no u.
 pub(super) fn basis(
     gum: &Gum,
     monte_carlo: Option<(&MonteCarlo, &Validation)>,
+    missing: Option<&MissingMoments>,
     rule: CoverageRule,
 ) -> Basis {
     match monte_carlo {
         Some((mc, clause_8)) if clause_8.verdict == Clause8::NotValidated => {
             let claims_probability = !matches!(rule, CoverageRule::Fixed(_));
-            if claims_probability || !confirms(mc, gum, clause_8.delta) {
+            if claims_probability || !confirms(mc, missing, gum, clause_8.delta) {
                 Basis::MonteCarlo
             } else {
                 Basis::Gum
@@ -56,11 +57,16 @@ pub(super) fn basis(
 }
 
 /// Whether estimate and standard uncertainty agree within δ.
-fn confirms(mc: &MonteCarlo, gum: &Gum, delta: f64) -> bool {
-    let near = |found: Option<f64>, figure: f64| {
-        found.is_some_and(|found| (found - figure).abs() <= delta)
-    };
-    near(mc.estimate, gum.estimate) && near(mc.u, gum.u)
+///
+/// Three readings that enter linearly leave the distribution of Monte Carlo without a standard deviation, and
+/// that says nothing against s/√n of the GUM (4.2.3): then the median has to agree.
+fn confirms(mc: &MonteCarlo, missing: Option<&MissingMoments>, gum: &Gum, delta: f64) -> bool {
+    let near = |found: f64, figure: f64| (found - figure).abs() <= delta;
+    match (mc.estimate, mc.u, missing) {
+        (Some(estimate), Some(u), _) => near(estimate, gum.estimate) && near(u, gum.u),
+        (_, None, Some(MissingMoments::HeavyComponent { .. })) => near(mc.median, gum.estimate),
+        _ => false,
+    }
 }
 
 /// Whether a contribution is nothing but a residue of the arithmetic, given what it contributes to.
@@ -71,14 +77,21 @@ pub fn is_residue(contribution: f64, whole: f64) -> bool {
 impl MonteCarlo {
     /// U such that estimate ± U is the probabilistically symmetric interval: half its width, where
     /// both sides of the estimate are equally long within the numerical tolerance δ at these digits
-    /// of u, or within 2 %. `None` for a lopsided interval, and where there is no estimate.
+    /// of u, or within 2 %. `None` for a lopsided interval. Where the moments do not exist, the median
+    /// is the estimate.
     pub fn half_width(&self, digits: u8) -> Option<f64> {
-        let (estimate, u) = (self.estimate?, self.u?);
+        let estimate = self.centre();
         let [low, high] = self.symmetric;
         let half = (high - low) / 2.0;
+        let u = self.u.unwrap_or(half / 2.0);
         let difference = ((high - estimate) - (estimate - low)).abs();
         let tolerated = numerical_tolerance(u, digits).max(LOPSIDED * half);
         (difference <= tolerated).then_some(half)
+    }
+
+    /// The estimate, or the median where the distribution has no mean.
+    pub fn centre(&self) -> f64 {
+        self.estimate.unwrap_or(self.median)
     }
 }
 
@@ -417,7 +430,7 @@ mod tests {
         let mc = monte_carlo([-1.9, 1.9], [-1.9, 1.9], 0.0);
         let of = |found, u, rule| {
             let verdict = verdict(found);
-            basis(&gum(0.0, u), Some((&mc, &verdict)), rule)
+            basis(&gum(0.0, u), Some((&mc, &verdict)), None, rule)
         };
         assert_eq!(
             of(Clause8::Validated, 1.0, CoverageRule::Output),
@@ -441,9 +454,39 @@ mod tests {
             Basis::MonteCarlo
         );
         assert_eq!(
-            basis(&gum(0.0, 1.0), None, CoverageRule::Output),
+            basis(&gum(0.0, 1.0), None, None, CoverageRule::Output),
             Basis::Gum
         );
+    }
+
+    #[test]
+    fn three_readings_leave_a_fixed_multiple_of_u_as_it_is() {
+        let clause_8 = Validation {
+            digits: 2,
+            delta: 0.05,
+            d_low: 0.1,
+            d_high: 0.1,
+            error: 0.0,
+            verdict: Clause8::NotValidated,
+        };
+        let without_u = MonteCarlo {
+            u: None,
+            ..monte_carlo([-2.3, 2.3], [-2.3, 2.3], 0.0)
+        };
+        let few = MissingMoments::HeavyComponent {
+            name: "x".into(),
+            dof: 2.0,
+        };
+        let unsteady = MissingMoments::FewTrials {
+            relative_error: 0.3,
+        };
+        let of = |missing, rule| {
+            let pair = Some((&without_u, &clause_8));
+            basis(&gum(0.0, 1.0), pair, Some(missing), rule)
+        };
+        assert_eq!(of(&few, CoverageRule::Fixed(2.0)), Basis::Gum);
+        assert_eq!(of(&few, CoverageRule::Output), Basis::MonteCarlo);
+        assert_eq!(of(&unsteady, CoverageRule::Fixed(2.0)), Basis::MonteCarlo);
     }
 
     #[test]
@@ -452,11 +495,12 @@ mod tests {
         assert_eq!(of([-2.0, 2.0]), Some(2.0));
         assert_eq!(of([-1.98, 2.02]), Some(2.0));
         assert_eq!(of([-1.9, 2.1]), None);
-        let nothing = MonteCarlo {
+        let without_moments = MonteCarlo {
             estimate: None,
+            u: None,
             ..monte_carlo([-2.0, 2.0], [-2.0, 2.0], 0.001)
         };
-        assert_eq!(nothing.half_width(2), None);
+        assert_eq!(without_moments.half_width(2), Some(2.0));
     }
 
     #[test]

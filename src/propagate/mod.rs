@@ -137,8 +137,10 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         .enumerate()
         .map(|(measurand, (gum, second_order))| {
             let outputs = monte_carlo.as_ref().map(|mc| &mc.outputs);
-            let monte_carlo = outputs.and_then(|outputs| outputs.get(measurand));
-            both_methods(budget, gum, second_order, monte_carlo)
+            let found = outputs.and_then(|outputs| outputs.get(measurand));
+            let missing = monte_carlo.as_ref().map(|mc| &mc.moments_missing);
+            let missing = missing.and_then(|missing| missing.get(measurand)?.as_ref());
+            both_methods(budget, gum, second_order, found, missing)
         })
         .collect();
     let joint = joint::evaluate(budget, &linear, monte_carlo.as_ref());
@@ -249,6 +251,7 @@ fn both_methods(
     gum: Gum,
     second_order: &Outcome,
     monte_carlo: Option<&MonteCarlo>,
+    missing: Option<&MissingMoments>,
 ) -> MeasurandResult {
     let validation = monte_carlo.map(|mc| validation::validate(&gum, mc));
     let second_order = match &second_order.terms {
@@ -261,6 +264,7 @@ fn both_methods(
     let basis = findings::basis(
         &gum,
         monte_carlo.zip(verdict),
+        missing,
         budget.conventions.coverage_factor,
     );
     MeasurandResult {

@@ -1,7 +1,30 @@
 //! What may have been meant by a name that is no unit.
 
 use super::builtin::{PREFIXES, Prefixes, UNITS};
+use super::chinese::by_chinese_name;
+use super::faults::{UNKNOWN_UNIT, UnitError};
+use super::syntax::NamedTerm;
 use crate::fault::nearest;
+
+/// A unit that a space or a bracket has torn in two, so that it would be a product: `deg C`, `dB(A)`.
+pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {
+    let whole = |first: &str, second: &str| match (first, second) {
+        ("deg" | "°", "C") => Some("write `°C` or `degC`; with the coulomb, `C·°`".to_owned()),
+        ("deg" | "°", "F") => Some("write `°F` or `degF`; with the farad, `F·°`".to_owned()),
+        ("dB", "A" | "C") => Some(format!(
+            "declare the weighted level in the [unit] table, `dB{second} = \"dB\"`, and write `dB{second}`"
+        )),
+        _ => None,
+    };
+    terms.windows(2).find_map(|pair| {
+        let [first, second] = pair else { return None };
+        let help =
+            whole(&first.name, &second.name).filter(|_| first.exponent == second.exponent)?;
+        let span = first.span.start..second.span.end;
+        let message = format!("`{}` and `{}` would be multiplied", first.name, second.name);
+        Some(UnitError::new(UNKNOWN_UNIT, span, message).help(help))
+    })
+}
 
 /// The mend for an unknown unit name, in the imperative.
 pub(super) fn for_unknown<'a>(
@@ -19,6 +42,7 @@ pub(super) fn for_unknown<'a>(
     if let Some(symbol) = by_english_name(name)
         .map(str::to_owned)
         .or_else(|| by_prefixed_name(name))
+        .or_else(|| by_chinese_name(name))
     {
         return format!("write `{symbol}`");
     }
@@ -50,20 +74,37 @@ pub(super) fn for_unknown<'a>(
             .chain(builtin)
             .chain(prefixed.iter().map(String::as_str))
     };
-    let same_letters = known().find(|known| known.to_lowercase() == name.to_lowercase());
+    let same_letters = same_letters(name, known());
     // In names of one or two letters every other unit is only one letter away.
     let similar = || nearest(name, known()).filter(|_| name.chars().count() > 2);
-    match same_letters {
-        Some(known) => format!("write `{known}`"),
-        None => match similar() {
-            Some(known) => format!(
-                "did you mean `{known}`? A unit of your own is declared in the [unit] table"
-            ),
-            None => format!(
-                "a unit of your own is declared in the [unit] table, by other units (`{name} = \"2.5 mm\"`) or as a pure number (`{name} = \"1\"`)"
-            ),
-        },
+    match (same_letters.as_slice(), similar()) {
+        ([], Some(known)) => {
+            format!("did you mean `{known}`? A unit of your own is declared in the [unit] table")
+        }
+        ([], None) => format!(
+            "a unit of your own is declared in the [unit] table, by other units, as in `FS = \"10 V\"`, or as a pure number, `{name} = \"1\"`"
+        ),
+        ([known], _) => format!("write `{known}`"),
+        (several, _) => format!(
+            "write `{}`: upper and lower case matter",
+            several.join("` or `")
+        ),
     }
+}
+
+/// Names that differ in upper and lower case only, those with most characters alike first: `MPa` and
+/// `mPa` for `Mpa`.
+fn same_letters<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let changed = |known: &str| {
+        let pairs = name.chars().zip(known.chars());
+        pairs.filter(|(a, b)| a != b).count()
+    };
+    let mut same: Vec<&str> = known
+        .filter(|known| known.to_lowercase() == name.to_lowercase())
+        .collect();
+    same.sort_by_key(|known| (changed(known), *known));
+    same.dedup();
+    same
 }
 
 /// A product written without a sign: `Nm`, `Pas`, `mVs`. Suggesting a mere change of case, the
@@ -131,12 +172,34 @@ const QUALIFIERS: &[&str] = &[
     "rms", "RMS", "pp", "p-p", "pk", "dc", "DC", "ac", "AC", "_rms", "_pp", "_dc", "_ac",
 ];
 
+const HARDNESS: &str = "a hardness number is of dimension one: declare its scale in the [unit] table, as in `HV = \"1\"`";
+
 /// Frequent mistakes that the distance between names would not explain.
 const FREQUENT: &[(&str, &str)] = &[
     (
         "M",
         "the prefix mega needs a unit; the metre is `m`, the unit of amount concentration `mol/L`",
     ),
+    ("mM", "write `mmol/L`"),
+    ("µM", "write `µmol/L`"),
+    ("uM", "write `µmol/L`"),
+    ("nM", "write `nmol/L`"),
+    ("Hg", "write `mmHg` or `inHg`, without a space"),
+    (
+        "mmH2O",
+        "declare it in the [unit] table: `mmH2O = \"9.80665 Pa\"`",
+    ),
+    ("year", "write `a`"),
+    ("years", "write `a`"),
+    ("gr", "write `g` for the gram, `grain` for the grain"),
+    ("度", "write `°` for an angle, `°C` for a temperature"),
+    ("HV", HARDNESS),
+    ("HB", HARDNESS),
+    ("HBW", HARDNESS),
+    ("HRC", HARDNESS),
+    ("HRB", HARDNESS),
+    ("HRA", HARDNESS),
+    ("HLD", HARDNESS),
     ("sec", "write `s`"),
     ("secs", "write `s`"),
     ("hr", "write `h`"),

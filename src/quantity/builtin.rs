@@ -301,7 +301,7 @@ pub(super) const UNITS: &[BuiltinUnit] = &[
     inch_pound("mph", "mile per hour", "英里每小时", "mi/h"),
     inch_pound("lb", "pound", "磅", "0.45359237 kg"),
     inch_pound("oz", "ounce", "盎司", "1/16 lb"),
-    inch_pound("gr", "grain", "格令", "1/7000 lb"),
+    inch_pound("grain", "grain", "格令", "1/7000 lb"),
     inch_pound("lbf", "pound-force", "磅力", "lb·gn"),
     inch_pound("ozf", "ounce-force", "盎司力", "oz·gn"),
     inch_pound("psi", "pound-force per square inch", "磅力每平方英寸", "lbf/in^2"),

@@ -38,8 +38,8 @@ fn clash_with(other: &Unit, suspect: &Unit) -> Option<String> {
     if suspect.is_point() && suspect.dimension != other.dimension {
         let symbol = &suspect.symbol;
         return Some(format!(
-            "a temperature in {symbol} has an arbitrary zero; subtract a reference as in `T - 20 '{symbol}'`, \
-             use `kelvin(T)`, or give the quantity in K"
+            "a temperature in {symbol} has an arbitrary zero; subtract a reference as in `T - 20 '{symbol}'` or `T - 0 '{symbol}'`, \
+             use `kelvin(T)`, its number `value_in(T, '{symbol}')`, or give the quantity in K"
         ));
     }
     if named("h") && is(quotient, [-2, -1, 2, 0, 0, 0, 0, 0]) {
@@ -76,6 +76,41 @@ fn clash_with(other: &Unit, suspect: &Unit) -> Option<String> {
     None
 }
 
+/// What to write where a conversion would silently hold 2π: revolutions are an angle, 2π each, but `Hz` and
+/// a period in seconds count them. `None` where the conversion is harmless; `text` is what is converted.
+pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<String> {
+    let rate = Dimension::of([0, 0, -1, 0, 0, 0, 0, 0]);
+    let period = Dimension::of([0, 0, 1, 0, 0, 0, 0, 0]);
+    if found.dimension != wanted.dimension || ![rate, period].contains(&found.dimension) {
+        return None;
+    }
+    let names = |unit: &Unit, fits: fn(&str) -> bool| {
+        let names = names_in(&unit.symbol);
+        names.iter().any(|name| fits(name))
+    };
+    let turns = |unit: &Unit| unit.factor.pi != 0;
+    let counts = |unit: &Unit| names(unit, |name| name.ends_with("Hz"));
+    let angle = |unit: &Unit| names(unit, |name| name.ends_with("rad"));
+    let is_rate = found.dimension == rate;
+    if turns(found) && !turns(wanted) && !angle(wanted) {
+        let (operator, of_angle) = if is_rate {
+            ("/", "rad/s")
+        } else {
+            ("*", "s/rad")
+        };
+        return Some(format!(
+            "a revolution is an angle, 2π, in {}: count revolutions by `{text} {operator} (1 'r')`, or write `unit = \"{of_angle}\"` for the angular velocity or its reciprocal",
+            found.symbol
+        ));
+    }
+    (is_rate && counts(found) && turns(wanted)).then(|| {
+        format!(
+            "a revolution is an angle, 2π, in {}: write `{text} * (1 'r')` for revolutions that are counted in {}",
+            wanted.symbol, found.symbol
+        )
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::UnitTable;
@@ -83,6 +118,32 @@ mod tests {
 
     fn unit(text: &str) -> Unit {
         UnitTable::default().parse(text).expect(text)
+    }
+
+    #[test]
+    fn revolutions_are_not_counted_in_silence() {
+        let lost = |a: &str, b: &str| revolutions_as_angle(&unit(a), &unit(b), "n");
+        for (a, b, mend) in [
+            ("r/min", "Hz", "n / (1 'r')"),
+            ("rpm", "1/min", "n / (1 'r')"),
+            ("°/s", "kHz", "n / (1 'r')"),
+            ("min/r", "s", "n * (1 'r')"),
+            ("Hz", "r/min", "n * (1 'r')"),
+        ] {
+            let help = lost(a, b).unwrap_or_default();
+            assert!(help.contains(mend), "{a} to {b}: {help}");
+        }
+        for (a, b) in [
+            ("r/min", "rad/s"),
+            ("r/min", "°/s"),
+            ("rad/s", "Hz"),
+            ("s^-1", "r/min"),
+            ("Hz", "1/s"),
+            ("N·m·r/min", "W"),
+            ("°", "1"),
+        ] {
+            assert_eq!(lost(a, b), None, "{a} to {b}");
+        }
     }
 
     #[test]

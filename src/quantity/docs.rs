@@ -86,14 +86,23 @@ A name that is a unit as a whole is never split: `min` is the minute, `cd` the c
 
 `°C` and `°F` are scales with a zero of their own. The difference of two temperatures in °C is in K, and
 uncertainties of temperatures are in K. In a compound unit °C means a difference: `ppm/°C` is `ppm/K`.
-Products and ratios of temperatures in °C have no meaning; subtract a reference (`T - 20 '°C'`), use
-`kelvin(T)`, or state the quantity in K.
+Products and ratios of temperatures in °C have no meaning:
+
+| the formula takes | write |
+|---|---|
+| the thermodynamic temperature | `kelvin(T)`, not `T + 273.15` |
+| the difference from a reference, as in 1 + α (T − 20 °C) | `T - 20 '°C'`, in K |
+| the temperature in °C with coefficients that have units, as in R₀ (1 + A t + B t²) with A in 1/°C | `T - 0 '°C'`, in K |
+| the number of °C with coefficients that are numbers, as in the formula of Magnus | `value_in(T, '°C')`, a number |
+
+An amount in °C is the point on the scale where the quantity is a temperature in °C, and refused where the quantity
+is in K; in `u`, `half_width`, `U` and other deviations it is a difference.
 
 ## Angles, levels, revolutions
 
 `rad` and `sr` are of dimension one with the value 1, so that `rad/s` and `1/s` fit together; `°` is
 π/180. `r` (revolution) is 2π, hence `r/min` and `rpm` are 6 °/s; give a number of revolutions per time that
-is not an angular velocity in `1/min` or `Hz`. Levels in `dB` and `Np` have a dimension of their own, so that
+is not an angular velocity in `1/min` or `Hz`; a measurand in `Hz` is refused where it comes from `r/min`. Levels in `dB` and `Np` have a dimension of their own, so that
 a level is never taken for a ratio by mistake.
 
 ## `g` is the gram

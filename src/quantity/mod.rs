@@ -2,6 +2,7 @@
 
 mod advice;
 mod builtin;
+mod chinese;
 mod clash;
 mod decimal;
 mod dimension;
@@ -17,7 +18,7 @@ mod token;
 mod unit;
 
 pub use builtin::{BuiltinUnit, Definition, Prefixes, UnitKind};
-pub use clash::hint_for_clash;
+pub use clash::{hint_for_clash, revolutions_as_angle};
 pub use decimal::{Decimal, Rounding};
 pub use dimension::Dimension;
 pub use docs::unit_documentation;

@@ -99,6 +99,9 @@ impl UnitTable {
     /// The first fault of the text.
     pub fn parse(&self, text: &str) -> Result<Unit, UnitError> {
         let parsed = parse(text, Numbers::OneOnly)?;
+        if let Some(error) = advice::torn(&parsed.terms) {
+            return Err(error);
+        }
         let scale =
             combine(&parsed, |name| self.lookup(name)).map_err(|fault| self.explained(fault))?;
         Ok(Unit {
@@ -382,7 +385,7 @@ mod tests {
             ("Ah", 3600.0),
             ("cP", 1e-3),
             ("cSt", 1e-6),
-            ("gr", 6.479891e-5),
+            ("grain", 6.479891e-5),
             ("Ci", 3.7e10),
             ("mΩ/kΩ", 1e-6),
         ] {
@@ -466,6 +469,39 @@ mod tests {
         assert!(suggestion("dBm").contains("[unit]"));
         assert!(suggestion("M").contains("`m`"));
         assert!(suggestion("frobs").contains("[unit]"));
+    }
+
+    #[test]
+    fn suggestions_never_change_a_size_in_silence() {
+        let suggestion = |text: &str| error(text).help.unwrap();
+        assert_eq!(
+            suggestion("Mpa"),
+            "write `MPa` or `mPa`: upper and lower case matter"
+        );
+        assert_eq!(suggestion("mM"), "write `mmol/L`");
+        assert_eq!(
+            suggestion("mm Hg"),
+            "write `mmHg` or `inHg`, without a space"
+        );
+        assert_eq!(suggestion("毫米"), "write `mm`");
+        assert_eq!(suggestion("毫米/秒"), "write `mm`");
+        assert!(suggestion("gr").contains("`grain`"));
+        assert!(suggestion("HRC").contains("[unit]"));
+        assert!(!suggestion("克拉").contains("2.5"));
+    }
+
+    #[test]
+    fn torn_units_are_no_products() {
+        for (text, marked, help) in [
+            ("deg C", 0..5, "`°C`"),
+            ("V·deg F", 3..8, "`°F`"),
+            ("dB(A)", 0..4, "`dBA`"),
+        ] {
+            let error = error(text);
+            assert_eq!(error.span, marked, "{text}");
+            assert!(error.help.as_deref().unwrap().contains(help), "{text}");
+        }
+        assert!(UnitTable::default().parse("C·deg").is_ok());
     }
 
     #[test]

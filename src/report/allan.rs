@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::document::Block;
 use super::language::Language;
-use super::number::{TABLE_DIGITS, aligned, freedom, grouped, probability, significant};
+use super::number::{TABLE_DIGITS, aligned, freedom, grouped, in_unit, probability, significant};
 use super::symbol;
 use super::table::{ColumnKind, Table};
 use super::text::{Page, draw};
@@ -220,10 +220,6 @@ fn points(report: &AllanReport<'_>) -> Table {
     let l = report.language;
     let p = probability(report.allan.probability);
     let (unit, time) = (symbol(report.unit), symbol(report.time));
-    let in_unit = |head: &str, unit: &str| match unit {
-        "" => head.to_string(),
-        _ => format!("{head} / {unit}"),
-    };
     let mut table = Table::new([
         (&*in_unit("τ", &time), ColumnKind::Numbers),
         (&*in_unit("σ(τ)", &unit), ColumnKind::Numbers),

@@ -5,7 +5,9 @@ use crate::statistics::{Line, OutlierTest, Policy, Ratio, Verdict};
 
 use super::document::Block;
 use super::language::{Language, Word};
-use super::number::{NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, print, significant};
+use super::number::{
+    NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, print, significant,
+};
 use super::table::{Cell, ColumnKind, Row, Table};
 use super::{Report, difference_symbol, symbol};
 
@@ -153,10 +155,7 @@ fn head(analysis: &Analysis, l: Language) -> Block {
 fn empty(analysis: &Analysis, significance: f64, l: Language) -> Table {
     let squared = analysis.unit.difference().powr(2, 1);
     let unit = squared.map_or_else(String::new, |unit| symbol(&unit));
-    let in_unit = |words: &str| match unit.as_str() {
-        "" => words.to_string(),
-        unit => format!("{words} / {unit}"),
-    };
+    let in_unit = |words: &str| in_unit(words, &unit);
     let level = exact(100.0 * significance);
     Table::new([
         (l.pick("source of variation", "变差来源"), ColumnKind::Words),

@@ -8,7 +8,8 @@ use crate::quantity::Unit;
 use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{
-    NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, grouped, print, probability, significant,
+    NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, grouped, in_unit, print, probability,
+    significant,
 };
 use super::quasi;
 use super::remarks::tolerance;
@@ -125,7 +126,7 @@ impl SideBySide<'_> {
             estimate,
         );
         self.row(
-            with_unit(l.word(Word::StandardUncertainty), &difference_symbol(unit)),
+            in_unit(l.word(Word::StandardUncertainty), &difference_symbol(unit)),
             three(gum.u),
             mc.map(|mc| optional(mc.u, three)),
         );
@@ -229,14 +230,6 @@ fn three(x: f64) -> String {
 
 fn optional(x: Option<f64>, form: impl Fn(f64) -> String) -> String {
     x.map_or_else(|| NONE.to_string(), form)
-}
-
-fn with_unit(label: &str, unit: &str) -> String {
-    if unit.is_empty() {
-        label.to_string()
-    } else {
-        format!("{label} / {unit}")
-    }
 }
 
 /// `1 000 000, seed 1`, and for an adaptive run what it reached.

@@ -5,7 +5,7 @@ use crate::quantity::Decimal;
 
 use super::document::Block;
 use super::language::{Language, Word};
-use super::number::{STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, significant};
+use super::number::{STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, significant};
 use super::statement::coefficient;
 use super::table::{Cell, Column, ColumnKind, Table};
 use super::{Report, difference_symbol, joint, symbol};
@@ -321,10 +321,7 @@ fn heads(l: Language, fit: &Fit, adjusted: &[usize]) -> Vec<Column> {
     let mut heads: Vec<String> = predictors
         .iter()
         .chain([y])
-        .map(|c| match symbol(&c.unit) {
-            none if none.is_empty() => c.name.clone(),
-            unit => format!("{} / {unit}", c.name),
-        })
+        .map(|c| in_unit(&c.name, &symbol(&c.unit)))
         .collect();
     let on_the_curve =
         |name: &str| l.pick(format!("{name} on the curve"), format!("{name} 曲线值"));

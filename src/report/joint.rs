@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::document::Block;
 use super::language::{Language, Word};
-use super::number::{TABLE_DIGITS, freedom, probability, significant};
+use super::number::{TABLE_DIGITS, freedom, in_unit, probability, significant};
 use super::statement::coefficient;
 use super::table::{Cell, Column, ColumnKind, Table};
 use super::{Report, symbol};
@@ -109,10 +109,7 @@ fn regions(report: &Report<'_>) -> Table {
             2 => l.pick("area", "面积"),
             _ => l.pick("volume", "体积"),
         };
-        let size = match size_unit(report).as_str() {
-            "" => size.to_string(),
-            unit => format!("{size} / {unit}"),
-        };
+        let size = in_unit(size, &size_unit(report));
         row(
             format!("{size}{comma}{}", l.word(Word::Ellipsoid)),
             None,

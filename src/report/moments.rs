@@ -7,7 +7,7 @@ use super::number::{freedom, print};
 
 /// In English, with what to do.
 pub(super) fn in_english(reason: &MissingMoments) -> String {
-    const GIVEN: &str = "Median and coverage interval are given instead.";
+    const GIVEN: &str = "Monte Carlo gives median and coverage interval instead.";
     match reason {
         MissingMoments::HeavyComponent { name, dof } => {
             let missing = if *dof > 1.0 {
@@ -68,7 +68,7 @@ pub(super) fn in_english(reason: &MissingMoments) -> String {
 
 /// In Chinese.
 pub(super) fn in_chinese(reason: &MissingMoments) -> String {
-    const GIVEN: &str = "因此给出中位数和包含区间。";
+    const GIVEN: &str = "因此蒙特卡洛法给出中位数和包含区间。";
     match reason {
         MissingMoments::HeavyComponent { name, dof } => {
             let missing = if *dof > 1.0 {

@@ -112,6 +112,16 @@ pub(super) fn grouped(n: u64) -> String {
     text
 }
 
+/// `label / unit`, the head of numbers that stand without their unit; a compound unit in parentheses
+/// (ISO 80000-1, 7.1.4), nothing for dimension one.
+pub(super) fn in_unit(label: &str, unit: &str) -> String {
+    match unit {
+        "" => label.to_string(),
+        _ if unit.contains(['/', '·', ' ']) => format!("{label} / ({unit})"),
+        _ => format!("{label} / {unit}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

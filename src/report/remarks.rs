@@ -304,11 +304,21 @@ fn basis(report: &Report<'_>, measurand: Option<usize>) -> Basis {
         .map_or(Basis::MonteCarlo, |result| result.basis)
 }
 
+/// Whether Monte Carlo gives no standard uncertainty.
+fn without_u(report: &Report<'_>, measurand: Option<usize>) -> bool {
+    let results = &report.evaluation.results;
+    let found = measurand.and_then(|m| results.get(m)?.monte_carlo.as_ref());
+    found.is_some_and(|mc| mc.u.is_none())
+}
+
 fn not_validated_in_english(report: &Report<'_>, measurand: Option<usize>) -> String {
     let p = probability(report.coverage_probability());
     match basis(report, measurand) {
         Basis::MonteCarlo => format!(
             "The GUM result is not validated by Monte Carlo (JCGM 101, clause 8): its {p} interval differs from the Monte Carlo interval by more than the tolerance. The statement therefore uses the Monte Carlo result."
+        ),
+        Basis::Gum if without_u(report, measurand) => format!(
+            "The {p} interval of the GUM differs from the Monte Carlo interval by more than the tolerance δ (JCGM 101, clause 8), and Monte Carlo has no standard uncertainty to compare with, for the reason below. The statement claims the u_c of the GUM and a fixed k, and no coverage probability. Take the Monte Carlo interval wherever a {p} interval is needed."
         ),
         Basis::Gum => format!(
             "The {p} interval of the GUM differs from the Monte Carlo interval by more than the tolerance δ (JCGM 101, clause 8), but estimate and standard uncertainty agree within δ. The statement claims these and a fixed k, and no coverage probability; it therefore uses the GUM result. Take the Monte Carlo interval wherever a {p} interval is needed."
@@ -321,6 +331,9 @@ fn not_validated_in_chinese(report: &Report<'_>, measurand: Option<usize>) -> St
     match basis(report, measurand) {
         Basis::MonteCarlo => format!(
             "GUM 法的结果未通过蒙特卡洛法验证（JJF 1059.2、JCGM 101 第 8 章）：两种方法的 {p} 包含区间端点之差超过数值容差。证书用语因此采用蒙特卡洛法的结果。"
+        ),
+        Basis::Gum if without_u(report, measurand) => format!(
+            "GUM 法与蒙特卡洛法的 {p} 包含区间端点之差超过数值容差 δ（JJF 1059.2、JCGM 101 第 8 章），而蒙特卡洛法没有可供比较的标准不确定度（原因见下）。证书用语只给出 GUM 法的合成标准不确定度和约定的 k，不声明包含概率。需要 {p} 包含区间时，应取蒙特卡洛法的区间。"
         ),
         Basis::Gum => format!(
             "GUM 法与蒙特卡洛法的 {p} 包含区间端点之差超过数值容差 δ（JJF 1059.2、JCGM 101 第 8 章），但估计值和标准不确定度之差均不超过 δ。证书用语只给出估计值、标准不确定度和约定的 k，不声明包含概率，因此仍采用 GUM 法的结果。需要 {p} 包含区间时，应取蒙特卡洛法的区间。"

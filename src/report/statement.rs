@@ -274,7 +274,56 @@ impl<'a> Subject<'a> {
                 Some(k) => self.fixed_multiple(estimate, u, k),
                 None => self.half_interval(estimate, u, half),
             },
+            (Some(half), _, None) if half > 0.0 => self.half_interval_alone(monte_carlo, half),
             _ => self.interval(monte_carlo),
+        }
+    }
+
+    /// y and U = half the width of the interval where the distribution has no standard deviation, hence
+    /// no k: a few readings.
+    fn half_interval_alone(&self, monte_carlo: &MonteCarlo, half: f64) -> String {
+        let rule = self.conventions.rounding_rule();
+        let pair = rule.align(monte_carlo.centre(), half);
+        let p = probability(self.report.coverage_probability());
+        let expanded = self.amount(&pair.uncertainty);
+        let trials = self.trials();
+        let median = monte_carlo.estimate.is_none();
+        let (name, y) = (self.name, self.value(&pair.estimate));
+        let index = p.trim_end_matches(" %");
+        let which = match (median, self.language) {
+            (true, Language::English) => " The estimate is the median.",
+            (true, Language::Chinese) => "估计值为中位数。",
+            (false, _) => "",
+        };
+        match self.language {
+            Language::English => {
+                let head = match self.form() {
+                    Form::PlusMinus => format!(
+                        "{} The number after ± is the expanded uncertainty U = {expanded},",
+                        self.equation(&pair)
+                    ),
+                    Form::Apart => {
+                        format!("{name} = {y}; U_{index} = {expanded}. The expanded uncertainty is")
+                    }
+                };
+                format!(
+                    "{head} half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials).{which} No standard uncertainty and no coverage factor are stated, because the distribution of the result has no standard deviation."
+                )
+            }
+            Language::Chinese => {
+                let head = match self.form() {
+                    Form::PlusMinus => format!(
+                        "{}其中 ± 号后的数为扩展不确定度 U = {expanded}，即",
+                        self.equation(&pair)
+                    ),
+                    Form::Apart => {
+                        format!("{name} = {y}；U_{index} = {expanded}。扩展不确定度为")
+                    }
+                };
+                format!(
+                    "{head}蒙特卡洛法（JJF 1059.2，{trials} 次试验）所得 {p} 包含区间的半宽。{which}该分布的标准差不存在，故不给出标准不确定度和包含因子。"
+                )
+            }
         }
     }
 

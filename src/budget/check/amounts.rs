@@ -1,5 +1,7 @@
 //! Units and amounts: from "25 µV" to a number in the unit of its input.
 
+use std::ops::Range;
+
 use super::draft::{Context, show};
 use super::{Checker, entries};
 use crate::budget::faults::{NOT_POSITIVE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, UNIT_CLASH};
@@ -8,7 +10,7 @@ use crate::budget::table::Stated;
 use crate::budget::tables::FileTable;
 use crate::budget::values::Amount;
 use crate::fault::Fault;
-use crate::quantity::{DefinitionError, Unit};
+use crate::quantity::{DefinitionError, Unit, revolutions_as_angle};
 
 /// Whether a unit of dimension one names a ratio, of which one asks "of what?" (in contrast to angles).
 fn is_ratio(symbol: &str) -> bool {
@@ -100,10 +102,43 @@ impl Checker<'_> {
         let Some(own) = self.amount_unit(&amount.value)? else {
             return Some(amount.value.number);
         };
-        match own.conversion_to(unit) {
+        let Some(conversion) = own.conversion_to(unit) else {
+            let fault = clash(amount, &own, unit, owner);
+            return self.refuse(fault);
+        };
+        let number = conversion.apply(amount.value.number);
+        match (own.is_point(), unit.is_point()) {
+            (true, false) => {
+                let fault = point_for_difference(amount, &own, unit, owner, number);
+                self.refuse(fault)
+            }
+            _ if revolutions_as_angle(&own, unit, owner).is_some() => {
+                let fault = clash(amount, &own, unit, owner);
+                self.refuse(fault)
+            }
+            (false, true) if amount.value.number < 0.0 => {
+                let fault = below_absolute_zero(amount, &own, unit, owner);
+                self.refuse(fault)
+            }
+            _ => Some(number),
+        }
+    }
+
+    /// A difference of two values of a quantity, in the unit of its differences: `"0.5 °C"` is 0.5 K.
+    pub(super) fn difference(
+        &mut self,
+        amount: &Stated<Amount>,
+        unit: &Unit,
+        owner: &str,
+    ) -> Option<f64> {
+        let unit = unit.difference();
+        let Some(own) = self.amount_unit(&amount.value)? else {
+            return Some(amount.value.number);
+        };
+        match own.difference().conversion_to(&unit) {
             Some(conversion) => Some(conversion.apply(amount.value.number)),
             None => {
-                let fault = clash(amount, &own, unit, owner);
+                let fault = clash(amount, &own, &unit, owner);
                 self.refuse(fault)
             }
         }
@@ -120,10 +155,10 @@ impl Checker<'_> {
         let number = amount.value.number;
         let unit = context.unit.difference();
         let Some(own) = self.amount_unit(&amount.value)? else {
-            return if relative {
-                self.fraction(amount, number, context)
-            } else {
-                Some(number)
+            return match relative {
+                true if number >= 1.0 => self.refuse(percent_meant(amount, context)),
+                true => self.fraction(amount, number, context),
+                false => Some(number),
             };
         };
         let own = own.difference();
@@ -136,7 +171,8 @@ impl Checker<'_> {
             if relative || (is_ratio(&own.symbol) && !(input_is_one && is_ratio(&unit.symbol))) {
                 return self.fraction(amount, fraction, context);
             }
-            if input_is_one && is_ratio(&own.symbol) {
+            // A source has no value that its amounts could be relative to.
+            if input_is_one && is_ratio(&own.symbol) && context.value.is_some() {
                 return self.refuse(
                     Fault::new(
                         RELATIVE_UNCLEAR,
@@ -260,15 +296,81 @@ fn ratio_help(context: &Context<'_>, number: f64, fraction: f64, unit: &Unit) ->
     )
 }
 
+/// A plain number that is relative and 1 or more: hardly a fraction.
+fn percent_meant(amount: &Stated<Amount>, context: &Context<'_>) -> Fault {
+    let number = amount.value.number;
+    Fault::new(
+        RELATIVE_UNCLEAR,
+        amount.span.clone(),
+        format!(
+            "a relative uncertainty of {number} is {} % of the value of {}",
+            show(100.0 * number),
+            context.owner
+        ),
+    )
+    .label("a fraction")
+    .help(format!(
+        "write \"{number} %\" if per cent are meant, or \"{} %\"",
+        show(100.0 * number)
+    ))
+}
+
+/// Where the unit of an amount is, or the amount where it has none.
+fn place_of_unit(amount: &Stated<Amount>) -> Range<usize> {
+    let unit = amount.value.unit.as_ref();
+    unit.map_or(amount.span.clone(), |(_, span)| span.clone())
+}
+
+/// A temperature in °C where the quantity is in K: the difference of so many °C, or the point?
+fn point_for_difference(
+    amount: &Stated<Amount>,
+    own: &Unit,
+    unit: &Unit,
+    owner: &str,
+    converted: f64,
+) -> Fault {
+    let number = amount.value.number;
+    let difference = own.difference();
+    Fault::new(
+        UNIT_CLASH,
+        place_of_unit(amount),
+        format!(
+            "{number} {} is a point on a scale, but {owner} is in {}",
+            own.symbol, unit.symbol
+        ),
+    )
+    .label(format!("a point on the {} scale", own.symbol))
+    .help(format!(
+        "a difference, a correction or a limit of one is \"{number} {}\"; the thermodynamic temperature of this point is \"{} {}\"",
+        difference.symbol,
+        show(converted),
+        unit.symbol
+    ))
+}
+
+/// A negative amount in K where the quantity is a temperature in °C.
+fn below_absolute_zero(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {
+    let number = amount.value.number;
+    Fault::new(
+        UNIT_CLASH,
+        place_of_unit(amount),
+        format!(
+            "{owner} is a temperature in {}, and {number} {} lies below the absolute zero",
+            unit.symbol, own.symbol
+        ),
+    )
+    .label("read as a thermodynamic temperature")
+    .help(format!(
+        "state the point on the scale, \"{number} {0}\"; where {owner} is a difference or a correction, its unit is {1}: unit = \"{1}\"",
+        unit.symbol,
+        unit.difference().symbol
+    ))
+}
+
 fn clash(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {
-    let place = amount
-        .value
-        .unit
-        .as_ref()
-        .map_or(amount.span.clone(), |(_, span)| span.clone());
     let fault = Fault::new(
         UNIT_CLASH,
-        place,
+        place_of_unit(amount),
         format!(
             "{} cannot be converted to {}, the unit of {owner}",
             own.symbol, unit.symbol

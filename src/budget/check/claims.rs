@@ -180,9 +180,8 @@ impl Checker<'_> {
                 );
                 continue;
             }
-            let unit = reading.unit.difference();
-            if let Some(number) = self.quantity(amount, &unit, reading.name) {
-                let half = self.half_digit_of(amount, &unit, reading.name);
+            if let Some(number) = self.difference(amount, reading.unit, reading.name) {
+                let half = self.half_digit_of(amount, reading.unit, reading.name);
                 reading.push(what, number, half, tolerance);
             }
         }
@@ -346,15 +345,23 @@ impl Checker<'_> {
         (name, unit): (&str, &Unit),
         figure: &dyn Fn(Part) -> Figure,
     ) {
+        let value = table.value.as_ref();
+        let u = table.u.as_ref();
         let amounts = [
-            (&table.value, unit.clone(), Part::Estimate),
-            (&table.u, unit.difference(), Part::StandardUncertainty),
+            (
+                value,
+                value.and_then(|value| self.quantity(value, unit, name)),
+                Part::Estimate,
+            ),
+            (
+                u,
+                u.and_then(|u| self.difference(u, unit, name)),
+                Part::StandardUncertainty,
+            ),
         ];
-        for (amount, unit, part) in amounts {
-            if let Some(amount) = amount
-                && let Some(number) = self.quantity(amount, &unit, name)
-            {
-                let half = self.half_digit_of(amount, &unit, name);
+        for (amount, number, part) in amounts {
+            if let (Some(amount), Some(number)) = (amount, number) {
+                let half = self.half_digit_of(amount, unit, name);
                 reading.push(figure(part), number, half, None);
             }
         }
@@ -457,23 +464,13 @@ impl Checker<'_> {
             .map_or(0.0, |place| 0.5 * 10f64.powi(place))
     }
 
-    /// The same for an amount that may carry a unit of its own, in the given unit.
+    /// The same for an amount that may carry a unit of its own, as a difference of a quantity in `unit`.
     fn half_digit_of(&mut self, amount: &Stated<Amount>, unit: &Unit, owner: &str) -> f64 {
         let half = amount.map(|value| Amount {
             number: self.half_digit(amount),
             unit: value.unit.clone(),
         });
-        let zero = amount.map(|value| Amount {
-            number: 0.0,
-            unit: value.unit.clone(),
-        });
-        match (
-            self.quantity(&half, unit, owner),
-            self.quantity(&zero, unit, owner),
-        ) {
-            (Some(half), Some(zero)) => (half - zero).abs(),
-            _ => 0.0,
-        }
+        self.difference(&half, unit, owner).map_or(0.0, f64::abs)
     }
 
     /// Which measurand a claim is about.

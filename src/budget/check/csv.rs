@@ -114,7 +114,15 @@ impl Checker<'_> {
                 "line {line} of {} has \"{field}\" in column \"{}\", not a number",
                 file.value, column.value
             );
-            self.csv_fault(column, message)
+            let point = field.replacen(',', ".", 1);
+            let fault = Fault::new(CSV, column.span.clone(), message).label("needed from here");
+            self.refuse(if field.trim().is_empty() {
+                fault.help("every row needs a number there; remove the rows that are empty")
+            } else if Dd::parse(&point).is_some() {
+                fault.help(format!("write a decimal point: {point}"))
+            } else {
+                fault
+            })
         })
     }
 

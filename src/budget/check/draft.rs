@@ -190,6 +190,9 @@ impl Checker<'_> {
         match self.t_scale() {
             TScale::Scale => Some(u),
             TScale::StandardDeviation if dof > 2.0 => Some(u * ((dof - 2.0) / dof).sqrt()),
+            // Nobody asked for it: three readings are evaluated as JCGM 101, 6.4.9.4 says, and the report
+            // tells that Monte Carlo has no standard deviation then.
+            TScale::StandardDeviation if !self.conventions.states("t_scale") => Some(u),
             TScale::StandardDeviation => self.refuse(
                 Fault::new(
                     DOF,

@@ -7,7 +7,7 @@ use super::mixture::{Region, expectation};
 use super::response::Response;
 use crate::budget::{Budget, Conformity, Interval};
 use crate::distribution::Distribution;
-use crate::propagate::{Basis, CoverageBasis, MeasurandResult, monte_carlo};
+use crate::propagate::{Basis, Clause8, CoverageBasis, MeasurandResult, monte_carlo, validation};
 use crate::special::{student_t_cdf, student_t_sf};
 
 /// What a conformity assessment found.
@@ -139,7 +139,7 @@ fn assessment(
         verdict: (!conformity.planning).then(|| verdict(estimate, &limits)),
         conformance: (!conformity.planning).then(|| {
             let prior = conformity.process.as_ref();
-            let trials = from_trials.filter(|_| result.basis == Basis::MonteCarlo);
+            let trials = from_trials.filter(|_| !normal_or_t(budget, result));
             let alone = split(conformity.tolerance, estimate, u, dof);
             let both = match (prior, trials) {
                 (Some(process), _) => posterior(process, conformity.tolerance, &kernel, estimate),
@@ -160,6 +160,15 @@ fn assessment(
             .as_ref()
             .map(|process| risks(process, conformity.tolerance, &limits, &kernel)),
     }
+}
+
+/// Whether the distribution of the result is the normal or t distribution that the GUM takes it for: not where
+/// Monte Carlo refutes its interval, even if the statement keeps y and u (with a fixed k).
+fn normal_or_t(budget: &Budget, result: &MeasurandResult) -> bool {
+    let digits = budget.conventions.digits;
+    let verdict = result.validation.as_ref();
+    let verdict = verdict.map(|both| validation::at(both, digits).verdict);
+    result.basis == Basis::Gum && verdict != Some(Clause8::NotValidated)
 }
 
 /// Estimate, u and U as the statement reports them.

@@ -184,13 +184,14 @@ fn component_row(
     let component = &report.budget.components[term.component];
     let u = term.coefficient.abs() * component.u;
     // The share of a shared component is in its own row: it acts through several inputs at once.
-    let share: Cell = if shared_components(report).contains(&term.component) {
-        NONE.into()
+    let (part, share): (&str, Cell) = if shared_components(report).contains(&term.component) {
+        (&component.name, NONE.into())
     } else {
-        share(&gum.components[term.component], gum).into()
+        let own = share(&gum.components[term.component], gum);
+        (&component.label, own.into())
     };
     table.push(vec![
-        Cell::Part(component.label.clone()),
+        Cell::Part(part.to_owned()),
         Cell::Empty,
         difference_symbol(&input.unit).into(),
         significant(u, TABLE_DIGITS).into(),

@@ -2,7 +2,7 @@
 
 use super::super::document::Block;
 use super::super::language::{Language, Word};
-use super::super::number::{freedom, percent, significant};
+use super::super::number::{freedom, in_unit, percent, significant};
 use super::super::symbol;
 use super::super::table::{Cell, ColumnKind, Row, Table};
 use super::sections::{DIGITS, column, head_of, shown_u};
@@ -65,13 +65,7 @@ pub(super) fn budgets(figures: &Figures, l: Language) -> Vec<Block> {
 }
 
 fn budget(figures: &Figures, index: usize, one: &Coefficient, l: Language) -> Table {
-    let unit = symbol(&one.unit);
-    let head = l.pick(format!("u({})", one.name), format!("u({})", one.name));
-    let head = if unit.is_empty() {
-        head
-    } else {
-        format!("{head} / {unit}")
-    };
+    let head = in_unit(&format!("u({})", one.name), &symbol(&one.unit));
     let mut table = Table::new([
         (l.pick("cause", "来源"), ColumnKind::Names),
         (l.pick("one error acts on", "作用范围"), ColumnKind::Words),

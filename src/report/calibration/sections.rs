@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::super::document::Block;
 use super::super::joint::matrix;
 use super::super::language::{Language, Word};
-use super::super::number::{NONE, aligned, freedom, probability, significant};
+use super::super::number::{NONE, aligned, freedom, in_unit, probability, significant};
 use super::super::symbol;
 use super::super::table::{Cell, Column, ColumnKind, Row, Table};
 use crate::calibrate::{Calibration, Coefficient, Experiment, Figures, Words};
@@ -235,10 +235,7 @@ pub(super) fn column(head: &str, kind: ColumnKind) -> Column {
 
 /// Name and unit of a coefficient, as the head of a column.
 pub(super) fn head_of(one: &Coefficient) -> String {
-    match symbol(&one.unit) {
-        none if none.is_empty() => one.name.clone(),
-        unit => format!("{} / {unit}", one.name),
-    }
+    in_unit(&one.name, &symbol(&one.unit))
 }
 
 fn mean_and_deviation(values: &[f64]) -> (f64, f64) {

@@ -58,9 +58,14 @@ impl Assessment<'_> {
             .and_then(|known| known.probability)
             .map(chance);
         let probability = probability.map_or_else(String::new, |p| {
+            let (en, zh) = match p.split_once(' ') {
+                Some((">", p)) => (format!("is above {p}"), format!("大于 {p}")),
+                Some(("<", p)) => (format!("is below {p}"), format!("小于 {p}")),
+                _ => (format!("is {p}"), format!("为 {p}")),
+            };
             l.pick(
-                format!(" The conformance probability is {p}."),
-                format!("符合概率为 {p}。"),
+                format!(" The conformance probability {en}."),
+                format!("符合概率{zh}。"),
             )
         });
         let acceptance = self.acceptance();

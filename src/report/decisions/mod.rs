@@ -86,11 +86,23 @@ fn chance(p: f64) -> String {
     if p > 0.5 && complement < CERTAIN {
         return "> 99.9999 %".to_string();
     }
+    if p < CERTAIN {
+        return "< 0.0001 %".to_string();
+    }
     if p <= 0.5 {
         return format!("{} %", significant(100.0 * p, 2));
     }
     let place = libm::log10(100.0 * complement).floor() as i32 - 1;
     format!("{} %", print(&at_place(100.0 * p, place.min(0))))
+}
+
+/// `p_c = 92 %`, or `p_c > 99.9999 %`.
+fn related(symbol: &str, chance: &str) -> String {
+    if chance.starts_with(['<', '>']) {
+        format!("{symbol} {chance}")
+    } else {
+        format!("{symbol} = {chance}")
+    }
 }
 
 fn with_unit(number: &str, unit: String) -> String {
@@ -102,7 +114,7 @@ fn with_unit(number: &str, unit: String) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::chance;
+    use super::{chance, related};
 
     #[test]
     fn probabilities_show_what_is_rare() {
@@ -112,6 +124,8 @@ mod tests {
         assert_eq!(chance(0.989_01), "98.9 %");
         assert_eq!(chance(0.662_63), "66 %");
         assert_eq!(chance(1.0 - 1e-9), "> 99.9999 %");
-        assert_eq!(chance(0.0), "0 %");
+        assert_eq!(chance(0.0), "< 0.0001 %");
+        assert_eq!(related("p_c", &chance(1.0)), "p_c > 99.9999 %");
+        assert_eq!(related("p_c", &chance(0.5)), "p_c = 50 %");
     }
 }

@@ -1,7 +1,7 @@
 //! Probabilities and risks: of the item that was measured, and of all items.
 
 use super::conformity::Assessment;
-use super::{Rows, chance};
+use super::{Rows, chance, related};
 use crate::propagate::Verdict;
 use crate::report::language::Language;
 use crate::report::number::{NONE, significant};
@@ -29,10 +29,10 @@ impl Assessment<'_> {
                     .to_string()
                 },
                 |p| {
-                    let p = chance(p);
+                    let p = related("p_c", &chance(p));
                     l.pick(
-                        format!("p_c = {p}, with the knowledge of the process"),
-                        format!("p_c = {p}（计入过程信息）"),
+                        format!("{p}, with the knowledge of the process"),
+                        format!("{p}（计入过程信息）"),
                     )
                 },
             );
@@ -41,7 +41,7 @@ impl Assessment<'_> {
                 [both, format!("{alone} {by_gum}{trials}")].join(l.pick("; ", "；")),
             );
         } else {
-            rows.add(label, format!("p_c = {by_gum}{trials}"));
+            rows.add(label, format!("{}{trials}", related("p_c", &by_gum)));
         }
         let risk = match self.found.verdict {
             Some(Verdict::Conforming) => known.complement.map(|p| {

@@ -5,7 +5,8 @@ use crate::diagnose::case::Case;
 use crate::diagnose::{Adopted, Diagnosis, Estimated, HeldOutQuality, Quality};
 use crate::report::document::Block;
 use crate::report::language::Language;
-use crate::report::number::{aligned, freedom, significant};
+use crate::report::number::{aligned, freedom, in_unit, significant};
+use crate::report::symbol;
 use crate::report::table::{ColumnKind, Table};
 use crate::special::chi_squared_sf;
 
@@ -112,13 +113,13 @@ fn qualities(
     ]);
     let cell = |value: Option<f64>| value.map_or(String::new(), |value| significant(value, 3));
     for (index, response) in case.responses.iter().enumerate() {
-        let unit = if response.unit.is_one() {
-            String::new()
-        } else {
-            format!(" / {}", response.unit.typeset())
+        let unit = symbol(&response.unit);
+        let label = |what: &str| {
+            in_unit(
+                &format!("{what}{}{}", language.pick(", ", "，"), response.name),
+                &unit,
+            )
         };
-        let label =
-            |what: &str| format!("{what}{}{}{unit}", language.pick(", ", "，"), response.name);
         table.push(vec![
             label(language.pick("residual RMS", "残差均方根")).into(),
             cell(before.residual.get(index).copied()).into(),
@@ -161,24 +162,20 @@ fn qualities(
 fn held_out(table: &mut Table, case: &Case, held: &HeldOutQuality, language: Language) {
     let after = held.after.as_ref();
     for (index, response) in case.responses.iter().enumerate() {
-        let unit = if response.unit.is_one() {
-            String::new()
-        } else {
-            format!(" / {}", response.unit.typeset())
-        };
+        let unit = symbol(&response.unit);
         let expected = significant(held.expected[index], 3);
         let label = language.pick(
             format!(
-                "error predicting {} (noise {expected}), {}{unit}",
+                "error predicting {} (noise {expected}), {}",
                 held.file, response.name
             ),
             format!(
-                "对 {} 的预测误差（噪声 {expected}），{}{unit}",
+                "对 {} 的预测误差（噪声 {expected}），{}",
                 held.file, response.name
             ),
         );
         table.push(vec![
-            label.into(),
+            in_unit(&label, &unit).into(),
             significant(held.before.rms[index], 3).into(),
             after
                 .map_or(String::new(), |p| significant(p.rms[index], 3))

@@ -7,7 +7,8 @@ use nalgebra::DVector;
 use crate::diagnose::Diagnosis;
 use crate::diagnose::case::{Case, Role};
 use crate::report::language::Language;
-use crate::report::number::significant;
+use crate::report::number::{in_unit, significant};
+use crate::report::symbol;
 
 const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 260.0;
@@ -33,14 +34,9 @@ pub fn plots(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(Str
             Role::Time | Role::Order | Role::Stimulus | Role::Angle | Role::Covariate
         );
         if let (true, Some(numbers)) = (shown, column.numbers()) {
-            let unit = if column.unit.is_one() {
-                String::new()
-            } else {
-                format!(" / {}", column.unit.typeset())
-            };
             axes.push((
                 column.name.clone(),
-                format!("{}{unit}", column.name),
+                in_unit(&column.name, &symbol(&column.unit)),
                 reduced(numbers),
             ));
         }
@@ -90,12 +86,8 @@ fn figure(
                 .copied()
                 .collect::<Vec<f64>>()
         };
-        let unit = if declared.unit.is_one() {
-            String::new()
-        } else {
-            format!(" / {}", declared.unit.typeset())
-        };
-        let title = |which: &str| format!("{}: {which}{unit}", declared.name);
+        let unit = symbol(&declared.unit);
+        let title = |which: &str| in_unit(&format!("{}: {which}", declared.name), &unit);
         let before = language.pick("residuals of the declared model", "声明的模型的残差");
         panels.push(panel(
             &title(before),

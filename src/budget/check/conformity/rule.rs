@@ -223,7 +223,7 @@ impl Checker<'_> {
                     .help("the rule says on which side of the tolerance limits it lies; without a guard band write rule = \"simple\""),
             );
         }
-        let w = self.quantity(amount, &subject.unit.difference(), subject.name)?;
+        let w = self.difference(amount, subject.unit, subject.name)?;
         Some(Some(Band {
             guard: Guard::Amount(w),
             key: amount.key.clone(),

@@ -2,6 +2,7 @@
 
 mod correlations;
 mod faults;
+mod temperatures;
 mod type_a;
 mod ways;
 

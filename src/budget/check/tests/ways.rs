@@ -195,6 +195,43 @@ fn the_t_scale_is_a_convention() {
 }
 
 #[test]
+fn numbers_that_cannot_be_meant() {
+    // 4 of its value is 400 %.
+    assert_eq!(
+        faults(&one("value = 31\nu = 4\nrelative = true"))[0],
+        ("B0113", "4".to_string())
+    );
+    assert!(refused(&one("value = 31\nu = 4\nrelative = true")).to_string().contains("\"4 %\""));
+    // 10.13, 10.15 …
+    let commas = refused(&one("readings = [10,13, 10,15, 10,14]"));
+    assert!(commas.to_string().contains("[10.13, 10.15, 10.14]"), "{commas}");
+    assert!(refused(&one("value = 1\nu = \"0,1 V\"")).to_string().contains("\"0.1 V\""));
+    // Whole numbers all the same.
+    close(component("readings = [10, 13, 10, 15]").0, 1.2247448713915892);
+    close(component("readings = [1,2,3,4,5]").0, 0.5f64.sqrt());
+}
+
+#[test]
+fn a_source_is_stated_absolutely_in_percent_too() {
+    let text = "[measurand.Y]\nmodel = \"X\"\nunit = \"V\"\n[source.gain]\nhalf_width = \"0.3 %\"\n[input.X]\nvalue = 2\nunit = \"V\"\ncomponents = [{ source = \"gain\", relative = true }]\n";
+    let budget = budget(text);
+    close(budget.components[0].u, 0.003 / 3f64.sqrt());
+}
+
+#[test]
+fn three_readings_go_with_every_profile() {
+    for profile in ["GUM", "EA", "JJF", "NIST", "UKAS"] {
+        let text = format!("profile = \"{profile}\"\n{}", one("readings = [1, 2, 3]"));
+        close(budget(&text).components[0].u, 1.0 / 3f64.sqrt());
+    }
+    let stated = format!(
+        "[conventions]\nt_scale = \"standard-deviation\"\n{}",
+        one("readings = [1, 2, 3]")
+    );
+    assert_eq!(faults(&stated)[0].0, "B0210");
+}
+
+#[test]
 fn relative_amounts() {
     close(component("value = -4\nu = \"50 ppm\"").0, 2e-4);
     close(component("value = -4\nu = 0.01\nrelative = true").0, 0.04);

@@ -16,6 +16,10 @@ table! {
         lower: Amount,
         /// Upper tolerance limit.
         upper: Amount,
+        /// In their place: maximum permissible error, the distance of both limits from `nominal`; `"0.1 %"` is of it.
+        mpe: Amount,
+        /// Nominal value between the limits; 0 when left out, for an error of indication.
+        nominal: Amount,
         /// Decision rule.
         rule: RuleWord,
         /// Distance of the acceptance limits from the tolerance limits; U when left out.

@@ -184,14 +184,17 @@ fn component_row(
     let component = &report.budget.components[term.component];
     let u = term.coefficient.abs() * component.u;
     // The share of a shared component is in its own row: it acts through several inputs at once.
-    let (part, share): (&str, Cell) = if shared_components(report).contains(&term.component) {
-        (&component.name, NONE.into())
+    let share: Cell = if shared_components(report).contains(&term.component) {
+        NONE.into()
     } else {
-        let own = share(&gum.components[term.component], gum);
-        (&component.label, own.into())
+        share(&gum.components[term.component], gum).into()
+    };
+    let part = match &component.owner {
+        Owner::Source(source) if component.name == *source => source,
+        _ => &component.label,
     };
     table.push(vec![
-        Cell::Part(part.to_owned()),
+        Cell::Part(part.clone()),
         Cell::Empty,
         difference_symbol(&input.unit).into(),
         significant(u, TABLE_DIGITS).into(),

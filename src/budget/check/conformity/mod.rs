@@ -5,6 +5,7 @@ mod rule;
 
 use std::ops::Range;
 
+use crate::budget::check::draft::Context;
 use crate::budget::check::register::{Register, no_such_input};
 use crate::budget::check::{Checker, entries};
 use crate::budget::faults::{CLAIM, NAME_TWICE, TOLERANCE};
@@ -95,6 +96,20 @@ impl Checker<'_> {
         subject: &Subject<'_>,
     ) -> Option<Interval> {
         let table = &stated.value;
+        if let Some(mpe) = &table.mpe {
+            return self.permissible_error(table, mpe, subject);
+        }
+        if let Some(nominal) = &table.nominal {
+            return self.refuse(
+                Fault::new(
+                    TOLERANCE,
+                    nominal.key.clone(),
+                    "a nominal value without `mpe`",
+                )
+                .label("how far from it may the value be?")
+                .help("add `mpe`, the distance of both limits from it, or state `lower` and `upper` in its place"),
+            );
+        }
         let mut limit = |amount: &Option<Stated<Amount>>, missing: f64| match amount {
             Some(amount) => self.quantity(amount, subject.unit, subject.name),
             None => Some(missing),
@@ -111,7 +126,7 @@ impl Checker<'_> {
                     format!("{} has no tolerance limit", subject.name),
                 )
                 .label("`lower` and `upper` are missing")
-                .help("state the permissible values: `lower`, `upper`, or both"),
+                .help("state the permissible values: `lower`, `upper`, or both; or the maximum permissible error, `mpe`"),
             ),
             (Some(first), Some(second)) if lower >= upper => self.refuse(
                 Fault::new(
@@ -127,6 +142,55 @@ impl Checker<'_> {
             ),
             _ => Some(Interval { lower, upper }),
         }
+    }
+
+    /// The limits nominal ± MPE.
+    fn permissible_error(
+        &mut self,
+        table: &ConformityTable,
+        mpe: &Stated<Amount>,
+        subject: &Subject<'_>,
+    ) -> Option<Interval> {
+        if let Some(limit) = table.lower.as_ref().or(table.upper.as_ref()) {
+            return self.refuse(
+                Fault::new(
+                    TOLERANCE,
+                    mpe.key.clone(),
+                    "the tolerance is stated twice, by limits and by `mpe`",
+                )
+                .label("the maximum permissible error")
+                .related(limit.key.clone(), "a limit")
+                .help("keep one of them"),
+            );
+        }
+        let nominal = match &table.nominal {
+            Some(nominal) => Some(self.quantity(nominal, subject.unit, subject.name)?),
+            None if subject.unit.is_point() => {
+                let symbol = &subject.unit.symbol;
+                return self.refuse(
+                    Fault::new(
+                        TOLERANCE,
+                        mpe.key.clone(),
+                        format!("{} is a temperature in {symbol}: from which value may it be so far?", subject.name),
+                    )
+                    .label("`nominal` is missing")
+                    .help(format!("add nominal = \"100 {symbol}\", or let the measurand be the error of indication, in K")),
+                );
+            }
+            None => None,
+        };
+        let context = Context {
+            owner: subject.name,
+            value: nominal,
+            unit: subject.unit,
+            place: mpe.span.clone(),
+        };
+        let width = self.positive_deviation(mpe, "mpe", &context, false)?;
+        let nominal = nominal.unwrap_or(0.0);
+        Some(Interval {
+            lower: nominal - width,
+            upper: nominal + width,
+        })
     }
 
     /// An input by name that moves with the measurand.

@@ -3,6 +3,7 @@
 mod correlations;
 mod faults;
 mod temperatures;
+mod tolerances;
 mod type_a;
 mod ways;
 

@@ -1,0 +1,42 @@
+//! Tolerances by limits, and by the maximum permissible error.
+
+use super::*;
+
+/// The tolerance of a measurand in V.
+fn tolerance(keys: &str) -> [f64; 2] {
+    let found = budget(&decided(keys)).conformity[0].tolerance;
+    [found.lower, found.upper]
+}
+
+fn decided(keys: &str) -> String {
+    format!(
+        "{}[conformity]\nrule = \"simple\"\n{keys}\n",
+        one("value = 10.1\nu = 0.01")
+    )
+}
+
+#[test]
+fn a_permissible_error_is_two_limits() {
+    assert_eq!(tolerance("mpe = 0.5"), [-0.5, 0.5]);
+    assert_eq!(tolerance("mpe = \"500 mV\"\nnominal = 10"), [9.5, 10.5]);
+    let [lower, upper] = tolerance("mpe = \"2 %\"\nnominal = \"10 V\"");
+    close(lower, 9.8);
+    close(upper, 10.2);
+}
+
+#[test]
+fn a_permissible_error_is_stated_once_and_whole() {
+    for (keys, code, marked) in [
+        ("mpe = 0.5\nlower = 1", "B0501", "mpe"),
+        ("nominal = 10", "B0501", "nominal"),
+        ("mpe = 0", "B0203", "0"),
+        ("mpe = \"2 %\"", "B0214", "\"2 %\""),
+    ] {
+        let found = faults(&decided(keys));
+        assert_eq!(found[0], (code, marked.to_string()), "{keys}");
+    }
+    let celsius = "[measurand.T]\nmodel = \"t\"\nunit = \"°C\"\n[input.t]\nvalue = 20\nunit = \"°C\"\nu = 0.1\n[conformity]\nrule = \"simple\"\nmpe = \"0.5 °C\"\n";
+    assert!(refused(celsius).to_string().contains("`nominal` is missing"));
+    let found = budget(&format!("{celsius}nominal = 20\n")).conformity[0].tolerance;
+    assert_eq!([found.lower, found.upper], [19.5, 20.5]);
+}

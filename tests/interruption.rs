@@ -21,12 +21,18 @@ fn an_interrupted_run_writes_no_file() {
         .spawn()
         .expect("the program starts");
     std::thread::sleep(Duration::from_millis(400));
-    let interrupt = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(interrupt.expect("kill is at hand").success());
-    let status = child.wait().expect("the program ends");
-    assert!(!status.success());
+    // Programs that a script starts in the background are made to ignore Ctrl-C.
+    let status = ["-INT", "-TERM"].iter().find_map(|signal| {
+        let sent = Command::new("kill")
+            .args([signal, child.id().to_string().as_str()])
+            .status();
+        assert!(sent.expect("kill is at hand").success());
+        (0..100).find_map(|_| {
+            std::thread::sleep(Duration::from_millis(50));
+            child.try_wait().expect("the program can be asked")
+        })
+    });
+    assert!(!status.expect("the program ends").success());
     let left: Vec<_> = std::fs::read_dir(&folder)
         .expect("the folder")
         .map(|entry| entry.expect("an entry").file_name())

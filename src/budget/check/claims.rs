@@ -255,6 +255,9 @@ impl Checker<'_> {
                 .iter()
                 .map(|limit| self.quantity(limit, reading.unit, reading.name))
                 .collect();
+            if limits.contains(&None) {
+                continue;
+            }
             if !matches!(limits.as_slice(), [Some(lower), Some(upper)] if lower < upper) {
                 self.faults.push(
                     Fault::new(

@@ -36,7 +36,11 @@ fn a_permissible_error_is_stated_once_and_whole() {
         assert_eq!(found[0], (code, marked.to_string()), "{keys}");
     }
     let celsius = "[measurand.T]\nmodel = \"t\"\nunit = \"°C\"\n[input.t]\nvalue = 20\nunit = \"°C\"\nu = 0.1\n[conformity]\nrule = \"simple\"\nmpe = \"0.5 °C\"\n";
-    assert!(refused(celsius).to_string().contains("`nominal` is missing"));
+    assert!(
+        refused(celsius)
+            .to_string()
+            .contains("`nominal` is missing")
+    );
     let found = budget(&format!("{celsius}nominal = 20\n")).conformity[0].tolerance;
     assert_eq!([found.lower, found.upper], [19.5, 20.5]);
 }

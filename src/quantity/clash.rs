@@ -93,13 +93,13 @@ pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<S
     let angle = |unit: &Unit| names(unit, |name| name.ends_with("rad"));
     let is_rate = found.dimension == rate;
     if turns(found) && !turns(wanted) && !angle(wanted) {
-        let (operator, of_angle) = if is_rate {
-            ("/", "rad/s")
+        let (operator, of_angle, what) = if is_rate {
+            ("/", "rad/s", "the angular velocity")
         } else {
-            ("*", "s/rad")
+            ("*", "s/rad", "the reciprocal of the angular velocity")
         };
         return Some(format!(
-            "a revolution is an angle, 2π, in {}: count revolutions by `{text} {operator} (1 'r')`, or write `unit = \"{of_angle}\"` for the angular velocity or its reciprocal",
+            "a revolution is an angle, 2π, in {}: count revolutions by `{text} {operator} (1 'r')`, or write `unit = \"{of_angle}\"` for {what}",
             found.symbol
         ));
     }

@@ -32,11 +32,7 @@ pub(crate) fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault
 }
 
 /// Whether a key is repeated only because the header above it is.
-fn in_repeated_table(
-    error: &toml::de::Error,
-    errors: &[toml::de::Error],
-    text: &str,
-) -> bool {
+fn in_repeated_table(error: &toml::de::Error, errors: &[toml::de::Error], text: &str) -> bool {
     let repeated = |error: &toml::de::Error| error.message().contains("duplicate key");
     let line = |error: &toml::de::Error| line_of(error.span().map_or(0, |span| span.start), text);
     let header = |line: &Range<usize>| text[line.clone()].trim_start().starts_with('[');
@@ -275,7 +271,8 @@ mod tests {
 
     #[test]
     fn a_repeated_table_is_one_fault() {
-        let text = "[input.R]\nvalue = 1\nu = 2\n[input.S]\nvalue = 1\n[input.R]\nvalue = 1\nu = 3\n";
+        let text =
+            "[input.R]\nvalue = 1\nu = 2\n[input.S]\nvalue = 1\n[input.R]\nvalue = 1\nu = 3\n";
         let (_, errors) = DeTable::parse_recoverable(text);
         let faults = syntax_faults(&errors, text);
         assert_eq!(faults.len(), 1, "{faults:?}");

@@ -36,7 +36,8 @@ fn a_point_is_no_limit_of_a_difference() {
 
 #[test]
 fn deviations_in_celsius_are_differences() {
-    let guarded = "[conformity]\nupper = 1\nrule = \"guarded-acceptance\"\nguard_band = \"0.1 °C\"\n";
+    let guarded =
+        "[conformity]\nupper = 1\nrule = \"guarded-acceptance\"\nguard_band = \"0.1 °C\"\n";
     let claimed = "[claim]\nU = \"0.2 °C\"\nu = \"0.1 °C\"\nk = 2\n";
     let budget = budget(&difference(&format!("{guarded}{claimed}")));
     let rule = &budget.conformity[0].rule;

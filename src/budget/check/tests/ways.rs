@@ -201,13 +201,27 @@ fn numbers_that_cannot_be_meant() {
         faults(&one("value = 31\nu = 4\nrelative = true"))[0],
         ("B0113", "4".to_string())
     );
-    assert!(refused(&one("value = 31\nu = 4\nrelative = true")).to_string().contains("\"4 %\""));
+    assert!(
+        refused(&one("value = 31\nu = 4\nrelative = true"))
+            .to_string()
+            .contains("\"4 %\"")
+    );
     // 10.13, 10.15 …
     let commas = refused(&one("readings = [10,13, 10,15, 10,14]"));
-    assert!(commas.to_string().contains("[10.13, 10.15, 10.14]"), "{commas}");
-    assert!(refused(&one("value = 1\nu = \"0,1 V\"")).to_string().contains("\"0.1 V\""));
+    assert!(
+        commas.to_string().contains("[10.13, 10.15, 10.14]"),
+        "{commas}"
+    );
+    assert!(
+        refused(&one("value = 1\nu = \"0,1 V\""))
+            .to_string()
+            .contains("\"0.1 V\"")
+    );
     // Whole numbers all the same.
-    close(component("readings = [10, 13, 10, 15]").0, 1.2247448713915892);
+    close(
+        component("readings = [10, 13, 10, 15]").0,
+        1.2247448713915892,
+    );
     close(component("readings = [1,2,3,4,5]").0, 0.5f64.sqrt());
 }
 

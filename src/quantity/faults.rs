@@ -13,8 +13,8 @@ pub struct UnitError {
     pub span: Range<usize>,
     /// One sentence without a final stop.
     pub message: String,
-    /// The mend, in the imperative.
-    pub help: Option<String>,
+    /// The mend, in the imperative; boxed, which keeps the error small enough to be returned by value.
+    pub help: Option<Box<str>>,
 }
 
 impl UnitError {
@@ -28,7 +28,7 @@ impl UnitError {
     }
 
     #[must_use]
-    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+    pub(super) fn help(mut self, help: impl Into<Box<str>>) -> Self {
         self.help = Some(help.into());
         self
     }
@@ -37,7 +37,7 @@ impl UnitError {
 impl From<UnitError> for Fault {
     fn from(error: UnitError) -> Fault {
         Fault {
-            help: error.help,
+            help: error.help.map(String::from),
             ..Fault::new(error.code, error.span, error.message).label(error.code.title)
         }
     }

@@ -9,6 +9,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`language`] | the languages of reports and faults |
 //! | [`fault`] | what is wrong in a user's file, and where; the file refused |
 //! | [`files`] | where files are read from: a disk, or a library in memory |
 //! | [`quantity`] | units, dimensions, rounding of decimal numbers |
@@ -82,6 +83,7 @@ pub mod distribution;
 pub mod equations;
 pub mod fault;
 pub mod files;
+pub mod language;
 pub mod least_squares;
 pub mod model;
 pub mod propagate;

@@ -368,7 +368,7 @@ fn decimal_commas(value: &Raw<'_>, list: &[Raw<'_>], file: &str) -> Option<Fault
         .windows(2)
         .enumerate()
         .all(|(place, pair)| close(pair) == (place % 2 == 0));
-    if list.len() < 4 || list.len() % 2 != 0 || !list.iter().all(whole) || !in_turns {
+    if list.len() < 4 || !list.len().is_multiple_of(2) || !list.iter().all(whole) || !in_turns {
         return None;
     }
     let numbers: Vec<String> = texts.chunks(2).map(|pair| pair.join(".")).collect();

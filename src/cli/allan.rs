@@ -1,6 +1,5 @@
 //! `gumption allan`: a recording at rest in, its noises out.
 
-use std::io::stderr;
 use std::path::PathBuf;
 
 use gumption::budget::Files;
@@ -38,10 +37,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     requests.extend(args.time.iter().map(|name| Request::numbers("time", name)));
     let recording = match Recording::open(Files::Disk, &args.file, &requests, &units) {
         Ok(recording) => recording,
-        Err(rejection) => {
-            output::warn(&rejection.render(output::may_style(&stderr())));
-            return Outcome::BadInput;
-        }
+        Err(rejection) => return output::refused(&rejection, args.form.lang),
     };
     analysed(args, &recording)
         .unwrap_or_else(|why| output::complain(&format!("{}: {why}", args.file.display())))

@@ -22,7 +22,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    let experiment = match read(&args.file, Purpose::Calibrate) {
+    let experiment = match read(&args.file, Purpose::Calibrate, args.form.lang) {
         Ok(experiment) => experiment,
         Err(outcome) => return outcome,
     };
@@ -42,7 +42,7 @@ pub(super) fn run(args: &Args) -> Outcome {
 
 /// What a calibration would tell, from its schedule.
 pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
-    let experiment = match read(file, Purpose::Plan) {
+    let experiment = match read(file, Purpose::Plan, form.lang) {
         Ok(experiment) => experiment,
         Err(outcome) => return outcome,
     };
@@ -60,12 +60,12 @@ pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
 
 fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome {
     let why = report::calibration_trouble(trouble, lang);
-    output::no_result(file, trouble.code(), &why);
+    output::no_result(file.display(), trouble.code(), &why, lang);
     Outcome::Negative
 }
 
-fn read(file: &std::path::Path, purpose: Purpose) -> Result<Experiment, Outcome> {
-    calibrate::load(file, purpose).map_err(|rejection| output::refused(&rejection))
+fn read(file: &std::path::Path, purpose: Purpose, lang: Language) -> Result<Experiment, Outcome> {
+    calibrate::load(file, purpose).map_err(|rejection| output::refused(&rejection, lang))
 }
 
 /// Writes the budgets that were asked for, all of them or none.

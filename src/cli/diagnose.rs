@@ -31,7 +31,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Outcome {
     let mut case = match Case::load(&args.case, Purpose::Diagnosis) {
         Ok(case) => case,
-        Err(rejection) => return output::refused(&rejection),
+        Err(rejection) => return output::refused(&rejection, args.form.lang),
     };
     if let Some(seed) = args.seed {
         case.settings.seed = seed;
@@ -48,7 +48,7 @@ pub(super) fn run(args: &Args) -> Outcome {
 /// Says why a case gives no result.
 pub(super) fn failed(path: &Path, case: &Case, failure: &Failure, lang: Language) -> Outcome {
     let why = report::diagnosis_failure(case, failure, lang);
-    output::no_result(path, failure.code(), &why);
+    output::no_result(path.display(), failure.code(), &why, lang);
     Outcome::BadInput
 }
 

@@ -1,6 +1,6 @@
 //! `gumption eval`: budget files in, reports out.
 
-use std::io::{stderr, stdout};
+use std::io::stdout;
 use std::path::{Path, PathBuf};
 
 use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
@@ -137,8 +137,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
     let loaded = match budget::load_under(file, args.profile) {
         Ok(loaded) => loaded,
         Err(rejection) => {
-            output::warn(&rejection.render(output::may_style(&stderr())));
-            *worst = Outcome::BadInput;
+            *worst = output::refused(&rejection, args.lang);
             return Vec::new();
         }
     };
@@ -160,11 +159,9 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
             }
             Err(error) => {
                 let row = label.map(|l| format!(", {l}")).unwrap_or_default();
-                output::warn(&format!(
-                    "error: {}{row}: {}\n",
-                    file.display(),
-                    report::failure(&error, args.lang)
-                ));
+                let place = format!("{}{row}", file.display());
+                let why = report::failure(&error, args.lang);
+                output::no_result(place, None, &why, args.lang);
                 *worst = (*worst).max(Outcome::Negative);
             }
         }

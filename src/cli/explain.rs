@@ -270,9 +270,9 @@ fn topics() -> Vec<Topic> {
     topics.extend(codes().map(|code| Topic {
         section: Section::Errors,
         name: code.id.to_string(),
-        aliases: Vec::new(),
+        aliases: vec![code.title_zh.to_string()],
         title: code.title.to_string(),
-        text: code.explanation.to_string(),
+        text: format!("{}\n\n{}", code.title_zh, code.explanation),
     }));
     topics
 }
@@ -354,6 +354,22 @@ mod tests {
                 topic.name
             );
         }
+    }
+
+    /// Titles in Chinese are headlines, and find their code; two codes of one title would be one fault to the reader.
+    #[test]
+    fn every_code_has_a_chinese_title_of_its_own() {
+        let is_chinese = |c: char| ('\u{4e00}'..='\u{9fff}').contains(&c);
+        let mut titles: Vec<&str> = Vec::new();
+        for code in codes() {
+            let title = code.title_zh;
+            assert!(title.contains(is_chinese), "{}: {title}", code.id);
+            assert!(!title.ends_with(['。', '.']), "{}: {title}", code.id);
+            assert!(!titles.contains(&title), "{}: {title} again", code.id);
+            titles.push(title);
+        }
+        let topics = topics();
+        assert!(found("单位与量的量纲不符", &topics)[0].name == "B0112");
     }
 
     #[test]

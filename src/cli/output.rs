@@ -1,10 +1,12 @@
 //! Standard output, files, colour.
 
+use std::fmt::Display;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use gumption::budget::Rejection;
 use gumption::fault::Code;
+use gumption::report::Language;
 
 use super::Outcome;
 
@@ -26,14 +28,15 @@ pub(super) fn complain(message: &str) -> Outcome {
 }
 
 /// Says why a file that is right gives no result, with the code under which `gumption explain` says more.
-pub(super) fn no_result(path: &Path, code: Option<Code>, why: &str) {
+pub(super) fn no_result(file: impl Display, code: Option<Code>, why: &str, language: Language) {
+    let error = language.pick("error", "错误");
     let code = code.map_or(String::new(), |code| format!("[{}]", code.id));
-    warn(&format!("error{code}: {}: {why}\n", path.display()));
+    warn(&format!("{error}{code}: {file}: {why}\n"));
 }
 
 /// Shows the faults of a file.
-pub(super) fn refused(rejection: &Rejection) -> Outcome {
-    warn(&rejection.render(may_style(&std::io::stderr())));
+pub(super) fn refused(rejection: &Rejection, language: Language) -> Outcome {
+    warn(&rejection.render_in(language, may_style(&std::io::stderr())));
     Outcome::BadInput
 }
 

@@ -43,7 +43,7 @@ pub(super) fn run(args: &Args) -> Outcome {
 fn case(file: &Path, form: &Form) -> Outcome {
     let case = match Case::load(file, Purpose::Plan) {
         Ok(case) => case,
-        Err(rejection) => return output::refused(&rejection),
+        Err(rejection) => return output::refused(&rejection, form.lang),
     };
     let steps = Steps::shown("plan");
     let found = diagnose::plan(&case, &|share| steps.at(share));

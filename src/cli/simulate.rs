@@ -25,7 +25,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Outcome {
     let case = match Case::load(&args.case, Purpose::Plan) {
         Ok(case) => case,
-        Err(rejection) => return output::refused(&rejection),
+        Err(rejection) => return output::refused(&rejection, Language::English),
     };
     match simulate(&case, args.seed) {
         Ok(simulation) => {

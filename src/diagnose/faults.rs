@@ -3,31 +3,31 @@
 use crate::fault::codes;
 
 codes! {
-    MISSING = "D0101", "a case lacks something",
+    MISSING = "D0101", "a case lacks something", "案例文件缺少必需的内容",
         "A case names a recording, a model and what the columns of the recording are.\n\n    recording = \"load.csv\"\n    model = \"deflection = a + b * load\"\n    [columns]\n    deflection = \"output\"\n    load = \"stimulus\"\n    run = \"run\"";
-    LEFT_SIDE = "D0102", "a model does not say what it describes",
+    LEFT_SIDE = "D0102", "a model does not say what it describes", "模型左边未指明所描述的量",
         "The left side of a model is a column with the role \"output\", or a constant that the right side should give in every row (as in `g = sqrt(x^2 + y^2 + z^2)`).";
-    UNKNOWN_NAME = "D0103", "a name stands for nothing",
+    UNKNOWN_NAME = "D0103", "a name stands for nothing", "名称没有所指的对象",
         "A case knows the columns of its recording by their names, the parameters of its model, and its constants.";
-    ROLE = "D0104", "a column cannot have this role",
+    ROLE = "D0104", "a column cannot have this role", "该列不能用作所指定的角色",
         "Outputs stand on the left of a model. Numbers are needed for outputs, stimuli, covariates, angles and times; runs, factors and positions are labels.";
-    PER = "D0105", "a parameter cannot have a value for each label of this column",
+    PER = "D0105", "a parameter cannot have a value for each label of this column", "参数不能按该列的标签分别取值",
         "`per` names a column of labels (a run, factor, position or axis).";
-    START = "D0106", "the search for the parameters needs a start",
+    START = "D0106", "the search for the parameters needs a start", "模型拟合需要参数的起始值",
         "A model that is not linear in its parameters is fitted by a search. State roughly where it begins: [parameter] s = { start = 4000 }.";
-    NOT_FITTED = "D0107", "the declared model cannot be fitted to the recording",
+    NOT_FITTED = "D0107", "the declared model cannot be fitted to the recording", "声明的模型无法拟合记录",
         "The search found no finite minimum, or the recording determines too few of the parameters. Check the model, give starts, or state what is known of a parameter beforehand: value and u.";
-    TOO_FEW = "D0108", "the recording has too few rows",
+    TOO_FEW = "D0108", "the recording has too few rows", "记录的行数太少",
         "The recording must have more rows than the model has parameters, or there is nothing to confront the model with.";
-    NOISE = "D0109", "the claim about the noise is not clear",
+    NOISE = "D0109", "the claim about the noise is not clear", "噪声的声明不明确",
         "One of: u (with dof), a column with the role \"u\", replicates, at_rest, budget. Without any of them the noise is estimated from what the model leaves.";
-    UNIT_CLASH = "D0110", "two units do not fit",
+    UNIT_CLASH = "D0110", "two units do not fit", "两处单位不一致",
         "A unit in the case contradicts the unit in the first line of the recording, or has another dimension than it should.";
-    CANDIDATE = "D0111", "an explanation of the user's own is not clear",
+    CANDIDATE = "D0111", "an explanation of the user's own is not clear", "自定义的解释不明确",
         "A candidate has a `name` and a `formula` of columns, parameters and constants. `node` names the parameter or column that it changes; without it, it adds to the output.\n\n    [[candidate]]\n    name = \"mount sag\"\n    formula = \"sin(phi) * cos(phi)\"";
-    SETTING = "D0112", "a setting is out of range",
+    SETTING = "D0112", "a setting is out of range", "设置超出允许范围",
         "alpha is a probability between 0 and 0.5; u and dof are positive.";
-    ROWS = "D0113", "rows beside the recording are not clear",
+    ROWS = "D0113", "rows beside the recording are not clear", "记录以外的数据行说明不清",
         "A recording that is held out has the columns of the recording. A further measurement names its rows in a CSV file, as lists, or says what is changed when those of the recording are taken again:\n\n    [[action]]\n    name = \"second mounting\"\n    again = { mount = 90 }";
 }
 

@@ -22,17 +22,23 @@ pub struct Code {
     pub id: &'static str,
     /// One line: what is wrong.
     pub title: &'static str,
+    /// The same in Chinese, in the terms of JJF 1001 and JJF 1059.1.
+    pub title_zh: &'static str,
     /// A paragraph: why it is refused and what to do, with a small example.
     pub explanation: &'static str,
 }
 
-/// Defines the codes of a module, `NAME = "id", "title", "explanation";`, and the list of them.
+/// Defines the codes of a module, `NAME = "id", "title", "title in Chinese", "explanation";`, and the list of them.
 macro_rules! codes {
-    ($($name:ident = $id:literal, $title:literal, $explanation:literal;)*) => {
+    ($($name:ident = $id:literal, $title:literal, $title_zh:literal, $explanation:literal;)*) => {
         $(
             #[doc = $title]
-            pub const $name: $crate::fault::Code =
-                $crate::fault::Code { id: $id, title: $title, explanation: $explanation };
+            pub const $name: $crate::fault::Code = $crate::fault::Code {
+                id: $id,
+                title: $title,
+                title_zh: $title_zh,
+                explanation: $explanation,
+            };
         )*
 
         /// Every code of this module, for `gumption explain`.

@@ -13,8 +13,8 @@ pub struct UnitError {
     pub span: Range<usize>,
     /// One sentence without a final stop.
     pub message: String,
-    /// The mend, in the imperative.
-    pub help: Option<String>,
+    /// The mend, in the imperative; boxed, which keeps the error small enough to be returned by value.
+    pub help: Option<Box<str>>,
 }
 
 impl UnitError {
@@ -28,7 +28,7 @@ impl UnitError {
     }
 
     #[must_use]
-    pub(super) fn help(mut self, help: impl Into<String>) -> Self {
+    pub(super) fn help(mut self, help: impl Into<Box<str>>) -> Self {
         self.help = Some(help.into());
         self
     }
@@ -37,7 +37,7 @@ impl UnitError {
 impl From<UnitError> for Fault {
     fn from(error: UnitError) -> Fault {
         Fault {
-            help: error.help,
+            help: error.help.map(String::from),
             ..Fault::new(error.code, error.span, error.message).label(error.code.title)
         }
     }
@@ -58,6 +58,7 @@ pub const CODES: &[Code] = &[
 pub const UNKNOWN_UNIT: Code = Code {
     id: "U001",
     title: "unknown unit",
+    title_zh: "未知的单位符号",
     explanation: "\
 The name is neither a unit that gumption knows, nor a prefix followed by one, nor a unit of the \
 file's own [unit] table. Upper and lower case matter: mV and MV, s and S, Pa and pA are different. \
@@ -72,6 +73,7 @@ A unit of your own is declared once per file:
 pub const MALFORMED_UNIT: Code = Code {
     id: "U002",
     title: "malformed unit",
+    title_zh: "单位的写法有误",
     explanation: "\
 A unit is written as a product of names with exponents: `m/s^2`, `m·s^-2`, `µV/(V·K)`, `°/√h`. \
 Products are `·`, `*` or a space, quotients `/`, powers `^2`, `**2` or `²`; parentheses group.",
@@ -81,6 +83,7 @@ Products are `·`, `*` or a space, quotients `/`, powers `^2`, `**2` or `²`; pa
 pub const AMBIGUOUS_SOLIDUS: Code = Code {
     id: "U003",
     title: "ambiguous solidus",
+    title_zh: "单位中的斜线有歧义",
     explanation: "\
 `W/m·K` is read by some as W/(m·K) and by others as (W/m)·K, a factor of K² apart. ISO 80000-1 and \
 the SI Brochure therefore ask for parentheses or negative exponents: `W/(m·K)`, `W·m^-1·K^-1`.",
@@ -90,6 +93,7 @@ the SI Brochure therefore ask for parentheses or negative exponents: `W/(m·K)`,
 pub const NUMBER_IN_UNIT: Code = Code {
     id: "U004",
     title: "number in a unit",
+    title_zh: "单位中含有数字",
     explanation: "\
 A unit text holds names only; the number 1 alone stands for dimension one and may be a numerator \
 (`1/K`). Numbers belong to values, or to a definition in the file's own table:
@@ -103,6 +107,7 @@ A unit text holds names only; the number 1 alone stands for dimension one and ma
 pub const BAD_EXPONENT: Code = Code {
     id: "U005",
     title: "unfit exponent",
+    title_zh: "单位的指数不可用",
     explanation: "\
 Exponents of units are whole numbers or simple fractions between -60 and 60: `m^2`, `s^-1`, \
 `Hz^(1/2)`, `Hz^0.5`. The root may also be written `√Hz` or `sqrt(Hz)`. Fractions need parentheses, \
@@ -113,6 +118,7 @@ because `s^1/2` means (s^1)/2.",
 pub const EMPTY_UNIT: Code = Code {
     id: "U006",
     title: "empty unit",
+    title_zh: "单位为空",
     explanation: "\
 A quantity of dimension one has the unit \"1\" (or %, ppm, rad, ° …). An empty text leaves open \
 whether the unit was forgotten.",
@@ -122,6 +128,7 @@ whether the unit was forgotten.",
 pub const BAD_DEFINITION: Code = Code {
     id: "U007",
     title: "unfit definition of a unit",
+    title_zh: "单位的定义不可用",
     explanation: "\
 A file's own units are defined by other units, with a positive number if need be; the order does not \
 matter, but no unit may depend on itself. The name must be a single name as it would stand in a unit \

@@ -442,7 +442,11 @@ mod tests {
 
     fn error(text: &str) -> (Range<usize>, String, String) {
         let error = parse(text, Numbers::OneOnly).unwrap_err();
-        (error.span, error.message, error.help.unwrap_or_default())
+        (
+            error.span,
+            error.message,
+            error.help.unwrap_or_default().into_string(),
+        )
     }
 
     #[test]

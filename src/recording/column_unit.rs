@@ -39,7 +39,7 @@ pub(super) fn unit_of(
             let at = span.start + error.span.start..span.start + error.span.end;
             let mut fault = Fault::new(UNIT, at, format!("column \"{text}\": {}", error.message))
                 .label("no unit");
-            fault.help = error.help.clone();
+            fault.help = error.help.clone().map(String::from);
             return Err(Box::new(fault));
         }
     };

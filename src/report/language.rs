@@ -1,15 +1,7 @@
-//! The languages of a report. Every message has one arm per language, so that the compiler asks for
+//! The words of a report in its languages. Every message has one arm per language, so that the compiler asks for
 //! the translation of a new one. Chinese terms are those of JJF 1059.1.
 
-/// The language of a report.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Language {
-    /// English.
-    #[default]
-    English,
-    /// Simplified Chinese.
-    Chinese,
-}
+pub use crate::language::Language;
 
 /// Words of headings, table heads and row labels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,14 +61,6 @@ pub(super) enum Word {
 }
 
 impl Language {
-    /// The form for this language of a text that exists in both.
-    pub(super) fn pick<T>(self, english: T, chinese: T) -> T {
-        match self {
-            Language::English => english,
-            Language::Chinese => chinese,
-        }
-    }
-
     /// Joins names: `a, b and c`.
     pub(super) fn list(self, names: &[String]) -> String {
         match (self, names) {
@@ -163,20 +147,6 @@ impl Language {
     }
 }
 
-impl std::str::FromStr for Language {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        match text {
-            "en" => Ok(Language::English),
-            "zh" => Ok(Language::Chinese),
-            other => Err(format!(
-                "`{other}` is not a language of the report: write `en` or `zh`"
-            )),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -190,11 +160,5 @@ mod tests {
         assert_eq!(Language::Chinese.either(&names), "a、b或c");
         assert_eq!(Language::Chinese.either(&names[..1]), "a");
         assert_eq!(Language::English.list(&names[..1]), "a");
-    }
-
-    #[test]
-    fn languages_are_chosen_by_their_code() {
-        assert_eq!("zh".parse(), Ok(Language::Chinese));
-        assert!("de".parse::<Language>().is_err());
     }
 }

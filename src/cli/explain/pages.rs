@@ -37,7 +37,8 @@ fn introduction(section: Section) -> &'static str {
         }
         Section::Keys => "[The budget file](../budget-file.md) shows every key by example.",
         Section::Errors => {
-            "Every message begins with its code. B: the budget file, M: the model, U: units. Codes are stable."
+            "Every message begins with its code. B: the budget file, M: the model, U: units. Codes are stable. \
+             Below each title stands the Chinese one, which `--lang zh` shows."
         }
     }
 }

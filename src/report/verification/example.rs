@@ -38,7 +38,7 @@ pub(super) fn blocks(number: usize, example: &Example, l: Language) -> Vec<Block
 /// Why an example has no figures.
 pub(super) fn words_of(problem: &Problem, l: Language) -> String {
     match problem {
-        Problem::Refused(rejection) => rejection.render(false).trim_end().to_string(),
+        Problem::Refused(rejection) => rejection.render_in(l, false).trim_end().to_string(),
         Problem::NoResult { label, error } => {
             let row = label
                 .as_ref()

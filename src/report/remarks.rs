@@ -1,10 +1,12 @@
 //! Findings as sentences: what was found, what follows from it, what to do.
 
-use crate::propagate::{Basis, EvaluationError, FindingKind, is_residue};
+use crate::budget::CoverageRule;
+use crate::propagate::{Basis, CoverageBasis, EvaluationError, FindingKind, is_residue};
+use crate::special::student_t_two_sided_quantile;
 
 use super::fits::test_figures;
 use super::language::Language;
-use super::number::{aligned, freedom, grouped, probability, significant};
+use super::number::{aligned, exact, freedom, grouped, probability, significant};
 use super::{Report, moments};
 
 /// All findings and the budget's remarks, each one paragraph; what is found alike of several
@@ -114,11 +116,7 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             Language::English.list(members),
             freedom(*lower_bound),
         ),
-        FindingKind::FewDegreesOfFreedom { dof } => format!(
-            "Only {} effective degrees of freedom: u itself is uncertain by about {} %, for which a k from the t-distribution allows. More readings of the dominant input would lower U.",
-            freedom(*dof),
-            significant(100.0 / (2.0 * dof).sqrt(), 2),
-        ),
+        FindingKind::FewDegreesOfFreedom { dof } => few_degrees_in_english(report, measurand, *dof),
         FindingKind::Irregular { what } => format!(
             "The model is not smooth at the estimates: {}. A derivative says little there, so the GUM figures may be wrong. Rely on Monte Carlo.",
             what.english(),
@@ -191,11 +189,7 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             Language::Chinese.list(members),
             freedom(*lower_bound),
         ),
-        FindingKind::FewDegreesOfFreedom { dof } => format!(
-            "有效自由度仅为 {}：标准不确定度本身的相对不确定度约为 {} %，按 t 分布取包含因子时已考虑这一点。增加主要输入量的重复测量次数可减小 U。",
-            freedom(*dof),
-            significant(100.0 / (2.0 * dof).sqrt(), 2),
-        ),
+        FindingKind::FewDegreesOfFreedom { dof } => few_degrees_in_chinese(report, measurand, *dof),
         FindingKind::Irregular { what } => format!("测量模型在估计值处不光滑（{}）。此处的导数意义不大，GUM 法的结果可能不正确，应以蒙特卡洛法为准。", what.chinese()),
         FindingKind::NearSingular { what } => format!(
             "测量模型接近无定义的点（{}，u 为该量的标准不确定度）。输出量的分布可能有很长的尾部，标准不确定度和包含因子不能很好地描述它。请看包含区间，并核对该量的不确定度。",
@@ -226,6 +220,59 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         ),
         FindingKind::Asymmetric => "输出量的分布不对称，概率对称包含区间与最短包含区间不同。不要写成估计值 ± U 的形式，应给出包含区间。".to_string(),
     }
+}
+
+fn few_degrees_in_english(report: &Report<'_>, measurand: Option<usize>, dof: f64) -> String {
+    let first = format!(
+        "Only {} effective degrees of freedom: u itself is uncertain by about {} %",
+        freedom(dof),
+        significant(100.0 / (2.0 * dof).sqrt(), 2),
+    );
+    match convention_k(report, measurand) {
+        None => format!(
+            "{first}, for which a k from the t-distribution allows. More readings of the dominant input would lower U."
+        ),
+        Some(k) => format!(
+            "{first}. k = {} makes no allowance for that; for {} the t-distribution has k = {}. More readings of the dominant input would help; coverage_factor_from = \"t\" in [conventions] takes the k of the t-distribution.",
+            exact(k),
+            probability(report.coverage_probability()),
+            k_of_t(report, dof),
+        ),
+    }
+}
+
+fn few_degrees_in_chinese(report: &Report<'_>, measurand: Option<usize>, dof: f64) -> String {
+    let first = format!(
+        "有效自由度仅为 {}：标准不确定度本身的相对不确定度约为 {} %",
+        freedom(dof),
+        significant(100.0 / (2.0 * dof).sqrt(), 2),
+    );
+    match convention_k(report, measurand) {
+        None => format!(
+            "{first}，按 t 分布取包含因子时已考虑这一点。增加主要输入量的重复测量次数可减小 U。"
+        ),
+        Some(k) => format!(
+            "{first}。k = {} 未考虑这一点；p = {} 时 t 分布的 k 为 {}。可增加主要输入量的重复测量次数，或在 [conventions] 中写 coverage_factor_from = \"t\"，按 t 分布取 k。",
+            exact(k),
+            probability(report.coverage_probability()),
+            k_of_t(report, dof),
+        ),
+    }
+}
+
+/// k where it is a convention that does not look at the degrees of freedom.
+fn convention_k(report: &Report<'_>, measurand: Option<usize>) -> Option<f64> {
+    let coverage = &report.evaluation.results.get(measurand?)?.gum.coverage;
+    match (&coverage.basis, report.budget.conventions.coverage_factor) {
+        (CoverageBasis::Fixed, CoverageRule::Fixed(k)) => Some(k),
+        _ => None,
+    }
+}
+
+/// k of the t-distribution for the probability of the report.
+fn k_of_t(report: &Report<'_>, dof: f64) -> String {
+    let k = student_t_two_sided_quantile(report.coverage_probability(), dof);
+    significant(k, 3)
 }
 
 /// Inputs, shift, effect on u, and whether it matters, of [`FindingKind::VanishingSensitivity`].
@@ -384,4 +431,25 @@ pub fn failure(error: &EvaluationError, language: Language) -> String {
 /// The bound that clause 8 compares with, for a table: `δ = 0.0005`.
 pub(super) fn tolerance(delta: f64) -> String {
     aligned(delta, delta, 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixtures;
+
+    #[test]
+    fn a_fixed_factor_makes_no_allowance_for_few_readings() {
+        let mut case = fixtures::refused_freedom();
+        let of = |case: &fixtures::Case| remarks(&case.report(Language::English)).join("\n");
+        assert!(of(&case).contains("for which a k from the t-distribution allows"));
+        case.budget.conventions.coverage_factor = CoverageRule::Fixed(2.0);
+        case.evaluation.results[0].gum.coverage.basis = CoverageBasis::Fixed;
+        // t_0.95(4) = 2.776.
+        assert!(of(&case).contains(
+            "k = 2 makes no allowance for that; for 95 % the t-distribution has k = 2.78"
+        ));
+        let chinese = remarks(&case.report(Language::Chinese)).join("\n");
+        assert!(chinese.contains("t 分布的 k 为 2.78"), "{chinese}");
+    }
 }

@@ -248,6 +248,29 @@ fn reports_on_several_outputs_are_in_chinese_too() {
 }
 
 #[test]
+fn uncertainties_in_celsius_are_differences() {
+    let folder = folder("celsius");
+    let mut noise = Noise(17);
+    let mut text = "T [°C],R [Ω]\n".to_owned();
+    for row in 0..40 {
+        let t = 20.0 + 0.5 * f64::from(row);
+        let r = 100.0 * (1.0 + 0.0039 * (t - 30.0)) + 0.002 * noise.normal();
+        let _ = writeln!(text, "{t:.2},{r:.4}");
+    }
+    std::fs::write(folder.join("recording.csv"), text).expect("written");
+    let page = |unit: &str| {
+        let case = format!(
+            "recording = \"recording.csv\"\nmodel = \"R = R30 * (1 + alpha * (T - 30 '°C'))\"\n[columns]\nR = \"output\"\nT = {{ role = \"stimulus\", u_common = \"0.05 {unit}\" }}\n[noise]\nu = \"2 mΩ\"\n"
+        );
+        std::fs::write(folder.join("case.toml"), case).expect("written");
+        gumption(&folder, &["diagnose", "case.toml"])
+    };
+    let (good, celsius) = page("°C");
+    assert!(good, "{celsius}");
+    assert_eq!(celsius, page("K").1);
+}
+
+#[test]
 fn a_recording_in_a_code_page_is_refused_as_such() {
     let folder = folder("latin1");
     let mut bytes = b"x [mm],y [mV],T (".to_vec();

@@ -34,7 +34,7 @@ UNKNOWN_WORD = "B0108", "a word is not one of the known ones", "该词不在可�
 MISSING_KEY = "B0109", "a required key is missing", "缺少必需的键",
 "The table says too little to be understood without the key.";
 
-AMOUNT = "B0110", "an amount is not a number with a unit", "量值不是数值加单位的形式",
+AMOUNT = "B0110", "an amount is not a number with a unit", "数值或量值的写法有误",
 "An amount is a plain number in the unit of its input (`u = 0.5`), or a text with a number and a unit \
 (`u = \"25 µV\"`, `u = \"50 ppm\"`). The decimal sign is a point.";
 
@@ -42,11 +42,11 @@ UNIT = "B0111", "a unit is not known", "无法识别的单位",
 "Units are SI units with their prefixes and the usual others, combined by `*`, `/` and `^`: `mA/V`, \
 `m/s^2`, `µm/m`, `°C`, `ppm`, `%`. A file may define its own in `[unit]`: `div = \"0.5 mV\"`.";
 
-UNIT_CLASH = "B0112", "a unit does not fit", "单位与量的量纲不符",
+UNIT_CLASH = "B0112", "a unit does not fit", "单位不合适",
 "The unit is of another dimension than the quantity it is used for, for example a half-width in mA for an \
 input in V. The number of a dimension-one amount such as `50 ppm` is taken relative to the value.";
 
-RELATIVE_UNCLEAR = "B0113", "it is not clear of what a percentage is taken", "百分数的相对基准不明确",
+RELATIVE_UNCLEAR = "B0113", "it is not clear of what a percentage is taken", "相对量的含义不明确",
 "For an input that itself has dimension one, `\"0.1 %\"` could be 0.001 of the unit or 0.1 % of the value. \
 Write a plain number in the unit of the input, or add `relative = true` for a fraction of the value.";
 

@@ -200,29 +200,50 @@ const FOREIGN: [(char, &str); 16] = [
     ('　', " "),
 ];
 
-/// `0,3888`, where the parser stops at the comma or behind it.
+/// `value = 0,3888`, where the parser stops at the comma or behind it.
 fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
     let line = line_of(span.start, text);
     let digits = |c: char| c.is_ascii_digit();
+    let of_number = |c: char| c.is_ascii_digit() || ".eE+-".contains(c);
     let commas = bare(line.clone(), text).filter(|(_, c)| *c == ',');
     let number = commas
         .map(|(at, _)| {
             let before = text[line.start..at].trim_end_matches(digits).len() + line.start;
-            let behind = text[at + 1..line.end].trim_start_matches(digits).len();
+            let behind = text[at + 1..line.end].trim_start_matches(of_number).len();
             (before, at, line.end - behind)
         })
-        .find(|(start, at, end)| start < at && at + 1 < *end && (*at..=*end).contains(&span.start));
-    let (start, at, end) = number?;
-    let point = format!("{}.{}", &text[start..at], &text[at + 1..end]);
+        .find(|(start, at, end)| {
+            let alone = text[line.start..*start]
+                .trim_end_matches(['+', '-', ' '])
+                .ends_with('=');
+            let followed = text[at + 1..*end].starts_with(digits);
+            alone && start < at && followed && (*at..=*end).contains(&span.start)
+        });
+    let (start, _, end) = number?;
+    let number = &text[start..end];
     Some(
-        Fault::new(
-            TOML_SYNTAX,
-            start..end,
-            format!("`{}` has a decimal comma", &text[start..end]),
-        )
-        .label("expected a decimal point")
-        .help(format!("write {point}")),
+        Fault::new(TOML_SYNTAX, start..end, format!("`{number}` has a comma"))
+            .label("expected a decimal point")
+            .help(without_comma(number, "")),
     )
+}
+
+/// What to write for a number with a comma, between `quotes`: a decimal point, or nothing where the comma
+/// may part thousands.
+pub(super) fn without_comma(number: &str, quotes: &str) -> String {
+    let point = number.replacen(',', ".", 1);
+    let behind = number.split_once(',').map_or("", |(_, behind)| behind);
+    let places = behind.bytes().take_while(u8::is_ascii_digit).count();
+    let joined = number.replace(',', "");
+    if places != 3 {
+        format!("write a decimal point: {quotes}{point}{quotes}")
+    } else if behind[places..].starts_with(['.', ',']) {
+        format!("write it without commas: {quotes}{joined}{quotes}")
+    } else {
+        format!(
+            "write {quotes}{joined}{quotes}, or {quotes}{point}{quotes} if the comma is a decimal one"
+        )
+    }
 }
 
 /// Number and unit of an amount that was written without quotes.
@@ -254,8 +275,11 @@ mod tests {
     #[test]
     fn what_was_meant_is_said() {
         for (text, marked, help) in [
-            ("value = 0,3888", "0,3888", "write 0.3888"),
-            ("x = { value = 1,25, u = 2 }", "1,25", "write 1.25"),
+            ("value = 0,3888", "0,3888", ": 0.3888"),
+            ("x = { value = 1,25, u = 2 }", "1,25", ": 1.25"),
+            ("value = -1,5e-3", "1,5e-3", ": 1.5e-3"),
+            ("value = 10,000", "10,000", "write 10000, or 10.000"),
+            ("value = 10,000.5", "10,000.5", ": 10000.5"),
             ("unit = “mm”", "“", "write `\"`"),
             ("title = “10 kg 砝码”", "“", "write `\"`"),
             ("c = ｛ U = 1, k = 2 }", "｛", "write `{`"),
@@ -266,6 +290,14 @@ mod tests {
             let (found, mend) = first(text);
             assert_eq!(found, marked, "{text}");
             assert!(mend.contains(help), "{text}: {mend}");
+        }
+    }
+
+    #[test]
+    fn a_list_that_is_not_closed_is_not_a_comma() {
+        for text in ["readings = [1,2", "readings = [1.5,2", "readings = [1,2}"] {
+            let (_, help) = first(text);
+            assert!(!help.contains("decimal"), "{text}: {help}");
         }
     }
 

@@ -214,7 +214,7 @@ fn unknown_key(key: &Spanned<DeString<'_>>, table: &str, known: &[&'static str])
             "`{name}` belongs to the top of the file, above the first [table]: a line belongs to the header above it"
         )),
         None if ["specification", "certificate"].contains(&table)
-            && super::tables::ComponentTable::keys().contains(&name.as_ref()) =>
+            && ["p", "k", "dof", "distribution", "name"].contains(&name.as_ref()) =>
         {
             fault.help(format!("`{name}` stands beside `{table}`, not in it"))
         }

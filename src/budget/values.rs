@@ -7,6 +7,7 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 
 use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::strings::StringMap;
+use super::syntax::without_comma;
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
 use crate::fault::Fault;
 
@@ -40,7 +41,7 @@ fn quoted_percent(value: &Raw<'_>, text: &str) -> Option<Fault> {
     Some(
         fault
             .label("expected a number")
-            .help(format!("write {fraction}")),
+            .help(format!("a fraction is written as {fraction}")),
     )
 }
 
@@ -312,9 +313,9 @@ fn unreadable_amount(value: &Raw<'_>, text: &str) -> Fault {
         format!("{text:?} is not a number with a unit"),
     )
     .label("expected a number, then a unit");
-    let point = text.replacen(',', ".", 1);
-    if text.contains(',') && split_amount(&point).is_some() {
-        fault.help(format!("write a decimal point: \"{point}\""))
+    let bare = text.replace(',', "");
+    if text.contains(',') && split_amount(&bare).is_some() {
+        fault.help(without_comma(text.trim(), "\""))
     } else if text.trim_start().starts_with('±') {
         fault.help("leave out the ±; the key says that it is an uncertainty")
     } else {
@@ -363,7 +364,16 @@ fn decimal_commas(value: &Raw<'_>, list: &[Raw<'_>], file: &str) -> Option<Fault
         .map(|item| file.get(item.span()))
         .collect::<Option<_>>()?;
     let whole = |item: &Raw<'_>| matches!(item.get_ref(), DeValue::Integer(_));
-    let close = |pair: &[Raw<'_>]| file.get(pair[0].span().end..pair[1].span().start) == Some(",");
+    let between = |pair: &[Raw<'_>]| file.get(pair[0].span().end..pair[1].span().start);
+    let close = |pair: &[Raw<'_>]| between(pair) == Some(",");
+    // Pairs on lines of their own are pairs.
+    let lines = list
+        .windows(2)
+        .any(|pair| between(pair).is_none_or(|gap| gap.contains('\n')));
+    let digits = |text: &&str| text.bytes().all(|byte| byte.is_ascii_digit());
+    if lines || !texts.iter().skip(1).step_by(2).all(digits) {
+        return None;
+    }
     let in_turns = list
         .windows(2)
         .enumerate()
@@ -371,7 +381,16 @@ fn decimal_commas(value: &Raw<'_>, list: &[Raw<'_>], file: &str) -> Option<Fault
     if list.len() < 4 || !list.len().is_multiple_of(2) || !list.iter().all(whole) || !in_turns {
         return None;
     }
-    let numbers: Vec<String> = texts.chunks(2).map(|pair| pair.join(".")).collect();
+    let joined = |sign: &str| -> Vec<String> {
+        let pairs = texts.chunks(2);
+        pairs.map(|pair| pair.join(sign)).collect()
+    };
+    let numbers = joined(".");
+    // 1,000 may be a thousand.
+    let thousands = match texts.iter().skip(1).step_by(2).all(|text| text.len() == 3) {
+        true => format!("; or, for thousands, [{}]", excerpt(&joined(""))),
+        false => String::new(),
+    };
     Some(
         Fault::new(
             AMOUNT,
@@ -384,7 +403,7 @@ fn decimal_commas(value: &Raw<'_>, list: &[Raw<'_>], file: &str) -> Option<Fault
         )
         .label("every second comma stands close")
         .help(format!(
-            "write decimal points: [{}]; or a space behind every comma: [{}]",
+            "write decimal points: [{}]; or a space behind every comma: [{}]{thousands}",
             excerpt(&numbers),
             excerpt(&texts)
         )),

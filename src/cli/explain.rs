@@ -369,7 +369,7 @@ mod tests {
             titles.push(title);
         }
         let topics = topics();
-        assert!(found("单位与量的量纲不符", &topics)[0].name == "B0112");
+        assert!(found("单位不合适", &topics)[0].name == "B0112");
     }
 
     #[test]

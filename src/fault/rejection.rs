@@ -169,7 +169,7 @@ mod tests {
     const UNIT_CLASH: Code = Code {
         id: "B0112",
         title: "a unit does not fit",
-        title_zh: "单位与量的量纲不符",
+        title_zh: "单位不合适",
         explanation: "",
     };
 
@@ -213,7 +213,7 @@ mod tests {
     fn chinese_has_the_title_as_its_headline_and_the_message_below() {
         let rejection = Rejection::new("budget.toml", TEXT, vec![clash()]);
         insta::assert_snapshot!(rejection.render_in(Language::Chinese, false), @r#"
-        错误[B0112]: 单位与量的量纲不符
+        错误[B0112]: 单位不合适
          --> budget.toml:3:14
           |
         3 | half_width = "0.1 mA"

@@ -273,11 +273,19 @@ impl Lowering<'_> {
         unit: &Unit,
         step: Operand<'_>,
     ) -> Option<()> {
-        let Node::Number { value, .. } = step.expr.node else {
-            return Some(());
+        let exact = match step.value.elements[..] {
+            [id] => self.builder.constant_at(id),
+            _ => None,
         };
-        let zero = unit.origin.map(|origin| origin / unit.factor.value());
-        if zero.is_none_or(|zero| (value - zero).abs() > 1e-9) {
+        let of_kelvin = match step.value.unit() {
+            Some(own) if own.is_one() => unit.factor.value(),
+            Some(own) => own.factor.value(),
+            None => return Some(()),
+        };
+        let is_zero = exact
+            .zip(unit.origin)
+            .is_some_and(|(value, origin)| (value * of_kelvin - origin).abs() < 1e-9 * origin);
+        if !is_zero {
             return Some(());
         }
         let (text, number) = (
@@ -573,7 +581,11 @@ fn subtracted_step(expr: &Expr) -> Option<(String, &str)> {
     };
     match rest.as_slice() {
         [(Infix::Sub, right)] => match &right.node {
-            Node::Number { text, .. } => Some((printer::expression(first), text)),
+            Node::Number {
+                text,
+                unit: Some(unit),
+                ..
+            } if unit.text == "K" => Some((printer::expression(first), text)),
             _ => None,
         },
         _ => None,

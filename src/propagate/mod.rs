@@ -254,6 +254,7 @@ fn both_methods(
     missing: Option<&MissingMoments>,
 ) -> MeasurandResult {
     let validation = monte_carlo.map(|mc| validation::validate(&gum, mc));
+    let divergent = matches!(second_order.terms, Terms::Divergent);
     let second_order = match &second_order.terms {
         Terms::Found(found) => Some(found.clone()),
         Terms::Linear | Terms::Divergent => None,
@@ -261,10 +262,12 @@ fn both_methods(
     let verdict = validation
         .as_ref()
         .map(|both| validation::at(both, budget.conventions.digits));
+    // Only where first order is enough does a linear component explain the missing moments.
+    let linear = !matches!(second_order, Some(ref found) if found.matters) && !divergent;
     let basis = findings::basis(
         &gum,
         monte_carlo.zip(verdict),
-        missing,
+        missing.filter(|_| linear),
         budget.conventions.coverage_factor,
     );
     MeasurandResult {

@@ -436,3 +436,23 @@ fn a_thousand_inputs() {
     close(result.freedom.value(), 5000.0, 1e-6);
     shares_sum_to_one(result);
 }
+
+#[test]
+fn three_readings_beside_a_product_of_zeros_do_not_keep_the_first_order() {
+    // First order does not see da·dt; three readings leave Monte Carlo without a standard deviation, and
+    // the medians agree: nothing of that supports the u of first order.
+    let result = |model: &str, input: &str| {
+        let text = format!(
+            "profile = \"JJF\"\n[measurand.y]\nmodel = \"{model}\"\nunit = \"mm\"\n{input}[input.dt]\nvalue = 0\nunit = \"mm·K\"\nhalf_width = 2\n[input.b]\nunit = \"mm\"\nreadings = [10.0000, 10.0002, 10.0004]\n"
+        );
+        let loaded = crate::budget::read(&text, "b.toml", std::path::Path::new(""));
+        let budget = loaded.unwrap().rows.remove(0).budget;
+        let mut evaluation = run(&budget, MonteCarloChoice::AsBudget);
+        evaluation.results.remove(0)
+    };
+    let da = "[input.da]\nvalue = 0\nunit = \"1/K\"\nhalf_width = 0.001\n";
+    assert_eq!(result("da * dt + b", da).basis, Basis::MonteCarlo);
+    let linear = result("b + 0.01 '1/K' * dt", "");
+    assert_eq!(linear.monte_carlo.unwrap().u, None);
+    assert_eq!(linear.basis, Basis::Gum);
+}

@@ -1,19 +1,30 @@
 //! Units that are written out in Chinese, 毫米 for `mm`: what to write instead.
 
-use super::builtin::UNITS;
+use super::builtin::{BuiltinUnit, Prefixes, UNITS};
 
 /// The text of a unit for its Chinese name, with a prefix, a square or a cube if it has one.
 pub(super) fn by_chinese_name(name: &str) -> Option<String> {
-    for (word, exponent) in [("平方", 2), ("立方", 3)] {
-        if let Some(base) = name.strip_prefix(word).and_then(by_chinese_name) {
-            return Some(format!("{base}^{exponent}"));
-        }
+    let power = |word, exponent| Some((name.strip_prefix(word)?, exponent));
+    match power("平方", 2).or_else(|| power("立方", 3)) {
+        // A square degree Celsius is nothing.
+        Some((base, exponent)) => prefixed(base)
+            .filter(|symbol| symbol != "°C")
+            .map(|symbol| format!("{symbol}^{exponent}")),
+        None => prefixed(name),
     }
+}
+
+fn prefixed(name: &str) -> Option<String> {
     // 分 is the minute and 千克 the kilogram before their first characters are prefixes.
     whole(name).map(str::to_owned).or_else(|| {
         PREFIXES.iter().find_map(|(word, prefix)| {
             let symbol = whole(name.strip_prefix(word)?)?;
-            Some(format!("{prefix}{symbol}"))
+            let takes_prefix =
+                |unit: &BuiltinUnit| unit.symbol == symbol && unit.prefixes == Prefixes::All;
+            UNITS
+                .iter()
+                .any(takes_prefix)
+                .then(|| format!("{prefix}{symbol}"))
         })
     })
 }
@@ -102,7 +113,9 @@ mod tests {
             assert_eq!(by_chinese_name(name).as_deref(), Some(symbol), "{name}");
             assert!(UnitTable::default().parse(symbol).is_ok(), "{symbol}");
         }
-        assert_eq!(by_chinese_name("个"), None);
+        for none in ["个", "毫千克", "千天", "平方平方米", "平方摄氏度"] {
+            assert_eq!(by_chinese_name(none), None, "{none}");
+        }
     }
 
     #[test]

@@ -78,21 +78,17 @@ fn clash_with(other: &Unit, suspect: &Unit) -> Option<String> {
 
 /// What to write where a conversion would silently hold 2π: revolutions are an angle, 2π each, but `Hz` and
 /// a period in seconds count them. `None` where the conversion is harmless; `text` is what is converted.
+///
+/// Only units of angle and time alone are asked: what the radian per second stands for in `W/(°/s)` or in
+/// a noise density is no count.
 pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<String> {
     let rate = Dimension::of([0, 0, -1, 0, 0, 0, 0, 0]);
     let period = Dimension::of([0, 0, 1, 0, 0, 0, 0, 0]);
     if found.dimension != wanted.dimension || ![rate, period].contains(&found.dimension) {
         return None;
     }
-    let names = |unit: &Unit, fits: fn(&str) -> bool| {
-        let names = names_in(&unit.symbol);
-        names.iter().any(|name| fits(name))
-    };
-    let turns = |unit: &Unit| unit.factor.pi != 0;
-    let counts = |unit: &Unit| names(unit, |name| name.ends_with("Hz"));
-    let angle = |unit: &Unit| names(unit, |name| name.ends_with("rad"));
     let is_rate = found.dimension == rate;
-    if turns(found) && !turns(wanted) && !angle(wanted) {
+    if is_turning(found) && is_count(wanted) {
         let (operator, of_angle, what) = if is_rate {
             ("/", "rad/s", "the angular velocity")
         } else {
@@ -103,12 +99,28 @@ pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<S
             found.symbol
         ));
     }
-    (is_rate && counts(found) && turns(wanted)).then(|| {
+    (is_rate && names_in(&found.symbol) == ["Hz"] && is_turning(wanted)).then(|| {
         format!(
-            "a revolution is an angle, 2π, in {}: write `{text} * (1 'r')` for revolutions that are counted in {}",
-            wanted.symbol, found.symbol
+            "a revolution is an angle, 2π, in {}: write `{text} * (1 'r')` for revolutions that are counted in Hz",
+            wanted.symbol
         )
     })
+}
+
+/// Revolutions or degrees per time, or a time for each: `rpm`, `r/min`, `°/s`, `min/r`.
+fn is_turning(unit: &Unit) -> bool {
+    let turns = |name: &String| ["r", "rev", "°", "deg", "rpm"].contains(&name.as_str());
+    let names = names_in(&unit.symbol);
+    let times = |name: &String| ["s", "ms", "min", "h", "d"].contains(&name.as_str());
+    unit.factor.pi.abs() == 1
+        && names.iter().any(turns)
+        && names.iter().all(|name| turns(name) || times(name))
+}
+
+/// Events per time, or a time for each, without any angle: `Hz`, `1/min`, `s`.
+fn is_count(unit: &Unit) -> bool {
+    let plain = |name: &String| !name.ends_with("rad");
+    unit.factor.pi == 0 && names_in(&unit.symbol).iter().all(plain)
 }
 
 #[cfg(test)]
@@ -141,6 +153,10 @@ mod tests {
             ("Hz", "1/s"),
             ("N·m·r/min", "W"),
             ("°", "1"),
+            ("(°/s)^2/Hz", "(°/h)^2/Hz"),
+            ("(°/h)^2/Hz", "(°/h)^2/Hz"),
+            ("rad·s/°", "s"),
+            ("mN·m·s/(°·kg·m^2)", "1/s"),
         ] {
             assert_eq!(lost(a, b), None, "{a} to {b}");
         }

@@ -186,8 +186,12 @@ fn footer(report: &Report<'_>) -> Vec<String> {
     let scale = match (conventions.t_scale, l) {
         (TScale::Scale, Language::English) => "u is the scale of t",
         (TScale::Scale, Language::Chinese) => "u 为 t 分布的尺度参数",
-        (TScale::StandardDeviation, Language::English) => "u is the standard deviation of t",
-        (TScale::StandardDeviation, Language::Chinese) => "u 为 t 分布的标准差",
+        (TScale::StandardDeviation, Language::English) => {
+            "u is the standard deviation of t (its scale where ν ≤ 2)"
+        }
+        (TScale::StandardDeviation, Language::Chinese) => {
+            "u 为 t 分布的标准差（ν ≤ 2 时为尺度参数）"
+        }
     };
     let profile = &conventions.profile;
     let fixed = matches!(conventions.coverage_factor, CoverageRule::Fixed(_));

@@ -445,11 +445,11 @@ mod tests {
         assert!(of(&case).contains("for which a k from the t-distribution allows"));
         case.budget.conventions.coverage_factor = CoverageRule::Fixed(2.0);
         case.evaluation.results[0].gum.coverage.basis = CoverageBasis::Fixed;
-        // t_0.95(4) = 2.776.
+        // t_0.9545(4) = 2.869.
         assert!(of(&case).contains(
-            "k = 2 makes no allowance for that; for 95 % the t-distribution has k = 2.78"
+            "k = 2 makes no allowance for that; for 95.45 % the t-distribution has k = 2.87"
         ));
         let chinese = remarks(&case.report(Language::Chinese)).join("\n");
-        assert!(chinese.contains("t 分布的 k 为 2.78"), "{chinese}");
+        assert!(chinese.contains("t 分布的 k 为 2.87"), "{chinese}");
     }
 }

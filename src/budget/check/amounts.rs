@@ -113,7 +113,11 @@ impl Checker<'_> {
                 self.refuse(fault)
             }
             _ if revolutions_as_angle(&own, unit, owner).is_some() => {
-                let fault = clash(amount, &own, unit, owner);
+                let mut fault = clash(amount, &own, unit, owner);
+                fault.help = Some(format!(
+                    "a revolution is an angle, 2π, in r/min, rpm and °/s, and counted in Hz and seconds: state the amount in {}",
+                    unit.symbol
+                ));
                 self.refuse(fault)
             }
             (false, true) if amount.value.number < 0.0 => {

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::Checker;
 use crate::budget::faults::{CSV, MISSING_KEY, NOT_UTF8, UNREADABLE_FILE, VECTOR};
+use crate::budget::syntax::without_comma;
 use crate::budget::table::Stated;
 use crate::budget::tables::{ColumnTable, ComponentTable};
 use crate::budget::values::Amount;
@@ -114,12 +115,12 @@ impl Checker<'_> {
                 "line {line} of {} has \"{field}\" in column \"{}\", not a number",
                 file.value, column.value
             );
-            let point = field.replacen(',', ".", 1);
+            let point = field.replace(',', "");
             let fault = Fault::new(CSV, column.span.clone(), message).label("needed from here");
             self.refuse(if field.trim().is_empty() {
                 fault.help("every row needs a number there; remove the rows that are empty")
-            } else if Dd::parse(&point).is_some() {
-                fault.help(format!("write a decimal point: {point}"))
+            } else if field.contains(',') && Dd::parse(&point).is_some() {
+                fault.help(without_comma(field.trim(), ""))
             } else {
                 fault
             })

@@ -206,6 +206,16 @@ impl Checker<'_> {
 
     /// An amount in a unit.
     pub fn quantity(&mut self, amount: &Stated<Amount>, unit: &Unit) -> Option<f64> {
+        self.converted(amount, unit, Unit::clone)
+    }
+
+    /// An amount in a unit; its own unit is read as `kind` says.
+    fn converted(
+        &mut self,
+        amount: &Stated<Amount>,
+        unit: &Unit,
+        kind: impl Fn(&Unit) -> Unit,
+    ) -> Option<f64> {
         let Some((text, span)) = &amount.value.unit else {
             return Some(amount.value.number);
         };
@@ -214,7 +224,7 @@ impl Checker<'_> {
             span: span.clone(),
             key: span.clone(),
         };
-        let own = self.unit(Some(&stated))?;
+        let own = kind(&self.unit(Some(&stated))?);
         match own.conversion_to(unit) {
             Some(conversion) => Some(conversion.apply(amount.value.number)),
             None => {
@@ -236,7 +246,8 @@ impl Checker<'_> {
 
     /// A positive amount in the unit of differences.
     pub fn spread(&mut self, amount: &Stated<Amount>, unit: &Unit) -> Option<f64> {
-        let value = self.quantity(amount, &unit.difference())?;
+        // 0.05 °C is a difference here, not a point on the scale.
+        let value = self.converted(amount, &unit.difference(), Unit::difference)?;
         if value > 0.0 {
             return Some(value);
         }

@@ -185,7 +185,18 @@ impl Checker<'_> {
             unit: subject.unit,
             place: mpe.span.clone(),
         };
-        let width = self.positive_deviation(mpe, "mpe", &context, false)?;
+        if mpe.value.number <= 0.0 {
+            return self.refuse(
+                Fault::new(
+                    TOLERANCE,
+                    mpe.span.clone(),
+                    "the maximum permissible error is not positive",
+                )
+                .label("must be greater than zero")
+                .help("write it without sign; both limits are `nominal` ± `mpe`"),
+            );
+        }
+        let width = self.deviation(mpe, &context, false)?;
         let nominal = nominal.unwrap_or(0.0);
         Some(Interval {
             lower: nominal - width,

@@ -29,7 +29,7 @@ fn a_permissible_error_is_stated_once_and_whole() {
     for (keys, code, marked) in [
         ("mpe = 0.5\nlower = 1", "B0501", "mpe"),
         ("nominal = 10", "B0501", "nominal"),
-        ("mpe = 0", "B0203", "0"),
+        ("mpe = 0", "B0501", "0"),
         ("mpe = \"2 %\"", "B0214", "\"2 %\""),
     ] {
         let found = faults(&decided(keys));

@@ -340,6 +340,11 @@ impl Definer<'_> {
                 return None;
             }
         };
+        // A size of 1 °C where the quantity is in K is a difference.
+        let own = match unit.is_point() {
+            true => own,
+            false => own.difference(),
+        };
         let converted = own.conversion_to(unit);
         if converted.is_none() {
             self.faults.push(

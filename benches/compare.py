@@ -129,7 +129,7 @@ def peers(baselines, model, trials):
 
 
 def measure(program, baselines):
-    """All turns of one cell after the other: a slow minute falls on one cell of one turn only."""
+    """Turn by turn over all cells: a slow minute falls on few cells, and on one turn of each."""
     with tempfile.TemporaryDirectory() as work:
         for model in MODELS:
             file = pathlib.Path(work) / f"{model}.toml"

@@ -21,16 +21,18 @@ fn an_interrupted_run_writes_no_file() {
         .spawn()
         .expect("the program starts");
     std::thread::sleep(Duration::from_millis(400));
-    // Programs that a script starts in the background are made to ignore Ctrl-C.
-    let status = ["-INT", "-TERM"].iter().find_map(|signal| {
-        let sent = Command::new("kill")
-            .args([signal, child.id().to_string().as_str()])
-            .status();
-        assert!(sent.expect("kill is at hand").success());
-        (0..100).find_map(|_| {
-            std::thread::sleep(Duration::from_millis(50));
-            child.try_wait().expect("the program can be asked")
-        })
+    let signal = if ignores_interrupts(child.id()) {
+        "-TERM"
+    } else {
+        "-INT"
+    };
+    let sent = Command::new("kill")
+        .args([signal, child.id().to_string().as_str()])
+        .status();
+    assert!(sent.expect("kill is at hand").success());
+    let status = (0..100).find_map(|_| {
+        std::thread::sleep(Duration::from_millis(50));
+        child.try_wait().expect("the program can be asked")
     });
     assert!(!status.expect("the program ends").success());
     let left: Vec<_> = std::fs::read_dir(&folder)
@@ -39,4 +41,14 @@ fn an_interrupted_run_writes_no_file() {
         .collect();
     assert_eq!(left, ["budget.toml"]);
     std::fs::remove_dir_all(&folder).expect("it can be removed again");
+}
+
+/// Whether a program was started to ignore Ctrl-C, as those are that a script starts in the background. Where
+/// the system does not tell, it is taken to listen.
+fn ignores_interrupts(process: u32) -> bool {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).unwrap_or_default();
+    let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let signals = ignored.and_then(|hex| u64::from_str_radix(hex.trim(), 16).ok());
+    // Signal n is bit n - 1; SIGINT is 2.
+    signals.is_some_and(|signals| signals & 0b10 != 0)
 }

@@ -44,11 +44,14 @@ UNIT = "B0111", "a unit is not known", "无法识别的单位",
 
 UNIT_CLASH = "B0112", "a unit does not fit", "单位不合适",
 "The unit is of another dimension than the quantity it is used for, for example a half-width in mA for an \
-input in V. The number of a dimension-one amount such as `50 ppm` is taken relative to the value.";
+input in V. The number of a dimension-one amount such as `50 ppm` is taken relative to the value. `°C` is a point \
+on a scale where a value or limit is meant, and a difference in uncertainties: of a quantity in K, a limit in °C \
+is refused, because 1 °C may be 1 K or 274.15 K. Revolutions are an angle of 2π in r/min and °/s, and counted in \
+Hz and seconds: amounts are not carried from one to the other.";
 
 RELATIVE_UNCLEAR = "B0113", "it is not clear of what a percentage is taken", "相对量的含义不明确",
-"For an input that itself has dimension one, `\"0.1 %\"` could be 0.001 of the unit or 0.1 % of the value. \
-Write a plain number in the unit of the input, or add `relative = true` for a fraction of the value.";
+"For a quantity that itself has dimension one, `\"0.1 %\"` could be 0.001 of the unit or 0.1 % of the value. \
+Write a plain number in the unit of the quantity; for an input, `relative = true` makes it a fraction of the value.";
 
 BAD_NAME = "B0114", "a name cannot be used in a formula", "名称不能用于公式",
 "Names of inputs, constants, measurands and sources begin with a letter and go on with letters, digits and \

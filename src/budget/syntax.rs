@@ -145,18 +145,25 @@ fn line_of(at: usize, text: &str) -> Range<usize> {
 
 /// The characters of a line that stand in no text in quotes and in no remark, with their places.
 fn bare(line: Range<usize>, text: &str) -> impl Iterator<Item = (usize, char)> {
-    let mut quote = None;
+    /// Where a character of the line stands.
+    enum At {
+        Bare,
+        Quoted(char),
+        Remark,
+    }
+    let mut place = At::Bare;
     let characters = text[line.clone()].char_indices();
     characters
-        .take_while(|(_, c)| *c != '#')
         .filter(move |(_, c)| {
-            match quote {
-                None if matches!(c, '"' | '\'') => quote = Some(*c),
-                Some(open) if open == *c => quote = None,
-                None => return true,
-                Some(_) => {}
-            }
-            false
+            let (here, bare) = match (&place, *c) {
+                (At::Remark, _) | (At::Bare, '#') => (At::Remark, false),
+                (At::Bare, '"' | '\'') => (At::Quoted(*c), false),
+                (At::Bare, _) => (At::Bare, true),
+                (At::Quoted(open), c) if *open == c => (At::Bare, false),
+                (At::Quoted(open), _) => (At::Quoted(*open), false),
+            };
+            place = here;
+            bare
         })
         .map(move |(at, c)| (line.start + at, c))
 }
@@ -214,10 +221,11 @@ fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
         })
         .find(|(start, at, end)| {
             let alone = text[line.start..*start]
-                .trim_end_matches(['+', '-', ' '])
+                .trim_end_matches(['+', '-', ' ', '\t'])
                 .ends_with('=');
             let followed = text[at + 1..*end].starts_with(digits);
-            alone && start < at && followed && (*at..=*end).contains(&span.start)
+            let spaces = text[*end..line.end].len() - text[*end..line.end].trim_start().len();
+            alone && start < at && followed && (*at..=end + spaces).contains(&span.start)
         });
     let (start, _, end) = number?;
     let number = &text[start..end];
@@ -278,6 +286,8 @@ mod tests {
             ("value = 0,3888", "0,3888", ": 0.3888"),
             ("x = { value = 1,25, u = 2 }", "1,25", ": 1.25"),
             ("value = -1,5e-3", "1,5e-3", ": 1.5e-3"),
+            ("value =\t1,5", "1,5", ": 1.5"),
+            ("x = { unit = \"#\", value = 1,25 }", "1,25", ": 1.25"),
             ("value = 10,000", "10,000", "write 10000, or 10.000"),
             ("value = 10,000.5", "10,000.5", ": 10000.5"),
             ("unit = “mm”", "“", "write `\"`"),

@@ -29,6 +29,7 @@ mod outline;
 mod parser;
 mod printer;
 mod reductions;
+mod scales;
 mod space;
 mod syntax;
 mod terms;

@@ -4,9 +4,9 @@ use super::faults;
 use super::graph::Id;
 use super::lower::{Kind, Lowering, Value};
 use super::printer;
-use super::syntax::{Expr, Infix, Node, Span};
+use super::syntax::{Expr, Node, Span};
 use crate::fault::Fault;
-use crate::quantity::{Dimension, Factor, Unit, hint_for_clash};
+use crate::quantity::{Dimension, Factor, Unit, hint_for_clash, revolutions_as_angle};
 
 /// A quantity and the expression it came from.
 #[derive(Clone, Copy)]
@@ -163,6 +163,10 @@ impl Lowering<'_> {
             self.clash(left, right, what);
             return None;
         }
+        if let Some(help) = revolutions_as_angle(b, a, &printer::factor(right.expr)) {
+            self.counted_revolutions(left.expr, right.expr, [a, b], help);
+            return None;
+        }
         if a.dimension != Dimension::NONE || a.factor == b.factor {
             return Some(a.clone());
         }
@@ -174,207 +178,6 @@ impl Lowering<'_> {
         }
         let plain = a.factor == Factor::ONE || b.factor == Factor::ONE;
         Some(if plain { Unit::one() } else { a.clone() })
-    }
-
-    /// Sum or difference with the arithmetic of temperature scales: point - point is a difference,
-    /// point ± difference is a point.
-    pub fn sum(&mut self, left: Operand<'_>, infix: Infix, right: Operand<'_>) -> Option<Joined> {
-        let a = self.quantity(left.value, left.expr);
-        let b = self.quantity(right.value, right.expr);
-        let (a, b) = (a?, b?);
-        match (a.is_point(), infix, b.is_point()) {
-            (false, _, false) => self.join(
-                left,
-                right,
-                if infix == Infix::Add {
-                    "added"
-                } else {
-                    "subtracted"
-                },
-            ),
-            (true, Infix::Sub, true) => {
-                let joined = self.join(left, right, "subtracted")?;
-                Some(Joined {
-                    unit: a.difference(),
-                    ..joined
-                })
-            }
-            (true, _, false) => {
-                self.no_zero_of_kelvin(left, &a, right)?;
-                self.no_bare_number(left, infix, right, &a)?;
-                let step = left.value.with_kind(Kind::Quantity(a.difference()));
-                let joined = self.join(
-                    Operand {
-                        value: &step,
-                        ..left
-                    },
-                    right,
-                    "added",
-                )?;
-                Some(Joined {
-                    left: left.value.clone(),
-                    right: joined.right,
-                    unit: a,
-                })
-            }
-            (false, Infix::Add, true) => {
-                self.no_zero_of_kelvin(right, &b, left)?;
-                self.no_bare_number(right, infix, left, &b)?;
-                let step = right.value.with_kind(Kind::Quantity(b.difference()));
-                // The other way round, so that the conversion is to the scale of the point.
-                let joined = self.join(
-                    Operand {
-                        value: &step,
-                        ..right
-                    },
-                    left,
-                    "added",
-                )?;
-                Some(Joined {
-                    left: joined.right,
-                    right: right.value.clone(),
-                    unit: b,
-                })
-            }
-            (true, Infix::Add, true) => {
-                self.sum_of_points(left.expr, right.expr, &b);
-                None
-            }
-            _ => {
-                self.point_fault(right.expr, &b);
-                None
-            }
-        }
-    }
-
-    /// The fault of two temperatures in °C that are added, mostly for their mean.
-    fn sum_of_points(&mut self, left: &Expr, right: &Expr, unit: &Unit) {
-        let (a, b) = (printer::expression(left), printer::expression(right));
-        let (symbol, difference) = (&unit.symbol, unit.difference().symbol);
-        self.report(
-            Fault::new(
-                faults::POINT,
-                right.span.clone(),
-                format!("`{a}` and `{b}` are both points on a scale, and have no sum"),
-            )
-            .label(format!("a point on the {symbol} scale"))
-            .related(left.span.clone(), format!("a point on the {symbol} scale"))
-            .help(format!(
-                "their mean is `mean([{a}, {b}])`; where one of them is a difference or a correction, its unit is {difference}: `unit = \"{difference}\"`; thermodynamic temperatures are `kelvin({a}) + kelvin({b})`"
-            )),
-        );
-    }
-
-    /// Refuses 273.15 K added to a temperature in °C, or taken from it: the sum stays on the scale of °C,
-    /// and `kelvin` would add the same once more.
-    fn no_zero_of_kelvin(
-        &mut self,
-        point: Operand<'_>,
-        unit: &Unit,
-        step: Operand<'_>,
-    ) -> Option<()> {
-        let exact = match step.value.elements[..] {
-            [id] => self.builder.constant_at(id),
-            _ => None,
-        };
-        let of_kelvin = match step.value.unit() {
-            Some(own) if own.is_one() => unit.factor.value(),
-            Some(own) => own.factor.value(),
-            None => return Some(()),
-        };
-        let is_zero = exact
-            .zip(unit.origin)
-            .is_some_and(|(value, origin)| (value * of_kelvin - origin).abs() < 1e-9 * origin);
-        if !is_zero {
-            return Some(());
-        }
-        let (text, number) = (
-            printer::expression(point.expr),
-            printer::expression(step.expr),
-        );
-        let symbol = &unit.symbol;
-        self.report(
-            Fault::new(
-                faults::POINT,
-                step.expr.span.clone(),
-                format!(
-                    "`{number}` would move `{text}` along the scale of {symbol}, not to kelvin"
-                ),
-            )
-            .label(format!("the zero of {symbol}"))
-            .related(point.expr.span.clone(), format!("in {symbol}"))
-            .help(format!(
-                "`kelvin({text})` is the thermodynamic temperature of `{text}`"
-            )),
-        );
-        None
-    }
-
-    /// Refuses a number without unit beside a temperature in °C: `t - 20` may mean the difference from
-    /// 20 °C, a temperature that is 20 K lower, or a formula that takes temperatures as numbers.
-    fn no_bare_number(
-        &mut self,
-        point: Operand<'_>,
-        infix: Infix,
-        step: Operand<'_>,
-        unit: &Unit,
-    ) -> Option<()> {
-        let bare = step.value.literal && !step.value.zero && step.value.unit()?.is_one();
-        let Node::Number { text: number, .. } = &step.expr.node else {
-            return Some(());
-        };
-        if !bare {
-            return Some(());
-        }
-        let text = printer::expression(point.expr);
-        let (symbol, difference) = (&unit.symbol, unit.difference().symbol);
-        let help = match infix {
-            Infix::Sub => format!(
-                "the difference from {number} {symbol} is `{text} - {number} '{symbol}'`, a temperature {number} {difference} lower `{text} - {number} '{difference}'`"
-            ),
-            _ => format!(
-                "a temperature {number} {difference} higher is `{text} + {number} '{difference}'`"
-            ),
-        };
-        self.report(
-            Fault::new(
-                faults::CLASH,
-                step.expr.span.clone(),
-                format!("`{number}` has no unit, but meets `{text}`, a temperature in {symbol}"),
-            )
-            .label("a number without unit")
-            .related(point.expr.span.clone(), format!("in {symbol}"))
-            .help(format!(
-                "{help}; a formula for the number of `{text}` in {symbol} takes `value_in({text}, '{symbol}')`"
-            )),
-        );
-        None
-    }
-
-    /// The fault of a point temperature in a product, function or sum of points.
-    pub fn point_fault(&mut self, expr: &Expr, unit: &Unit) {
-        let text = printer::expression(expr);
-        let symbol = &unit.symbol;
-        let difference = unit.difference().symbol;
-        let apart = match subtracted_step(expr) {
-            Some((point, number)) => {
-                format!("the difference from {number} {symbol}, `{point} - {number} '{symbol}'`")
-            }
-            None => format!(
-                "the difference from 0 {symbol}, `{text} - 0 '{symbol}'`, or from another reference, `{text} - 20 '{symbol}'`"
-            ),
-        };
-        self.report(
-            Fault::new(
-                faults::POINT,
-                expr.span.clone(),
-                format!("`{text}` is in {symbol}, a scale with an arbitrary zero, and cannot be used as an amount"),
-            )
-            .label(format!("a point on the {symbol} scale"))
-            .help(format!(
-                "of a temperature write `kelvin({text})`, {apart}, or its number without unit, `value_in({text}, '{symbol}')`; a difference or a correction is stated in {difference}: `unit = \"{difference}\"`"
-            )),
-        );
     }
 
     /// The fault of two dimensions that meet.
@@ -450,6 +253,25 @@ impl Lowering<'_> {
                 "write `{text} '{}'`, or `{text} 'rad'` if radians are meant",
                 unit.symbol
             )),
+        );
+    }
+
+    /// The fault of revolutions that are an angle on one side and counted on the other.
+    fn counted_revolutions(&mut self, left: &Expr, right: &Expr, [a, b]: [&Unit; 2], help: String) {
+        let (left_text, right_text) = (printer::expression(left), printer::expression(right));
+        self.report(
+            Fault::new(
+                faults::REVOLUTIONS,
+                right.span.clone(),
+                format!(
+                    "`{left_text}` ({}) and `{right_text}` ({}) differ by 2π for each revolution",
+                    in_words(a),
+                    in_words(b)
+                ),
+            )
+            .label(in_words(b))
+            .related(left.span.clone(), in_words(a))
+            .help(help),
         );
     }
 
@@ -571,24 +393,6 @@ impl Value {
             zero: false,
             literal: false,
         }
-    }
-}
-
-/// `t` and `20` of `t - 20 'K'`, which is a point where the difference from one was meant.
-fn subtracted_step(expr: &Expr) -> Option<(String, &str)> {
-    let Node::Chain { first, rest } = &expr.node else {
-        return None;
-    };
-    match rest.as_slice() {
-        [(Infix::Sub, right)] => match &right.node {
-            Node::Number {
-                text,
-                unit: Some(unit),
-                ..
-            } if unit.text == "K" => Some((printer::expression(first), text)),
-            _ => None,
-        },
-        _ => None,
     }
 }
 

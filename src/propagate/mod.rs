@@ -254,20 +254,19 @@ fn both_methods(
     missing: Option<&MissingMoments>,
 ) -> MeasurandResult {
     let validation = monte_carlo.map(|mc| validation::validate(&gum, mc));
-    let divergent = matches!(second_order.terms, Terms::Divergent);
-    let second_order = match &second_order.terms {
-        Terms::Found(found) => Some(found.clone()),
-        Terms::Linear | Terms::Divergent => None,
+    let (second_order, first_order_holds) = match &second_order.terms {
+        Terms::Linear => (None, true),
+        Terms::Found(found) => (Some(found.clone()), !found.matters),
+        Terms::Divergent => (None, false),
     };
     let verdict = validation
         .as_ref()
         .map(|both| validation::at(both, budget.conventions.digits));
-    // Only where first order is enough does a linear component explain the missing moments.
-    let linear = !matches!(second_order, Some(ref found) if found.matters) && !divergent;
     let basis = findings::basis(
         &gum,
         monte_carlo.zip(verdict),
-        missing.filter(|_| linear),
+        // Only where first order is enough does a linear component explain the missing moments.
+        missing.filter(|_| first_order_holds),
         budget.conventions.coverage_factor,
     );
     MeasurandResult {

@@ -441,18 +441,27 @@ fn a_thousand_inputs() {
 fn three_readings_beside_a_product_of_zeros_do_not_keep_the_first_order() {
     // First order does not see da·dt; three readings leave Monte Carlo without a standard deviation, and
     // the medians agree: nothing of that supports the u of first order.
-    let result = |model: &str, input: &str| {
+    let evaluation = |model: &str, input: &str| {
         let text = format!(
-            "profile = \"JJF\"\n[measurand.y]\nmodel = \"{model}\"\nunit = \"mm\"\n{input}[input.dt]\nvalue = 0\nunit = \"mm·K\"\nhalf_width = 2\n[input.b]\nunit = \"mm\"\nreadings = [10.0000, 10.0002, 10.0004]\n"
+            "profile = \"JJF\"\n[measurand.y]\nmodel = \"{model}\"\nunit = \"mm\"\n{input}[input.dt]\nvalue = 0\nunit = \"mm·K\"\nhalf_width = 2\n[input.b]\nunit = \"mm\"\nreadings = [10.0000, 10.0002, 10.0004]\n[conformity]\nupper = 10.002\nrule = \"guarded-acceptance\"\n"
         );
         let loaded = crate::budget::read(&text, "b.toml", std::path::Path::new(""));
         let budget = loaded.unwrap().rows.remove(0).budget;
-        let mut evaluation = run(&budget, MonteCarloChoice::AsBudget);
-        evaluation.results.remove(0)
+        run(&budget, MonteCarloChoice::AsBudget)
     };
     let da = "[input.da]\nvalue = 0\nunit = \"1/K\"\nhalf_width = 0.001\n";
-    assert_eq!(result("da * dt + b", da).basis, Basis::MonteCarlo);
-    let linear = result("b + 0.01 '1/K' * dt", "");
-    assert_eq!(linear.monte_carlo.unwrap().u, None);
-    assert_eq!(linear.basis, Basis::Gum);
+    let product = evaluation("da * dt + b", da);
+    let result = &product.results[0];
+    assert_eq!(result.basis, Basis::MonteCarlo);
+    // The decision takes the U that the statement gives.
+    let mc = result.monte_carlo.as_ref().unwrap();
+    let half = (mc.symmetric[1] - mc.symmetric[0]) / 2.0;
+    assert!(half > 2.0 * result.gum.coverage.expanded);
+    let decided = &product.conformity[0];
+    assert_eq!((decided.estimate, decided.expanded), (mc.centre(), half));
+    let linear = evaluation("b + 0.01 '1/K' * dt", "");
+    let result = &linear.results[0];
+    assert_eq!(result.monte_carlo.as_ref().unwrap().u, None);
+    assert_eq!(result.basis, Basis::Gum);
+    assert_eq!(linear.conformity[0].expanded, result.gum.coverage.expanded);
 }

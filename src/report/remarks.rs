@@ -233,8 +233,7 @@ fn few_degrees_in_english(report: &Report<'_>, measurand: Option<usize>, dof: f6
             "{first}, for which a k from the t-distribution allows. More readings of the dominant input would lower U."
         ),
         Some(k) => format!(
-            "{first}. k = {} makes no allowance for that; for {} the t-distribution has k = {}. More readings of the dominant input would help; coverage_factor_from = \"t\" in [conventions] takes the k of the t-distribution.",
-            exact(k),
+            "{first}. k = {k} makes no allowance for that; for {} the t-distribution has k = {}. More readings of the dominant input would help; coverage_factor_from = \"t\" in [conventions] takes the k of the t-distribution.",
             probability(report.coverage_probability()),
             k_of_t(report, dof),
         ),
@@ -252,8 +251,7 @@ fn few_degrees_in_chinese(report: &Report<'_>, measurand: Option<usize>, dof: f6
             "{first}，按 t 分布取包含因子时已考虑这一点。增加主要输入量的重复测量次数可减小 U。"
         ),
         Some(k) => format!(
-            "{first}。k = {} 未考虑这一点；p = {} 时 t 分布的 k 为 {}。可增加主要输入量的重复测量次数，或在 [conventions] 中写 coverage_factor_from = \"t\"，按 t 分布取 k。",
-            exact(k),
+            "{first}。k = {k} 未考虑这一点；p = {} 时 t 分布的 k 为 {}。可增加主要输入量的重复测量次数，或在 [conventions] 中写 coverage_factor_from = \"t\"，按 t 分布取 k。",
             probability(report.coverage_probability()),
             k_of_t(report, dof),
         ),
@@ -261,10 +259,11 @@ fn few_degrees_in_chinese(report: &Report<'_>, measurand: Option<usize>, dof: f6
 }
 
 /// k where it is a convention that does not look at the degrees of freedom.
-fn convention_k(report: &Report<'_>, measurand: Option<usize>) -> Option<f64> {
+fn convention_k(report: &Report<'_>, measurand: Option<usize>) -> Option<String> {
     let coverage = &report.evaluation.results.get(measurand?)?.gum.coverage;
     match (&coverage.basis, report.budget.conventions.coverage_factor) {
-        (CoverageBasis::Fixed, CoverageRule::Fixed(k)) => Some(k),
+        (CoverageBasis::Fixed, CoverageRule::Fixed(k)) => Some(exact(k)),
+        (CoverageBasis::Normal, CoverageRule::Normal) => Some(significant(coverage.k, 3)),
         _ => None,
     }
 }

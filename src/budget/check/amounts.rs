@@ -13,8 +13,13 @@ use crate::fault::Fault;
 use crate::quantity::{DefinitionError, Unit, revolutions_as_angle};
 
 /// Whether a unit of dimension one names a ratio, of which one asks "of what?" (in contrast to angles).
-fn is_ratio(symbol: &str) -> bool {
+pub(super) fn is_ratio(symbol: &str) -> bool {
     matches!(symbol, "%" | "‰" | "ppm" | "ppb" | "ppt" | "1") || symbol.contains('/')
+}
+
+/// Whether a quantity in this unit is itself such a ratio, so that `2 %` of it has two meanings.
+pub(super) fn is_in_ratios(unit: &Unit) -> bool {
+    unit.dimension.is_none() && (is_ratio(&unit.symbol) || unit.symbol.starts_with('%'))
 }
 
 impl Checker<'_> {
@@ -78,7 +83,7 @@ impl Checker<'_> {
     }
 
     /// The unit of an amount, if it has one of its own.
-    fn amount_unit(&mut self, amount: &Amount) -> Option<Option<Unit>> {
+    pub(super) fn amount_unit(&mut self, amount: &Amount) -> Option<Option<Unit>> {
         match &amount.unit {
             None => Some(None),
             Some((text, span)) => {
@@ -113,11 +118,7 @@ impl Checker<'_> {
                 self.refuse(fault)
             }
             _ if revolutions_as_angle(&own, unit, owner).is_some() => {
-                let mut fault = clash(amount, &own, unit, owner);
-                fault.help = Some(format!(
-                    "a revolution is an angle, 2π, in r/min, rpm and °/s, and counted in Hz and seconds: state the amount in {}",
-                    unit.symbol
-                ));
+                let fault = counted_revolutions(amount, &own, unit, owner);
                 self.refuse(fault)
             }
             (false, true) if amount.value.number < 0.0 => {
@@ -139,13 +140,25 @@ impl Checker<'_> {
         let Some(own) = self.amount_unit(&amount.value)? else {
             return Some(amount.value.number);
         };
-        match own.difference().conversion_to(&unit) {
-            Some(conversion) => Some(conversion.apply(amount.value.number)),
-            None => {
-                let fault = clash(amount, &own, &unit, owner);
-                self.refuse(fault)
+        self.difference_in(amount, &own.difference(), &unit, owner)
+    }
+
+    /// The same, of an amount in `own` that is asked for in `unit`.
+    fn difference_in(
+        &mut self,
+        amount: &Stated<Amount>,
+        own: &Unit,
+        unit: &Unit,
+        owner: &str,
+    ) -> Option<f64> {
+        let fault = match own.conversion_to(unit) {
+            Some(_) if revolutions_as_angle(own, unit, owner).is_some() => {
+                counted_revolutions(amount, own, unit, owner)
             }
-        }
+            Some(conversion) => return Some(conversion.apply(amount.value.number)),
+            None => clash(amount, own, unit, owner),
+        };
+        self.refuse(fault)
     }
 
     /// A deviation of a quantity, in the unit of its differences. Amounts such as `50 ppm`, and all
@@ -171,12 +184,11 @@ impl Checker<'_> {
             let fraction = own
                 .conversion_to(&one)
                 .map_or(number, |conversion| conversion.apply(number));
-            let input_is_one = unit.dimension == one.dimension;
-            if relative || (is_ratio(&own.symbol) && !(input_is_one && is_ratio(&unit.symbol))) {
+            if relative || (is_ratio(&own.symbol) && !is_in_ratios(&unit)) {
                 return self.fraction(amount, fraction, context);
             }
             // A source has no value that its amounts could be relative to.
-            if input_is_one && is_ratio(&own.symbol) && context.value.is_some() {
+            if is_ratio(&own.symbol) && context.value.is_some() {
                 return self.refuse(
                     Fault::new(
                         RELATIVE_UNCLEAR,
@@ -191,8 +203,8 @@ impl Checker<'_> {
                 );
             }
         }
-        match own.conversion_to(&unit) {
-            Some(_) if relative => self.refuse(
+        if relative && own.dimension == unit.dimension {
+            return self.refuse(
                 Fault::new(
                     UNIT_CLASH,
                     amount.span.clone(),
@@ -200,13 +212,9 @@ impl Checker<'_> {
                 )
                 .label("has a unit")
                 .help("write a fraction (0.001, \"0.1 %\", \"50 ppm\"), or remove `relative`"),
-            ),
-            Some(conversion) => Some(conversion.apply(number)),
-            None => {
-                let fault = clash(amount, &own, &unit, context.owner);
-                self.refuse(fault)
-            }
+            );
         }
+        self.difference_in(amount, &own, &unit, context.owner)
     }
 
     /// A deviation that must be greater than zero.
@@ -323,6 +331,14 @@ fn percent_meant(amount: &Stated<Amount>, context: &Context<'_>) -> Fault {
 fn place_of_unit(amount: &Stated<Amount>) -> Range<usize> {
     let unit = amount.value.unit.as_ref();
     unit.map_or(amount.span.clone(), |(_, span)| span.clone())
+}
+
+/// Revolutions that are an angle in one of two units and counted in the other.
+fn counted_revolutions(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {
+    clash(amount, own, unit, owner).help(format!(
+        "a revolution is an angle, 2π, in r/min, rpm and °/s, and counted in Hz and seconds: state the amount in {}",
+        unit.symbol
+    ))
 }
 
 /// A temperature in °C where the quantity is in K: the difference of so many °C, or the point?

@@ -115,11 +115,11 @@ impl Checker<'_> {
                 "line {line} of {} has \"{field}\" in column \"{}\", not a number",
                 file.value, column.value
             );
-            let point = field.replace(',', "");
+            let joined = field.replace(',', "");
             let fault = Fault::new(CSV, column.span.clone(), message).label("needed from here");
             self.refuse(if field.trim().is_empty() {
                 fault.help("every row needs a number there; remove the rows that are empty")
-            } else if field.contains(',') && Dd::parse(&point).is_some() {
+            } else if field.contains(',') && Dd::parse(&joined).is_some() {
                 fault.help(without_comma(field.trim(), ""))
             } else {
                 fault

@@ -171,16 +171,16 @@ fn normal_or_t(budget: &Budget, result: &MeasurandResult) -> bool {
     result.basis == Basis::Gum && verdict != Some(Clause8::NotValidated)
 }
 
-/// Estimate, u and U as the statement reports them.
+/// Estimate, u and U as the statement reports them. Where the distribution has no standard deviation, u is that
+/// of the GUM, which the statement leaves out.
 fn reported(result: &MeasurandResult) -> (f64, f64, f64) {
     let gum = &result.gum;
-    let from_gum = (gum.estimate, gum.u, gum.coverage.expanded);
     match (&result.monte_carlo, result.basis) {
-        (Some(mc), Basis::MonteCarlo) => match (mc.estimate, mc.u) {
-            (Some(estimate), Some(u)) => (estimate, u, (mc.symmetric[1] - mc.symmetric[0]) / 2.0),
-            _ => from_gum,
-        },
-        _ => from_gum,
+        (Some(mc), Basis::MonteCarlo) => {
+            let [low, high] = mc.symmetric;
+            (mc.centre(), mc.u.unwrap_or(gum.u), (high - low) / 2.0)
+        }
+        _ => (gum.estimate, gum.u, gum.coverage.expanded),
     }
 }
 

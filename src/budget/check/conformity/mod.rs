@@ -5,10 +5,11 @@ mod rule;
 
 use std::ops::Range;
 
-use crate::budget::check::draft::Context;
+use crate::budget::check::amounts::{is_in_ratios, is_ratio};
+use crate::budget::check::draft::{Context, show};
 use crate::budget::check::register::{Register, no_such_input};
 use crate::budget::check::{Checker, entries};
-use crate::budget::faults::{CLAIM, NAME_TWICE, TOLERANCE};
+use crate::budget::faults::{CLAIM, NAME_TWICE, RELATIVE_UNCLEAR, TOLERANCE};
 use crate::budget::table::Stated;
 use crate::budget::tables::{ConformityTable, FileTable};
 use crate::budget::values::Amount;
@@ -196,6 +197,12 @@ impl Checker<'_> {
                 .help("write it without sign; both limits are `nominal` ± `mpe`"),
             );
         }
+        if let Some(own) = self.amount_unit(&mpe.value)?
+            && is_ratio(&own.symbol)
+            && is_in_ratios(subject.unit)
+        {
+            return self.refuse(part_or_points(mpe, &own, nominal, subject));
+        }
         let width = self.deviation(mpe, &context, false)?;
         let nominal = nominal.unwrap_or(0.0);
         Some(Interval {
@@ -246,6 +253,43 @@ impl Checker<'_> {
         }
         self.claimed(stated, place)
     }
+}
+
+/// A maximum permissible error in % of a quantity that is itself in %: of the nominal value, or points?
+fn part_or_points(
+    mpe: &Stated<Amount>,
+    own: &Unit,
+    nominal: Option<f64>,
+    subject: &Subject<'_>,
+) -> Fault {
+    let Subject { name, unit } = subject;
+    let number = mpe.value.number;
+    let number_in = |unit: &Unit| {
+        let conversion = own.conversion_to(unit);
+        conversion.map_or(number, |conversion| conversion.apply(number))
+    };
+    let points = show(number_in(unit));
+    let which = if unit.is_one() {
+        String::new()
+    } else {
+        format!(", which is in {}", unit.symbol)
+    };
+    let mut help =
+        format!("write the plain number {points}{which}, if the error of {name} itself is meant");
+    if let Some(nominal) = nominal {
+        let part = show(number_in(&Unit::one()) * nominal.abs());
+        help += &format!("; {number} {} of the nominal value are {part}", own.symbol);
+    }
+    Fault::new(
+        RELATIVE_UNCLEAR,
+        mpe.span.clone(),
+        format!(
+            "{number} {} of {name} may be meant of the nominal value or as it stands",
+            own.symbol
+        ),
+    )
+    .label("relative or absolute?")
+    .help(help)
 }
 
 /// The only input, which then carries the measurand.

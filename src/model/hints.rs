@@ -271,8 +271,11 @@ pub fn coarse_steps(graph: &Graph, x: &[f64], u: &[f64]) -> Vec<Notice> {
         let (Op::Binary(row, a, step), Some(label)) = (op, graph.labels.get(&(i as Id))) else {
             continue;
         };
+        if row.rule != Rule::Staircase {
+            continue;
+        }
         let ratio = spread.values[*step as usize].value().abs() / spread.u(*a);
-        if row.rule == Rule::Staircase && ratio > 1.0 && ratio.is_finite() {
+        if ratio > 1.0 && ratio.is_finite() {
             let call = label.call.to_string();
             found.push(Notice::CoarseStep { call, ratio });
         }
@@ -298,10 +301,10 @@ impl<'a> Spread<'a> {
     }
 
     fn u(&self, id: Id) -> f64 {
-        let gradient = self.graph.gradient(&self.values, id, self.u.len());
-        let terms = gradient.iter().zip(self.u);
-        let variance: f64 = terms.map(|(c, u)| (c.value() * u).powi(2)).sum();
-        variance.sqrt()
+        let gradient = self.graph.gradient_of_part(&self.values, id);
+        let parts = gradient.iter().map(|(place, c)| c.value() * self.u[*place]);
+        // The sum of no parts would be −0.
+        parts.fold(0.0, |sum, part| sum + part * part).sqrt()
     }
 }
 

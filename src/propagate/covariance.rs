@@ -14,6 +14,7 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
+use super::elimination::pivoted_cholesky;
 use crate::budget::{Component, Group};
 
 /// A sum that was left over by cancellation alone is zero: relative size of what is left.
@@ -49,7 +50,7 @@ pub(super) struct Correlated {
     pub correlation: DMatrix<f64>,
     /// ν that all members have in common.
     pub dof: Option<f64>,
-    /// L of R = L Lᵀ, members × rank.
+    /// Lᵀ of R = L Lᵀ, rank × members: the coordinates of a member stand together.
     factor: DMatrix<f64>,
     coordinates: Range<usize>,
 }
@@ -80,7 +81,7 @@ impl Covariance {
             }
             let rounding = 8.0 * group.members.len() as f64 * f64::EPSILON;
             let factor = pivoted_cholesky(&group.correlation, rounding);
-            let range = coordinates..coordinates + factor.ncols();
+            let range = coordinates..coordinates + factor.nrows();
             coordinates = range.end;
             correlated.push(Correlated {
                 correlation: group.correlation.clone(),
@@ -159,19 +160,30 @@ impl Covariance {
 
     /// A combination in standard coordinates: (coordinate, value), ascending.
     pub(super) fn standard(&self, form: &[(usize, f64)]) -> Vec<(usize, f64)> {
-        let mut parts = Vec::with_capacity(form.len());
+        let mut alone = Vec::with_capacity(form.len());
+        let mut grouped: BTreeMap<usize, Vec<(f64, f64)>> = BTreeMap::new();
         for &(component, weight) in form {
             match self.place[component] {
-                Place::Alone(coordinate) => parts.push((coordinate, weight)),
+                Place::Alone(coordinate) => alone.push((coordinate, weight)),
                 Place::Row { group, row } => {
-                    let group = &self.groups[group];
-                    for (column, coordinate) in group.coordinates.clone().enumerate() {
-                        parts.push((coordinate, weight * group.factor[(row, column)]));
+                    let column = self.groups[group].factor.column(row);
+                    let sums = grouped.entry(group);
+                    let sums = sums.or_insert_with(|| vec![(0.0, 0.0); column.len()]);
+                    for ((sum, size), part) in sums.iter_mut().zip(column.as_slice()) {
+                        *sum += weight * part;
+                        *size += (weight * part).abs();
                     }
                 }
             }
         }
-        merge(parts)
+        // Groups have the first coordinates.
+        let of_group = |(group, sums): (usize, Vec<(f64, f64)>)| {
+            let sums = sums.into_iter().map(|(sum, size)| clean(sum, size));
+            self.groups[group].coordinates().zip(sums)
+        };
+        let mut parts: Vec<(usize, f64)> = grouped.into_iter().flat_map(of_group).collect();
+        parts.append(&mut alone);
+        parts
     }
 
     /// As [`Covariance::standard`], with a place for every coordinate.
@@ -190,11 +202,9 @@ impl Covariance {
             Place::Alone(coordinate) => vector[coordinate],
             Place::Row { group, row } => {
                 let group = &self.groups[group];
-                let coordinates = group.coordinates.clone();
-                coordinates
-                    .enumerate()
-                    .map(|(k, c)| group.factor[(row, k)] * vector[c])
-                    .sum()
+                let column = group.factor.column(row);
+                let products = column.iter().zip(&vector[group.coordinates()]);
+                products.map(|(a, b)| a * b).sum()
             }
         }
     }
@@ -222,6 +232,15 @@ pub(super) fn norm(values: impl Iterator<Item = f64> + Clone) -> f64 {
     largest * values.map(|v| (v / largest).powi(2)).sum::<f64>().sqrt()
 }
 
+/// A sum whose terms have this size together; zero where nothing but cancellation is left.
+fn clean(sum: f64, size: f64) -> f64 {
+    if sum.abs() <= CANCELLED * size {
+        0.0
+    } else {
+        sum
+    }
+}
+
 /// Adds entries of the same index; what cancellation leaves of a sum is zero.
 fn merge(parts: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
     if parts.windows(2).all(|pair| pair[0].0 < pair[1].0) {
@@ -233,44 +252,9 @@ fn merge(parts: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
         *sum += value;
         *size += value.abs();
     }
-    let clean = |sum: f64, size: f64| {
-        if sum.abs() <= CANCELLED * size {
-            0.0
-        } else {
-            sum
-        }
-    };
     sums.into_iter()
         .map(|(index, (sum, size))| (index, clean(sum, size)))
         .collect()
-}
-
-/// L with R = L Lᵀ and as many columns as the correlation matrix R has rank: Cholesky with diagonal
-/// pivoting, ended where no pivot exceeds `negligible`.
-pub(super) fn pivoted_cholesky(matrix: &DMatrix<f64>, negligible: f64) -> DMatrix<f64> {
-    let n = matrix.nrows();
-    let mut rest: Vec<f64> = (0..n).map(|i| matrix[(i, i)]).collect();
-    let mut free: Vec<bool> = vec![true; n];
-    let mut columns: Vec<Vec<f64>> = Vec::new();
-    while let Some(pivot) = (0..n)
-        .filter(|i| free[*i])
-        .max_by(|a, b| rest[*a].total_cmp(&rest[*b]))
-    {
-        if rest[pivot].is_nan() || rest[pivot] <= negligible {
-            break;
-        }
-        let root = rest[pivot].sqrt();
-        let mut column = vec![0.0; n];
-        free[pivot] = false;
-        column[pivot] = root;
-        for i in (0..n).filter(|i| free[*i]) {
-            let known: f64 = columns.iter().map(|c| c[i] * c[pivot]).sum();
-            column[i] = (matrix[(i, pivot)] - known) / root;
-            rest[i] -= column[i] * column[i];
-        }
-        columns.push(column);
-    }
-    DMatrix::from_fn(n, columns.len(), |i, k| columns[k][i])
 }
 
 #[cfg(test)]
@@ -289,15 +273,6 @@ mod tests {
 
     fn pair(r: f64) -> DMatrix<f64> {
         DMatrix::from_row_slice(2, 2, &[1.0, r, r, 1.0])
-    }
-
-    #[test]
-    fn the_factor_restores_the_matrix_and_finds_its_rank() {
-        let root = DMatrix::from_row_slice(4, 2, &[1.0, 0.0, 0.6, 0.8, -0.28, 0.96, 0.8, -0.6]);
-        let matrix = &root * root.transpose();
-        let factor = pivoted_cholesky(&matrix, 1e-14);
-        assert_eq!(factor.ncols(), 2);
-        assert!((&factor * factor.transpose() - matrix).amax() < 1e-14);
     }
 
     #[test]

@@ -266,16 +266,19 @@ fn blocks(covariance: &Covariance, members: Vec<usize>) -> Vec<Vec<usize>> {
         (Some((group, i)), Some((_, j))) => covariance.correlated(group).correlation[(i, j)] != 0.0,
         _ => false,
     };
-    let mut blocks: Vec<Vec<usize>> = Vec::new();
-    for member in members {
-        let (touching, mut rest): (Vec<_>, Vec<_>) = blocks
-            .into_iter()
-            .partition(|block: &Vec<usize>| block.iter().any(|other| linked(member, *other)));
-        let mut joined: Vec<usize> = touching.into_iter().flatten().collect();
-        joined.push(member);
-        joined.sort_unstable();
-        rest.push(joined);
-        blocks = rest;
+    let mut blocks = Vec::new();
+    let mut rest = members;
+    while !rest.is_empty() {
+        let mut block = vec![rest.remove(0)];
+        let mut known = 0;
+        while let Some(&member) = block.get(known) {
+            let (linked, apart) = rest.into_iter().partition(|other| linked(member, *other));
+            block.extend::<Vec<usize>>(linked);
+            rest = apart;
+            known += 1;
+        }
+        block.sort_unstable();
+        blocks.push(block);
     }
     blocks
 }

@@ -8,7 +8,8 @@
 
 use nalgebra::{Cholesky, DMatrix};
 
-use super::covariance::{Form, pivoted_cholesky};
+use super::covariance::Form;
+use super::elimination::pivoted_cholesky;
 use super::freedom;
 use super::gum::Linear;
 use super::monte_carlo::McOutcome;
@@ -73,7 +74,7 @@ fn in_one_unit(outputs: &[Output]) -> bool {
 fn is_degenerate(correlation: &DMatrix<f64>) -> bool {
     // NaN correlations (no derivative) have no region either.
     correlation.iter().any(|r| r.is_nan())
-        || pivoted_cholesky(correlation, DEPENDENT).ncols() < correlation.nrows()
+        || pivoted_cholesky(correlation, DEPENDENT).nrows() < correlation.nrows()
 }
 
 /// k_p of the elliptical region in `count` dimensions; infinite when ν is too small for Hotelling's

@@ -8,6 +8,7 @@ mod coverage;
 mod decide;
 #[cfg(test)]
 mod draft;
+mod elimination;
 mod finding;
 mod findings;
 mod freedom;

@@ -17,6 +17,7 @@
 //! | [`as241`] | coefficients of the normal quantile |
 //! | [`quantile`] | from uniform numbers to values of a distribution, by its quantile function |
 //! | [`kernel`] | averages of distribution functions over points |
+//! | [`products`] | products of rows, subtracted from a symmetric matrix |
 //! | [`bins`] | counts in equal bins, and the values of chosen ones |
 //! | [`sift`] | the values outside of two stretches, and counts of the others |
 //! | [`moments`] | sums of powers, extremes and the count of trials that have no finite value |
@@ -51,6 +52,7 @@ pub mod kernel;
 pub mod level;
 pub mod moments;
 pub mod ops;
+pub mod products;
 pub mod quantile;
 pub mod sampler;
 pub mod sift;

@@ -1,5 +1,7 @@
 //! Values and derivatives of a graph: forwards with jets, backwards with adjoints.
 
+use std::collections::BTreeMap;
+
 use super::{Graph, Id, Op};
 use crate::model::implicit;
 use crate::model::jet::Jet;
@@ -39,49 +41,81 @@ impl Graph {
 
     /// Derivatives of one operation with respect to all operations up to it, by one pass backward.
     pub fn adjoints<const N: usize>(&self, values: &[Jet<N>], of: Id) -> Vec<Jet<N>> {
-        let zero = Jet::constant(0.0);
-        let mut adjoints = vec![zero; of as usize + 1];
+        let mut adjoints = vec![Jet::constant(0.0); of as usize + 1];
         adjoints[of as usize] = Jet::constant(1.0);
-        for i in (0..=of as usize).rev() {
-            let bar = adjoints[i];
-            if bar.is_zero() {
-                continue;
-            }
-            let at = |id: Id| values[id as usize];
-            let mut pass = |id: Id, slope: Jet<N>| {
-                // Where the slope is infinite but nothing moves, nothing is passed on.
-                if !slope.is_zero() {
-                    adjoints[id as usize] = adjoints[id as usize] + bar * slope;
-                }
-            };
-            match self.ops[i] {
-                Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => {}
-                Op::Unary(row, a) => pass(a, row.slope(at(a))),
-                Op::Binary(row, a, b) => {
-                    let (da, db) = row.slopes(at(a), at(b));
-                    pass(a, da);
-                    pass(b, db);
-                }
-                Op::Power(a, c) => {
-                    let derivatives = operation::power(at(a).value(), f64::from_bits(c));
-                    pass(a, at(a).compose(&derivatives[1..]));
-                }
-                Op::Select(c, a, b) => {
-                    let chosen = if at(c).value() != 0.0 { a } else { b };
-                    pass(chosen, Jet::constant(1.0));
-                }
-                Op::Solve(n) => {
-                    let equation = &self.implicit[n as usize];
-                    let parameters: Vec<Jet<N>> =
-                        equation.parameters.iter().map(|p| at(*p)).collect();
-                    let slopes = implicit::slopes(&equation.residual, values[i], &parameters);
-                    for (parameter, slope) in equation.parameters.iter().zip(slopes) {
-                        pass(*parameter, slope);
-                    }
-                }
+        for id in (0..=of).rev() {
+            let bar = adjoints[id as usize];
+            if !bar.is_zero() {
+                self.pass_on(values, id, bar, |operand, part| {
+                    adjoints[operand as usize] = adjoints[operand as usize] + part;
+                });
             }
         }
         adjoints
+    }
+
+    /// Gives each operand of an operation its part of the adjoint of the operation.
+    fn pass_on<const N: usize>(
+        &self,
+        values: &[Jet<N>],
+        id: Id,
+        bar: Jet<N>,
+        mut give: impl FnMut(Id, Jet<N>),
+    ) {
+        let at = |id: Id| values[id as usize];
+        let mut pass = |id: Id, slope: Jet<N>| {
+            // Where the slope is infinite but nothing moves, nothing is passed on.
+            if !slope.is_zero() {
+                give(id, bar * slope);
+            }
+        };
+        match self.ops[id as usize] {
+            Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => {}
+            Op::Unary(row, a) => pass(a, row.slope(at(a))),
+            Op::Binary(row, a, b) => {
+                let (da, db) = row.slopes(at(a), at(b));
+                pass(a, da);
+                pass(b, db);
+            }
+            Op::Power(a, c) => {
+                let derivatives = operation::power(at(a).value(), f64::from_bits(c));
+                pass(a, at(a).compose(&derivatives[1..]));
+            }
+            Op::Select(c, a, b) => {
+                let chosen = if at(c).value() != 0.0 { a } else { b };
+                pass(chosen, Jet::constant(1.0));
+            }
+            Op::Solve(n) => {
+                let equation = &self.implicit[n as usize];
+                let parameters: Vec<Jet<N>> = equation.parameters.iter().map(|p| at(*p)).collect();
+                let slopes = implicit::slopes(&equation.residual, at(id), &parameters);
+                for (parameter, slope) in equation.parameters.iter().zip(slopes) {
+                    pass(*parameter, slope);
+                }
+            }
+        }
+    }
+
+    /// Derivatives of one operation with respect to the inputs that it uses, (place, derivative), in no
+    /// particular order: the time goes with what the operation is made of, not with the size of the graph.
+    pub fn gradient_of_part<const N: usize>(
+        &self,
+        values: &[Jet<N>],
+        of: Id,
+    ) -> Vec<(usize, Jet<N>)> {
+        let mut gradient = Vec::new();
+        // Operands stand before what is made of them: the last one is complete.
+        let mut open = BTreeMap::from([(of, Jet::constant(1.0))]);
+        while let Some((id, bar)) = open.pop_last() {
+            if let Op::Input(place) = self.ops[id as usize] {
+                gradient.push((place as usize, bar));
+            }
+            self.pass_on(values, id, bar, |operand, part| {
+                let sum = open.entry(operand).or_insert(Jet::constant(0.0));
+                *sum = *sum + part;
+            });
+        }
+        gradient
     }
 
     /// Derivatives of one operation with respect to the inputs.

@@ -141,9 +141,10 @@ impl<'a, S: Source> Collector<'a, S> {
                     self.sieve_if_many();
                 }
                 Held::Sieved(sieved) => {
+                    sieved.plan(ask);
                     let tally = || Tally::new(sieved);
                     let (moments, tallies) = simulate(source, layout, next.clone(), threads, tally);
-                    sieved.absorb(moments, tallies, ask);
+                    sieved.absorb(moments, tallies);
                     self.drawn(next);
                 }
             }
@@ -201,7 +202,7 @@ impl<'a, S: Source> Collector<'a, S> {
             && self.trials >= PILOT
         {
             let columns = std::mem::take(columns);
-            let sieved = Sieved::holding(columns, self.plan.pivots, self.plan.p, self.plan.ask);
+            let sieved = Sieved::holding(columns, self.plan.pivots, self.plan.p);
             self.held = Held::Sieved(Box::new(sieved));
         }
     }
@@ -209,7 +210,7 @@ impl<'a, S: Source> Collector<'a, S> {
 
 impl Sieved {
     /// Takes over values, which tell how to sieve further ones.
-    fn holding(mut columns: Vec<Vec<f64>>, pivots: &[Pivot], p: f64, ask: &Ask) -> Self {
+    fn holding(mut columns: Vec<Vec<f64>>, pivots: &[Pivot], p: f64) -> Self {
         let (pivots, orders): (Vec<Pivot>, Vec<Ordered>) = columns
             .iter()
             .zip(pivots)
@@ -227,19 +228,28 @@ impl Sieved {
         sieved.sieves = sieves
             .map(|(column, order)| Sieve::holding(column, order, p))
             .collect();
-        sieved.absorb(sums, Vec::new(), ask);
+        sieved.absorb(sums, Vec::new());
         sieved
     }
 
     /// Takes values that are at hand.
     fn take(&mut self, columns: &[Vec<f64>], ask: &Ask) {
+        self.plan(ask);
         let mut tally = Tally::new(self);
         let chunks = each_chunk(columns, &mut tally);
-        self.absorb(chunks, vec![tally], ask);
+        self.absorb(chunks, vec![tally]);
+    }
+
+    /// Before further values come: decides which of them to keep.
+    fn plan(&mut self, ask: &Ask) {
+        // From fewer values nothing can be planned; they are few enough to be kept.
+        for sieve in self.sieves.iter_mut().filter(|s| s.count() >= FEWEST) {
+            sieve.plan(&ask(sieve.count()));
+        }
     }
 
     /// Takes over what some chunks left behind.
-    fn absorb(&mut self, chunks: Vec<ChunkSums>, tallies: Vec<Tally>, ask: &Ask) {
+    fn absorb(&mut self, chunks: Vec<ChunkSums>, tallies: Vec<Tally>) {
         for chunk in chunks {
             for (all, moments) in self.moments.iter_mut().zip(&chunk.moments) {
                 *all = all.merge(moments);
@@ -252,10 +262,6 @@ impl Sieved {
             for (sieve, strainer) in self.sieves.iter_mut().zip(tally.strainers) {
                 sieve.absorb(strainer.finish());
             }
-        }
-        // From fewer values nothing can be planned; they are few enough to be kept.
-        for sieve in self.sieves.iter_mut().filter(|s| s.count() >= FEWEST) {
-            sieve.plan(&ask(sieve.count()));
         }
     }
 }

@@ -96,31 +96,35 @@ impl Resolved {
             [run.low, run.high] = sieve.span(*first.start()..=*last.end());
         }
         let mut known = Vec::new();
-        let threads = again.threads();
-        let mut memory = kept.map(|parts| of_each(parts, threads, |part| inside(&runs, part)));
+        let mut held = kept;
+        let mut finer: Option<Finer> = None;
+        // Whether finer counts would not help much further.
+        let mut stuck = false;
         loop {
             let total: u64 = runs.iter().map(|run| run.count).sum();
-            let parts = match memory.take() {
-                Some(parts) => Some(parts),
-                None if total <= MOST_KEPT as u64 => Some(gathered(&runs, output, again)),
-                None => None,
-            };
-            let parts = match parts {
-                Some(parts) if total <= SORTED => {
+            let sorts = stuck || total <= SORTED;
+            if held.is_none() && (sorts || total <= MOST_KEPT as u64) {
+                held = Some(gathered(&runs, output, again));
+                finer = None;
+            }
+            let counts = match held.take() {
+                Some(parts) if sorts => {
+                    let parts = narrowed(parts, &runs, finer.as_ref(), again.threads());
                     return Resolved::sorted(parts, &runs, known, wanted.count, depth);
                 }
-                parts => parts,
-            };
-            let counted = match &parts {
-                Some(parts) => Finer::of(parts, &runs, threads),
+                Some(parts) => {
+                    let (parts, counts) = counted(parts, &runs, finer.as_ref(), again.threads());
+                    held = Some(parts);
+                    counts
+                }
                 None => {
                     let watches = again.show(|| Watch::new(output, Finer::new(&runs)));
                     watches.into_iter().map(|watch| watch.keeper).collect()
                 }
             };
-            let finer =
-                (counted.into_iter().reduce(Finer::merged)).unwrap_or_else(|| Finer::new(&runs));
-            cells = finer.cells();
+            let all =
+                (counts.into_iter().reduce(Finer::merged)).unwrap_or_else(|| Finer::new(&runs));
+            cells = all.cells();
             cells.append(&mut known);
             cells.sort_unstable_by_key(|cell| cell.below);
             let needed = wanted.cells(&cells, Slack::NONE);
@@ -136,12 +140,8 @@ impl Resolved {
                 .collect();
             runs = self::runs(&cells, &open);
             let left: u64 = runs.iter().map(|run| run.count).sum();
-            memory = parts.map(|parts| of_each(parts, threads, |part| finer.inside(&runs, part)));
-            if left > total / 2 {
-                // Finer counts would not help much further.
-                let parts = memory.unwrap_or_else(|| gathered(&runs, output, again));
-                return Resolved::sorted(parts, &runs, known, wanted.count, depth);
-            }
+            stuck = left > total / 2;
+            finer = Some(all);
         }
     }
 
@@ -236,16 +236,49 @@ impl Ranked for Resolved {
 }
 
 /// What a task makes of each part of some values.
-fn of_each<P: AsRef<[f64]> + Send, T: Send>(
-    parts: Vec<P>,
+fn of_each<T: Send>(
+    parts: Vec<Vec<f64>>,
     threads: usize,
-    task: impl Fn(P) -> T + Sync,
+    task: impl Fn(Vec<f64>) -> T + Sync,
 ) -> Vec<T> {
     /// Fewer values are done before another thread has begun.
     const LEAST: usize = 1 << 15;
-    let values: usize = parts.iter().map(|part| part.as_ref().len()).sum();
+    let values: usize = parts.iter().map(Vec::len).sum();
     let threads = if values < LEAST { 1 } else { threads };
     parallel_map(parts, threads, || (), |(), part| task(part), |()| ()).0
+}
+
+/// Those of some values that lie in runs, which may be rows of cells of finer counts of the values.
+fn narrowed(
+    parts: Vec<Vec<f64>>,
+    runs: &[Run],
+    finer: Option<&Finer>,
+    threads: usize,
+) -> Vec<Vec<f64>> {
+    of_each(parts, threads, |part| narrow(part, runs, finer))
+}
+
+/// The same, and the counts of each part.
+fn counted(
+    parts: Vec<Vec<f64>>,
+    runs: &[Run],
+    finer: Option<&Finer>,
+    threads: usize,
+) -> (Vec<Vec<f64>>, Vec<Finer>) {
+    let both = of_each(parts, threads, |part| {
+        let part = narrow(part, runs, finer);
+        let mut counts = Finer::new(runs);
+        part.chunks(LANES).for_each(|values| counts.add(values));
+        (part, counts)
+    });
+    both.into_iter().unzip()
+}
+
+fn narrow(values: Vec<f64>, runs: &[Run], finer: Option<&Finer>) -> Vec<f64> {
+    match finer {
+        Some(finer) => finer.inside(runs, values),
+        None => inside(runs, values),
+    }
 }
 
 /// Rows of neighbouring cells that are all chosen.
@@ -344,16 +377,6 @@ impl Finer {
             grids,
             places: Vec::new(),
         }
-    }
-
-    /// The counts of each part of the values of some runs.
-    fn of(parts: &[Vec<f64>], runs: &[Run], threads: usize) -> Vec<Finer> {
-        let parts: Vec<&[f64]> = parts.iter().map(Vec::as_slice).collect();
-        of_each(parts, threads, |part| {
-            let mut finer = Finer::new(runs);
-            part.chunks(LANES).for_each(|values| finer.add(values));
-            finer
-        })
     }
 
     fn merged(mut self, other: Finer) -> Finer {

@@ -77,7 +77,7 @@ pub fn neighbours(graph: &Graph, inputs: usize) -> Option<Vec<Vec<usize>>> {
 }
 
 /// Shows the operands that are not constant, and whether the operation is nonlinear in them.
-fn varying_operands(graph: &Graph, op: Op, mut show: impl FnMut(Id, bool)) {
+pub(super) fn varying_operands(graph: &Graph, op: Op, mut show: impl FnMut(Id, bool)) {
     let varies = |id: Id| graph.constant(id).is_none();
     let mut meets = |id: Id, nonlinear: bool| {
         if varies(id) {

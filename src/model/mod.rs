@@ -11,6 +11,7 @@ mod catalogue;
 mod check;
 mod complex;
 mod curves;
+mod cut;
 mod exact;
 pub mod faults;
 mod forms;
@@ -48,6 +49,7 @@ use nalgebra::DMatrix;
 pub use block::BlockRunner;
 pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
+pub(crate) use cut::Cut;
 pub use notice::{Notice, Office};
 pub use outline::{Outline, outline};
 pub(crate) use tree::Leaf;
@@ -188,7 +190,7 @@ impl Model {
 
     /// f(x) for every output, in its unit.
     pub fn values(&self, x: &[f64]) -> Vec<f64> {
-        let values = self.graph.evaluate(&jets::<1>(x, x));
+        let values = self.graph.evaluate(&points(x));
         self.graph
             .outputs
             .iter()
@@ -198,7 +200,7 @@ impl Model {
 
     /// ∂f_o/∂x_i, outputs × inputs, by one reverse sweep per output.
     pub fn gradients(&self, x: &[f64]) -> DMatrix<f64> {
-        let values = self.graph.evaluate(&jets::<1>(x, x));
+        let values = self.graph.evaluate(&points(x));
         let mut out = DMatrix::zeros(self.outputs.len(), self.inputs);
         for (row, id) in self.graph.outputs.iter().enumerate() {
             for (column, slope) in self
@@ -214,21 +216,15 @@ impl Model {
     }
 
     /// First, second and third derivatives along `direction`, for every output.
-    ///
-    /// The reverse sweep is done in numbers that carry two derivatives along the direction, so the
-    /// result is exact.
     pub fn along(&self, x: &[f64], direction: &[f64]) -> Vec<Along> {
-        let values = self.graph.evaluate(&jets::<3>(x, direction));
-        let sweep = |id: &graph::Id| {
-            let gradient = self.graph.gradient(&values, *id, self.inputs);
-            let part = |k: usize| gradient.iter().map(|g| g.0[k]).collect();
-            Along {
-                gradient: part(0),
-                second: part(1),
-                third: part(2),
-            }
-        };
-        self.graph.outputs.iter().map(sweep).collect()
+        self.graph.along(x, direction)
+    }
+
+    /// One output, cut where many inputs meet in one value; see [`Cut`]. `None` where there would be many such
+    /// values, or none of it would help.
+    pub(crate) fn cut(&self, output: usize) -> Option<Cut<'_>> {
+        let of = *self.graph.outputs.get(output)?;
+        Cut::new(&self.graph, self.inputs, of)
     }
 
     /// Derivatives of up to third order of one output, divided by `unit`, for every input that it uses and whose
@@ -317,10 +313,7 @@ impl Model {
     }
 }
 
-/// The point x, moving along a direction.
-fn jets<const N: usize>(x: &[f64], direction: &[f64]) -> Vec<Jet<N>> {
-    x.iter()
-        .zip(direction)
-        .map(|(x, d)| Jet::line(*x, *d))
-        .collect()
+/// The point x, at rest.
+fn points(x: &[f64]) -> Vec<Jet<1>> {
+    x.iter().map(|x| Jet::constant(*x)).collect()
 }

@@ -16,9 +16,12 @@
 //! different blocks of inputs ([`crate::model::Model::interactions`]) share a sweep, and the sums
 //! run only over directions that have a block in common: Σ xᵢ² takes one sweep for any number of
 //! inputs. A formula that uses every input once, as x₁x₂…x_n, takes one pass, and one whose terms overlap
-//! little, as x₁x₂ + x₂x₃ + …, a few sweeps ([`sparse`]).
+//! little, as x₁x₂ + x₂x₃ + …, a few sweeps ([`sparse`]); so does one in which many inputs meet in few values,
+//! as in a standard deviation or a weighted mean, also where inputs correlate ([`hubs`]).
 
+mod hubs;
 mod sparse;
+mod spread;
 
 use super::SecondOrder;
 use super::covariance::Covariance;
@@ -76,7 +79,19 @@ pub(super) enum Terms {
 
 /// Second-order terms of every measurand.
 pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
-    let blocks = budget.model.interactions();
+    evaluate_over(budget, linear, &vec![true; linear.x.len()])
+}
+
+/// Second-order terms when only the inputs marked in `changing` change, the others staying at their
+/// estimates: of these, `shift` and `curvature` have a meaning.
+pub(super) fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Outcome> {
+    let blocks: Vec<Option<usize>> = budget
+        .model
+        .interactions()
+        .into_iter()
+        .zip(changing)
+        .map(|(block, changes)| block.filter(|_| *changes))
+        .collect();
     let directions = directions(
         &linear.covariance,
         &budget.inputs,
@@ -84,19 +99,26 @@ pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
         &blocks,
     );
     let plan = Plan::new(&directions, &blocks);
-    if plan.sweeps.len() > MANY_SWEEPS
-        && let Some(outcomes) = single_use(budget, linear, &directions)
-            .or_else(|| sparse::outcomes(budget, linear, &directions))
-    {
-        return outcomes;
-    }
-    accumulate(linear, &directions, &plan, |direction| {
-        budget.model.along(&linear.x, direction)
+    let few = || single_use(budget, linear, &directions);
+    let near = || sparse::outcomes(budget, linear, &directions);
+    let hubs = || hubs::outcomes(budget, linear, changing);
+    let found = match plan.sweeps.len() {
+        ..=MANY_SWEEPS => None,
+        ..=MOST_SWEEPS => few().or_else(near),
+        _ => few().or_else(near).or_else(hubs),
+    };
+    found.unwrap_or_else(|| {
+        accumulate(linear, &directions, &plan, |direction| {
+            budget.model.along(&linear.x, direction)
+        })
     })
 }
 
 /// So many sweeps take the time of one pass through a formula that uses every input once.
 const MANY_SWEEPS: usize = 3;
+
+/// More sweeps take longer than a look for hubs, and what follows when there are few.
+const MOST_SWEEPS: usize = 48;
 
 /// Per input the direction that moves it, where each moves one input only.
 fn movers(directions: &[Direction], inputs: usize) -> Option<Vec<Option<&Direction>>> {
@@ -133,19 +155,8 @@ fn single_use(budget: &Budget, linear: &Linear, directions: &[Direction]) -> Opt
     linear.measurands.iter().enumerate().map(outcome).collect()
 }
 
-/// Second-order terms when only the inputs marked in `changing` change, the others staying at their
-/// estimates.
-pub(super) fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Outcome> {
-    let blocks = budget.model.interactions();
-    let blocks: Vec<Option<usize>> = blocks
-        .into_iter()
-        .zip(changing)
-        .map(|(block, changes)| block.filter(|_| *changes))
-        .collect();
-    over(budget, linear, &blocks)
-}
-
-/// Second-order terms over the inputs that are in a block of interacting inputs.
+/// Second-order terms over the inputs that are in a block of interacting inputs, by sweeps for all of them.
+#[cfg(test)]
 fn over(budget: &Budget, linear: &Linear, blocks: &[Option<usize>]) -> Vec<Outcome> {
     let directions = directions(
         &linear.covariance,

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Graph, Id, Op};
+use crate::model::Along;
 use crate::model::implicit;
 use crate::model::jet::Jet;
 use crate::model::operation;
@@ -116,6 +117,29 @@ impl Graph {
             });
         }
         gradient
+    }
+
+    /// First, second and third derivatives of every output along a direction.
+    ///
+    /// The reverse sweep is done in numbers that carry two derivatives along the direction, so the
+    /// result is exact.
+    pub fn along(&self, x: &[f64], direction: &[f64]) -> Vec<Along> {
+        let points: Vec<Jet<3>> = x
+            .iter()
+            .zip(direction)
+            .map(|(x, d)| Jet::line(*x, *d))
+            .collect();
+        let values = self.evaluate(&points);
+        let sweep = |id: &Id| {
+            let gradient = self.gradient(&values, *id, x.len());
+            let part = |k: usize| gradient.iter().map(|g| g.0[k]).collect();
+            Along {
+                gradient: part(0),
+                second: part(1),
+                third: part(2),
+            }
+        };
+        self.outputs.iter().map(sweep).collect()
     }
 
     /// Derivatives of one operation with respect to the inputs.

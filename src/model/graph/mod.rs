@@ -144,23 +144,7 @@ impl Graph {
         mut out: Graph,
     ) -> (Graph, HashMap<Id, Id>) {
         for (i, op) in self.ops.iter().enumerate().filter(|(i, _)| keep[*i]) {
-            let at = |id: Id| replaced[&id];
-            let moved = match *op {
-                Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => *op,
-                Op::Unary(row, a) => Op::Unary(row, at(a)),
-                Op::Binary(row, a, b) => Op::Binary(row, at(a), at(b)),
-                Op::Power(a, c) => Op::Power(at(a), c),
-                Op::Select(c, a, b) => Op::Select(at(c), at(a), at(b)),
-                Op::Solve(n) => {
-                    let equation = &self.implicit[n as usize];
-                    out.implicit.push(Implicit {
-                        start: at(equation.start),
-                        parameters: equation.parameters.iter().map(|p| at(*p)).collect(),
-                        residual: Arc::clone(&equation.residual),
-                    });
-                    Op::Solve(out.implicit.len() as u32 - 1)
-                }
-            };
+            let moved = self.moved(*op, |id| replaced[&id], &mut out);
             let id = out.ops.len() as Id;
             out.ops.push(moved);
             if let Some(label) = self.labels.get(&(i as Id)) {
@@ -177,5 +161,49 @@ impl Graph {
         };
         out.tables.extend(self.tables.iter().filter_map(moved));
         (out, replaced)
+    }
+
+    /// An operation with other operands; its equation, if it solves one, goes to `out`.
+    fn moved(&self, op: Op, at: impl Fn(Id) -> Id, out: &mut Graph) -> Op {
+        match op {
+            Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => op,
+            Op::Unary(row, a) => Op::Unary(row, at(a)),
+            Op::Binary(row, a, b) => Op::Binary(row, at(a), at(b)),
+            Op::Power(a, c) => Op::Power(at(a), c),
+            Op::Select(c, a, b) => Op::Select(at(c), at(a), at(b)),
+            Op::Solve(n) => {
+                let equation = &self.implicit[n as usize];
+                out.implicit.push(Implicit {
+                    start: at(equation.start),
+                    parameters: equation.parameters.iter().map(|p| at(*p)).collect(),
+                    residual: Arc::clone(&equation.residual),
+                });
+                Op::Solve(out.implicit.len() as u32 - 1)
+            }
+        }
+    }
+
+    /// The same output with some operations, in rising order, as further inputs: the output and then what these
+    /// operations are made of. The new inputs have the places from `inputs` on.
+    pub fn cut(&self, of: Id, hubs: &[Id], inputs: usize) -> Graph {
+        let mut out = Graph::default();
+        let places = (0..hubs.len()).map(|k| Op::Input((inputs + k) as u32));
+        out.ops.extend(places);
+        let mut replaced: HashMap<Id, Id> = HashMap::new();
+        let mut made = Vec::with_capacity(hubs.len());
+        let needed = self.needed(&[of]);
+        for id in (0..=of).filter(|id| needed[*id as usize]) {
+            let moved = self.moved(self.ops[id as usize], |id| replaced[&id], &mut out);
+            let mut place = out.ops.len() as Id;
+            out.ops.push(moved);
+            if let Ok(hub) = hubs.binary_search(&id) {
+                made.push(place);
+                place = hub as Id;
+            }
+            replaced.insert(id, place);
+        }
+        out.outputs.push(replaced[&of]);
+        out.outputs.append(&mut made);
+        out
     }
 }

@@ -24,7 +24,12 @@ pub(super) fn outcomes(
         .zip(&units)
         .map(|(measurand, unit)| Sums::new(measurand, *unit, linear.x.len(), 0))
         .collect();
-    for sweep in sweeps(directions, &neighbours) {
+    let moved = (0..linear.x.len()).filter(|input| movers[*input].is_some());
+    for sweep in sweeps(moved, &neighbours) {
+        let sweep: Vec<&Direction> = sweep
+            .into_iter()
+            .filter_map(|input| movers[input])
+            .collect();
         let mut whole = vec![0.0; linear.x.len()];
         for (input, change) in sweep.iter().flat_map(|l| &l.steps) {
             whole[*input] = *change;
@@ -57,24 +62,30 @@ fn near<'a>(
     moved.flat_map(|(input, _)| neighbours[*input].iter().copied())
 }
 
-/// Directions that share a sweep: each goes into the first one that none of its neighbours is near to.
-fn sweeps<'a>(directions: &'a [Direction], neighbours: &[Vec<usize>]) -> Vec<Vec<&'a Direction>> {
-    let mut sweeps: Vec<Vec<&Direction>> = Vec::new();
+/// Inputs that share a sweep: each goes into the first one in which nothing moves that it has a neighbour in
+/// common with.
+pub(super) fn sweeps(
+    inputs: impl Iterator<Item = usize>,
+    neighbours: &[Vec<usize>],
+) -> Vec<Vec<usize>> {
+    let mut sweeps: Vec<Vec<usize>> = Vec::new();
     // Per input the sweeps in which something moves that it interacts with.
     let mut taken: Vec<Vec<usize>> = vec![Vec::new(); neighbours.len()];
     let mut refused = Vec::new();
-    for (number, direction) in directions.iter().enumerate() {
+    for input in inputs {
         refused.resize(sweeps.len(), usize::MAX);
-        for sweep in near(direction, neighbours).flat_map(|input| &taken[input]) {
-            refused[*sweep] = number;
+        for sweep in neighbours[input].iter().flat_map(|near| &taken[*near]) {
+            refused[*sweep] = input;
         }
-        let free = refused.iter().position(|last| *last != number);
+        let free = refused.iter().position(|last| *last != input);
         let sweep = free.unwrap_or(sweeps.len());
         if sweep == sweeps.len() {
             sweeps.push(Vec::new());
         }
-        sweeps[sweep].push(direction);
-        near(direction, neighbours).for_each(|input| taken[input].push(sweep));
+        sweeps[sweep].push(input);
+        for near in &neighbours[input] {
+            taken[*near].push(sweep);
+        }
     }
     sweeps
 }
@@ -123,7 +134,7 @@ mod tests {
             let (components, inputs) = (&budget.components, &budget.inputs);
             let directions = directions(&linear.covariance, inputs, components, &blocks);
             let neighbours = budget.model.neighbours().unwrap();
-            let count = sweeps(&directions, &neighbours).len();
+            let count = sweeps(0..12, &neighbours).len();
             assert!(count <= most, "{count}");
             let all = over(&budget, &linear, &blocks).remove(0);
             let few = outcomes(&budget, &linear, &directions).unwrap().remove(0);

@@ -7,6 +7,7 @@
 
 use super::graph::{Graph, Id, Op};
 use super::interaction::{neighbours, varying_operands};
+use super::jet::Jet;
 use super::{Along, points};
 
 /// Most hubs.
@@ -53,9 +54,23 @@ impl<'m> Cut<'m> {
         x.iter().copied().chain(hubs).collect()
     }
 
+    /// First derivatives of f and then of each s_k by x and s, which are taken for independent.
+    pub(crate) fn gradients(&self, point: &[f64]) -> Vec<Vec<f64>> {
+        let values = self.graph.evaluate(&points(point));
+        let gradient = |id: &Id| self.graph.gradient(&values, *id, point.len());
+        let all = self.graph.outputs.iter().map(gradient);
+        all.map(|gradient| gradient.iter().map(Jet::value).collect())
+            .collect()
+    }
+
     /// Derivatives of f and then of each s_k along a direction of x and s, which are taken for independent.
     pub(crate) fn along(&self, point: &[f64], direction: &[f64]) -> Vec<Along> {
         self.graph.along(point, direction)
+    }
+
+    /// The same of f and the s_k, added with weights.
+    pub(crate) fn sum_along(&self, point: &[f64], direction: &[f64], weights: &[f64]) -> Along {
+        self.graph.sum_along(point, direction, weights)
     }
 
     /// For each of x and s those with which it may have mixed derivatives; `None` where they are not few.

@@ -19,6 +19,7 @@
 //! little, as x₁x₂ + x₂x₃ + …, a few sweeps ([`sparse`]); so does one in which many inputs meet in few values,
 //! as in a standard deviation or a weighted mean, also where inputs correlate ([`hubs`]).
 
+mod bordered;
 mod hubs;
 mod sparse;
 mod spread;

@@ -42,9 +42,21 @@ impl Graph {
 
     /// Derivatives of one operation with respect to all operations up to it, by one pass backward.
     pub fn adjoints<const N: usize>(&self, values: &[Jet<N>], of: Id) -> Vec<Jet<N>> {
-        let mut adjoints = vec![Jet::constant(0.0); of as usize + 1];
-        adjoints[of as usize] = Jet::constant(1.0);
-        for id in (0..=of).rev() {
+        self.adjoints_of_sum(values, [(of, 1.0)])
+    }
+
+    /// The same of a weighted sum of operations, up to the last of them.
+    fn adjoints_of_sum<const N: usize>(
+        &self,
+        values: &[Jet<N>],
+        sum: impl IntoIterator<Item = (Id, f64)> + Clone,
+    ) -> Vec<Jet<N>> {
+        let last = sum.clone().into_iter().map(|(of, _)| of).max().unwrap_or(0);
+        let mut adjoints = vec![Jet::constant(0.0); last as usize + 1];
+        for (of, weight) in sum {
+            adjoints[of as usize] = adjoints[of as usize] + Jet::constant(weight);
+        }
+        for id in (0..=last).rev() {
             let bar = adjoints[id as usize];
             if !bar.is_zero() {
                 self.pass_on(values, id, bar, |operand, part| {
@@ -124,22 +136,16 @@ impl Graph {
     /// The reverse sweep is done in numbers that carry two derivatives along the direction, so the
     /// result is exact.
     pub fn along(&self, x: &[f64], direction: &[f64]) -> Vec<Along> {
-        let points: Vec<Jet<3>> = x
-            .iter()
-            .zip(direction)
-            .map(|(x, d)| Jet::line(*x, *d))
-            .collect();
-        let values = self.evaluate(&points);
-        let sweep = |id: &Id| {
-            let gradient = self.gradient(&values, *id, x.len());
-            let part = |k: usize| gradient.iter().map(|g| g.0[k]).collect();
-            Along {
-                gradient: part(0),
-                second: part(1),
-                third: part(2),
-            }
-        };
+        let values = self.evaluate(&line(x, direction));
+        let sweep = |id: &Id| Along::new(&self.gradient(&values, *id, x.len()));
         self.outputs.iter().map(sweep).collect()
+    }
+
+    /// The same of a weighted sum of the outputs.
+    pub fn sum_along(&self, x: &[f64], direction: &[f64], weights: &[f64]) -> Along {
+        let values = self.evaluate(&line(x, direction));
+        let sum = self.outputs.iter().copied().zip(weights.iter().copied());
+        Along::new(&self.at_inputs(self.adjoints_of_sum(&values, sum), x.len()))
     }
 
     /// Derivatives of one operation with respect to the inputs.
@@ -149,7 +155,10 @@ impl Graph {
         of: Id,
         inputs: usize,
     ) -> Vec<Jet<N>> {
-        let adjoints = self.adjoints(values, of);
+        self.at_inputs(self.adjoints(values, of), inputs)
+    }
+
+    fn at_inputs<const N: usize>(&self, adjoints: Vec<Jet<N>>, inputs: usize) -> Vec<Jet<N>> {
         let mut gradient = vec![Jet::constant(0.0); inputs];
         for (op, adjoint) in self.ops.iter().zip(adjoints) {
             if let Op::Input(place) = op {
@@ -157,6 +166,23 @@ impl Graph {
             }
         }
         gradient
+    }
+}
+
+/// The point x, moving along a direction.
+fn line(x: &[f64], direction: &[f64]) -> Vec<Jet<3>> {
+    let pairs = x.iter().zip(direction);
+    pairs.map(|(x, d)| Jet::line(*x, *d)).collect()
+}
+
+impl Along {
+    fn new(gradient: &[Jet<3>]) -> Self {
+        let part = |k: usize| gradient.iter().map(|g| g.0[k]).collect();
+        Along {
+            gradient: part(0),
+            second: part(1),
+            third: part(2),
+        }
     }
 }
 

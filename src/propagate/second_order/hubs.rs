@@ -7,7 +7,7 @@
 //! - D²f[d, d] = D²L[w, w]
 //! - D³f[d, e, g] = D³L[w_d, w_e, w_g] + D²L[w_d, s″_eg] + D²L[w_e, s″_dg] + D²L[w_g, s″_de],
 //!
-//! and D²L is a matrix A with few entries, bordered by one row B_k and column for each hub, with M where these
+//! and D²L is a matrix A with few entries, bordered by a row B_k and column for each hub, with M where these
 //! cross. The Hessian of f is A + B S + SᵀBᵀ + SᵀM S = A + U W Uᵀ with U = (B, Sᵀ): what it does to the
 //! covariance of the inputs needs no sum over all pairs of them.
 //!
@@ -16,11 +16,12 @@
 
 use nalgebra::DMatrix;
 
+use super::bordered::{Bordered, Lifted, add_scaled, dot};
 use super::sparse::sweeps;
 use super::spread::Spread;
 use super::{Outcome, Sums, unit};
 use crate::budget::Budget;
-use crate::model::{Along, Cut};
+use crate::model::Cut;
 use crate::propagate::gum::Linear;
 
 /// The outcomes of all measurands when some inputs change, where components are not shared between inputs and
@@ -31,51 +32,26 @@ pub(super) fn outcomes(
     changing: &[bool],
 ) -> Option<Vec<Outcome>> {
     let spread = Spread::new(budget, linear, changing)?;
-    let outputs = 0..linear.measurands.len();
-    outputs
-        .map(|output| outcome(budget, linear, &spread, output))
-        .collect()
+    let outcome = |output: usize| {
+        let measurand = linear.measurands.get(output)?;
+        let unit = unit(measurand.u);
+        let cut = budget.model.cut(output)?;
+        let at_hubs = AtHubs::new(&cut, &linear.x, &spread, unit)?;
+        let mut sums = Sums::new(measurand, unit, linear.x.len(), 0);
+        at_hubs.add_to(&mut sums);
+        Some(sums.outcome(unit))
+    };
+    (0..linear.measurands.len()).map(outcome).collect()
 }
 
-fn outcome(
-    budget: &Budget,
-    linear: &Linear,
-    spread: &Spread<'_>,
-    output: usize,
-) -> Option<Outcome> {
-    let measurand = linear.measurands.get(output)?;
-    let unit = unit(measurand.u);
-    let cut = budget.model.cut(output)?;
-    let bordered = Bordered::new(&cut, &linear.x, spread, unit)?;
-    let mut sums = Sums::new(measurand, unit, linear.x.len(), 0);
-    sums.nonlinear = bordered.bends();
-    if sums.nonlinear {
-        bordered.add_to(&mut sums);
-    }
-    Some(sums.outcome(unit))
-}
-
-/// Second derivatives of a function of x and s.
-#[derive(Clone)]
-struct Hessian {
-    /// A: per input the entries for its neighbours among the inputs, in their order.
-    few: Vec<Vec<f64>>,
-    /// B: per hub the entries for the inputs.
-    border: Vec<Vec<f64>>,
-    /// M.
-    corner: DMatrix<f64>,
-}
-
-/// The function L at a point, and its hubs.
-struct Bordered<'a> {
+/// The derivatives of L and of the hubs at a point.
+struct AtHubs<'a> {
     cut: &'a Cut<'a>,
     spread: &'a Spread<'a>,
     point: Vec<f64>,
     /// Units of x and s.
     scales: Vec<f64>,
-    /// Unit of f, and those of the hubs.
-    units: Vec<f64>,
-    /// 1 for f, λ_k for the hubs.
+    /// What f and the hubs, in the units of the file, are multiplied with in L.
     weights: Vec<f64>,
     /// Per input those of its neighbours that are inputs.
     near: Vec<Vec<usize>>,
@@ -85,131 +61,173 @@ struct Bordered<'a> {
     before: DMatrix<f64>,
     /// S: per hub its derivatives.
     hubs: Vec<Vec<f64>>,
-    /// Inputs that move together.
-    colours: Vec<Vec<usize>>,
-    /// Of L.
-    whole: Hessian,
-    /// Of each s_k.
-    parts: Vec<Hessian>,
+    /// Inputs that move together, and then D³L[c, c, ·].
+    colours: Vec<(Vec<usize>, Vec<f64>)>,
+    /// Per hub D³L[s_k, s_k, ·].
+    alone: Vec<Vec<f64>>,
+    /// D²L.
+    whole: Bordered,
+    /// Per hub D²s_k.
+    parts: Vec<Bordered>,
 }
 
-impl<'a> Bordered<'a> {
+/// Derivatives along a direction.
+struct Sweep {
+    /// D²L[d, ·]
+    whole: Vec<f64>,
+    /// Per hub D²s_k[d, ·].
+    parts: Vec<Vec<f64>>,
+    /// D³L[d, d, ·]
+    third: Vec<f64>,
+}
+
+impl<'a> AtHubs<'a> {
     fn new(cut: &'a Cut<'a>, x: &[f64], spread: &'a Spread<'a>, unit: f64) -> Option<Self> {
         let (n, r) = (cut.inputs(), cut.hubs());
         let mut near = cut.neighbours()?;
         near.truncate(n);
-        near.iter_mut()
-            .for_each(|near| near.retain(|place| *place < n));
-        let point = cut.point(x);
-        let still = vec![0.0; n + r];
-        let gradients: Vec<Vec<f64>> = cut
-            .along(&point, &still)
-            .into_iter()
-            .map(|along| along.gradient)
+        let inputs = near.iter_mut();
+        inputs.for_each(|near| near.retain(|place| *place < n));
+        let moved = (0..n).filter(|input| spread.scales()[*input] > 0.0);
+        let colours = sweeps(moved, &near);
+        let mut at_hubs = AtHubs {
+            cut,
+            spread,
+            point: cut.point(x),
+            scales: spread.scales().to_vec(),
+            weights: vec![1.0 / unit],
+            gradient: Vec::new(),
+            before: DMatrix::zeros(r, r),
+            hubs: Vec::new(),
+            colours: colours
+                .into_iter()
+                .map(|colour| (colour, Vec::new()))
+                .collect(),
+            alone: Vec::new(),
+            whole: Bordered::zero(&near, r),
+            parts: vec![Bordered::zero(&near, r); r],
+            near,
+        };
+        at_hubs.find_first_derivatives();
+        at_hubs.find_second_derivatives();
+        Some(at_hubs)
+    }
+
+    fn find_first_derivatives(&mut self) {
+        let (n, r) = (self.cut.inputs(), self.cut.hubs());
+        let gradients = self.cut.gradients(&self.point);
+        let in_units = |gradient: &[f64], scales: &[f64]| -> Vec<f64> {
+            gradient
+                .iter()
+                .zip(scales)
+                .map(|(g, scale)| g * scale)
+                .collect()
+        };
+        // ∂f/∂s_k, also through the hubs behind.
+        let mut lambda: Vec<f64> = gradients[0][n..]
+            .iter()
+            .map(|g| g * self.weights[0])
             .collect();
-        let mut scales = spread.scales().to_vec();
-        let mut units = vec![unit];
-        // ∂f/∂s_k through the hubs behind, which are behind it in the list.
-        let mut lambda: Vec<f64> = gradients[0][n..].to_vec();
         for k in (0..r).rev() {
             for j in 0..k {
                 lambda[j] += lambda[k] * gradients[k + 1][n + j];
             }
         }
-        let mut hubs: Vec<Vec<f64>> = Vec::with_capacity(r);
-        let mut before = DMatrix::zeros(r, r);
         for k in 0..r {
-            let own = &gradients[k + 1];
-            let mut slopes: Vec<f64> = own
-                .iter()
-                .zip(spread.scales())
-                .map(|(g, u)| g * u)
-                .collect();
-            for (j, hub) in hubs.iter().enumerate() {
-                before[(k, j)] = own[n + j] * scales[n + j];
-                add_scaled(&mut slopes, before[(k, j)], hub);
+            let mut slopes = in_units(&gradients[k + 1][..n], &self.scales);
+            for (j, hub) in self.hubs.iter().enumerate() {
+                let slope = gradients[k + 1][n + j] * self.scales[n + j];
+                self.before[(k, j)] = slope;
+                add_scaled(&mut slopes, slope, hub);
             }
-            let scale = usable(spread.deviation(&slopes)).unwrap_or((unit / lambda[k]).abs());
-            let scale = usable(scale).unwrap_or(1.0);
+            // A hub that does not move to first order is measured by what it does to f.
+            let sizes = [self.spread.deviation(&slopes), 1.0 / lambda[k].abs(), 1.0];
+            let scale = sizes
+                .into_iter()
+                .find(|size| size.is_normal())
+                .unwrap_or(1.0);
             slopes.iter_mut().for_each(|slope| *slope /= scale);
-            (0..k).for_each(|j| before[(k, j)] /= scale);
-            hubs.push(slopes);
-            scales.push(scale);
-            units.push(scale);
+            self.before
+                .row_mut(k)
+                .iter_mut()
+                .for_each(|slope| *slope /= scale);
+            self.hubs.push(slopes);
+            self.scales.push(scale);
         }
-        let mut gradient: Vec<f64> = gradients[0]
-            .iter()
-            .zip(spread.scales())
-            .map(|(g, u)| g * u / unit)
-            .collect();
-        for (k, hub) in hubs.iter().enumerate() {
+        self.gradient = in_units(&gradients[0][..n], &self.scales);
+        for (k, hub) in self.hubs.iter().enumerate() {
             add_scaled(
-                &mut gradient,
-                gradients[0][n + k] * scales[n + k] / unit,
+                &mut self.gradient,
+                gradients[0][n + k] * self.scales[n + k],
                 hub,
             );
         }
-        let weights = std::iter::once(1.0);
-        let weights = weights.chain((0..r).map(|k| lambda[k] * scales[n + k] / unit));
-        let moved = (0..n).filter(|input| scales[*input] > 0.0);
-        let colours = sweeps(moved, &near);
-        let nothing = Hessian {
-            few: near.iter().map(|near| vec![0.0; near.len()]).collect(),
-            border: vec![vec![0.0; n]; r],
-            corner: DMatrix::zeros(r, r),
-        };
-        let mut bordered = Bordered {
-            cut,
-            spread,
-            point,
-            weights: weights.collect(),
-            scales,
-            units,
-            near,
-            gradient,
-            before,
-            hubs,
-            colours,
-            parts: vec![nothing.clone(); r],
-            whole: nothing,
-        };
-        bordered.find_second_derivatives();
-        Some(bordered)
+        self.gradient.iter_mut().for_each(|g| *g *= self.weights[0]);
+        self.weights.append(&mut lambda);
     }
 
-    fn inputs(&self) -> usize {
-        self.cut.inputs()
-    }
-
-    /// Derivatives along a direction of x and s, all in their units.
-    fn along(&self, direction: &[f64]) -> Vec<Along> {
-        let moved: Vec<f64> = direction
-            .iter()
-            .zip(&self.scales)
-            .map(|(d, u)| d * u)
-            .collect();
-        let mut all = self.cut.along(&self.point, &moved);
-        for (along, unit) in all.iter_mut().zip(&self.units) {
-            for part in [&mut along.second, &mut along.third] {
-                part.iter_mut()
-                    .zip(&self.scales)
-                    .for_each(|(value, scale)| *value *= scale / unit);
+    fn find_second_derivatives(&mut self) {
+        let n = self.cut.inputs();
+        let mut colours = std::mem::take(&mut self.colours);
+        for (colour, third) in &mut colours {
+            let sweep = self.sweep(&self.ones(colour));
+            self.whole.set_few(&self.near, colour, &sweep.whole);
+            for (part, column) in self.parts.iter_mut().zip(&sweep.parts) {
+                part.set_few(&self.near, colour, column);
             }
+            *third = sweep.third;
         }
-        all
+        self.colours = colours;
+        for k in 0..self.cut.hubs() {
+            let sweep = self.sweep(&self.ones(&[n + k]));
+            self.whole.set_border(k, &sweep.whole);
+            for (part, column) in self.parts.iter_mut().zip(&sweep.parts) {
+                part.set_border(k, column);
+            }
+            self.alone.push(sweep.third);
+        }
+    }
+
+    fn sweep(&self, direction: &[f64]) -> Sweep {
+        let mut all = self.cut.along(&self.point, &self.moved(direction));
+        let mut whole = vec![0.0; self.scales.len()];
+        let mut third = whole.clone();
+        for (weight, along) in self.weights.iter().zip(&all) {
+            add_scaled(&mut whole, *weight, &along.second);
+            add_scaled(&mut third, *weight, &along.third);
+        }
+        let hubs = all.drain(1..).zip(&self.scales[self.cut.inputs()..]);
+        let part = |second: Vec<f64>, scale: f64| {
+            let mut part = self.in_units(second);
+            part.iter_mut().for_each(|entry| *entry /= scale);
+            part
+        };
+        Sweep {
+            parts: hubs
+                .map(|(along, scale)| part(along.second, *scale))
+                .collect(),
+            whole: self.in_units(whole),
+            third: self.in_units(third),
+        }
     }
 
     /// D³L[d, d, ·].
-    fn third_along(&self, direction: &[f64]) -> Vec<f64> {
-        self.weighted(&self.along(direction), |along| &along.third)
+    fn third(&self, direction: &[f64]) -> Vec<f64> {
+        let moved = self.moved(direction);
+        self.in_units(self.cut.sum_along(&self.point, &moved, &self.weights).third)
     }
 
-    fn weighted(&self, all: &[Along], of: fn(&Along) -> &Vec<f64>) -> Vec<f64> {
-        let mut sum = vec![0.0; self.scales.len()];
-        for (weight, along) in self.weights.iter().zip(all) {
-            add_scaled(&mut sum, *weight, of(along));
-        }
-        sum
+    /// A direction in the units of the file.
+    fn moved(&self, direction: &[f64]) -> Vec<f64> {
+        let pairs = direction.iter().zip(&self.scales);
+        pairs.map(|(d, scale)| d * scale).collect()
+    }
+
+    /// Derivatives with respect to variables in units of the file.
+    fn in_units(&self, mut derivatives: Vec<f64>) -> Vec<f64> {
+        let pairs = derivatives.iter_mut().zip(&self.scales);
+        pairs.for_each(|(derivative, scale)| *derivative *= scale);
+        derivatives
     }
 
     /// One for these variables, zero for the others.
@@ -217,41 +235,6 @@ impl<'a> Bordered<'a> {
         let mut direction = vec![0.0; self.scales.len()];
         places.iter().for_each(|place| direction[*place] = 1.0);
         direction
-    }
-
-    fn find_second_derivatives(&mut self) {
-        let n = self.inputs();
-        for colour in &self.colours {
-            let all = self.along(&self.ones(colour));
-            let whole = self.weighted(&all, |along| &along.second);
-            fill(&mut self.whole.few, &self.near, colour, &whole);
-            for (part, along) in self.parts.iter_mut().zip(&all[1..]) {
-                fill(&mut part.few, &self.near, colour, &along.second);
-            }
-        }
-        for k in 0..self.cut.hubs() {
-            let all = self.along(&self.ones(&[n + k]));
-            let whole = self.weighted(&all, |along| &along.second);
-            self.whole.set_border(k, &whole);
-            for (part, along) in self.parts.iter_mut().zip(&all[1..]) {
-                part.set_border(k, &along.second);
-            }
-        }
-    }
-
-    /// Whether L has second derivatives at all.
-    fn bends(&self) -> bool {
-        let Hessian {
-            few,
-            border,
-            corner,
-        } = &self.whole;
-        let parts = self
-            .parts
-            .iter()
-            .flat_map(|part| part.few.iter().chain(&part.border));
-        let entries = few.iter().chain(border).chain(parts).flatten();
-        entries.chain(corner.iter()).any(|entry| *entry != 0.0)
     }
 
     /// (d, S d).
@@ -262,133 +245,53 @@ impl<'a> Bordered<'a> {
 
     /// Adds all terms of the second order to sums that are empty.
     fn add_to(&self, sums: &mut Sums) {
-        let (n, r) = (self.inputs(), self.cut.hubs());
-        let correlation = Lifted::new(self.spread, &self.hubs);
-        // D²f = A + U W Uᵀ.
-        let whole = &self.whole;
-        let u: Vec<&Vec<f64>> = whole.border.iter().chain(&self.hubs).collect();
-        let mut w = DMatrix::zeros(2 * r, 2 * r);
-        for k in 0..r {
-            w[(k, r + k)] = 1.0;
-            w[(r + k, k)] = 1.0;
+        sums.nonlinear = std::iter::once(&self.whole)
+            .chain(&self.parts)
+            .any(|hessian| !hessian.is_zero());
+        if !sums.nonlinear {
+            return;
         }
-        w.view_mut((r, r), (r, r)).copy_from(&whole.corner);
+        self.add_traces(sums);
+        self.add_moments(sums);
+        sums.added += sums.curvature + self.drift();
+    }
+
+    /// ½ tr(HC), ½ tr(HCHC) and (HCH)_ii with H = A + U W Uᵀ.
+    fn add_traces(&self, sums: &mut Sums) {
+        let (n, r) = (self.cut.inputs(), self.cut.hubs());
+        let Bordered {
+            few,
+            border,
+            corner,
+        } = &self.whole;
+        let u: Vec<&Vec<f64>> = border.iter().chain(&self.hubs).collect();
+        let mut w = DMatrix::zeros(2 * r, 2 * r);
+        w.view_mut((0, r), (r, r)).fill_with_identity();
+        w.view_mut((r, 0), (r, r)).fill_with_identity();
+        w.view_mut((r, r), (r, r)).copy_from(corner);
         let cu: Vec<Vec<f64>> = u.iter().map(|u| self.spread.times(u)).collect();
-        let acu: Vec<Vec<f64>> = cu.iter().map(|cu| self.times_few(whole, cu)).collect();
-        let g = DMatrix::from_fn(2 * r, 2 * r, |a, b| dot(u[a], &cu[b]));
-        let x = DMatrix::from_fn(2 * r, 2 * r, |a, b| dot(&cu[a], &acu[b]));
-        let wg = &w * &g;
-        // ½ tr(HC) and ½ tr(HCHC).
-        sums.shift = 0.5 * (self.spread.trace(&self.near, &whole.few) + wg.trace());
-        let few = self.spread.trace_of_square(&self.near, &whole.few);
-        sums.curvature = (0.5 * (few + 2.0 * (&w * &x).trace() + (&wg * &wg).trace())).max(0.0);
-        // (H C H)_ii.
-        let wgw = &wg * &w;
+        let acu: Vec<Vec<f64>> = cu
+            .iter()
+            .map(|cu| self.whole.times_few(&self.near, cu))
+            .collect();
+        let ucu = DMatrix::from_fn(2 * r, 2 * r, |a, b| dot(u[a], &cu[b]));
+        let ucacu = DMatrix::from_fn(2 * r, 2 * r, |a, b| dot(&cu[a], &acu[b]));
+        let along = &w * &ucu;
+        sums.shift = 0.5 * (self.spread.trace(&self.near, few) + along.trace());
+        let mixed = 2.0 * (&w * &ucacu).trace();
+        let square =
+            self.spread.trace_of_square(&self.near, few) + mixed + (&along * &along).trace();
+        sums.curvature = (0.5 * square).max(0.0);
+        let around = &along * &w;
         for i in (0..n).filter(|i| self.scales[*i] > 0.0) {
-            let mut square = self.spread.around(&self.near[i], &whole.few[i]);
+            let mut square = self.spread.around(&self.near[i], &few[i]);
             for a in 0..2 * r {
                 for b in 0..2 * r {
-                    square += (2.0 * acu[a][i] * w[(a, b)] + u[a][i] * wgw[(a, b)]) * u[b][i];
+                    square += (2.0 * acu[a][i] * w[(a, b)] + u[a][i] * around[(a, b)]) * u[b][i];
                 }
             }
             sums.slope[i] = square.max(0.0) / (self.scales[i] * self.scales[i]);
         }
-        sums.added = self.drift(&correlation);
-        self.add_moments(sums);
-        sums.added += sums.curvature;
-    }
-
-    /// A d.
-    fn times_few(&self, hessian: &Hessian, d: &[f64]) -> Vec<f64> {
-        let rows = self.near.iter().zip(&hessian.few);
-        let row = |(near, entries): (&Vec<usize>, &Vec<f64>)| {
-            near.iter()
-                .zip(entries)
-                .map(|(j, entry)| entry * d[*j])
-                .sum()
-        };
-        rows.map(row).collect()
-    }
-
-    /// D²φ w for the whole of φ(x, s).
-    fn times(&self, hessian: &Hessian, w: &[f64]) -> Vec<f64> {
-        let n = self.inputs();
-        let mut out = self.times_few(hessian, w);
-        for (k, border) in hessian.border.iter().enumerate() {
-            add_scaled(&mut out, w[n + k], border);
-        }
-        for (k, border) in hessian.border.iter().enumerate() {
-            let corner: f64 = (0..w.len() - n)
-                .map(|l| hessian.corner[(k, l)] * w[n + l])
-                .sum();
-            out.push(dot(border, w) + corner);
-        }
-        out
-    }
-
-    /// Σ_l D³f[v, d_l, d_l] over the coordinates l, with v = Σ_l g_l d_l = C ∂f/∂x.
-    fn drift(&self, correlation: &Lifted<'_>) -> f64 {
-        let (n, r) = (self.inputs(), self.cut.hubs());
-        let v = self.lifted(self.spread.times(&self.gradient));
-        let resting = self.third_along(&v);
-        // 2 D³L[v, d, ·]
-        let mixed = |d: &[f64]| -> Vec<f64> {
-            let both: Vec<f64> = v.iter().zip(d).map(|(v, d)| v + d).collect();
-            let (both, alone) = (self.third_along(&both), self.third_along(d));
-            (0..both.len())
-                .map(|i| both[i] - resting[i] - alone[i])
-                .collect()
-        };
-        let mut twice = Hessian {
-            few: self.near.iter().map(|near| vec![0.0; near.len()]).collect(),
-            border: vec![vec![0.0; n]; r],
-            corner: DMatrix::zeros(r, r),
-        };
-        for colour in &self.colours {
-            fill(
-                &mut twice.few,
-                &self.near,
-                colour,
-                &mixed(&self.ones(colour)),
-            );
-        }
-        for k in 0..r {
-            twice.set_border(k, &mixed(&self.ones(&[n + k])));
-        }
-        let mut sum = 0.5 * correlation.trace(&self.near, &twice);
-        if r > 0 {
-            let moved = self.times(&self.whole, &v);
-            let bent = self.through_hubs(|part| correlation.trace(&self.near, part));
-            sum += dot(&moved[n..], &bent);
-            // s″_vl = q·w_l.
-            let mut q: Vec<Vec<f64>> = Vec::with_capacity(r);
-            for (k, part) in self.parts.iter().enumerate() {
-                let mut own = self.times(part, &v);
-                for (j, earlier) in q.iter().enumerate() {
-                    add_scaled(&mut own, self.before[(k, j)], earlier);
-                }
-                q.push(own);
-            }
-            for (k, q) in q.iter().enumerate() {
-                let column = self.times(&self.whole, &self.ones(&[n + k]));
-                sum += 2.0 * dot(q, &correlation.times(&column));
-            }
-        }
-        sum
-    }
-
-    /// Second derivatives of the hubs: what each has of its own, and what it has from those before.
-    fn through_hubs(&self, own: impl Fn(&Hessian) -> f64) -> Vec<f64> {
-        let mut bent: Vec<f64> = Vec::with_capacity(self.parts.len());
-        for (k, part) in self.parts.iter().enumerate() {
-            let earlier: f64 = bent
-                .iter()
-                .enumerate()
-                .map(|(j, b)| self.before[(k, j)] * b)
-                .sum();
-            bent.push(own(part) + earlier);
-        }
-        bent
     }
 
     /// Adds what third and fourth moments of components that stand alone add to those of the normal
@@ -400,85 +303,98 @@ impl<'a> Bordered<'a> {
         }
         let thirds = Thirds::new(self);
         for &(input, share, moments) in own {
-            let h = share * share * self.second(&self.whole, input);
+            let h = share * share * self.whole.along(&self.near, input, &self.hubs);
             let g = share * self.gradient[input];
-            let t = share.powi(3) * thirds.of(input);
+            let t = share.powi(3) * thirds.along(input);
             sums.curvature += 0.25 * h * h * (moments.fourth - 3.0);
             sums.added += g * h * moments.third + g * t * (moments.fourth / 3.0 - 1.0);
         }
     }
 
-    /// D²φ[w_i, w_i] of an input.
-    fn second(&self, hessian: &Hessian, input: usize) -> f64 {
-        let at = |k: usize| self.hubs[k][input];
-        let own = self.near[input].iter().position(|j| *j == input);
-        let mut sum = own.map_or(0.0, |place| hessian.few[input][place]);
-        for k in 0..self.hubs.len() {
-            sum += 2.0 * hessian.border[k][input] * at(k);
-            let corner = (0..self.hubs.len()).map(|l| hessian.corner[(k, l)] * at(l));
-            sum += at(k) * corner.sum::<f64>();
+    /// Σ_l D³f[v, d_l, d_l] over the coordinates l, with v = Σ_l g_l d_l = C ∂f/∂x.
+    fn drift(&self) -> f64 {
+        let (n, r) = (self.cut.inputs(), self.cut.hubs());
+        let lifted = Lifted::new(self.spread, &self.hubs);
+        let v = self.lifted(self.spread.times(&self.gradient));
+        let resting = self.third(&v);
+        // 2 D³L[v, d, ·] where D³L[d, d, ·] is known.
+        let mixed = |d: &[f64], alone: &[f64]| -> Vec<f64> {
+            let both: Vec<f64> = v.iter().zip(d).map(|(v, d)| v + d).collect();
+            let others = resting.iter().zip(alone);
+            let both = self.third(&both).into_iter().zip(others);
+            both.map(|(both, (v, d))| both - v - d).collect()
+        };
+        let mut twice = Bordered::zero(&self.near, r);
+        for (colour, alone) in &self.colours {
+            twice.set_few(&self.near, colour, &mixed(&self.ones(colour), alone));
+        }
+        for (k, alone) in self.alone.iter().enumerate() {
+            twice.set_border(k, &mixed(&self.ones(&[n + k]), alone));
+        }
+        let moved = self.whole.times(&self.near, &v);
+        let bent = self.through_hubs(|part| lifted.trace(&self.near, part));
+        let mut sum = 0.5 * lifted.trace(&self.near, &twice) + dot(&moved[n..], &bent);
+        // s″_vl = q·w_l.
+        let mut q: Vec<Vec<f64>> = Vec::with_capacity(r);
+        for (k, part) in self.parts.iter().enumerate() {
+            let mut own = part.times(&self.near, &v);
+            for (j, earlier) in q.iter().enumerate() {
+                add_scaled(&mut own, self.before[(k, j)], earlier);
+            }
+            let column = self.whole.times(&self.near, &self.ones(&[n + k]));
+            sum += 2.0 * dot(&own, &lifted.times(&column));
+            q.push(own);
         }
         sum
     }
-}
 
-impl Hessian {
-    /// Takes the column of a hub.
-    fn set_border(&mut self, hub: usize, column: &[f64]) {
-        let n = self.border[hub].len();
-        self.border[hub].copy_from_slice(&column[..n]);
-        self.corner.column_mut(hub).copy_from_slice(&column[n..]);
-    }
-}
-
-/// Takes the entries of the columns of a colour, of which each row has one at most.
-fn fill(few: &mut [Vec<f64>], near: &[Vec<usize>], colour: &[usize], column: &[f64]) {
-    for &j in colour {
-        for &i in &near[j] {
-            if let Ok(place) = near[i].binary_search(&j) {
-                few[i][place] = column[i];
-            }
+    /// Second derivatives of the hubs: what each has of its own, and what it has from those before.
+    fn through_hubs(&self, own: impl Fn(&Bordered) -> f64) -> Vec<f64> {
+        let mut bent: Vec<f64> = Vec::with_capacity(self.parts.len());
+        for (k, part) in self.parts.iter().enumerate() {
+            let earlier = bent.iter().enumerate();
+            let earlier: f64 = earlier.map(|(j, b)| self.before[(k, j)] * b).sum();
+            bent.push(own(part) + earlier);
         }
+        bent
     }
 }
 
 /// Third derivatives of L that decide D³f[d, d, d] for a direction of one input.
 struct Thirds<'b, 'a> {
-    of: &'b Bordered<'a>,
+    of: &'b AtHubs<'a>,
     /// L_iii
     own: Vec<f64>,
     /// Per hub 3 L_iik.
     once: Vec<Vec<f64>>,
-    /// Per pair of hubs, k ≤ l, 3 L_ikl for both orders together, and L_jkl of hubs j.
+    /// Per pair of hubs k ≤ l the L_·kl, for both orders together.
     twice: Vec<(usize, usize, Vec<f64>)>,
 }
 
 impl<'b, 'a> Thirds<'b, 'a> {
-    fn new(of: &'b Bordered<'a>) -> Self {
-        let (n, r) = (of.inputs(), of.cut.hubs());
+    fn new(of: &'b AtHubs<'a>) -> Self {
+        let (n, r) = (of.cut.inputs(), of.cut.hubs());
         let mut own = vec![0.0; n];
         let mut once = vec![vec![0.0; n]; r];
-        let hubs: Vec<Vec<f64>> = (0..r).map(|k| of.third_along(&of.ones(&[n + k]))).collect();
-        for colour in &of.colours {
-            let alone = of.third_along(&of.ones(colour));
+        for (colour, alone) in &of.colours {
             colour.iter().for_each(|i| own[*i] = alone[*i]);
-            for (k, hub) in hubs.iter().enumerate() {
+            for (k, hub) in of.alone.iter().enumerate() {
                 let mut places = colour.clone();
                 places.push(n + k);
-                let both = of.third_along(&of.ones(&places));
+                let both = of.third(&of.ones(&places));
                 for &i in colour {
                     once[k][i] = 1.5 * (both[i] - alone[i] - hub[i]);
                 }
             }
         }
         let mut twice = Vec::new();
-        for k in 0..r {
-            twice.push((k, k, hubs[k].clone()));
-            for l in k + 1..r {
-                let both = of.third_along(&of.ones(&[n + k, n + l]));
-                // L_ikl + L_ilk.
-                let pair = (0..n + r).map(|i| both[i] - hubs[k][i] - hubs[l][i]);
-                twice.push((k, l, pair.collect()));
+        for (k, first) in of.alone.iter().enumerate() {
+            twice.push((k, k, first.clone()));
+            for (l, second) in of.alone.iter().enumerate().skip(k + 1) {
+                let mut both = of.third(&of.ones(&[n + k, n + l]));
+                add_scaled(&mut both, -1.0, first);
+                add_scaled(&mut both, -1.0, second);
+                twice.push((k, l, both));
             }
         }
         Thirds {
@@ -489,78 +405,30 @@ impl<'b, 'a> Thirds<'b, 'a> {
         }
     }
 
-    /// D³f[d, d, d] for a step of one unit of an input.
-    fn of(&self, input: usize) -> f64 {
-        let (n, hubs) = (self.of.inputs(), &self.of.hubs);
-        let at = |k: usize| hubs[k][input];
+    /// D³f[d, d, d] for a step d of one unit of an input.
+    fn along(&self, input: usize) -> f64 {
+        let (n, hubs) = (self.of.cut.inputs(), &self.of.hubs);
+        let step: Vec<f64> = hubs.iter().map(|hub| hub[input]).collect();
         let mut sum = self.own[input];
-        for (k, once) in self.once.iter().enumerate() {
-            sum += once[input] * at(k);
+        for (once, step) in self.once.iter().zip(&step) {
+            sum += once[input] * step;
         }
         for (k, l, pair) in &self.twice {
-            let along_hubs: f64 = (0..hubs.len()).map(|j| pair[n + j] * at(j)).sum();
-            sum += (3.0 * pair[input] + along_hubs) * at(*k) * at(*l);
+            sum += (3.0 * pair[input] + dot(&pair[n..], &step)) * step[*k] * step[*l];
         }
         let whole = &self.of.whole;
-        let bent = self.of.through_hubs(|part| self.of.second(part, input));
+        let near = &self.of.near;
+        let bent = self.of.through_hubs(|part| part.along(near, input, hubs));
         for (k, bent) in bent.iter().enumerate() {
-            let corner: f64 = (0..hubs.len()).map(|l| whole.corner[(k, l)] * at(l)).sum();
+            let corner: f64 = step
+                .iter()
+                .enumerate()
+                .map(|(l, step)| whole.corner[(k, l)] * step)
+                .sum();
             sum += 3.0 * bent * (whole.border[k][input] + corner);
         }
         sum
     }
-}
-
-/// The covariance of x and s to first order: that of x, C, bordered by K = C Sᵀ, with Q = S C Sᵀ.
-struct Lifted<'a> {
-    spread: &'a Spread<'a>,
-    k: Vec<Vec<f64>>,
-    q: DMatrix<f64>,
-}
-
-impl<'a> Lifted<'a> {
-    fn new(spread: &'a Spread<'a>, hubs: &[Vec<f64>]) -> Self {
-        let k: Vec<Vec<f64>> = hubs.iter().map(|hub| spread.times(hub)).collect();
-        let q = DMatrix::from_fn(hubs.len(), hubs.len(), |a, b| dot(&hubs[a], &k[b]));
-        Lifted { spread, k, q }
-    }
-
-    /// Σ_ij P_ij φ_ij.
-    fn trace(&self, near: &[Vec<usize>], hessian: &Hessian) -> f64 {
-        let borders = self.k.iter().zip(&hessian.border);
-        let border: f64 = borders.map(|(k, b)| dot(k, b)).sum();
-        let corner = self.q.dot(&hessian.corner);
-        self.spread.trace(near, &hessian.few) + 2.0 * border + corner
-    }
-
-    /// P w.
-    fn times(&self, w: &[f64]) -> Vec<f64> {
-        let (x, s) = w.split_at(w.len() - self.k.len());
-        let mut out = self.spread.times(x);
-        for (k, s) in self.k.iter().zip(s) {
-            add_scaled(&mut out, *s, k);
-        }
-        for (a, k) in self.k.iter().enumerate() {
-            let corner: f64 = s.iter().enumerate().map(|(b, s)| self.q[(a, b)] * s).sum();
-            out.push(dot(k, x) + corner);
-        }
-        out
-    }
-}
-
-/// A number that can be divided by.
-fn usable(number: f64) -> Option<f64> {
-    Some(number).filter(|number| number.is_normal())
-}
-
-/// a + c b, as far as both reach.
-fn add_scaled(a: &mut [f64], c: f64, b: &[f64]) {
-    a.iter_mut().zip(b).for_each(|(a, b)| *a += c * b);
-}
-
-/// a·b, as far as both reach.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

@@ -1,0 +1,142 @@
+//! Symmetric matrices of few entries, bordered by full rows and columns.
+
+use nalgebra::DMatrix;
+
+use super::spread::Spread;
+
+/// Second derivatives with respect to x and s.
+#[derive(Debug, Clone)]
+pub(super) struct Bordered {
+    /// A: per input the entries for its neighbours among the inputs, in their order.
+    pub few: Vec<Vec<f64>>,
+    /// B: per hub the entries for the inputs.
+    pub border: Vec<Vec<f64>>,
+    /// M: hubs × hubs.
+    pub corner: DMatrix<f64>,
+}
+
+impl Bordered {
+    /// Without entries, for inputs with these neighbours and so many hubs.
+    pub(super) fn zero(near: &[Vec<usize>], hubs: usize) -> Self {
+        Bordered {
+            few: near.iter().map(|near| vec![0.0; near.len()]).collect(),
+            border: vec![vec![0.0; near.len()]; hubs],
+            corner: DMatrix::zeros(hubs, hubs),
+        }
+    }
+
+    /// Whether all entries are zero.
+    pub(super) fn is_zero(&self) -> bool {
+        let entries = self.few.iter().chain(&self.border).flatten();
+        entries.chain(self.corner.iter()).all(|entry| *entry == 0.0)
+    }
+
+    /// Takes the entries of the columns of inputs no two of which have a neighbour in common, from the sum of these
+    /// columns.
+    pub(super) fn set_few(&mut self, near: &[Vec<usize>], inputs: &[usize], column: &[f64]) {
+        for &j in inputs {
+            for &i in &near[j] {
+                if let Ok(place) = near[i].binary_search(&j) {
+                    self.few[i][place] = column[i];
+                }
+            }
+        }
+    }
+
+    /// Takes the column of a hub.
+    pub(super) fn set_border(&mut self, hub: usize, column: &[f64]) {
+        let (inputs, hubs) = column.split_at(self.few.len());
+        self.border[hub].copy_from_slice(inputs);
+        self.corner.column_mut(hub).copy_from_slice(hubs);
+    }
+
+    /// A d.
+    pub(super) fn times_few(&self, near: &[Vec<usize>], d: &[f64]) -> Vec<f64> {
+        let rows = near.iter().zip(&self.few);
+        rows.map(|(near, entries)| {
+            near.iter()
+                .zip(entries)
+                .map(|(j, entry)| entry * d[*j])
+                .sum()
+        })
+        .collect()
+    }
+
+    /// The product with a direction of x and s.
+    pub(super) fn times(&self, near: &[Vec<usize>], w: &[f64]) -> Vec<f64> {
+        let (x, s) = w.split_at(near.len());
+        let mut out = self.times_few(near, x);
+        for (border, s) in self.border.iter().zip(s) {
+            add_scaled(&mut out, *s, border);
+        }
+        for (k, border) in self.border.iter().enumerate() {
+            out.push(dot(border, x) + self.in_corner(k, |l| s[l]));
+        }
+        out
+    }
+
+    /// w·(this)·w for a step of an input and what it moves the hubs by.
+    pub(super) fn along(&self, near: &[Vec<usize>], input: usize, hubs: &[Vec<f64>]) -> f64 {
+        let step = |k: usize| hubs[k][input];
+        let own = near[input].binary_search(&input);
+        let mut sum = own.map_or(0.0, |place| self.few[input][place]);
+        for (k, border) in self.border.iter().enumerate() {
+            sum += step(k) * (2.0 * border[input] + self.in_corner(k, step));
+        }
+        sum
+    }
+
+    /// A row of M times a direction of s.
+    fn in_corner(&self, k: usize, s: impl Fn(usize) -> f64) -> f64 {
+        (0..self.corner.ncols())
+            .map(|l| self.corner[(k, l)] * s(l))
+            .sum()
+    }
+}
+
+/// The covariance of x and s to first order: that of x, C, bordered by K = C Sᵀ, with Q = S C Sᵀ.
+pub(super) struct Lifted<'a> {
+    spread: &'a Spread<'a>,
+    k: Vec<Vec<f64>>,
+    q: DMatrix<f64>,
+}
+
+impl<'a> Lifted<'a> {
+    /// For hubs with these derivatives S.
+    pub(super) fn new(spread: &'a Spread<'a>, hubs: &[Vec<f64>]) -> Self {
+        let k: Vec<Vec<f64>> = hubs.iter().map(|hub| spread.times(hub)).collect();
+        let q = DMatrix::from_fn(hubs.len(), hubs.len(), |a, b| dot(&hubs[a], &k[b]));
+        Lifted { spread, k, q }
+    }
+
+    /// The trace of the product with a matrix.
+    pub(super) fn trace(&self, near: &[Vec<usize>], of: &Bordered) -> f64 {
+        let borders = self.k.iter().zip(&of.border);
+        let border: f64 = borders.map(|(k, b)| dot(k, b)).sum();
+        self.spread.trace(near, &of.few) + 2.0 * border + self.q.dot(&of.corner)
+    }
+
+    /// The product with a direction of x and s.
+    pub(super) fn times(&self, w: &[f64]) -> Vec<f64> {
+        let (x, s) = w.split_at(w.len() - self.k.len());
+        let mut out = self.spread.times(x);
+        for (k, s) in self.k.iter().zip(s) {
+            add_scaled(&mut out, *s, k);
+        }
+        for (a, k) in self.k.iter().enumerate() {
+            let corner: f64 = s.iter().enumerate().map(|(b, s)| self.q[(a, b)] * s).sum();
+            out.push(dot(k, x) + corner);
+        }
+        out
+    }
+}
+
+/// a + c b in place of a.
+pub(super) fn add_scaled(a: &mut [f64], c: f64, b: &[f64]) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += c * b);
+}
+
+/// a·b.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -12,12 +12,17 @@ use crate::fault::Fault;
 
 /// Whether every operation is smooth inside its domain.
 pub fn smooth(graph: &Graph) -> bool {
-    graph.ops.iter().all(|op| match op {
-        Op::Unary(row, _) => row.smoothness == Smoothness::Smooth,
-        Op::Binary(row, ..) => row.smoothness == Smoothness::Smooth,
-        Op::Select(..) => false,
-        _ => true,
-    })
+    let is_smooth = |op: &Op| !is_rough(op) && !matches!(op, Op::Select(..));
+    graph.ops.iter().all(is_smooth)
+}
+
+/// Whether a function has corners, steps or branches.
+fn is_rough(op: &Op) -> bool {
+    match op {
+        Op::Unary(row, _) => row.smoothness != Smoothness::Smooth,
+        Op::Binary(row, ..) => row.smoothness != Smoothness::Smooth,
+        _ => false,
+    }
 }
 
 /// Operations whose derivative does not exist or hides something here.
@@ -52,7 +57,8 @@ fn collect_irregularities(graph: &Graph, x: &[f64], found: &mut Vec<Notice>) {
             collect_irregularities(&equation.residual, &inner, &mut within);
             within.into_iter().for_each(&mut note);
         }
-        let Some(label) = graph.labels.get(&(i as Id)) else {
+        let label = is_rough(op).then(|| graph.labels.get(&(i as Id)));
+        let Some(label) = label.flatten() else {
             continue;
         };
         let (call, argument) = (label.call.to_string(), label.argument.to_string());
@@ -268,12 +274,13 @@ pub fn coarse_steps(graph: &Graph, x: &[f64], u: &[f64]) -> Vec<Notice> {
     let active = active(graph, &spread.values);
     let mut found = Vec::new();
     for (i, op) in graph.ops.iter().enumerate().filter(|(i, _)| active[*i]) {
-        let (Op::Binary(row, a, step), Some(label)) = (op, graph.labels.get(&(i as Id))) else {
+        let Op::Binary(row, a, step) = op else {
             continue;
         };
-        if row.rule != Rule::Staircase {
+        let label = (row.rule == Rule::Staircase).then(|| graph.labels.get(&(i as Id)));
+        let Some(label) = label.flatten() else {
             continue;
-        }
+        };
         let ratio = spread.values[*step as usize].value().abs() / spread.u(*a);
         if ratio > 1.0 && ratio.is_finite() {
             let call = label.call.to_string();

@@ -334,11 +334,21 @@ pub fn power(x: f64, c: f64) -> [f64; 4] {
         *value = if factor == 0.0 {
             0.0
         } else {
-            factor * libm::pow(x, exponent)
+            factor * raised(x, exponent)
         };
         factor *= exponent;
     }
     out
+}
+
+/// x^c, without a search for logarithms where a product says it.
+fn raised(x: f64, c: f64) -> f64 {
+    match c {
+        0.0 => 1.0,
+        1.0 => x,
+        2.0 => x * x,
+        _ => libm::pow(x, c),
+    }
 }
 
 macro_rules! by_name {

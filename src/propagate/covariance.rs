@@ -132,6 +132,12 @@ impl Covariance {
         }
     }
 
+    /// Members of the group that has most.
+    pub(super) fn largest_group(&self) -> usize {
+        let sizes = self.groups.iter().map(|group| group.correlation.nrows());
+        sizes.max().unwrap_or(0)
+    }
+
     /// A group by its index.
     pub(super) fn correlated(&self, group: usize) -> &Correlated {
         &self.groups[group]

@@ -86,13 +86,17 @@ pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
 /// Second-order terms when only the inputs marked in `changing` change, the others staying at their
 /// estimates: of these, `shift` and `curvature` have a meaning.
 pub(super) fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Outcome> {
-    let blocks: Vec<Option<usize>> = budget
-        .model
-        .interactions()
-        .into_iter()
-        .zip(changing)
+    let blocks = budget.model.interactions().into_iter().zip(changing);
+    let blocks: Vec<Option<usize>> = blocks
         .map(|(block, changes)| block.filter(|_| *changes))
         .collect();
+    let hubs = || hubs::outcomes(budget, linear, changing);
+    // The coordinates of many correlated inputs move all of them: not even the directions are cheap.
+    let bent = blocks.iter().any(Option::is_some);
+    let correlated = bent && linear.covariance.largest_group() > MOST_SWEEPS;
+    if correlated && let Some(outcomes) = hubs() {
+        return outcomes;
+    }
     let directions = directions(
         &linear.covariance,
         &budget.inputs,
@@ -100,14 +104,15 @@ pub(super) fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool])
         &blocks,
     );
     let plan = Plan::new(&directions, &blocks);
-    let few = || single_use(budget, linear, &directions);
-    let near = || sparse::outcomes(budget, linear, &directions);
-    let hubs = || hubs::outcomes(budget, linear, changing);
-    let found = match plan.sweeps.len() {
-        ..=MANY_SWEEPS => None,
-        ..=MOST_SWEEPS => few().or_else(near),
-        _ => few().or_else(near).or_else(hubs),
-    };
+    let sweeps = plan.sweeps.len();
+    let mut found = None;
+    if sweeps > MANY_SWEEPS {
+        found = single_use(budget, linear, &directions)
+            .or_else(|| sparse::outcomes(budget, linear, &directions));
+    }
+    if found.is_none() && !correlated && sweeps > MOST_SWEEPS {
+        found = hubs();
+    }
     found.unwrap_or_else(|| {
         accumulate(linear, &directions, &plan, |direction| {
             budget.model.along(&linear.x, direction)

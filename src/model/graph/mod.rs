@@ -189,20 +189,21 @@ impl Graph {
         let mut out = Graph::default();
         let places = (0..hubs.len()).map(|k| Op::Input((inputs + k) as u32));
         out.ops.extend(places);
-        let mut replaced: HashMap<Id, Id> = HashMap::new();
+        let mut replaced: Vec<Id> = vec![0; of as usize + 1];
         let mut made = Vec::with_capacity(hubs.len());
         let needed = self.needed(&[of]);
         for id in (0..=of).filter(|id| needed[*id as usize]) {
-            let moved = self.moved(self.ops[id as usize], |id| replaced[&id], &mut out);
+            let at = |operand: Id| replaced[operand as usize];
+            let moved = self.moved(self.ops[id as usize], at, &mut out);
             let mut place = out.ops.len() as Id;
             out.ops.push(moved);
             if let Ok(hub) = hubs.binary_search(&id) {
                 made.push(place);
                 place = hub as Id;
             }
-            replaced.insert(id, place);
+            replaced[id as usize] = place;
         }
-        out.outputs.push(replaced[&of]);
+        out.outputs.push(replaced[of as usize]);
         out.outputs.append(&mut made);
         out
     }

@@ -444,6 +444,10 @@ impl Sink for Tally {
     fn close(&mut self) -> ChunkSums {
         self.sums.close()
     }
+
+    fn end(&mut self) {
+        self.strainers.iter_mut().for_each(Strainer::settle);
+    }
 }
 
 /// Keeps everything.

@@ -43,6 +43,9 @@ pub(super) trait Sink: Send {
 
     /// Ends a chunk.
     fn close(&mut self) -> Self::Chunk;
+
+    /// After the last chunk: what a thread can do before all sinks are together.
+    fn end(&mut self) {}
 }
 
 /// How trials are cut: batches (the "applications of MCM" of JCGM 101 7.9.4) of whole chunks, the last
@@ -109,7 +112,10 @@ pub(super) fn simulate<S: Source, K: Sink>(
             progress::count(trials as u64);
             sink.close()
         },
-        |(_, _, sink)| sink,
+        |(_, _, mut sink)| {
+            sink.end();
+            sink
+        },
     )
 }
 

@@ -16,7 +16,7 @@ use super::interval::{Ranked, Ranks};
 use super::sieve::{MOST_KEPT, Sieve};
 
 /// Values that are sorted without a look at finer counts.
-const SORTED: u64 = 1 << 13;
+const SORTED: u64 = 1 << 14;
 
 /// Consecutive values between two numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -130,11 +130,18 @@ impl Strainer {
             .add(self.level, &self.grid, values, &mut self.picked);
     }
 
+    /// Counts what has not been counted yet.
+    pub(super) fn settle(&mut self) {
+        self.count();
+        self.range = self.range();
+        self.known = self.picked.len();
+    }
+
     /// Ends the straining.
     pub(super) fn finish(mut self) -> Strained {
-        self.count();
+        self.settle();
         Strained {
-            range: self.range(),
+            range: self.range,
             counter: self.counter,
             taken: self.sifted.taken(),
             picked: (!self.overflowed).then_some(self.picked),

@@ -1,7 +1,7 @@
 """Times gumption beside others, and puts the figures into a table.
 
     compare.py measure GUMPTION BASELINES    one JSON line for each turn of a model and a number of trials
-    compare.py report FILE QUASI             Markdown from these lines and the output of the bench `quasi`
+    compare.py report FILE QUASI PROPAGATION Markdown from these lines and the output of two benches
 
 In a turn everything that is compared runs within seconds, because the clock of a machine drifts: ratios
 are of one turn, and medians over the turns.
@@ -210,9 +210,16 @@ def table(heads, row, turns):
                 print("| " + " | ".join(row(model, trials, turns[model, trials])) + " |")
 
 
-def report(file, quasi):
+def quote(file):
+    """The output of a benchmark as it is."""
+    print("```text")
+    print(pathlib.Path(file).read_text().strip())
+    print("```")
+
+
+def report(file, quasi, propagation):
     turns, limits = read(file)
-    print("# Performance of the Monte Carlo method\n")
+    print("# Performance\n")
     print("Written by `benches/compare.sh`. All figures are from one session on one machine")
     print(f"({platform.machine()}, {os.cpu_count()} processors; load average {os.getloadavg()[0]:.1f} at the end).")
     print("What is compared ran in turns of seconds; figures and ratios are medians over the turns, ratios of")
@@ -221,7 +228,7 @@ def report(file, quasi):
     absent = [text for peer, (text, _) in PEERS.items() if peer not in met]
     if absent:
         print(f"Not installed, hence not compared: {', '.join(absent)}.\n")
-    print("## Calculation\n")
+    print("## Monte Carlo: calculation\n")
     print("CPU milliseconds on one thread, in a process that runs already, from the budget to estimate, u and both")
     print("coverage intervals; this is also what the others measure of themselves. A ratio is CPU time of the other")
     print("over that of gumption; in brackets over that of the whole program `gumption eval`, with its start, the")
@@ -230,17 +237,19 @@ def report(file, quasi):
     print("threads*: wall time of one over that of two.\n")
     heads = ["model", "trials", "CPU ms", *(text for text, _ in PEERS.values()), "of the kernel", "two threads"]
     table(heads, ratio_row, turns)
-    print("\n## Whole program\n")
+    print("\n## Monte Carlo: whole program\n")
     print("Milliseconds of `gumption eval --json` from start to end.\n")
     heads = ["model", "trials", "CPU ms", "wall ms", "wall ms, two threads", "peak MB"]
     table(heads, program_row, turns)
-    print("\n## Time to two stable digits\n")
+    print("\n## Monte Carlo: time to two stable digits\n")
     print("Quasi-random points beside random trials of gumption, each until it guarantees estimate, u and both ends")
     print("of the 95 % interval to two digits of u ([docs/monte-carlo.md](../docs/monte-carlo.md)).\n")
-    print("```text")
-    print(pathlib.Path(quasi).read_text().strip())
-    print("```")
-    print("\n## Models\n")
+    quote(quasi)
+    print("\n## Propagation of many inputs\n")
+    print("From the budget to u, k, U, degrees of freedom, every line of the budget, second order and what a reader has")
+    print("to know, without Monte Carlo; and from the text of the file to the budget.\n")
+    quote(propagation)
+    print("\n## Models of Monte Carlo\n")
     for model, text in MODELS.items():
         print(f"- `{model}`: {text}")
     print("\n## Limits of this machine\n")

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Runs gumption beside other ways of doing the same Monte Carlo calculation, in one session on this
-# machine, and writes reports/performance.md.
+# Runs gumption beside other ways of doing the same Monte Carlo calculation, and the propagation of many
+# inputs, in one session on this machine, and writes reports/performance.md.
 #
 #   benches/compare.sh [BASELINES [PYTHON]]
 #
@@ -16,9 +16,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cargo build --release --quiet --bin gumption
-cargo bench --bench limits --bench quasi --bench throughput --no-run --quiet
+cargo bench --bench limits --bench quasi --bench throughput --bench propagation --no-run --quiet
 
 "$python" benches/compare.py measure "$target/release/gumption" "$baselines" >"$work/turns.jsonl"
 cargo bench --bench quasi --quiet >"$work/quasi.txt"
-"$python" benches/compare.py report "$work/turns.jsonl" "$work/quasi.txt" >"$work/performance.md"
+cargo bench --bench propagation --quiet >"$work/propagation.txt"
+"$python" benches/compare.py report "$work/turns.jsonl" "$work/quasi.txt" "$work/propagation.txt" >"$work/performance.md"
 mv "$work/performance.md" reports/performance.md

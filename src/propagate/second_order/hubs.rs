@@ -116,13 +116,6 @@ impl<'a> AtHubs<'a> {
     fn find_first_derivatives(&mut self) {
         let (n, r) = (self.cut.inputs(), self.cut.hubs());
         let gradients = self.cut.gradients(&self.point);
-        let in_units = |gradient: &[f64], scales: &[f64]| -> Vec<f64> {
-            gradient
-                .iter()
-                .zip(scales)
-                .map(|(g, scale)| g * scale)
-                .collect()
-        };
         // ∂f/∂s_k, also through the hubs behind.
         let mut lambda: Vec<f64> = gradients[0][n..]
             .iter()
@@ -134,14 +127,14 @@ impl<'a> AtHubs<'a> {
             }
         }
         for k in 0..r {
-            let mut slopes = in_units(&gradients[k + 1][..n], &self.scales);
+            let mut slopes = self.in_units(gradients[k + 1][..n].to_vec());
             for (j, hub) in self.hubs.iter().enumerate() {
                 let slope = gradients[k + 1][n + j] * self.scales[n + j];
                 self.before[(k, j)] = slope;
                 add_scaled(&mut slopes, slope, hub);
             }
             // A hub that does not move to first order is measured by what it does to f.
-            let sizes = [self.spread.deviation(&slopes), 1.0 / lambda[k].abs(), 1.0];
+            let sizes = [self.spread.deviation(&slopes), 1.0 / lambda[k].abs()];
             let scale = sizes
                 .into_iter()
                 .find(|size| size.is_normal())
@@ -154,7 +147,7 @@ impl<'a> AtHubs<'a> {
             self.hubs.push(slopes);
             self.scales.push(scale);
         }
-        self.gradient = in_units(&gradients[0][..n], &self.scales);
+        self.gradient = self.in_units(gradients[0][..n].to_vec());
         for (k, hub) in self.hubs.iter().enumerate() {
             add_scaled(
                 &mut self.gradient,
@@ -223,10 +216,15 @@ impl<'a> AtHubs<'a> {
         pairs.map(|(d, scale)| d * scale).collect()
     }
 
-    /// Derivatives with respect to variables in units of the file.
+    /// Derivatives with respect to variables in units of the file; none, also of infinite ones, where nothing moves.
     fn in_units(&self, mut derivatives: Vec<f64>) -> Vec<f64> {
-        let pairs = derivatives.iter_mut().zip(&self.scales);
-        pairs.for_each(|(derivative, scale)| *derivative *= scale);
+        for (derivative, scale) in derivatives.iter_mut().zip(&self.scales) {
+            *derivative = if *scale > 0.0 {
+                *derivative * scale
+            } else {
+                0.0
+            };
+        }
         derivatives
     }
 

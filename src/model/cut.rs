@@ -54,6 +54,11 @@ impl<'m> Cut<'m> {
         x.iter().copied().chain(hubs).collect()
     }
 
+    /// The places of the inputs and hubs that a hub is made of.
+    pub(crate) fn made_of(&self, hub: usize) -> impl Iterator<Item = usize> {
+        self.graph.inputs_of(self.graph.outputs[hub + 1])
+    }
+
     /// First derivatives of f and then of each s_k by x and s, which are taken for independent.
     pub(crate) fn gradients(&self, point: &[f64]) -> Vec<Vec<f64>> {
         let values = self.graph.evaluate(&points(point));

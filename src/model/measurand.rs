@@ -12,7 +12,7 @@ use super::syntax::{Expr, Infix, Node, Statement};
 use super::units::in_words;
 use super::{MeasurandSource, Place};
 use crate::fault::Fault;
-use crate::quantity::{Dimension, Unit, hint_for_clash, revolutions_as_angle};
+use crate::quantity::{Dimension, Unit, hint_for_clash, revolutions_as_angle, unit_of_angle};
 
 /// A measurand may be a vector of up to so many elements.
 const MOST_ELEMENTS: usize = 100;
@@ -242,7 +242,8 @@ impl Check<'_> {
             self.point_result(measurand.name, expr, &found, wanted);
             return None;
         }
-        if let Some(help) = revolutions_as_angle(&found, wanted, &printer::factor(expr)) {
+        if let Some(mut help) = revolutions_as_angle(&found, wanted, &printer::factor(expr)) {
+            help += unit_of_angle(&found).unwrap_or_default();
             let message = format!(
                 "the value is {}, but `{}` is wanted {}",
                 in_words(&found),

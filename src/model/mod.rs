@@ -220,8 +220,8 @@ impl Model {
         self.graph.along(x, direction)
     }
 
-    /// One output, cut where many inputs meet in one value; see [`Cut`]. `None` where there would be many such
-    /// values, or none of it would help.
+    /// One output, cut where many inputs meet in one value; see [`Cut`]. `None` where there are many such values,
+    /// or an operation with many arguments.
     pub(crate) fn cut(&self, output: usize) -> Option<Cut<'_>> {
         let of = *self.graph.outputs.get(output)?;
         Cut::new(&self.graph, self.inputs, of)

@@ -163,7 +163,9 @@ impl Lowering<'_> {
             self.clash(left, right, what);
             return None;
         }
-        if let Some(help) = revolutions_as_angle(b, a, &printer::factor(right.expr)) {
+        let counted = revolutions_as_angle(b, a, &printer::factor(right.expr));
+        let counted = counted.or_else(|| revolutions_as_angle(a, b, &printer::factor(left.expr)));
+        if let Some(help) = counted {
             self.counted_revolutions(left.expr, right.expr, [a, b], help);
             return None;
         }

@@ -58,7 +58,8 @@ pub(super) struct Direction {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Outcome {
     pub terms: Terms,
-    /// Standard deviation of each sensitivity coefficient c_i over the uncertainties of all inputs.
+    /// Standard deviation of the sensitivity coefficient c_i of each uncertain input over the uncertainties of all
+    /// inputs.
     pub slope_deviation: Vec<f64>,
     /// ½ Σ h_kk.
     pub shift: f64,

@@ -89,13 +89,9 @@ pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<S
     }
     let is_rate = found.dimension == rate;
     if is_turning(found) && is_count(wanted) {
-        let (operator, of_angle, what) = if is_rate {
-            ("/", "rad/s", "the angular velocity")
-        } else {
-            ("*", "s/rad", "the reciprocal of the angular velocity")
-        };
+        let operator = if is_rate { "/" } else { "*" };
         return Some(format!(
-            "a revolution is an angle, 2π, in {}: count revolutions by `{text} {operator} (1 'r')`, or write `unit = \"{of_angle}\"` for {what}",
+            "a revolution is an angle, 2π, in {}: count revolutions by `{text} {operator} (1 'r')`",
             found.symbol
         ));
     }
@@ -105,6 +101,16 @@ pub fn revolutions_as_angle(found: &Unit, wanted: &Unit, text: &str) -> Option<S
             wanted.symbol
         )
     })
+}
+
+/// What a result in such a unit may state in place of a count, to follow what [`revolutions_as_angle`] says.
+pub fn unit_of_angle(found: &Unit) -> Option<&'static str> {
+    let (rate, period) = (
+        ", or write `unit = \"rad/s\"` for the angular velocity",
+        ", or write `unit = \"s/rad\"` for the reciprocal of the angular velocity",
+    );
+    let is_rate = found.dimension == Dimension::of([0, 0, -1, 0, 0, 0, 0, 0]);
+    is_turning(found).then_some(if is_rate { rate } else { period })
 }
 
 /// Revolutions or degrees per time, or a time for each: `rpm`, `r/min`, `°/s`, `min/r`.

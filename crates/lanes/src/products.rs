@@ -11,7 +11,7 @@ pub const DEPTH: usize = 64;
 pub type Row = [f64; DEPTH];
 
 /// Columns of the matrix that are done at a time.
-const ROW: usize = 8;
+const WIDTH: usize = 8;
 
 /// Rows of the matrix that are done at a time.
 const HELD: usize = 4;
@@ -31,8 +31,8 @@ pub fn subtract(level: Level, rows: &[Row], matrix: &mut [f64]) {
 #[inline(always)]
 fn subtract_with<S: Simd>(simd: S, rows: &[Row], matrix: &mut [f64]) {
     let n = rows.len();
-    for first in (0..n).step_by(ROW) {
-        let columns = turned(&rows[first..n.min(first + ROW)]);
+    for first in (0..n).step_by(WIDTH) {
+        let columns = turned(&rows[first..n.min(first + WIDTH)]);
         let below = matrix[first * n..].chunks_mut(HELD * n);
         for (rows, lines) in rows[first..].chunks(HELD).zip(below) {
             // Rows that are missing at the end are done twice.
@@ -46,7 +46,7 @@ fn subtract_with<S: Simd>(simd: S, rows: &[Row], matrix: &mut [f64]) {
                 }
             }
             for (line, sum) in lines.chunks_mut(n).zip(sums) {
-                let line = &mut line[first..n.min(first + ROW)];
+                let line = &mut line[first..n.min(first + WIDTH)];
                 for (entry, sum) in line.iter_mut().zip(sum.as_slice()) {
                     *entry -= sum;
                 }
@@ -57,8 +57,8 @@ fn subtract_with<S: Simd>(simd: S, rows: &[Row], matrix: &mut [f64]) {
 
 /// Some rows as columns; zero where there are less than eight.
 #[inline(always)]
-fn turned(rows: &[Row]) -> [[f64; ROW]; DEPTH] {
-    let mut columns = [[0.0; ROW]; DEPTH];
+fn turned(rows: &[Row]) -> [[f64; WIDTH]; DEPTH] {
+    let mut columns = [[0.0; WIDTH]; DEPTH];
     for (place, row) in rows.iter().enumerate() {
         for (column, value) in columns.iter_mut().zip(row) {
             column[place] = *value;

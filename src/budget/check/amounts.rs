@@ -184,6 +184,11 @@ impl Checker<'_> {
             let fraction = own
                 .conversion_to(&one)
                 .map_or(number, |conversion| conversion.apply(number));
+            // In its own unit, mm/m, nobody means a fraction of the value.
+            let plain = !relative && own.symbol == unit.symbol && own.symbol.contains('/');
+            if plain {
+                return Some(number);
+            }
             if relative || (is_ratio(&own.symbol) && !is_in_ratios(&unit)) {
                 return self.fraction(amount, fraction, context);
             }

@@ -123,10 +123,12 @@ impl Graph {
             if let Op::Input(place) = self.ops[id as usize] {
                 gradient.push((place as usize, bar));
             }
-            self.pass_on(values, id, bar, |operand, part| {
-                let sum = open.entry(operand).or_insert(Jet::constant(0.0));
-                *sum = *sum + part;
-            });
+            if !bar.is_zero() {
+                self.pass_on(values, id, bar, |operand, part| {
+                    let sum = open.entry(operand).or_insert(Jet::constant(0.0));
+                    *sum = *sum + part;
+                });
+            }
         }
         gradient
     }

@@ -83,6 +83,7 @@ const CASES: &[(&str, &str, &str, &str, &str)] = &[
     ("n * 1 'r/min'", "Hz", "M0409", "n * 1 'r/min'", "/ (1 'r')"),
     ("n * 1 'r/min' + 1 'Hz'", "Hz", "M0409", "1 'Hz'", "* (1 'r')"),
     ("n * 1 'Hz' - 1 'rpm'", "Hz", "M0409", "1 'rpm'", "/ (1 'r')"),
+    ("n * 1 'r/min' + 1 '1/min'", "1/min", "M0409", "1 '1/min'", "/ (1 'r')"),
     ("L / t", "mm", "M0405", "L / t", "unit = \"mm/s\""),
     ("phi + 90", "°", "M0407", "90", "`90 '°'`"),
     ("sin(phi * pi / 180)", "", "M0408", "phi * pi / 180", "write `phi` without"),

@@ -171,14 +171,15 @@ fn normal_or_t(budget: &Budget, result: &MeasurandResult) -> bool {
     result.basis == Basis::Gum && verdict != Some(Clause8::NotValidated)
 }
 
-/// Estimate, u and U as the statement reports them. Where the distribution has no standard deviation, u is that
-/// of the GUM, which the statement leaves out.
+/// Estimate, u and U as the statement reports them. Where the distribution has no standard deviation, the statement
+/// leaves u out; half of U stands for it here, because the u of the GUM may be far too small.
 fn reported(result: &MeasurandResult) -> (f64, f64, f64) {
     let gum = &result.gum;
     match (&result.monte_carlo, result.basis) {
         (Some(mc), Basis::MonteCarlo) => {
             let [low, high] = mc.symmetric;
-            (mc.centre(), mc.u.unwrap_or(gum.u), (high - low) / 2.0)
+            let expanded = (high - low) / 2.0;
+            (mc.centre(), mc.u.unwrap_or(expanded / 2.0), expanded)
         }
         _ => (gum.estimate, gum.u, gum.coverage.expanded),
     }

@@ -145,7 +145,7 @@ impl Resolved {
         }
     }
 
-    /// Sorts the values of the runs.
+    /// Sorts the values of the runs, which all are.
     fn sorted(
         parts: Vec<Vec<f64>>,
         runs: &[Run],
@@ -153,7 +153,7 @@ impl Resolved {
         count: u64,
         depth: usize,
     ) -> Resolved {
-        let mut values = inside(runs, parts.concat());
+        let mut values = parts.concat();
         values.sort_unstable_by(f64::total_cmp);
         let mut start = 0;
         let mut cells: Vec<(Cell, Option<usize>)> = Vec::new();

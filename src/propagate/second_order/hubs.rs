@@ -116,22 +116,27 @@ impl<'a> AtHubs<'a> {
     fn find_first_derivatives(&mut self) {
         let (n, r) = (self.cut.inputs(), self.cut.hubs());
         let gradients = self.cut.gradients(&self.point);
+        let moving = self.moving();
+        let hubs = || (0..r).filter(|k| moving[*k]);
         // ∂f/∂s_k, also through the hubs behind.
-        let mut lambda: Vec<f64> = gradients[0][n..]
-            .iter()
-            .map(|g| g * self.weights[0])
-            .collect();
-        for k in (0..r).rev() {
-            for j in 0..k {
+        let mut lambda = vec![0.0; r];
+        for k in hubs().rev() {
+            lambda[k] += gradients[0][n + k] * self.weights[0];
+            for j in hubs().filter(|j| *j < k) {
                 lambda[j] += lambda[k] * gradients[k + 1][n + j];
             }
         }
         for k in 0..r {
+            if !moving[k] {
+                self.hubs.push(vec![0.0; n]);
+                self.scales.push(0.0);
+                continue;
+            }
             let mut slopes = self.in_units(gradients[k + 1][..n].to_vec());
-            for (j, hub) in self.hubs.iter().enumerate() {
+            for j in hubs().filter(|j| *j < k) {
                 let slope = gradients[k + 1][n + j] * self.scales[n + j];
                 self.before[(k, j)] = slope;
-                add_scaled(&mut slopes, slope, hub);
+                add_scaled(&mut slopes, slope, &self.hubs[j]);
             }
             // A hub that does not move to first order is measured by what it does to f.
             let sizes = [self.spread.deviation(&slopes), 1.0 / lambda[k].abs()];
@@ -148,15 +153,23 @@ impl<'a> AtHubs<'a> {
             self.scales.push(scale);
         }
         self.gradient = self.in_units(gradients[0][..n].to_vec());
-        for (k, hub) in self.hubs.iter().enumerate() {
-            add_scaled(
-                &mut self.gradient,
-                gradients[0][n + k] * self.scales[n + k],
-                hub,
-            );
+        for k in hubs() {
+            let slope = gradients[0][n + k] * self.scales[n + k];
+            add_scaled(&mut self.gradient, slope, &self.hubs[k]);
         }
         self.gradient.iter_mut().for_each(|g| *g *= self.weights[0]);
         self.weights.append(&mut lambda);
+    }
+
+    /// Which hubs an input moves. One without a value is in a branch that is not taken.
+    fn moving(&self) -> Vec<bool> {
+        let mut moves: Vec<bool> = self.scales.iter().map(|scale| *scale > 0.0).collect();
+        let n = moves.len();
+        for k in 0..self.cut.hubs() {
+            let moved = self.cut.made_of(k).any(|place| moves[place]);
+            moves.push(moved && self.point[n + k].is_finite());
+        }
+        moves.split_off(n)
     }
 
     fn find_second_derivatives(&mut self) {
@@ -185,12 +198,17 @@ impl<'a> AtHubs<'a> {
         let mut all = self.cut.along(&self.point, &self.moved(direction));
         let mut whole = vec![0.0; self.scales.len()];
         let mut third = whole.clone();
-        for (weight, along) in self.weights.iter().zip(&all) {
+        // Where a weight is zero, derivatives need not exist.
+        let weighted = self.weights.iter().zip(&all);
+        for (weight, along) in weighted.filter(|(weight, _)| **weight != 0.0) {
             add_scaled(&mut whole, *weight, &along.second);
             add_scaled(&mut third, *weight, &along.third);
         }
         let hubs = all.drain(1..).zip(&self.scales[self.cut.inputs()..]);
         let part = |second: Vec<f64>, scale: f64| {
+            if scale == 0.0 {
+                return vec![0.0; second.len()];
+            }
             let mut part = self.in_units(second);
             part.iter_mut().for_each(|entry| *entry /= scale);
             part
@@ -243,15 +261,21 @@ impl<'a> AtHubs<'a> {
 
     /// Adds all terms of the second order to sums that are empty.
     fn add_to(&self, sums: &mut Sums) {
-        sums.nonlinear = std::iter::once(&self.whole)
-            .chain(&self.parts)
-            .any(|hessian| !hessian.is_zero());
-        if !sums.nonlinear {
-            return;
-        }
+        let drift = self.drift();
+        let thirds = self
+            .colours
+            .iter()
+            .map(|(_, third)| third)
+            .chain(&self.alone);
+        let bends = |hessian: &Bordered| !hessian.is_zero();
+        sums.nonlinear = bends(&self.whole)
+            || self.parts.iter().any(bends)
+            || thirds.flatten().any(|third| *third != 0.0)
+            || drift != 0.0;
         self.add_traces(sums);
         self.add_moments(sums);
-        sums.added += sums.curvature + self.drift();
+        sums.curvature = sums.curvature.max(0.0);
+        sums.added += sums.curvature + drift;
     }
 
     /// ½ tr(HC), ½ tr(HCHC) and (HCH)_ii with H = A + U W Uᵀ.
@@ -279,7 +303,7 @@ impl<'a> AtHubs<'a> {
         let mixed = 2.0 * (&w * &ucacu).trace();
         let square =
             self.spread.trace_of_square(&self.near, few) + mixed + (&along * &along).trace();
-        sums.curvature = (0.5 * square).max(0.0);
+        sums.curvature = 0.5 * square;
         let around = &along * &w;
         for i in (0..n).filter(|i| self.scales[*i] > 0.0) {
             let mut square = self.spread.around(&self.near[i], &few[i]);
@@ -532,6 +556,46 @@ mod tests {
         for model in MODELS {
             agrees(&correlated(model), model);
         }
+    }
+
+    /// All at zero, where second derivatives may vanish and third ones not.
+    #[test]
+    fn third_derivatives_alone_are_seen() {
+        for model in [
+            "sin(sum(V)) + a",
+            "mean(V) + mean(V)^3 + a",
+            "sum(sinh(V)) * a",
+        ] {
+            let values = vec!["0"; COUNT].join(", ");
+            let text = format!(
+                "title = \"T\"\n[measurand.Y]\nmodel = \"{}\"\n[input.a]\nvalue = 1\nu = 0.1\n[input.x]\nvalues = [{values}]\nhalf_width = 0.1\n",
+                model.replace('V', "x")
+            );
+            agrees(&budget(&text), model);
+        }
+    }
+
+    /// A hub of inputs that rest has no derivatives that matter, also where they do not exist.
+    #[test]
+    fn inputs_that_rest_move_nothing() {
+        let zeros = vec!["0"; COUNT].join(", ");
+        let values: Vec<String> = (0..COUNT)
+            .map(|i| format!("{}", 1.0 + 0.1 * i as f64))
+            .collect();
+        let budget = budget(&format!(
+            "title = \"T\"\n[measurand.Y]\nmodel = \"sd(x) + norm(z) * mean(x)^2\"\n[input.x]\nvalues = [{}]\nhalf_width = 0.2\n[input.z]\nvalues = [{zeros}]\nu = 0.1\n",
+            values.join(", ")
+        ));
+        let linear = linearise(&budget).unwrap();
+        let changing: Vec<bool> = (0..2 * COUNT).map(|input| input < COUNT).collect();
+        let blocks = budget.model.interactions().into_iter().zip(&changing);
+        let blocks: Vec<_> = blocks
+            .map(|(block, changes)| block.filter(|_| *changes))
+            .collect();
+        let all = over(&budget, &linear, &blocks).remove(0);
+        let found = outcomes(&budget, &linear, &changing).unwrap().remove(0);
+        near(found.shift, all.shift, all.shift, "shift");
+        near(found.curvature, all.curvature, all.curvature, "curvature");
     }
 
     #[test]

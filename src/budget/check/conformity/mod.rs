@@ -199,6 +199,7 @@ impl Checker<'_> {
         }
         if let Some(own) = self.amount_unit(&mpe.value)?
             && is_ratio(&own.symbol)
+            && !own.symbol.contains('/')
             && is_in_ratios(subject.unit)
         {
             return self.refuse(part_or_points(mpe, &own, nominal, subject));

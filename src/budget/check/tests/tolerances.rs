@@ -66,3 +66,13 @@ fn a_percentage_of_a_percentage_says_what_to_write() {
         );
     }
 }
+
+#[test]
+fn a_slope_in_its_own_unit_is_plain() {
+    let text = "[measurand.s]\nmodel = \"x\"\nunit = \"mm/m\"\n[input.x]\nvalue = 0.3\nunit = \"mm/m\"\nu = \"0.01 mm/m\"\n[conformity]\nrule = \"simple\"\nmpe = \"0.02 mm/m\"\nnominal = 0.3\n";
+    let budget = budget(text);
+    close(budget.components[0].u, 0.01);
+    let found = budget.conformity[0].tolerance;
+    close(found.lower, 0.28);
+    close(found.upper, 0.32);
+}

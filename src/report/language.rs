@@ -71,6 +71,21 @@ impl Language {
         }
     }
 
+    /// Joins names, of which it gives the first ones and a count where they are many: the machine form has all.
+    pub(super) fn first_of(self, names: &[String]) -> String {
+        /// Most names that are read, and those that are given of more.
+        const MOST: usize = 16;
+        const FIRST: usize = 8;
+        if names.len() <= MOST {
+            return self.list(names);
+        }
+        let (first, others) = (&names[..FIRST], names.len() - FIRST);
+        match self {
+            Language::English => format!("{} and {others} other inputs", first.join(", ")),
+            Language::Chinese => format!("{} 等 {} 个输入量", first.join("、"), names.len()),
+        }
+    }
+
     /// Joins names of which one holds: `a or b or c`. Names may have commas in them, so that English has none
     /// between them.
     pub(super) fn either(self, names: &[String]) -> String {
@@ -160,5 +175,19 @@ mod tests {
         assert_eq!(Language::Chinese.either(&names), "a、b或c");
         assert_eq!(Language::Chinese.either(&names[..1]), "a");
         assert_eq!(Language::English.list(&names[..1]), "a");
+    }
+
+    #[test]
+    fn long_lists_are_counted() {
+        let names: Vec<String> = (0..17).map(|i| format!("x{i}")).collect();
+        let language = Language::English;
+        assert_eq!(language.first_of(&names[..16]), language.list(&names[..16]));
+        let shortened = language.first_of(&names);
+        assert_eq!(
+            shortened,
+            "x0, x1, x2, x3, x4, x5, x6, x7 and 9 other inputs"
+        );
+        let shortened = Language::Chinese.first_of(&names);
+        assert!(shortened.ends_with("x7 等 17 个输入量"), "{shortened}");
     }
 }

@@ -279,7 +279,7 @@ type Unseen<'a> = (&'a [String], f64, f64, bool);
 
 fn unseen_in_english(report: &Report<'_>, measurand: Option<usize>, unseen: Unseen<'_>) -> String {
     let (inputs, shift, u_effect, matters) = unseen;
-    let names = Language::English.list(inputs);
+    let names = Language::English.first_of(inputs);
     let (coefficient, verb) = match inputs.len() {
         1 => ("sensitivity coefficient", "vanishes"),
         _ => ("sensitivity coefficients", "vanish"),
@@ -314,7 +314,7 @@ fn unseen_in_english(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
 
 fn unseen_in_chinese(report: &Report<'_>, measurand: Option<usize>, unseen: Unseen<'_>) -> String {
     let (inputs, shift, u_effect, matters) = unseen;
-    let names = Language::Chinese.list(inputs);
+    let names = Language::Chinese.first_of(inputs);
     let first = format!(
         "{names} 存在不确定度，但在估计值处其灵敏系数为零（或近于零），一阶 GUM 法反映不出其影响。"
     );

@@ -145,7 +145,7 @@ impl Resolved {
         }
     }
 
-    /// Sorts the values of the runs, which all are.
+    /// Sorts values, all of which lie in the runs.
     fn sorted(
         parts: Vec<Vec<f64>>,
         runs: &[Run],

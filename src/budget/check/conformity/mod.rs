@@ -279,7 +279,10 @@ fn part_or_points(
         format!("write the plain number {points}{which}, if the error of {name} itself is meant");
     if let Some(nominal) = nominal {
         let part = show(number_in(&Unit::one()) * nominal.abs());
-        help += &format!("; {number} {} of the nominal value are {part}", own.symbol);
+        help += &format!(
+            "; for {number} {} of the nominal value write {part}",
+            own.symbol
+        );
     }
     Fault::new(
         RELATIVE_UNCLEAR,

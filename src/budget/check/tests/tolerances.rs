@@ -49,10 +49,18 @@ fn a_permissible_error_is_stated_once_and_whole() {
 fn a_percentage_of_a_percentage_says_what_to_write() {
     for (unit, nominal, help) in [
         ("%", "", "write the plain number 2, which is in %, if"),
-        ("%", "nominal = 50\n", "2 % of the nominal value are 1"),
+        (
+            "%",
+            "nominal = 50\n",
+            "for 2 % of the nominal value write 1",
+        ),
         ("%RH", "", "write the plain number 2, which is in %RH, if"),
         ("1", "", "write the plain number 0.02, if"),
-        ("1", "nominal = 5\n", "2 % of the nominal value are 0.1"),
+        (
+            "1",
+            "nominal = 5\n",
+            "for 2 % of the nominal value write 0.1",
+        ),
     ] {
         let text = format!(
             "[measurand.h]\nmodel = \"x\"\nunit = \"{unit}\"\n[input.x]\nvalue = 50\nunit = \"{unit}\"\nu = 1\n[conformity]\nrule = \"simple\"\nmpe = \"2 %\"\n{nominal}"

@@ -459,6 +459,10 @@ fn three_readings_beside_a_product_of_zeros_do_not_keep_the_first_order() {
     assert!(half > 2.0 * result.gum.coverage.expanded);
     let decided = &product.conformity[0];
     assert_eq!((decided.estimate, decided.expanded), (mc.centre(), half));
+    // Three readings do not widen it once more: p_c is near that of the trials.
+    let conformance = decided.conformance.unwrap();
+    let trials = conformance.from_trials.unwrap();
+    assert!((conformance.from_measurement - trials).abs() < 0.01);
     let linear = evaluation("b + 0.01 '1/K' * dt", "");
     let result = &linear.results[0];
     assert_eq!(result.monte_carlo.as_ref().unwrap().u, None);

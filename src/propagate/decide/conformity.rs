@@ -115,6 +115,8 @@ fn assessment(
     let gum = &result.gum;
     let (estimate, u, expanded) = reported(result);
     let dof = match gum.coverage.basis {
+        // U/2 in place of u holds the tails already.
+        _ if has_no_u(result) => f64::INFINITY,
         CoverageBasis::StudentT { dof } => dof,
         CoverageBasis::Normal => f64::INFINITY,
         CoverageBasis::Output { .. } | CoverageBasis::Fixed => gum.freedom.value(),
@@ -169,6 +171,12 @@ fn normal_or_t(budget: &Budget, result: &MeasurandResult) -> bool {
     let verdict = result.validation.as_ref();
     let verdict = verdict.map(|both| validation::at(both, digits).verdict);
     result.basis == Basis::Gum && verdict != Some(Clause8::NotValidated)
+}
+
+/// Whether the statement gives the result of Monte Carlo without a standard deviation.
+fn has_no_u(result: &MeasurandResult) -> bool {
+    let mc = result.monte_carlo.as_ref();
+    result.basis == Basis::MonteCarlo && mc.is_some_and(|mc| mc.u.is_none())
 }
 
 /// Estimate, u and U as the statement reports them. Where the distribution has no standard deviation, the statement

@@ -28,7 +28,7 @@ MODELS = {
 GAUGE = "budgets/length/gauge-block-gum-s1-9-5.toml"
 TRIALS = [10**6, 10**7, 10**8]
 #: Runs of one measurement, of which the median counts, as with the others.
-RUNS = {10**6: 9, 10**7: 5, 10**8: 3}
+RUNS = {10**6: 9, 10**7: 7, 10**8: 3}
 #: Turns of a model and a number of trials.
 TURNS = {10**6: 5, 10**7: 5, 10**8: 3}
 #: Most trials of the long models.
@@ -105,12 +105,10 @@ def bench(name, *words):
     return lines[0]
 
 
-def own(program, file, trials, threads):
-    """Seconds of whole programs, and of the calculation inside a process."""
+def program_figures(program, file, trials, threads):
+    """CPU and wall seconds and peak memory of whole programs."""
     runs = [run(program, file, trials, threads) for _ in range(RUNS[trials])]
-    cpu, wall, memory = (statistics.median(column) for column in zip(*runs))
-    record = {"program": cpu, "program_wall": wall, "memory": memory}
-    return record | bench("throughput", file, trials, threads, RUNS[trials])
+    return dict(zip(("cpu", "wall", "memory"), (statistics.median(column) for column in zip(*runs))))
 
 
 def peers(baselines, model, trials):
@@ -142,7 +140,11 @@ def measure(program, baselines):
                         continue
                     record = {"model": model, "n": trials}
                     record["limit"] = bench("limits", model)["per_second"]
-                    record["own"] = {threads: own(program, file, trials, threads) for threads in (1, 2)}
+                    record["inside"] = bench("throughput", file, trials, RUNS[trials])
+                    record["program"] = {
+                        name: program_figures(program, file, trials, threads)
+                        for name, threads in (("one", 1), ("two", 2))
+                    }
                     record["peers"] = peers(baselines, model, trials)
                     print(json.dumps(record), flush=True)
         for limit in ("uniform", "normal"):
@@ -171,34 +173,38 @@ def median(records, figure):
     return statistics.median(figure(record) for record in records)
 
 
-def mine(column, threads="1"):
-    """A figure of gumption in a turn."""
-    return lambda record: record["own"][threads][column]
+def mine(where, column, threads="one"):
+    """A figure of gumption in a turn, inside of a process or of the program."""
+    return lambda record: record[where][threads][column]
 
 
 def ratio_row(model, trials, records):
-    cells = [model, power(trials), f"{1000 * median(records, mine('cpu')):.1f}"]
+    cells = [model, power(trials), f"{1000 * median(records, mine('inside', 'cpu')):.1f}"]
     for peer in PEERS:
         with_peer = [record for record in records if peer in record["peers"]]
         if not with_peer:
             cells.append("–")
             continue
         inside, program = (
-            median(with_peer, lambda record: record["peers"][peer] / mine(column)(record))
-            for column in ("cpu", "program")
+            median(with_peer, lambda record: record["peers"][peer] / mine(where, "cpu")(record))
+            for where in ("inside", "program")
         )
         cells.append(f"{inside:.1f} × ({program:.1f} ×)")
-    share = median(records, lambda record: trials / mine("cpu")(record) / record["limit"])
+    share = median(records, lambda record: trials / mine("inside", "cpu")(record) / record["limit"])
     cells.append(f"{100 * share:.0f} %")
-    threads = median(records, lambda record: mine("wall")(record) / mine("wall", "2")(record))
-    cells.append(f"{threads:.2f} ×")
+    one = mine("inside", "wall")
+    two, pair = (
+        median(records, lambda record: times * one(record) / mine("inside", "wall", way)(record))
+        for way, times in (("two", 1), ("pair", 2))
+    )
+    cells.append(f"{two:.2f} × of {pair:.2f} ×")
     return cells
 
 
 def program_row(model, trials, records):
-    figures = mine("program"), mine("program_wall"), mine("program_wall", "2")
+    figures = mine("program", "cpu"), mine("program", "wall"), mine("program", "wall", "two")
     times = [f"{1000 * median(records, figure):.1f}" for figure in figures]
-    return [model, power(trials), *times, f"{median(records, mine('memory')):.0f}"]
+    return [model, power(trials), *times, f"{median(records, mine('program', 'memory')):.0f}"]
 
 
 def table(heads, row, turns):
@@ -234,7 +240,7 @@ def report(file, quasi, propagation):
     print("over that of gumption; in brackets over that of the whole program `gumption eval`, with its start, the")
     print("file and the JSON, where the others' interpreters have been started before. *Of the kernel*: the rate")
     print("over that of the same model written by hand on the same kernels (draws, model and moments only). *Two")
-    print("threads*: wall time of one over that of two.\n")
+    print("threads*: wall time of one over that of two, *of* what two calculations at once reach, on a thread each.\n")
     heads = ["model", "trials", "CPU ms", *(text for text, _ in PEERS.values()), "of the kernel", "two threads"]
     table(heads, ratio_row, turns)
     print("\n## Monte Carlo: whole program\n")

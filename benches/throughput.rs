@@ -1,9 +1,10 @@
 //! CPU and wall seconds of the evaluation of a budget in this process, from the budget to both coverage
 //! intervals, without the start of a program and without files: what the baselines of `compare.sh` measure
-//! of themselves. One JSON line.
+//! of themselves. One thread, two threads and two evaluations at once on a thread each, which is what two
+//! threads could reach at best, take turns, so that a slow moment of the machine falls on all. One JSON line.
 //!
 //! ```text
-//! cargo bench --bench throughput -- BUDGET TRIALS THREADS RUNS
+//! cargo bench --bench throughput -- BUDGET TRIALS RUNS
 //! ```
 
 mod common;
@@ -16,41 +17,54 @@ use gumption::propagate::{MonteCarloChoice, Options, evaluate};
 
 fn main() {
     let words: Vec<String> = words().collect();
-    let [file, numbers @ ..] = words.as_slice() else {
-        println!("needs BUDGET TRIALS THREADS RUNS");
+    let [file, trials, runs] = words.as_slice() else {
+        println!("needs BUDGET TRIALS RUNS");
         return;
     };
-    let numbers: Vec<u64> = numbers
-        .iter()
-        .filter_map(|word| word.parse().ok())
-        .collect();
-    let [trials, threads, runs] = numbers[..] else {
-        println!("needs TRIALS THREADS RUNS as whole numbers");
+    let (Ok(trials), Ok(runs)) = (trials.parse::<u64>(), runs.parse::<usize>()) else {
+        println!("needs TRIALS and RUNS as whole numbers");
         return;
     };
     let text = std::fs::read_to_string(file).unwrap_or_else(|error| panic!("{file}: {error}"));
     let budget = budget(&text);
-    let options = Options {
+    let options = |threads| Options {
         monte_carlo: MonteCarloChoice::With(MonteCarloSettings {
             points: Points::Random,
             indices: false,
             seed: 1,
             trials: Trials::Fixed(trials),
         }),
-        threads: threads as usize,
+        threads,
     };
-    let run = || evaluate(&budget, &options).expect("the budget has a result");
-    warm_up(run);
-    let mut times: Vec<[f64; 2]> = (0..runs.max(1))
-        .map(|_| {
+    let run = |threads| {
+        let found = evaluate(&budget, &options(threads)).expect("the budget has a result");
+        std::hint::black_box(found);
+    };
+    let ways: [(&str, &dyn Fn()); 3] = [
+        ("one", &|| run(1)),
+        ("two", &|| run(2)),
+        ("pair", &|| {
+            std::thread::scope(|scope| {
+                scope.spawn(|| run(1));
+                run(1);
+            });
+        }),
+    ];
+    warm_up(|| run(1));
+    let mut times = ways.map(|_| Vec::new());
+    for _ in 0..runs.max(1) {
+        for ((_, run), times) in ways.iter().zip(&mut times) {
             let (cpu, wall) = (cpu_time(), Instant::now());
-            std::hint::black_box(run());
-            [cpu_time() - cpu, wall.elapsed().as_secs_f64()]
-        })
-        .collect();
-    let [cpu, wall] = [0, 1].map(|which| {
-        times.sort_by(|a, b| a[which].total_cmp(&b[which]));
-        times[times.len() / 2][which]
+            run();
+            times.push([cpu_time() - cpu, wall.elapsed().as_secs_f64()]);
+        }
+    }
+    let figures = ways.iter().zip(&mut times).map(|((name, _), times)| {
+        let [cpu, wall] = [0, 1].map(|which| {
+            times.sort_by(|a, b| a[which].total_cmp(&b[which]));
+            times[times.len() / 2][which]
+        });
+        format!("\"{name}\": {{\"cpu\": {cpu:.6}, \"wall\": {wall:.6}}}")
     });
-    println!("{{\"cpu\": {cpu:.6}, \"wall\": {wall:.6}}}");
+    println!("{{{}}}", figures.collect::<Vec<_>>().join(", "));
 }

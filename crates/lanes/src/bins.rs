@@ -119,14 +119,15 @@ impl Grids {
         self.bins
     }
 
-    /// The bin of every number; for one that lies in no stretch the number of bins.
-    pub fn places(&self, level: Level, x: &[f64], out: &mut Vec<u32>) {
-        out.clear();
+    /// The bin of every number, of which there are as many as places in `out`; for one that lies in no stretch the
+    /// number of bins.
+    pub fn places(&self, level: Level, x: &[f64], out: &mut [u32]) {
         if self.parts.len() > FEW {
-            out.extend(x.iter().map(|x| self.place(*x)));
+            for (out, x) in out.iter_mut().zip(x) {
+                *out = self.place(*x);
+            }
             return;
         }
-        out.resize(x.len(), 0);
         let (rows, rest) = x.as_chunks::<ROW>();
         let (out_rows, out_rest) = out.as_chunks_mut::<ROW>();
         dispatch!(level, simd => for (row, out) in rows.iter().zip(out_rows) {
@@ -274,7 +275,7 @@ mod tests {
         };
         let expected: Vec<u32> = values.iter().map(|x| place(*x)).collect();
         for level in levels() {
-            let mut places = vec![77];
+            let mut places = vec![77; values.len()];
             all.places(level, &values, &mut places);
             assert_eq!(places, expected, "{level:?}");
         }

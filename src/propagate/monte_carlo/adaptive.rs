@@ -101,8 +101,8 @@ struct Batch {
 }
 
 /// Batches that have been run, and how to run more.
-struct Experiment<'e, 's, S> {
-    collector: &'e mut Collector<'s, S>,
+struct Experiment<'e, 's, 'env, S> {
+    collector: &'e mut Collector<'s, 'env, S>,
     layout: Layout,
     pivots: &'e [Pivot],
     target: Target,
@@ -111,7 +111,7 @@ struct Experiment<'e, 's, S> {
     most: u64,
 }
 
-impl<S: Source> Experiment<'_, '_, S> {
+impl<S: Source> Experiment<'_, '_, '_, S> {
     /// Draws the next batches.
     fn draw(&self, batches: u64) -> Vec<Batch> {
         let numbers = self.batches..self.batches + batches;

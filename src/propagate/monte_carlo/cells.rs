@@ -140,20 +140,19 @@ pub(super) fn cell_of(cells: &[Cell], rank: u64) -> usize {
 /// All pairs of cells such that some interval reaches from one to the other.
 pub(super) fn for_each_pair(cells: &[Cell], ranks: Ranks, mut visit: impl FnMut(usize, usize)) {
     let (covered, last) = (ranks.covered as u64, ranks.last as u64);
-    let mut from = 0;
-    for (low, cell) in cells.iter().enumerate() {
-        if cell.below >= last {
+    let first = cells.first().map_or(0, |cell| cell.below);
+    let (mut low, mut high) = (0, cell_of(cells, first + 1 + covered));
+    while let (Some(from), Some(to)) = (cells.get(low), cells.get(high)) {
+        if from.below >= last {
             break;
         }
-        let first = cell.below + 1 + covered;
-        let end = cell.end().min(last) + covered;
-        while cells.get(from).is_some_and(|c| c.end() < first) {
-            from += 1;
-        }
-        let partners = cells.iter().enumerate().skip(from);
-        for (high, _) in partners.take_while(|(_, c)| c.below < end) {
+        let end = from.end().min(last) + covered;
+        if from.below + covered < to.end() && to.below < end {
             visit(low, high);
         }
+        // What ends first has no further partner. Which it is cannot be foreseen, so there is no branch.
+        low += usize::from(end <= to.end());
+        high += usize::from(to.end() <= end);
     }
 }
 

@@ -7,7 +7,8 @@ use gumption_lanes::{Block, LANES, Level, level};
 
 use super::cells::Wanted;
 use super::comoments::CoMoments;
-use super::engine::{CHUNK, Layout, Sink, Source, append, simulate};
+use super::crew::Crew;
+use super::engine::{CHUNK, Layout, Sink, Source, simulate};
 use super::interval::{Ordered, Ranked};
 use super::moments::{Moments, Pivot};
 use super::sieve::Sieve;
@@ -30,10 +31,10 @@ const MOST_CHUNKS: u64 = 1 << 10;
 pub(super) type Ask<'a> = dyn Fn(u64) -> Wanted + 'a;
 
 /// How trials are drawn and what is wanted of them.
-pub(super) struct Plan<'a, S> {
-    pub(super) source: &'a S,
+pub(super) struct Plan<'a, 'env, S> {
+    pub(super) crew: &'a Crew<'env>,
+    pub(super) source: &'env S,
     pub(super) layout: Layout,
-    pub(super) threads: usize,
     /// Per output.
     pub(super) pivots: &'a [Pivot],
     /// p of the intervals.
@@ -71,16 +72,16 @@ pub(super) struct Sieved {
 }
 
 /// Draws trials and holds what matters of them.
-pub(super) struct Collector<'a, S> {
-    plan: Plan<'a, S>,
+pub(super) struct Collector<'a, 'env, S> {
+    plan: Plan<'a, 'env, S>,
     held: Held,
     chunks: u64,
     trials: u64,
 }
 
-impl<'a, S: Source> Collector<'a, S> {
+impl<'a, 'env, S: Source> Collector<'a, 'env, S> {
     /// Nothing drawn yet.
-    pub(super) fn new(plan: Plan<'a, S>) -> Self {
+    pub(super) fn new(plan: Plan<'a, 'env, S>) -> Self {
         let columns = vec![Vec::new(); plan.source.outputs()];
         Collector {
             plan,
@@ -128,22 +129,21 @@ impl<'a, S: Source> Collector<'a, S> {
             };
             let next = self.chunks..end;
             let Plan {
+                crew,
                 source,
                 layout,
-                threads,
                 ask,
                 ..
             } = self.plan;
             match &mut self.held {
-                Held::Columns(columns) => {
-                    append(source, layout, next.clone(), threads, columns);
-                    self.drawn(next);
-                    self.sieve_if_many();
+                Held::Columns(_) => {
+                    let values = self.draw(next.clone());
+                    self.commit(next, values);
                 }
                 Held::Sieved(sieved) => {
                     sieved.plan(ask);
                     let tally = || Tally::new(sieved);
-                    let (moments, tallies) = simulate(source, layout, next.clone(), threads, tally);
+                    let (moments, tallies) = simulate(crew, source, layout, next.clone(), tally);
                     sieved.absorb(moments, tallies);
                     self.drawn(next);
                 }
@@ -154,16 +154,16 @@ impl<'a, S: Source> Collector<'a, S> {
     /// Draws chunks without taking them over: per chunk and output the values.
     pub(super) fn draw(&self, chunks: Range<u64>) -> Vec<Vec<Vec<f64>>> {
         let Plan {
+            crew,
             source,
             layout,
-            threads,
             ..
         } = self.plan;
         let keep = || Keep {
             columns: vec![Vec::new(); source.outputs()],
             room: layout.batch().min(CHUNK) as usize,
         };
-        simulate(source, layout, chunks, threads, keep).0
+        simulate(crew, source, layout, chunks, keep).0
     }
 
     /// Takes over the next chunks, whose values are at hand.
@@ -413,10 +413,10 @@ struct Tally {
 }
 
 impl Tally {
-    fn new(sieved: &Sieved) -> Self {
+    fn new(sieved: &mut Sieved) -> Self {
         Tally {
             sums: Sums::new(sieved),
-            strainers: sieved.sieves.iter().map(Sieve::strainer).collect(),
+            strainers: sieved.sieves.iter_mut().map(Sieve::strainer).collect(),
         }
     }
 }

@@ -6,10 +6,10 @@
 //! number of threads. Trials go block by block from a [`Source`] to a [`Sink`] and are not kept.
 
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 
 use gumption_lanes::{Block, LANES};
 
+use super::crew::Crew;
 use crate::propagate::progress;
 
 /// Most trials in a chunk: 64 blocks of 256.
@@ -85,24 +85,23 @@ impl Layout {
     }
 }
 
-/// Draws some chunks on `threads` threads. Returns what every chunk left behind, in their order, and
-/// the sinks, in no order: what these hold must not depend on which of them took which chunk.
-pub(super) fn simulate<S: Source, K: Sink>(
-    source: &S,
+/// Draws some chunks. Returns what every chunk left behind, in their order, and the sinks, in no order: what these
+/// hold must not depend on which of them took which chunk.
+pub(super) fn simulate<'env, S: Source, K: Sink + 'env>(
+    crew: &Crew<'env>,
+    source: &'env S,
     layout: Layout,
     chunks: Range<u64>,
-    threads: usize,
-    sink: impl Fn() -> K + Sync,
+    sink: impl FnMut() -> K,
 ) -> (Vec<K::Chunk>, Vec<K>) {
-    let scratch = || {
-        let outputs = vec![Block::ZERO; source.outputs()];
-        (source.worker(), outputs, sink())
-    };
-    parallel_map(
+    crew.map(
         chunks.collect(),
-        threads,
-        scratch,
-        |(worker, outputs, sink), chunk| {
+        sink,
+        |sink| {
+            let outputs = vec![Block::ZERO; source.outputs()];
+            (source.worker(), outputs, sink)
+        },
+        move |(worker, outputs, sink), chunk| {
             source.start(worker, chunk);
             let trials = layout.trials_in(chunk);
             for start in (0..trials).step_by(LANES) {
@@ -119,94 +118,6 @@ pub(super) fn simulate<S: Source, K: Sink>(
     )
 }
 
-/// Draws some chunks on `threads` threads, and appends the values of each output to its column.
-pub(super) fn append<S: Source>(
-    source: &S,
-    layout: Layout,
-    chunks: Range<u64>,
-    threads: usize,
-    columns: &mut [Vec<f64>],
-) {
-    let sizes: Vec<usize> = chunks.clone().map(|c| layout.trials_in(c)).collect();
-    let mut places: Vec<Vec<&mut [f64]>> = sizes.iter().map(|_| Vec::new()).collect();
-    for column in columns {
-        let start = column.len();
-        let end = start + sizes.iter().sum::<usize>();
-        if start == 0 {
-            // Memory that nothing is written to before the values.
-            *column = vec![0.0; end];
-        } else {
-            column.resize(end, 0.0);
-        }
-        let mut rest = &mut column[start..];
-        for (places, size) in places.iter_mut().zip(&sizes) {
-            let (place, others) = rest.split_at_mut(*size);
-            places.push(place);
-            rest = others;
-        }
-    }
-    parallel_map(
-        chunks.zip(places).collect(),
-        threads,
-        || (source.worker(), vec![Block::ZERO; source.outputs()]),
-        |(worker, outputs), (chunk, mut places)| {
-            source.start(worker, chunk);
-            let trials = layout.trials_in(chunk);
-            for start in (0..trials).step_by(LANES) {
-                source.next(worker, outputs);
-                for (place, output) in places.iter_mut().zip(&*outputs) {
-                    let place = &mut place[start..trials.min(start + LANES)];
-                    place.copy_from_slice(&output.0[..place.len()]);
-                }
-            }
-            progress::count(trials as u64);
-        },
-        |_| (),
-    );
-}
-
-/// `task` of every item on several threads, each with a scratch space; results in the order of the
-/// items, and what `finish` makes of the scratch spaces in no order.
-pub(super) fn parallel_map<I: Send, W, T: Send, R: Send>(
-    items: Vec<I>,
-    threads: usize,
-    scratch: impl Fn() -> W + Sync,
-    task: impl Fn(&mut W, I) -> T + Sync,
-    finish: impl Fn(W) -> R + Sync,
-) -> (Vec<T>, Vec<R>) {
-    let helpers = threads.clamp(1, items.len().max(1)) - 1;
-    let queue = Mutex::new(items.into_iter().enumerate());
-    let work = || {
-        let mut scratch = scratch();
-        let mut done = Vec::new();
-        loop {
-            // Whoever panics while taking an item leaves the queue consistent.
-            let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-            let Some((index, item)) = next else { break };
-            done.push((index, task(&mut scratch, item)));
-        }
-        (done, finish(scratch))
-    };
-    let (mut done, rest) = std::thread::scope(|scope| {
-        let helpers: Vec<_> = (0..helpers).map(|_| scope.spawn(work)).collect();
-        let (mut done, own) = work();
-        let mut rest = vec![own];
-        for helper in helpers {
-            match helper.join() {
-                Ok((theirs, other)) => {
-                    done.extend(theirs);
-                    rest.push(other);
-                }
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        }
-        (done, rest)
-    });
-    done.sort_unstable_by_key(|(index, _)| *index);
-    let done = done.into_iter().map(|(_, result)| result).collect();
-    (done, rest)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -219,23 +130,5 @@ mod tests {
         assert_eq!(sizes, [16_384, 16_384, 7_232]);
         assert_eq!(Layout::new(CHUNK).trials_in(5), CHUNK as usize);
         assert_eq!(Layout::new(1).trials_in(5), 1);
-    }
-
-    #[test]
-    fn parallel_map_keeps_order() {
-        let items: Vec<usize> = (0..50).collect();
-        let squares: Vec<usize> = (0..50).map(|i| i * i).collect();
-        let (done, counts) = parallel_map(
-            items,
-            4,
-            || 0,
-            |count, i| {
-                *count += 1;
-                i * i
-            },
-            |count| count,
-        );
-        assert_eq!(done, squares);
-        assert_eq!((counts.len(), counts.iter().sum::<i32>()), (4, 50));
     }
 }

@@ -121,11 +121,12 @@ impl Tail {
                 at_most: f64::INFINITY,
             };
         }
-        let index = hill(sample, side, k);
+        let deviations = extremes(sample, side, k + 1);
+        let index = hill(&deviations, k);
         let raised = |errors: f64, k: usize| index * (1.0 + errors / (k as f64).sqrt());
         let at_most = std::iter::successors(Some(k / 2), |k| Some(k / 2))
             .take_while(|k| *k >= FEWEST)
-            .map(|k| (k, hill(sample, side, k)))
+            .map(|k| (k, hill(&deviations, k)))
             .filter(|(k, further)| *further > raised(4.0, *k))
             .fold(raised(2.0, k), |most, (_, further)| most.max(further));
         Tail {
@@ -146,23 +147,34 @@ impl Tail {
     }
 }
 
-/// Hill's estimate of the tail index from the k most extreme deviations from the median.
-fn hill(sample: &impl Ranked, side: Side, k: usize) -> f64 {
+/// The k most extreme deviations from the median, largest first.
+fn extremes(sample: &impl Ranked, side: Side, k: usize) -> Vec<f64> {
     let median = sample.median();
-    let deviation = |i: usize| match side {
-        Side::Lower => median - sample.at(i),
-        Side::Upper => sample.at(sample.count() + 1 - i) - median,
-    };
-    let threshold = deviation(k + 1);
+    let (count, mut values) = (sample.count(), Vec::with_capacity(k));
+    match side {
+        Side::Lower => {
+            sample.visit(1, k, |value| values.push(median - value));
+        }
+        Side::Upper => {
+            sample.visit(count + 1 - k, count, |value| values.push(value - median));
+            values.reverse();
+        }
+    }
+    values
+}
+
+/// Hill's estimate of the tail index from the k largest deviations, of which there are more.
+fn hill(deviations: &[f64], k: usize) -> f64 {
+    let threshold = deviations[k];
     if threshold <= 0.0 {
         return f64::INFINITY;
     }
     let mut sum = 0.0;
     let (mut ratios, mut logarithms) = (Block([1.0; LANES]), Block::ZERO);
-    for start in (0..k).step_by(LANES) {
+    for deviations in deviations[..k].chunks(LANES) {
         ratios.0.fill(1.0);
-        for (ratio, i) in ratios.0.iter_mut().zip(start + 1..=k) {
-            *ratio = deviation(i) / threshold;
+        for (ratio, deviation) in ratios.0.iter_mut().zip(deviations) {
+            *ratio = deviation / threshold;
         }
         ops::ln(level(), &ratios, &mut logarithms);
         sum += logarithms.0.iter().sum::<f64>();
@@ -264,7 +276,7 @@ mod tests {
     fn verdict(seed: u64, draw: impl Fn(&mut Stream) -> f64) -> Verdict {
         let mut stream = Stream::new(seed);
         let values: Vec<f64> = (0..TRIALS).map(|_| draw(&mut stream)).collect();
-        let ordered = Ordered::new(&values, TRIALS / 20, 1);
+        let ordered = Ordered::new(&values, TRIALS / 20);
         Verdict::new(None, &Tail::heavier(&ordered))
     }
 
@@ -343,7 +355,7 @@ mod tests {
         let values: Vec<f64> = (0..TRIALS)
             .map(|_| -stream.uniform().powf(-1.0 / 1.7))
             .collect();
-        let ordered = Ordered::new(&values, 20_000, 1);
+        let ordered = Ordered::new(&values, 20_000);
         let tail = Tail::heavier(&ordered);
         assert_eq!(tail.side, Side::Lower);
         assert!((tail.index - 1.7).abs() < 0.17, "{tail:?}");
@@ -353,7 +365,7 @@ mod tests {
     fn few_trials_prove_nothing() {
         let mut stream = Stream::new(2);
         let values: Vec<f64> = (0..300).map(|_| stream.student_t(1.0)).collect();
-        let ordered = Ordered::new(&values, 100, 1);
+        let ordered = Ordered::new(&values, 100);
         assert_eq!(
             Verdict::new(None, &Tail::heavier(&ordered)),
             Verdict::Present

@@ -3,6 +3,7 @@
 use gumption_lanes::Block;
 
 use super::budget_source::BudgetSource;
+use super::crew::Crew;
 use super::engine::{Layout, Sink, simulate};
 use crate::budget::{Budget, Interval};
 
@@ -20,7 +21,10 @@ pub(crate) fn fractions(
         asked,
         counts: vec![Count::default(); asked.len()],
     };
-    let (chunks, _) = simulate(&source, layout, layout.chunks(0..1), threads, sink);
+    let chunks = layout.chunks(0..1);
+    let (chunks, _) = Crew::with(threads, chunks.end, |crew| {
+        simulate(crew, &source, layout, chunks, sink)
+    });
     let sum = |index: usize| {
         let counts = chunks.iter().filter_map(|chunk| chunk.get(index));
         counts.fold(Count::default(), |a, b| Count {

@@ -2,7 +2,7 @@
 
 use gumption_lanes::bins::Grid;
 
-use super::engine::parallel_map;
+use super::crew::parallel_map;
 use crate::propagate::Histogram;
 
 /// Bins of the picture.

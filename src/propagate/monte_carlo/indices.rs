@@ -14,7 +14,8 @@
 
 use gumption_lanes::{Block, LANES};
 
-use super::engine::{CHUNK, parallel_map};
+use super::crew::parallel_map;
+use super::engine::CHUNK;
 use super::joint_draw::JointDraw;
 use super::{GumForMc, McOutcome};
 use crate::budget::Budget;

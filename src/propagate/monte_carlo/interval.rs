@@ -3,7 +3,7 @@
 //! Only the two tails of (1 − p)·M values are sorted; one pass with cuts that a small part of the
 //! values suggests separates them from the middle. Results are exactly those of a full sort.
 
-use super::engine::parallel_map;
+use gumption_lanes::sift::to_front;
 
 /// The ranks of JCGM 101 7.7.2: of M ordered values, an interval reaches from rank r to rank r + q.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,10 +33,7 @@ impl Ranks {
 }
 
 /// Values looked at to guess where the tails begin.
-const PILOT: usize = 1 << 12;
-
-/// Values that one thread takes at a time.
-const PART: usize = 1 << 14;
+const PILOT: usize = 1 << 10;
 
 /// The median and the two tails of a sample, in order.
 #[derive(Debug)]
@@ -51,35 +48,38 @@ pub(super) struct Ordered {
 
 impl Ordered {
     /// Orders the tails of `depth` values of at least one finite value.
-    pub(super) fn new(values: &[f64], depth: usize, threads: usize) -> Self {
+    pub(super) fn new(values: &[f64], depth: usize) -> Self {
         let depth = depth.max(1);
         Cuts::guess(values, depth)
-            .and_then(|cuts| Ordered::selected(values, depth, &cuts, threads))
+            .and_then(|cuts| Ordered::selected(values, depth, &cuts))
             .unwrap_or_else(|| Ordered::sorted(values.to_vec()))
     }
 
     /// One pass collects what lies beyond or between the cuts; `None` where they do not hold what is
     /// looked for.
-    fn selected(values: &[f64], depth: usize, cuts: &Cuts, threads: usize) -> Option<Self> {
-        let parts = values.chunks(PART).collect();
-        let parts = parallel_map(
-            parts,
-            threads,
-            || [(); 3].map(|()| Picked::new()),
-            |room, part| Selected::of(part, cuts, room),
-            |_| (),
-        )
-        .0;
-        let below = parts.iter().map(|part| part.below).sum::<usize>();
-        let joined = |of: fn(&Selected) -> &Vec<f64>| -> Vec<f64> {
-            parts.iter().flat_map(of).copied().collect()
+    fn selected(values: &[f64], depth: usize, cuts: &Cuts) -> Option<Self> {
+        let [low_end, high_start] = cuts.tails;
+        let [from, to] = cuts.middle;
+        let mut held = values.to_vec();
+        let count = to_front(&mut held, |value| {
+            (value <= low_end) | (value >= high_start) | ((from <= value) & (value <= to))
+        });
+        held.truncate(count);
+        // The three may overlap where many values are the same.
+        let part = |inside: &dyn Fn(f64) -> bool| -> Vec<f64> {
+            held.iter()
+                .copied()
+                .filter(|value| inside(*value))
+                .collect()
         };
-        let mut middle = joined(|part| &part.middle);
-        let (low, high) = (joined(|part| &part.low), joined(|part| &part.high));
-        let (lower, upper) = ((values.len() - 1) / 2, values.len() / 2);
+        let mut low = part(&|value| value <= low_end);
+        let mut high = part(&|value| value >= high_start);
+        let mut middle = part(&|value| from <= value && value <= to);
         if low.len() < depth || high.len() < depth {
             return None;
         }
+        let below = values.iter().filter(|value| **value < from).count();
+        let (lower, upper) = ((values.len() - 1) / 2, values.len() / 2);
         let (lower, upper) = (lower.checked_sub(below)?, upper.checked_sub(below)?);
         if upper >= middle.len() {
             return None;
@@ -91,21 +91,10 @@ impl Ordered {
         } else {
             before.iter().copied().fold(f64::NEG_INFINITY, f64::max)
         };
-        let tails = vec![(low, Side::Low), (high, Side::High)];
-        let mut tails = parallel_map(
-            tails,
-            threads,
-            || (),
-            |(), (mut tail, side)| {
-                side.keep(&mut tail, depth);
-                tail.sort_unstable_by(f64::total_cmp);
-                tail
-            },
-            |()| (),
-        )
-        .0;
-        let high = tails.pop()?;
-        let low = tails.pop()?;
+        Side::Low.keep(&mut low, depth);
+        Side::High.keep(&mut high, depth);
+        low.sort_unstable_by(f64::total_cmp);
+        high.sort_unstable_by(f64::total_cmp);
         Some(Ordered {
             count: values.len(),
             low,
@@ -166,6 +155,11 @@ pub(super) trait Ranked {
 
     /// y₍rank₎, counted from 1; the rank is one of those that were asked for.
     fn at(&self, rank: usize) -> f64;
+
+    /// Shows the values from one rank to another, both of one tail that was asked for, ascending.
+    fn visit(&self, first: usize, last: usize, see: impl FnMut(f64)) {
+        (first..=last).map(|rank| self.at(rank)).for_each(see);
+    }
 
     /// The middle value, or the mean of the two in the middle.
     fn median(&self) -> f64;
@@ -318,65 +312,6 @@ impl Cuts {
     }
 }
 
-/// What the cuts select from some values.
-struct Selected {
-    low: Vec<f64>,
-    middle: Vec<f64>,
-    high: Vec<f64>,
-    /// Values below the middle.
-    below: usize,
-}
-
-/// Room for what is selected from a part.
-struct Picked {
-    values: Vec<f64>,
-    count: usize,
-}
-
-impl Picked {
-    fn new() -> Self {
-        Picked {
-            values: vec![0.0; PART],
-            count: 0,
-        }
-    }
-
-    /// Writes the value and counts it or not: which it will be cannot be foreseen, so a branch
-    /// would cost more.
-    #[inline]
-    fn offer(&mut self, value: f64, wanted: bool) {
-        if let Some(place) = self.values.get_mut(self.count) {
-            *place = value;
-            self.count += usize::from(wanted);
-        }
-    }
-
-    fn take(&mut self) -> Vec<f64> {
-        let count = std::mem::take(&mut self.count);
-        self.values[..count].to_vec()
-    }
-}
-
-impl Selected {
-    /// From at most [`PART`] values.
-    fn of(values: &[f64], cuts: &Cuts, [low, middle, high]: &mut [Picked; 3]) -> Self {
-        let mut below = 0;
-        for &value in values {
-            low.offer(value, value <= cuts.tails[0]);
-            high.offer(value, value >= cuts.tails[1]);
-            let reached = value >= cuts.middle[0];
-            below += usize::from(!reached);
-            middle.offer(value, reached & (value <= cuts.middle[1]));
-        }
-        Selected {
-            low: low.take(),
-            middle: middle.take(),
-            high: high.take(),
-            below,
-        }
-    }
-}
-
 fn midpoint(a: f64, b: f64) -> f64 {
     a + (b - a) / 2.0
 }
@@ -453,7 +388,7 @@ mod tests {
                 }
                 let (symmetric, width, median) = by_full_sort(&sample, p);
                 let values = sample.clone();
-                let ordered = Ordered::new(&values, ranks.last, 2);
+                let ordered = Ordered::new(&values, ranks.last);
                 assert_eq!(ordered.symmetric(ranks), symmetric, "{count} {p}");
                 let [low, high] = ordered.shortest(ranks);
                 assert_eq!(high - low, width, "{count} {p}");
@@ -479,13 +414,11 @@ mod tests {
                 let sample: Vec<f64> = (0..count).map(|_| draw(&mut stream)).collect();
                 let ranks = Ranks::new(count, p);
                 let (symmetric, width, median) = by_full_sort(&sample, p);
-                for threads in [1, 3] {
-                    let ordered = Ordered::new(&sample, ranks.last, threads);
-                    assert_eq!(ordered.symmetric(ranks), symmetric, "{name} {count}");
-                    let [low, high] = ordered.shortest(ranks);
-                    assert_eq!(high - low, width, "{name} {count}");
-                    assert_eq!(ordered.median(), median, "{name} {count}");
-                }
+                let ordered = Ordered::new(&sample, ranks.last);
+                assert_eq!(ordered.symmetric(ranks), symmetric, "{name} {count}");
+                let [low, high] = ordered.shortest(ranks);
+                assert_eq!(high - low, width, "{name} {count}");
+                assert_eq!(ordered.median(), median, "{name} {count}");
             }
         }
     }
@@ -504,7 +437,7 @@ mod tests {
             .collect();
         let ranks = Ranks::new(sample.len(), 0.95);
         let (symmetric, _, median) = by_full_sort(&sample, 0.95);
-        let ordered = Ordered::new(&sample, ranks.last, 2);
+        let ordered = Ordered::new(&sample, ranks.last);
         assert_eq!(ordered.symmetric(ranks), symmetric);
         assert_eq!(ordered.median(), median);
     }
@@ -539,7 +472,7 @@ mod tests {
         for count in 1..6 {
             let values: Vec<f64> = (0..count).map(|i| i as f64).collect();
             let ranks = Ranks::new(count, 0.99);
-            let ordered = Ordered::new(&values, ranks.last, 2);
+            let ordered = Ordered::new(&values, ranks.last);
             assert_eq!(ordered.symmetric(ranks), [0.0, (count - 1) as f64]);
             assert_eq!(ordered.shortest(ranks), [0.0, (count - 1) as f64]);
         }
@@ -549,7 +482,7 @@ mod tests {
     fn equal_widths_prefer_the_symmetric_interval() {
         let values: Vec<f64> = (0..1000).map(f64::from).collect();
         let ranks = Ranks::new(1000, 0.9);
-        let ordered = Ordered::new(&values, ranks.last, 2);
+        let ordered = Ordered::new(&values, ranks.last);
         assert_eq!(ordered.shortest(ranks), ordered.symmetric(ranks));
     }
 
@@ -559,7 +492,7 @@ mod tests {
         let mut stream = Stream::new(3);
         let values: Vec<f64> = (0..400_000).map(|_| -2.0 * stream.uniform().ln()).collect();
         let ranks = Ranks::new(values.len(), 0.95);
-        let ordered = Ordered::new(&values, ranks.last, 2);
+        let ordered = Ordered::new(&values, ranks.last);
         let [low, high] = ordered.shortest(ranks);
         assert!(low < 0.01, "{low}");
         assert!((high + 2.0 * 0.05_f64.ln()).abs() < 0.05, "{high}");
@@ -578,7 +511,7 @@ mod tests {
         let mut stated = 0.0;
         for _ in 0..200 {
             let values: Vec<f64> = (0..count).map(|_| stream.normal()).collect();
-            let ordered = Ordered::new(&values, ranks.last, 2);
+            let ordered = Ordered::new(&values, ranks.last);
             ends.push(ordered.symmetric(ranks)[1]);
             stated += ordered.standard_error(ranks.symmetric + ranks.covered) / 200.0;
         }

@@ -5,6 +5,7 @@
 //! | [`joint_draw`] | trials of the input quantities, correlated as the budget says |
 //! | [`ways`] | how the values of an input come about |
 //! | [`budget_source`] | trials of the model |
+//! | [`crew`] | threads that share the work of a run |
 //! | [`engine`] | chunks of trials shared among threads, handed on in order |
 //! | [`collect`] | the first trials kept, the others counted and summed |
 //! | [`sieve`] | counts of all values, and the values that matter for their order |
@@ -27,6 +28,7 @@ mod budget_source;
 mod cells;
 mod collect;
 mod comoments;
+mod crew;
 mod engine;
 mod existence;
 mod factor;
@@ -55,6 +57,7 @@ use adaptive::Target;
 pub(crate) use adaptive::{batch_size, least_batch};
 use cells::Wanted;
 use collect::{Collector, Held, Plan};
+use crew::Crew;
 use engine::{Layout, Source};
 pub use existence::{Consequence, MissingMoments, Side};
 use existence::{Tail, Verdict};
@@ -137,11 +140,25 @@ impl Question<'_> {
     /// Draws the trials and summarises them; the error is the output that has no values.
     fn ask<S: Source>(&self, source: &S) -> Result<McOutcome, usize> {
         let layout = self.layout();
+        let batches = match self.settings.trials {
+            Trials::Fixed(_) | Trials::Decisive { .. } => 1,
+            Trials::Adaptive { max, .. } => max.div_ceil(layout.batch()),
+        };
+        let chunks = layout.chunks(0..batches).end;
+        Crew::with(self.threads, chunks, |crew| self.ask_with(crew, source))
+    }
+
+    fn ask_with<'env, S: Source>(
+        &self,
+        crew: &Crew<'env>,
+        source: &'env S,
+    ) -> Result<McOutcome, usize> {
+        let layout = self.layout();
         let ask = |count| self.wanted(count);
         let mut collector = Collector::new(Plan {
+            crew,
             source,
             layout,
-            threads: self.threads,
             pivots: &self.pivots,
             p: self.p,
             ask: &ask,
@@ -155,10 +172,10 @@ impl Question<'_> {
             quasi: None,
         };
         let redraw = Redraw {
+            crew,
             source,
             layout,
             chunks: collector.chunks(),
-            threads: self.threads,
         };
         let moments = collector.moments();
         if let Some(output) = moments.iter().position(|m| m.count() < 2) {
@@ -252,13 +269,13 @@ impl Question<'_> {
         output: usize,
         held: &mut Held,
         moments: &Moments,
-        redraw: &Redraw<S>,
+        redraw: &Redraw<'_, '_, S>,
     ) -> (MonteCarlo, Verdict) {
         match held {
             Held::Columns(columns) => {
                 let mut values = columns[output].clone();
                 values.retain(|value| value.is_finite());
-                let ordered = Ordered::new(&values, self.depth(values.len()), self.threads);
+                let ordered = Ordered::new(&values, self.depth(values.len()));
                 let picture = |interval| {
                     histogram::histogram(&values, ordered.range(), interval, self.threads)
                 };

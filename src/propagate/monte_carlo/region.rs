@@ -7,6 +7,7 @@ use gumption_lanes::Block;
 use super::cells::Wanted;
 use super::collect::{Collector, Held, Plan};
 use super::comoments::CoMoments;
+use super::crew::Crew;
 use super::engine::{Sink, Source, simulate};
 use super::factor::lower_factor;
 use super::interval::{Ordered, Ranked, Ranks};
@@ -126,22 +127,28 @@ fn regions<S: Source>(redraw: &Redraw<S>, whitening: &Whitening, count: u64, p: 
         source: redraw.source,
         whitening,
     };
-    let [square, largest] = values_of_rank(redraw, &distances, p);
+    let cells = Cells::new(m, count);
+    let threads = redraw.crew.threads();
+    let ([square, largest], smallest) = Crew::with(threads, redraw.chunks, |crew| {
+        let distances = Redraw {
+            crew,
+            source: &distances,
+            layout: redraw.layout,
+            chunks: redraw.chunks,
+        };
+        let fullest = cells.as_ref().and_then(|cells| {
+            let count = || Count::new(whitening, cells);
+            let chunks = 0..redraw.chunks;
+            let (_, parts) = simulate(crew, redraw.source, redraw.layout, chunks, count);
+            cells.smallest(parts, p)
+        });
+        (values_of_rank(&distances, p), fullest)
+    });
     let k_ellipsoid = square.sqrt();
     // √det V = Π u_j · Π l_jj.
     let unit: f64 = (0..m)
         .map(|j| whitening.sd[j] * whitening.factor[(j, j)])
         .product();
-    let smallest = Cells::new(m, count).and_then(|cells| {
-        let (_, parts) = simulate(
-            redraw.source,
-            redraw.layout,
-            0..redraw.chunks,
-            redraw.threads,
-            || Count::new(whitening, &cells),
-        );
-        cells.smallest(parts, p)
-    });
     Regions {
         k_ellipsoid,
         k_rectangle: largest,
@@ -152,7 +159,7 @@ fn regions<S: Source>(redraw: &Redraw<S>, whitening: &Whitening, count: u64, p: 
 }
 
 /// 7.7.2 d), 7.7.3 d): the q-th smallest of both distances, q = pM.
-fn values_of_rank<S: Source>(redraw: &Redraw<S>, distances: &Distances<'_, S>, p: f64) -> [f64; 2] {
+fn values_of_rank<S: Source>(redraw: &Redraw<S>, p: f64) -> [f64; 2] {
     let rank = |count: u64| Ranks::new(count as usize, p).covered.max(1);
     let ask = |count: u64| Wanted {
         ranks: vec![[rank(count) as u64; 2]],
@@ -161,32 +168,26 @@ fn values_of_rank<S: Source>(redraw: &Redraw<S>, distances: &Distances<'_, S>, p
     };
     let pivots = [Pivot::new(0.0, 1.0); 2];
     let mut collector = Collector::new(Plan {
-        source: distances,
+        crew: redraw.crew,
+        source: redraw.source,
         layout: redraw.layout,
-        threads: redraw.threads,
         pivots: &pivots,
         p,
         ask: &ask,
     });
     collector.extend(redraw.chunks);
-    let again = Redraw {
-        source: distances,
-        layout: redraw.layout,
-        chunks: redraw.chunks,
-        threads: redraw.threads,
-    };
     match collector.into_held() {
         Held::Columns(columns) => [0, 1].map(|output| {
             let mut values = columns[output].clone();
             values.retain(|value| value.is_finite());
             let q = rank(values.len() as u64);
-            Ordered::new(&values, values.len(), 1).at(q)
+            Ordered::new(&values, values.len()).at(q)
         }),
         Held::Sieved(mut sieved) => [0, 1].map(|output| {
             let sieve = &mut sieved.sieves[output];
             let wanted = ask(sieve.count());
             let q = rank(sieve.count());
-            Resolved::new(sieve, &wanted, 1, output, &again).at(q)
+            Resolved::new(sieve, &wanted, 1, output, redraw).at(q)
         }),
     }
 }
@@ -310,28 +311,30 @@ mod tests {
     fn joint(trials: u64, source: &Sampled) -> Joint {
         let layout = Layout::new(trials);
         let pivots = vec![Pivot::new(0.0, 1.0); source.outputs()];
-        let mut collector = Collector::new(Plan {
-            source,
-            layout,
-            threads: 2,
-            pivots: &pivots,
-            p: 0.95,
-            ask: &|count| Wanted {
-                ranks: vec![],
-                shortest: None,
-                count,
-            },
-        });
         let chunks = layout.chunks(0..1).end;
-        collector.extend(chunks);
-        let redraw = Redraw {
-            source,
-            layout,
-            chunks,
-            threads: 2,
-        };
-        let moments = collector.into_held().joint_moments().unwrap();
-        super::joint(&redraw, &moments, 0.95).unwrap()
+        Crew::with(2, chunks, |crew| {
+            let mut collector = Collector::new(Plan {
+                crew,
+                source,
+                layout,
+                pivots: &pivots,
+                p: 0.95,
+                ask: &|count| Wanted {
+                    ranks: vec![],
+                    shortest: None,
+                    count,
+                },
+            });
+            collector.extend(chunks);
+            let redraw = Redraw {
+                crew,
+                source,
+                layout,
+                chunks,
+            };
+            let moments = collector.into_held().joint_moments().unwrap();
+            super::joint(&redraw, &moments, 0.95).unwrap()
+        })
     }
 
     #[test]

@@ -11,7 +11,8 @@ use gumption_lanes::sift::{self, Stretch};
 use gumption_lanes::{Block, LANES, level};
 
 use super::cells::{Cell, Slack, Wanted, cell_of, for_each_pair};
-use super::engine::{Layout, Sink, Source, parallel_map, simulate};
+use super::crew::Crew;
+use super::engine::{Layout, Sink, Source, simulate};
 use super::interval::{Ranked, Ranks};
 use super::sieve::{MOST_KEPT, Sieve};
 
@@ -34,29 +35,29 @@ impl Run {
 }
 
 /// Where values can be had again.
-pub(super) trait Again {
+pub(super) trait Again<'env> {
     /// Shows all values to sinks, one per thread.
-    fn show<K: Sink>(&self, sink: impl Fn() -> K + Sync) -> Vec<K>;
+    fn show<K: Sink + 'env>(&self, sink: impl Fn() -> K) -> Vec<K>;
 
-    /// How many threads there are.
-    fn threads(&self) -> usize;
+    /// Who works on them.
+    fn crew(&self) -> &Crew<'env>;
 }
 
 /// Trials that are drawn again.
-pub(super) struct Redraw<'s, S> {
-    pub(super) source: &'s S,
+pub(super) struct Redraw<'a, 'env, S> {
+    pub(super) crew: &'a Crew<'env>,
+    pub(super) source: &'env S,
     pub(super) layout: Layout,
     pub(super) chunks: u64,
-    pub(super) threads: usize,
 }
 
-impl<S: Source> Again for Redraw<'_, S> {
-    fn show<K: Sink>(&self, sink: impl Fn() -> K + Sync) -> Vec<K> {
-        simulate(self.source, self.layout, 0..self.chunks, self.threads, sink).1
+impl<'env, S: Source> Again<'env> for Redraw<'_, 'env, S> {
+    fn show<K: Sink + 'env>(&self, sink: impl Fn() -> K) -> Vec<K> {
+        simulate(self.crew, self.source, self.layout, 0..self.chunks, sink).1
     }
 
-    fn threads(&self) -> usize {
-        self.threads
+    fn crew(&self) -> &Crew<'env> {
+        self.crew
     }
 }
 
@@ -78,12 +79,12 @@ impl Resolved {
     /// as a tail.
     ///
     /// What the sieve has kept is used up.
-    pub(super) fn new(
+    pub(super) fn new<'env>(
         sieve: &mut Sieve,
         wanted: &Wanted,
         depth: usize,
         output: usize,
-        again: &impl Again,
+        again: &impl Again<'env>,
     ) -> Self {
         let (mut cells, rows) = sieve.cells();
         let needed = wanted.cells(&cells, Slack::NONE);
@@ -96,35 +97,32 @@ impl Resolved {
             [run.low, run.high] = sieve.span(*first.start()..=*last.end());
         }
         let mut known = Vec::new();
-        let mut held = kept;
-        let mut finer: Option<Finer> = None;
+        let mut held = kept.map(Kept::Fresh);
         // Whether finer counts would not help much further.
         let mut stuck = false;
         loop {
             let total: u64 = runs.iter().map(|run| run.count).sum();
             let sorts = stuck || total <= SORTED;
             if held.is_none() && (sorts || total <= MOST_KEPT as u64) {
-                held = Some(gathered(&runs, output, again));
-                finer = None;
+                held = Some(Kept::Fresh(gathered(&runs, output, again)));
             }
-            let counts = match held.take() {
-                Some(parts) if sorts => {
-                    let parts = narrowed(parts, &runs, finer.as_ref(), again.threads());
-                    return Resolved::sorted(parts, &runs, known, wanted.count, depth);
+            cells = match held.take() {
+                Some(kept) if sorts => {
+                    let values = kept.in_order(&runs);
+                    return Resolved::holding(values, &runs, known, wanted.count, depth);
                 }
-                Some(parts) => {
-                    let (parts, counts) = counted(parts, &runs, finer.as_ref(), again.threads());
-                    held = Some(parts);
-                    counts
+                Some(kept) => {
+                    let counted = kept.counted(&runs, total, again.crew());
+                    let cells = counted.finer.cells();
+                    held = Some(Kept::Counted(counted));
+                    cells
                 }
                 None => {
                     let watches = again.show(|| Watch::new(output, Finer::new(&runs)));
-                    watches.into_iter().map(|watch| watch.keeper).collect()
+                    let counts = watches.into_iter().map(|watch| watch.keeper);
+                    Finer::of_all(counts, &runs).cells()
                 }
             };
-            let all =
-                (counts.into_iter().reduce(Finer::merged)).unwrap_or_else(|| Finer::new(&runs));
-            cells = all.cells();
             cells.append(&mut known);
             cells.sort_unstable_by_key(|cell| cell.below);
             let needed = wanted.cells(&cells, Slack::NONE);
@@ -141,20 +139,17 @@ impl Resolved {
             runs = self::runs(&cells, &open);
             let left: u64 = runs.iter().map(|run| run.count).sum();
             stuck = left > total / 2;
-            finer = Some(all);
         }
     }
 
-    /// Sorts values, all of which lie in the runs.
-    fn sorted(
-        parts: Vec<Vec<f64>>,
+    /// Holds the values of the runs, in order.
+    fn holding(
+        values: Vec<f64>,
         runs: &[Run],
         known: Vec<Cell>,
         count: u64,
         depth: usize,
     ) -> Resolved {
-        let mut values = parts.concat();
-        values.sort_unstable_by(f64::total_cmp);
         let mut start = 0;
         let mut cells: Vec<(Cell, Option<usize>)> = Vec::new();
         for run in runs {
@@ -182,7 +177,8 @@ impl Resolved {
     fn value(&self, cell: usize, rank: u64) -> f64 {
         match self.starts[cell] {
             Some(start) => self.values[start + (rank - 1 - self.cells[cell].below) as usize],
-            None => self.cells[cell].low,
+            // Zero has no sign: which of two came first depends on the threads.
+            None => self.cells[cell].low + 0.0,
         }
     }
 }
@@ -199,6 +195,16 @@ impl Ranked for Resolved {
     fn at(&self, rank: usize) -> f64 {
         let rank = rank as u64;
         self.value(cell_of(&self.cells, rank), rank)
+    }
+
+    fn visit(&self, first: usize, last: usize, mut see: impl FnMut(f64)) {
+        let (mut rank, last) = (first as u64, last as u64);
+        for cell in cell_of(&self.cells, rank)..self.cells.len() {
+            while rank <= last.min(self.cells[cell].end()) {
+                see(self.value(cell, rank));
+                rank += 1;
+            }
+        }
     }
 
     fn median(&self) -> f64 {
@@ -235,50 +241,107 @@ impl Ranked for Resolved {
     }
 }
 
-/// What a task makes of each part of some values.
-fn of_each<T: Send>(
-    parts: Vec<Vec<f64>>,
-    threads: usize,
-    task: impl Fn(Vec<f64>) -> T + Sync,
-) -> Vec<T> {
-    /// Fewer values are done before another thread has begun.
-    const LEAST: usize = 1 << 15;
-    let values: usize = parts.iter().map(Vec::len).sum();
-    let threads = if values < LEAST { 1 } else { threads };
-    parallel_map(parts, threads, || (), |(), part| task(part), |()| ()).0
+/// Values that have been kept, in parts.
+enum Kept {
+    Fresh(Vec<Vec<f64>>),
+    Counted(Counted),
 }
 
-/// Those of some values that lie in runs, which may be rows of cells of finer counts of the values.
-fn narrowed(
-    parts: Vec<Vec<f64>>,
-    runs: &[Run],
-    finer: Option<&Finer>,
-    threads: usize,
-) -> Vec<Vec<f64>> {
-    of_each(parts, threads, |part| narrow(part, runs, finer))
+/// The same, counted in finer bins.
+struct Counted {
+    parts: Vec<Part>,
+    finer: Finer,
 }
 
-/// The same, and the counts of each part.
-fn counted(
-    parts: Vec<Vec<f64>>,
-    runs: &[Run],
-    finer: Option<&Finer>,
-    threads: usize,
-) -> (Vec<Vec<f64>>, Vec<Finer>) {
-    let both = of_each(parts, threads, |part| {
-        let part = narrow(part, runs, finer);
-        let mut counts = Finer::new(runs);
-        part.chunks(LANES).for_each(|values| counts.add(values));
-        (part, counts)
-    });
-    both.into_iter().unzip()
+/// Values, and the finer bin of each.
+struct Part {
+    values: Vec<f64>,
+    places: Vec<u32>,
 }
 
-fn narrow(values: Vec<f64>, runs: &[Run], finer: Option<&Finer>) -> Vec<f64> {
-    match finer {
-        Some(finer) => finer.inside(runs, values),
-        None => inside(runs, values),
+impl Kept {
+    /// Leaves those values that lie in runs, `total` of them, which may be rows of cells of the finer counts so far,
+    /// and counts them anew.
+    fn counted(self, runs: &[Run], total: u64, crew: &Crew) -> Counted {
+        let own = runs.to_vec();
+        let counted = match self {
+            Kept::Fresh(parts) => of_each(parts, total, crew, move |mut values| {
+                keep_inside(&mut values, &own);
+                let places = Vec::new();
+                Part { values, places }.counted(&own)
+            }),
+            Kept::Counted(Counted { parts, finer }) => {
+                let chosen = finer.chosen(runs);
+                of_each(parts, total, crew, move |mut part| {
+                    part.keep(&chosen);
+                    part.counted(&own)
+                })
+            }
+        };
+        let (parts, counts): (Vec<Part>, Vec<Finer>) = counted.into_iter().unzip();
+        Counted {
+            parts,
+            finer: Finer::of_all(counts, runs),
+        }
     }
+
+    /// The values that lie in runs, ascending.
+    fn in_order(self, runs: &[Run]) -> Vec<f64> {
+        match self {
+            Kept::Fresh(mut parts) => {
+                parts
+                    .iter_mut()
+                    .for_each(|values| keep_inside(values, runs));
+                let mut values = parts.concat();
+                values.sort_unstable_by(f64::total_cmp);
+                values
+            }
+            Kept::Counted(Counted { parts, finer }) => finer.in_order(parts, &finer.chosen(runs)),
+        }
+    }
+}
+
+impl Part {
+    /// Leaves the values of chosen bins.
+    fn keep(&mut self, chosen: &[bool]) {
+        let mut kept = 0;
+        for index in 0..self.values.len() {
+            let place = self.places[index];
+            // Every value is moved: a branch on what cannot be foreseen would cost more.
+            self.values[kept] = self.values[index];
+            self.places[kept] = place;
+            kept += usize::from(chosen[place as usize]);
+        }
+        self.values.truncate(kept);
+        self.places.truncate(kept);
+    }
+
+    /// Counts the values in new bins.
+    fn counted(mut self, runs: &[Run]) -> (Part, Finer) {
+        let mut counts = Finer::new(runs);
+        self.places.resize(self.values.len(), 0);
+        let rows = self.places.chunks_mut(LANES);
+        for (values, places) in self.values.chunks(LANES).zip(rows) {
+            counts.count(values, places);
+        }
+        (self, counts)
+    }
+}
+
+/// What a task makes of each part of some values.
+fn of_each<'env, I: Send + 'env, T: Send + 'env>(
+    parts: Vec<I>,
+    values: u64,
+    crew: &Crew<'env>,
+    task: impl Fn(I) -> T + Send + Sync + 'env,
+) -> Vec<T> {
+    /// Fewer values are done before another thread is awake.
+    const LEAST: u64 = 1 << 14;
+    if values < LEAST {
+        return parts.into_iter().map(task).collect();
+    }
+    crew.map(parts, || (), |()| (), move |(), part| task(part), |()| ())
+        .0
 }
 
 /// Rows of neighbouring cells that are all chosen.
@@ -301,10 +364,9 @@ fn runs(cells: &[Cell], chosen: &[bool]) -> Vec<Run> {
     runs
 }
 
-/// The values that lie in runs.
-fn inside(runs: &[Run], mut values: Vec<f64>) -> Vec<f64> {
-    sift::keep_inside(level(), &mut values, 0, &stretches(runs));
-    values
+/// Leaves the values that lie in runs.
+fn keep_inside(values: &mut Vec<f64>, runs: &[Run]) {
+    sift::keep_inside(level(), values, 0, &stretches(runs));
 }
 
 fn stretches(runs: &[Run]) -> Vec<Stretch> {
@@ -340,7 +402,7 @@ impl Keeper for Gather {
 }
 
 /// The values of some runs, in parts.
-fn gathered(runs: &[Run], output: usize, again: &impl Again) -> Vec<Vec<f64>> {
+fn gathered<'env>(runs: &[Run], output: usize, again: &impl Again<'env>) -> Vec<Vec<f64>> {
     let watches = again.show(|| Watch::new(output, Gather::new(runs)));
     let values = watches.into_iter().map(|watch| watch.keeper.values);
     values.collect()
@@ -356,8 +418,6 @@ struct Finer {
     grids: Grids,
     /// Count, smallest and largest value; the last bin is for values of no run.
     bins: Vec<(u64, f64, f64)>,
-    /// The bins of the values at hand.
-    places: Vec<u32>,
 }
 
 impl Finer {
@@ -375,8 +435,15 @@ impl Finer {
             runs: runs.iter().map(&mut grid).collect(),
             bins: vec![(0, f64::INFINITY, f64::NEG_INFINITY); grids.bins() + 1],
             grids,
-            places: Vec::new(),
         }
+    }
+
+    /// Counts of the same runs together.
+    fn of_all(counts: impl IntoIterator<Item = Finer>, runs: &[Run]) -> Finer {
+        let counts = counts.into_iter();
+        counts
+            .reduce(Finer::merged)
+            .unwrap_or_else(|| Finer::new(runs))
     }
 
     fn merged(mut self, other: Finer) -> Finer {
@@ -386,8 +453,20 @@ impl Finer {
         self
     }
 
-    /// Those of the values that were added that lie in some `runs` of its cells.
-    fn inside(&self, runs: &[Run], mut values: Vec<f64>) -> Vec<f64> {
+    /// Counts some values, and tells the bin of each.
+    fn count(&mut self, values: &[f64], places: &mut [u32]) {
+        self.grids.places(level(), values, places);
+        for (place, &value) in places.iter().zip(values) {
+            let bin = &mut self.bins[*place as usize];
+            bin.0 += 1;
+            // Minimum and maximum in one instruction each: what is not a number lies in no run.
+            bin.1 = if value < bin.1 { value } else { bin.1 };
+            bin.2 = if value > bin.2 { value } else { bin.2 };
+        }
+    }
+
+    /// Which bins lie in `runs` of its cells.
+    fn chosen(&self, runs: &[Run]) -> Vec<bool> {
         let mut runs = runs.iter().peekable();
         let mut chosen = vec![false; self.bins.len()];
         let filled = chosen.iter_mut().zip(&self.bins[..self.grids.bins()]);
@@ -397,18 +476,34 @@ impl Finer {
                 .peek()
                 .is_some_and(|run| run.low <= low && high <= run.high);
         }
-        let mut places = Vec::new();
-        let mut kept = 0;
-        for start in (0..values.len()).step_by(LANES) {
-            let end = values.len().min(start + LANES);
-            self.grids.places(level(), &values[start..end], &mut places);
-            for (index, place) in (start..end).zip(&places) {
-                // Every value is moved: a branch on what cannot be foreseen would cost more.
-                values[kept] = values[index];
-                kept += usize::from(chosen[*place as usize]);
+        chosen
+    }
+
+    /// Sorts the values of the chosen bins among those that have been counted: each into its bin, the bins in
+    /// themselves.
+    fn in_order(&self, parts: Vec<Part>, chosen: &[bool]) -> Vec<f64> {
+        let counts = self.bins.iter().zip(chosen);
+        let counts = counts.map(|((count, ..), chosen)| if *chosen { *count as usize } else { 0 });
+        let mut total = 0;
+        let mut next: Vec<usize> = Vec::with_capacity(self.bins.len());
+        for count in counts {
+            next.push(total);
+            total += count;
+        }
+        let mut values = vec![0.0; total];
+        for mut part in parts {
+            part.keep(chosen);
+            for (value, place) in part.values.iter().zip(&part.places) {
+                let next = &mut next[*place as usize];
+                values[*next] = *value;
+                *next += 1;
             }
         }
-        values.truncate(kept);
+        let mut start = 0;
+        for end in next {
+            values[start..end].sort_unstable_by(f64::total_cmp);
+            start = end;
+        }
         values
     }
 
@@ -434,11 +529,7 @@ impl Finer {
 
 impl Keeper for Finer {
     fn add(&mut self, values: &[f64]) {
-        self.grids.places(level(), values, &mut self.places);
-        for (place, &value) in self.places.iter().zip(values) {
-            let bin = &mut self.bins[*place as usize];
-            *bin = (bin.0 + 1, bin.1.min(value), bin.2.max(value));
-        }
+        self.count(values, &mut [0; LANES][..values.len()]);
     }
 }
 

@@ -7,7 +7,6 @@
 //! values are drawn again ([`super::resolve`]).
 
 use std::ops::RangeInclusive;
-use std::sync::{Mutex, PoisonError};
 
 use gumption_lanes::bins::{BINS, Grid};
 use gumption_lanes::sift::to_front;
@@ -33,7 +32,7 @@ pub(super) struct Sieve {
     keeps: Vec<bool>,
     /// In parts, each of which a strainer has while values are strained. They may hold values of bins that are kept
     /// no longer.
-    kept: Mutex<Vec<Vec<f64>>>,
+    kept: Vec<Vec<f64>>,
     /// Bins whose counts have a meaning only together with those of their neighbours of this kind.
     lumped: Vec<bool>,
     /// Rows of lumped bins that later values are not told apart in.
@@ -48,7 +47,7 @@ impl Sieve {
     /// Orders values, of which there is at least one, as [`Sieve::new`] needs it; intervals are to hold a share
     /// p of them.
     pub(super) fn order(sample: &[f64], p: f64) -> Ordered {
-        Ordered::new(sample, depth(sample.len(), p), 1)
+        Ordered::new(sample, depth(sample.len(), p))
     }
 
     /// An empty sieve for values like these.
@@ -57,7 +56,7 @@ impl Sieve {
             grid: grid(sample, depth(sample.count(), p)),
             counts: vec![0; BINS],
             keeps: vec![true; BINS],
-            kept: Mutex::default(),
+            kept: Vec::new(),
             lumped: vec![false; BINS],
             gaps: Vec::new(),
             picture: None,
@@ -71,24 +70,15 @@ impl Sieve {
         let mut counting = Strainer::new(sieve.grid, |_| false, &[], Vec::new());
         counting.count_all(&values);
         sieve.absorb(counting.finish());
-        *sieve.kept() = vec![values];
+        sieve.kept = vec![values];
         sieve
     }
 
     /// Takes further values in, on one thread. Goes on with a part of what has been kept, so that it need not be
     /// copied.
-    pub(super) fn strainer(&self) -> Strainer {
-        let part = self
-            .kept
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .pop();
-        let part = part.unwrap_or_default();
+    pub(super) fn strainer(&mut self) -> Strainer {
+        let part = self.kept.pop().unwrap_or_default();
         Strainer::new(self.grid, |bin| self.keeps[bin], &self.gaps, part)
-    }
-
-    fn kept(&mut self) -> &mut Vec<Vec<f64>> {
-        self.kept.get_mut().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Takes over what was counted.
@@ -100,11 +90,11 @@ impl Sieve {
             self.counts[*gap.bins.start()] += taken;
         }
         let [low, high] = strained.range;
-        self.range = [self.range[0].min(low), self.range[1].max(high)];
-        let kept = self.kept();
-        let already: usize = kept.iter().map(Vec::len).sum();
+        // Zero has no sign: which of two came first depends on the threads.
+        self.range = [self.range[0].min(low) + 0.0, self.range[1].max(high) + 0.0];
+        let already: usize = self.kept.iter().map(Vec::len).sum();
         match strained.picked {
-            Some(picked) if already + picked.len() <= MOST_KEPT => kept.push(picked),
+            Some(picked) if already + picked.len() <= MOST_KEPT => self.kept.push(picked),
             Some(_) | None => self.keep_nothing(),
         }
     }
@@ -112,7 +102,7 @@ impl Sieve {
     /// Only counts from now on.
     pub(super) fn keep_nothing(&mut self) {
         self.keeps.fill(false);
-        *self.kept() = Vec::new();
+        self.kept = Vec::new();
     }
 
     /// How many values there were.
@@ -137,9 +127,10 @@ impl Sieve {
         if open {
             keeps[next..].fill(true);
         }
+        // With their neighbours.
         for (bin, kept) in self.keeps.iter_mut().enumerate() {
-            let near = bin.saturating_sub(1)..(bin + 2).min(BINS);
-            *kept &= keeps[near].iter().any(|near| *near);
+            let (before, after) = (bin.saturating_sub(1), (bin + 1).min(BINS - 1));
+            *kept &= keeps[before] | keeps[bin] | keeps[after];
         }
         if self.count() >= PICTURED && self.keeps.contains(&true) {
             self.lump(&cells, &rows, wanted.middle());
@@ -154,15 +145,13 @@ impl Sieve {
             .filter(|(_, keep)| **keep)
             .map(|(count, _)| count)
             .sum();
-        let mut kept = std::mem::take(self.kept());
-        let held: usize = kept.iter().map(Vec::len).sum();
+        let held: usize = self.kept.iter().map(Vec::len).sum();
         if held as u64 > needed + needed / 2 {
-            for part in &mut kept {
+            for part in &mut self.kept {
                 let count = to_front(part, |value| self.keeps[self.grid.bin(value)]);
                 part.truncate(count);
             }
         }
-        *self.kept() = kept;
     }
 
     /// From now on does not tell the bins of the two richest rows apart that are not kept and hold the
@@ -290,7 +279,7 @@ impl Sieve {
         bins: impl IntoIterator<Item = usize>,
     ) -> Option<Vec<Vec<f64>>> {
         let all = bins.into_iter().all(|bin| self.keeps[bin]);
-        let kept = all.then(|| std::mem::take(self.kept()));
+        let kept = all.then(|| std::mem::take(&mut self.kept));
         self.keep_nothing();
         kept
     }
@@ -365,7 +354,7 @@ mod tests {
         let mut strainer = sieve.strainer();
         strainer.take_each(&sample);
         sieve.absorb(strainer.finish());
-        assert_eq!((sieve.count(), sieve.kept().concat().len()), (1000, 1000));
+        assert_eq!((sieve.count(), sieve.kept.concat().len()), (1000, 1000));
         let [low, high] = sieve.span(100..=200);
         assert_eq!(sieve.grid.bin(low), 100);
         assert_eq!(sieve.grid.bin(low.next_down()), 99);

@@ -303,12 +303,13 @@ fn by_full_sort(mut y: Vec<f64>, p: f64) -> ([f64; 2], f64, f64) {
 type Draw = fn(&mut Stream) -> f64;
 
 /// Shapes that are hard on counts: without bounds, bounded, in steps, one-sided, with failures.
-const SHAPES: [(&str, Draw); 8] = [
+const SHAPES: [(&str, Draw); 9] = [
     ("normal", |s| 1e6 + s.normal()),
     ("uniform", |s| s.uniform()),
     ("Cauchy", |s| s.student_t(1.0)),
     ("exponential", |s| -s.uniform().ln()),
     ("whole numbers", |s| (3.0 * s.normal()).round()),
+    ("zeros with a sign", |s| (1.8 * s.uniform() - 0.4).round()),
     ("constant", |_| 0.1),
     ("two values", |s| if s.uniform() < 0.3 { -1.0 } else { 2.0 }),
     ("roots", |s| s.normal().sqrt()),
@@ -321,21 +322,20 @@ fn passing_trials_give_the_results_of_a_full_sort() {
         let source = Sampled::new(41, 1, move |s, y| y[0] = draw(s));
         let layout = Layout::new(TRIALS);
         let chunks = layout.chunks(0..1);
-        let plan = |ask| Plan {
-            source: &source,
-            layout,
-            threads: 1,
-            pivots: &[],
-            p: 0.95,
-            ask,
-        };
-        let ask = |_| unreachable!("nothing is sieved");
-        let all = Collector::new(plan(&ask))
-            .draw(chunks)
-            .into_iter()
-            .flatten()
-            .flatten();
-        let (symmetric, width, median) = by_full_sort(all.collect(), 0.95);
+        let all = Crew::with(1, 1, |crew| {
+            let plan = Plan {
+                crew,
+                source: &source,
+                layout,
+                pivots: &[],
+                p: 0.95,
+                ask: &|_| unreachable!("nothing is sieved"),
+            };
+            let parts = Collector::new(plan).draw(chunks);
+            parts.into_iter().flatten().flatten().collect()
+        });
+        let (symmetric, width, median) = by_full_sort(all, 0.95);
+        let mut pictures = Vec::new();
         for threads in [1, 3] {
             let settings = fixed(TRIALS);
             let question = Question {
@@ -349,7 +349,14 @@ fn passing_trials_give_the_results_of_a_full_sort() {
             assert_eq!(y.symmetric, symmetric, "{name}");
             assert_eq!(y.shortest[1] - y.shortest[0], width, "{name}");
             assert_eq!(y.median, median, "{name}");
+            // With the sign of zero.
+            pictures.push(format!(
+                "{:?}",
+                (y.symmetric, y.shortest, y.median, y.histogram)
+            ));
         }
+        assert_eq!(pictures[0], pictures[1], "{name}");
+        assert!(!pictures[0].contains("-0.0,"), "{name}: {}", pictures[0]);
     }
 }
 
@@ -368,39 +375,41 @@ fn trials_drawn_again_give_the_same_results() {
             threads: 2,
         };
         let layout = question.layout();
-        let ask = |count| question.wanted(count);
-        let mut collector = Collector::new(Plan {
-            source: &source,
-            layout,
-            threads: 2,
-            pivots: &question.pivots,
-            p: 0.9,
-            ask: &ask,
-        });
         let chunks = layout.chunks(0..1).end;
-        collector.extend(chunks);
-        let Held::Sieved(mut sieved) = collector.into_held() else {
-            panic!("{TRIALS} trials are sieved");
-        };
-        let redraw = Redraw {
-            source: &source,
-            layout,
-            chunks,
-            threads: 2,
-        };
-        let sieve = &mut sieved.sieves[0];
-        let wanted = question.wanted(sieve.count());
-        let ranks = Ranks::new(sieve.count() as usize, 0.9);
-        let results = |sieve: &mut sieve::Sieve| {
-            let order = Resolved::new(sieve, &wanted, ranks.last, 0, &redraw);
-            (
-                order.symmetric(ranks),
-                order.shortest(ranks),
-                order.median(),
-            )
-        };
-        let kept = results(sieve);
-        // What was kept is used up: the same from trials that are drawn again.
-        assert_eq!(results(sieve), kept, "{name}");
+        Crew::with(2, chunks, |crew| {
+            let ask = |count| question.wanted(count);
+            let mut collector = Collector::new(Plan {
+                crew,
+                source: &source,
+                layout,
+                pivots: &question.pivots,
+                p: 0.9,
+                ask: &ask,
+            });
+            collector.extend(chunks);
+            let Held::Sieved(mut sieved) = collector.into_held() else {
+                panic!("{TRIALS} trials are sieved");
+            };
+            let redraw = Redraw {
+                crew,
+                source: &source,
+                layout,
+                chunks,
+            };
+            let sieve = &mut sieved.sieves[0];
+            let wanted = question.wanted(sieve.count());
+            let ranks = Ranks::new(sieve.count() as usize, 0.9);
+            let results = |sieve: &mut sieve::Sieve| {
+                let order = Resolved::new(sieve, &wanted, ranks.last, 0, &redraw);
+                (
+                    order.symmetric(ranks),
+                    order.shortest(ranks),
+                    order.median(),
+                )
+            };
+            let kept = results(sieve);
+            // What was kept is used up: the same from trials that are drawn again.
+            assert_eq!(results(sieve), kept, "{name}");
+        });
     }
 }

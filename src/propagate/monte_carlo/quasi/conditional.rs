@@ -11,7 +11,7 @@ use gumption_lanes::kernel::{Paths, power_sums};
 use gumption_lanes::moments::all_finite;
 use gumption_lanes::{Block, LANES, Level, ops};
 
-use super::super::engine::parallel_map;
+use super::super::crew::parallel_map;
 use super::super::moments::{Moments, Pivot};
 use super::averaging::{Averaged, LEAST_PART};
 use super::points::{Points, Scratch};

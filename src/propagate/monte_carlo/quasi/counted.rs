@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::super::engine::parallel_map;
+use super::super::crew::parallel_map;
 use super::super::existence::{Tail, Verdict};
 use super::super::histogram::histogram;
 use super::super::interval::{Ordered, Ranked, Ranks, symmetric_ends};

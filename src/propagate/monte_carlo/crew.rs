@@ -1,0 +1,205 @@
+//! Threads that share the work of a run.
+//!
+//! To start a thread, or to wake one that sleeps, takes as long as to draw some ten thousand trials. A run
+//! has many parts, with little to do between them. Its threads therefore stay until it ends, and look for
+//! further work for a moment before they sleep.
+
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::mpsc::{Receiver, RecvError, Sender, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{Builder, yield_now};
+use std::time::{Duration, Instant};
+
+/// How long a thread looks for further work before it sleeps: longer than what one thread mostly does between the
+/// parts of a run.
+const PATIENCE: Duration = Duration::from_micros(300);
+
+/// What a helper is asked to do.
+type Job<'env> = Box<dyn FnOnce() + Send + 'env>;
+
+/// The thread that calls, and helpers that work on things that outlive them all.
+pub(super) struct Crew<'env> {
+    helpers: Vec<Sender<Job<'env>>>,
+}
+
+impl<'env> Crew<'env> {
+    /// Does something with a crew of so many threads, that of the caller included; of fewer where there are fewer
+    /// tasks at a time, or where the system gives no more.
+    pub(super) fn with<R>(threads: usize, tasks: u64, run: impl FnOnce(&Crew<'env>) -> R) -> R {
+        let threads = usize::try_from(tasks).map_or(threads, |tasks| threads.min(tasks));
+        std::thread::scope(|scope| {
+            let helper = |_| {
+                let (sender, jobs) = channel::<Job<'env>>();
+                let work = move || {
+                    while let Ok(job) = soon(&jobs) {
+                        job();
+                    }
+                };
+                let started = Builder::new().spawn_scoped(scope, work);
+                started.ok().map(|_| sender)
+            };
+            let crew = Crew {
+                helpers: (1..threads).map_while(helper).collect(),
+            };
+            run(&crew)
+        })
+    }
+
+    /// How many threads there are.
+    pub(super) fn threads(&self) -> usize {
+        self.helpers.len() + 1
+    }
+
+    /// `task` of every item. Each thread that is needed begins with a `seed`, and makes a scratch space of it. Results
+    /// in the order of the items, and what `finish` makes of the scratch spaces in no order.
+    pub(super) fn map<I, D, W, T, R>(
+        &self,
+        items: Vec<I>,
+        mut seed: impl FnMut() -> D,
+        begin: impl Fn(D) -> W + Send + Sync + 'env,
+        task: impl Fn(&mut W, I) -> T + Send + Sync + 'env,
+        finish: impl Fn(W) -> R + Send + Sync + 'env,
+    ) -> (Vec<T>, Vec<R>)
+    where
+        I: Send + 'env,
+        D: Send + 'env,
+        T: Send + 'env,
+        R: Send + 'env,
+    {
+        let helpers = self.helpers.iter().take(items.len().saturating_sub(1));
+        let queue = Mutex::new(items.into_iter().enumerate());
+        let work = Arc::new(move |seed: D| {
+            let mut scratch = begin(seed);
+            let mut done = Vec::new();
+            loop {
+                // Whoever panics while taking an item leaves the queue consistent.
+                let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+                let Some((index, item)) = next else { break };
+                done.push((index, task(&mut scratch, item)));
+            }
+            (done, finish(scratch))
+        });
+        let (sender, results) = channel();
+        for helper in helpers {
+            let (work, sender, seed) = (Arc::clone(&work), sender.clone(), seed());
+            let job = move || {
+                let result = catch_unwind(AssertUnwindSafe(|| work(seed)));
+                // Nobody waits for it where the caller has panicked.
+                let _ = sender.send(result);
+            };
+            // A helper is there as long as its crew.
+            let _ = helper.send(Box::new(job));
+        }
+        drop(sender);
+        let (mut done, own) = work(seed());
+        let mut rest = vec![own];
+        while let Ok(result) = soon(&results) {
+            let (theirs, finished) = result.unwrap_or_else(|panic| resume_unwind(panic));
+            done.extend(theirs);
+            rest.push(finished);
+        }
+        done.sort_unstable_by_key(|(index, _)| *index);
+        let done = done.into_iter().map(|(_, result)| result).collect();
+        (done, rest)
+    }
+}
+
+/// `task` of every item on several threads, each with a scratch space; results in the order of the
+/// items, and what `finish` makes of the scratch spaces in no order.
+pub(super) fn parallel_map<I: Send, W, T: Send, R: Send>(
+    items: Vec<I>,
+    threads: usize,
+    scratch: impl Fn() -> W + Send + Sync,
+    task: impl Fn(&mut W, I) -> T + Send + Sync,
+    finish: impl Fn(W) -> R + Send + Sync,
+) -> (Vec<T>, Vec<R>) {
+    Crew::with(threads, items.len() as u64, |crew| {
+        crew.map(items, || (), |()| scratch(), task, finish)
+    })
+}
+
+/// What comes next; an error where nothing will.
+fn soon<T>(receiver: &Receiver<T>) -> Result<T, RecvError> {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        match receiver.try_recv() {
+            Ok(next) => return Ok(next),
+            Err(TryRecvError::Disconnected) => return Err(RecvError),
+            Err(TryRecvError::Empty) => yield_now(),
+        }
+    }
+    receiver.recv()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_are_in_the_order_of_the_items() {
+        let items: Vec<usize> = (0..50).collect();
+        let squares: Vec<usize> = (0..50).map(|i| i * i).collect();
+        let (done, counts) = parallel_map(
+            items,
+            4,
+            || 0,
+            |count, i| {
+                *count += 1;
+                i * i
+            },
+            |count| count,
+        );
+        assert_eq!(done, squares);
+        assert_eq!((counts.len(), counts.iter().sum::<i32>()), (4, 50));
+    }
+
+    #[test]
+    fn a_crew_takes_on_one_task_after_another() {
+        let offset = 3_usize;
+        let sums: Vec<usize> = Crew::with(3, 20, |crew| {
+            let sum = |round: usize| {
+                // Now and then the helpers have gone to sleep.
+                if round.is_multiple_of(8) {
+                    std::thread::sleep(2 * PATIENCE);
+                }
+                let items = (0..round).collect();
+                let (done, rest) = crew.map(
+                    items,
+                    || 10_usize,
+                    |seed| seed,
+                    |_, i| i + offset,
+                    |seed| seed,
+                );
+                assert_eq!(rest, vec![10; round.clamp(1, 3)]);
+                done.into_iter().sum()
+            };
+            (0..20).map(sum).collect()
+        });
+        let expected: Vec<usize> = (0..20)
+            .map(|n: usize| n * 3 + n * n.saturating_sub(1) / 2)
+            .collect();
+        assert_eq!(sums, expected);
+    }
+
+    #[test]
+    fn a_panic_of_a_helper_reaches_the_caller() {
+        let work = || {
+            Crew::with(2, 2, |crew| {
+                let own = std::thread::current().id();
+                let begin = move |()| assert_eq!(std::thread::current().id(), own, "no helper");
+                crew.map(vec![(); 20], || (), begin, |(), ()| (), |()| ())
+            })
+        };
+        let panic = catch_unwind(AssertUnwindSafe(work)).expect_err("the helper panics");
+        let text = panic.downcast_ref::<String>().expect("a text");
+        assert!(text.contains("no helper"), "{text}");
+    }
+
+    #[test]
+    fn there_are_no_more_threads_than_tasks() {
+        assert_eq!(Crew::with(8, 3, |crew| crew.threads()), 3);
+        assert_eq!(Crew::with(0, 3, |crew| crew.threads()), 1);
+        let (done, rest) = parallel_map(Vec::<u8>::new(), 4, || (), |(), i| i, |()| ());
+        assert_eq!((done.len(), rest.len()), (0, 1));
+    }
+}

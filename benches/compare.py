@@ -173,28 +173,32 @@ def median(records, figure):
     return statistics.median(figure(record) for record in records)
 
 
-def mine(where, column, threads="one"):
-    """A figure of gumption in a turn, inside of a process or of the program."""
-    return lambda record: record[where][threads][column]
+def inside(column):
+    """A figure of the calculation in a turn."""
+    return lambda record: record["inside"][column]
+
+
+def program(column, threads="one"):
+    """A figure of the whole program in a turn."""
+    return lambda record: record["program"][threads][column]
 
 
 def ratio_row(model, trials, records):
-    cells = [model, power(trials), f"{1000 * median(records, mine('inside', 'cpu')):.1f}"]
+    cells = [model, power(trials), f"{1000 * median(records, inside('cpu')):.1f}"]
     for peer in PEERS:
         with_peer = [record for record in records if peer in record["peers"]]
         if not with_peer:
             cells.append("–")
             continue
-        inside, program = (
-            median(with_peer, lambda record: record["peers"][peer] / mine(where, "cpu")(record))
-            for where in ("inside", "program")
+        calculation, whole = (
+            median(with_peer, lambda record: record["peers"][peer] / cpu(record))
+            for cpu in (inside("cpu"), program("cpu"))
         )
-        cells.append(f"{inside:.1f} × ({program:.1f} ×)")
-    share = median(records, lambda record: trials / mine("inside", "cpu")(record) / record["limit"])
+        cells.append(f"{calculation:.1f} × ({whole:.1f} ×)")
+    share = median(records, lambda record: trials / inside("cpu")(record) / record["limit"])
     cells.append(f"{100 * share:.0f} %")
-    one = mine("inside", "wall")
     two, pair = (
-        median(records, lambda record: times * one(record) / mine("inside", "wall", way)(record))
+        median(records, lambda record: times * inside("one")(record) / inside(way)(record))
         for way, times in (("two", 1), ("pair", 2))
     )
     cells.append(f"{two:.2f} × of {pair:.2f} ×")
@@ -202,9 +206,9 @@ def ratio_row(model, trials, records):
 
 
 def program_row(model, trials, records):
-    figures = mine("program", "cpu"), mine("program", "wall"), mine("program", "wall", "two")
+    figures = program("cpu"), program("wall"), program("wall", "two")
     times = [f"{1000 * median(records, figure):.1f}" for figure in figures]
-    return [model, power(trials), *times, f"{median(records, mine('program', 'memory')):.0f}"]
+    return [model, power(trials), *times, f"{median(records, program('memory')):.0f}"]
 
 
 def table(heads, row, turns):

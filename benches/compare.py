@@ -33,11 +33,13 @@ RUNS = {10**6: 9, 10**7: 7, 10**8: 3}
 TURNS = {10**6: 5, 10**7: 5, 10**8: 3}
 #: Most trials of the long models.
 MOST = {"gauge": 10**8, "twenty": 10**7, "thousand": 10**6}
-#: Names in the lines of the baselines, for the table, and the script that prints them.
+#: For the table, the script that prints the lines of a baseline, its name in them, and its environment. NumPy asks
+#: for huge pages of memory; suncal, which keeps all trials, is half as fast where the system has none left.
 PEERS = {
-    "numpy-best": ("NumPy, best practice", "bench_numpy.py"),
-    "numba": ("numba", "bench_numba.py"),
-    "suncal": ("suncal", "bench_suncal.py"),
+    "NumPy, best practice": ("bench_numpy.py", "numpy-best", {}),
+    "numba": ("bench_numba.py", "numba", {}),
+    "suncal": ("bench_suncal.py", "suncal", {}),
+    "suncal, small pages": ("bench_suncal.py", "suncal", {"NUMPY_MADVISE_HUGEPAGE": "0"}),
 }
 #: What the baselines know.
 PEER_MODELS = ("add", "mm0", "mm9", "gauge")
@@ -81,9 +83,9 @@ def run(program, file, trials, threads):
     return usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024
 
 
-def lines_of(command, folder="."):
+def lines_of(command, folder=".", environment={}):
     """The JSON lines that a command prints; none where it fails."""
-    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"}
+    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"} | environment
     done = subprocess.run(
         [str(word) for word in command],
         cwd=folder,
@@ -116,12 +118,12 @@ def peers(baselines, model, trials):
     times = {}
     if model not in PEER_MODELS or trials > PEER_TRIALS:
         return times
-    for peer, (_, script) in PEERS.items():
+    for peer, (script, name, environment) in PEERS.items():
         if not pathlib.Path(baselines, script).exists():
             continue
         command = [sys.executable, script, "throughput", f"--n={trials}", "--runs=3", f"--models={model}"]
-        for line in lines_of(command, baselines):
-            if line.get("peer") == peer:
+        for line in lines_of(command, baselines, environment):
+            if line.get("peer") == name:
                 times[peer] = line["cpu_median_s"]
     return times
 
@@ -235,7 +237,7 @@ def report(file, quasi, propagation):
     print("What is compared ran in turns of seconds; figures and ratios are medians over the turns, ratios of")
     print("figures of the same turn.\n")
     met = {peer for records in turns.values() for record in records for peer in record["peers"]}
-    absent = [text for peer, (text, _) in PEERS.items() if peer not in met]
+    absent = [peer for peer in PEERS if peer not in met]
     if absent:
         print(f"Not installed, hence not compared: {', '.join(absent)}.\n")
     print("## Monte Carlo: calculation\n")
@@ -244,8 +246,9 @@ def report(file, quasi, propagation):
     print("over that of gumption; in brackets over that of the whole program `gumption eval`, with its start, the")
     print("file and the JSON, where the others' interpreters have been started before. *Of the kernel*: the rate")
     print("over that of the same model written by hand on the same kernels (draws, model and moments only). *Two")
-    print("threads*: wall time of one over that of two, *of* what two calculations at once reach, on a thread each.\n")
-    heads = ["model", "trials", "CPU ms", *(text for text, _ in PEERS.values()), "of the kernel", "two threads"]
+    print("threads*: wall time of one over that of two, *of* what two calculations at once reach, on a thread each.")
+    print("*Small pages*: without the huge pages of memory that NumPy asks for, and does not always get.\n")
+    heads = ["model", "trials", "CPU ms", *PEERS, "of the kernel", "two threads"]
     table(heads, ratio_row, turns)
     print("\n## Monte Carlo: whole program\n")
     print("Milliseconds of `gumption eval --json` from start to end.\n")

@@ -5,8 +5,10 @@
 //! With the hubs as inputs of their own, what is left of the formula joins few inputs at a time, and has few
 //! second derivatives.
 
+use std::ops::Range;
+
 use super::graph::{Graph, Id, Op};
-use super::interaction::{neighbours, varying_operands};
+use super::interaction::{Neighbours, varying_operands};
 use super::jet::Jet;
 use super::{Along, points};
 
@@ -78,19 +80,78 @@ impl<'m> Cut<'m> {
         self.graph.sum_along(point, direction, weights)
     }
 
-    /// For each of x and s those with which it may have mixed derivatives; `None` where they are not few.
-    pub(crate) fn neighbours(&self) -> Option<Vec<Vec<usize>>> {
-        neighbours(&self.graph, self.inputs + self.hubs.len())
+    /// For each of x those with which it may have mixed derivatives; `None` where they are not few.
+    pub(crate) fn neighbours(&self) -> Option<Neighbours> {
+        let all = Neighbours::new(&self.graph, self.inputs + self.hubs.len())?;
+        Some(all.among_first(self.inputs))
     }
 }
 
 /// What an operation is made of.
 #[derive(Debug, Clone, PartialEq)]
 enum Cone {
-    /// These inputs and hubs, in rising order.
-    Few(Vec<usize>),
+    /// Inputs and hubs: this part of a list of them, in rising order.
+    Few(Range<usize>),
     /// A sum of many.
     Many,
+}
+
+impl Cone {
+    fn width(&self) -> usize {
+        match self {
+            Cone::Few(part) => part.len(),
+            Cone::Many => usize::MAX,
+        }
+    }
+}
+
+/// The cones of all operations.
+struct Cones {
+    of: Vec<Cone>,
+    list: Vec<usize>,
+}
+
+impl Cones {
+    /// Takes an operation for an input or hub.
+    fn set(&mut self, id: Id, place: usize) {
+        let start = self.list.len();
+        self.list.push(place);
+        self.of[id as usize] = Cone::Few(start..start + 1);
+    }
+
+    fn width(&self, id: Id) -> usize {
+        self.of[id as usize].width()
+    }
+
+    /// What some operations are made of together.
+    fn union(&mut self, operands: &[Id]) -> Cone {
+        if let [one] = operands {
+            return self.of[*one as usize].clone();
+        }
+        let start = self.list.len();
+        for id in operands {
+            let Cone::Few(part) = self.of[*id as usize].clone() else {
+                self.list.truncate(start);
+                return Cone::Many;
+            };
+            self.list.extend_from_within(part);
+        }
+        self.list[start..].sort_unstable();
+        let mut end = start;
+        for at in start..self.list.len() {
+            let place = self.list[at];
+            if end == start || self.list[end - 1] != place {
+                self.list[end] = place;
+                end += 1;
+            }
+        }
+        if end - start > FEW {
+            self.list.truncate(start);
+            return Cone::Many;
+        }
+        self.list.truncate(end);
+        Cone::Few(start..end)
+    }
 }
 
 /// The hubs of an output, in rising order.
@@ -101,65 +162,45 @@ fn hubs(graph: &Graph, inputs: usize, of: Id) -> Option<Vec<Id>> {
     for id in ids() {
         graph.operands(graph.ops[id as usize], |a| uses[a as usize] += 1);
     }
-    let mut cones = vec![Cone::Few(Vec::new()); of as usize + 1];
+    let mut cones = Cones {
+        of: vec![Cone::Few(0..0); of as usize + 1],
+        list: Vec::new(),
+    };
     let mut hubs: Vec<Id> = Vec::new();
+    let mut operands = Vec::new();
     for id in ids() {
         let op = graph.ops[id as usize];
         if let Op::Input(place) = op {
-            cones[id as usize] = Cone::Few(vec![place as usize]);
+            cones.set(id, place as usize);
             continue;
         }
-        let mut operands = Vec::new();
+        operands.clear();
         let mut bends = false;
         varying_operands(graph, op, |a, nonlinear| {
             operands.push(a);
             bends |= nonlinear;
         });
-        let mut make_hub = |a: Id, cones: &mut [Cone]| {
-            cones[a as usize] = Cone::Few(vec![inputs + hubs.len()]);
+        let mut make_hub = |a: Id, cones: &mut Cones| {
+            cones.set(a, inputs + hubs.len());
             hubs.push(a);
         };
         for a in &operands {
-            if cones[*a as usize] == Cone::Many && (bends || uses[*a as usize] > 1) {
+            if cones.of[*a as usize] == Cone::Many && (bends || uses[*a as usize] > 1) {
                 make_hub(*a, &mut cones);
             }
         }
-        let mut cone = union(&operands, &cones);
+        let mut cone = cones.union(&operands);
         while bends && cone == Cone::Many {
-            let widest = operands.iter().max_by_key(|a| width(&cones[**a as usize]));
-            let widest = widest.filter(|a| width(&cones[**a as usize]) > 1)?;
-            make_hub(*widest, &mut cones);
-            cone = union(&operands, &cones);
+            let widest = operands.iter().copied().max_by_key(|a| cones.width(*a));
+            let widest = widest.filter(|a| cones.width(*a) > 1)?;
+            make_hub(widest, &mut cones);
+            cone = cones.union(&operands);
         }
-        cones[id as usize] = cone;
+        cones.of[id as usize] = cone;
         if hubs.len() > MOST {
             return None;
         }
     }
     hubs.sort_unstable();
     Some(hubs)
-}
-
-fn width(cone: &Cone) -> usize {
-    match cone {
-        Cone::Few(places) => places.len(),
-        Cone::Many => usize::MAX,
-    }
-}
-
-fn union(operands: &[Id], cones: &[Cone]) -> Cone {
-    let mut all = Vec::new();
-    for a in operands {
-        match &cones[*a as usize] {
-            Cone::Few(places) => all.extend(places),
-            Cone::Many => return Cone::Many,
-        }
-    }
-    all.sort_unstable();
-    all.dedup();
-    if all.len() > FEW {
-        Cone::Many
-    } else {
-        Cone::Few(all)
-    }
 }

@@ -6,6 +6,8 @@
 //! of second and higher order with respect to inputs of different blocks are zero, so that one
 //! sweep may run along a direction in every block at once.
 
+use std::ops::Range;
+
 use super::graph::{Graph, Id, Op};
 
 /// The block of each input; `None` for inputs in which every output is linear.
@@ -33,47 +35,142 @@ pub fn blocks(graph: &Graph, inputs: usize) -> Vec<Option<usize>> {
 /// Operations that are looked at, and pairs that are listed, per operation and input of the model at most.
 const FEW: usize = 64;
 
-/// For each input those with which it may have mixed derivatives, itself included; within a block these are
-/// fewer where terms overlap, as in x₁x₂ + x₂x₃ + x₃x₄. `None` where they are not few.
-pub fn neighbours(graph: &Graph, inputs: usize) -> Option<Vec<Vec<usize>>> {
-    let mut bent = vec![false; graph.ops.len()];
-    let mut seen = vec![usize::MAX; graph.ops.len()];
-    let mut neighbours = vec![Vec::new(); inputs];
-    let (mut looks, mut pairs) = (0, 0);
-    for i in (0..graph.ops.len()).rev() {
-        let above = bent[i];
+/// For each input those with which it may have mixed derivatives, itself included.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Neighbours {
+    /// Where the list of each input ends.
+    ends: Vec<usize>,
+    /// The lists, one behind the other, each in rising order.
+    lists: Vec<usize>,
+}
+
+impl Neighbours {
+    /// Within a block these are fewer where terms overlap, as in x₁x₂ + x₂x₃ + x₃x₄. `None` where they are not few.
+    pub(super) fn new(graph: &Graph, inputs: usize) -> Option<Self> {
+        let mut bent = vec![false; graph.ops.len()];
+        let mut seen = vec![usize::MAX; graph.ops.len()];
+        // Sets of inputs that meet in an operation, one behind the other, and where each ends.
+        let (mut met, mut ends) = (Vec::new(), Vec::new());
+        let (mut looks, mut pairs) = (0, 0);
         let mut open = Vec::new();
-        varying_operands(graph, graph.ops[i], |id, nonlinear| {
-            bent[id as usize] |= above || nonlinear;
-            if nonlinear && !above {
-                open.push(id);
+        for i in (0..graph.ops.len()).rev() {
+            let above = bent[i];
+            varying_operands(graph, graph.ops[i], |id, nonlinear| {
+                bent[id as usize] |= above || nonlinear;
+                if nonlinear && !above {
+                    open.push(id);
+                }
+            });
+            // All that reaches the outermost nonlinear operation may interact.
+            let start = met.len();
+            while let Some(id) = open.pop() {
+                if std::mem::replace(&mut seen[id as usize], i) == i {
+                    continue;
+                }
+                looks += 1;
+                match graph.ops[id as usize] {
+                    Op::Input(place) => met.push(place as usize),
+                    op => varying_operands(graph, op, |id, _| open.push(id)),
+                }
             }
-        });
-        // All that reaches the outermost nonlinear operation may interact.
-        let mut together = Vec::new();
-        while let Some(id) = open.pop() {
-            if std::mem::replace(&mut seen[id as usize], i) == i {
-                continue;
+            let together = met.len() - start;
+            pairs += together * together;
+            if looks > FEW * graph.ops.len() || pairs > FEW * inputs {
+                return None;
             }
-            looks += 1;
-            match graph.ops[id as usize] {
-                Op::Input(place) => together.push(place as usize),
-                op => varying_operands(graph, op, |id, _| open.push(id)),
+            if together > 0 {
+                ends.push(met.len());
             }
         }
-        pairs += together.len() * together.len();
-        if looks > FEW * graph.ops.len() || pairs > FEW * inputs {
-            return None;
-        }
-        for input in &together {
-            neighbours[*input].extend(&together);
-        }
+        Some(Self::of_sets(inputs, &met, &ends))
     }
-    for list in &mut neighbours {
-        list.sort_unstable();
-        list.dedup();
+
+    fn of_sets(inputs: usize, met: &[usize], ends: &[usize]) -> Self {
+        let starts = std::iter::once(&0).chain(ends);
+        let sets = || {
+            starts
+                .clone()
+                .zip(ends)
+                .map(|(start, end)| &met[*start..*end])
+        };
+        // Where the next entry of each input goes.
+        let mut next = vec![0; inputs + 1];
+        for set in sets() {
+            set.iter().for_each(|input| next[input + 1] += set.len());
+        }
+        for input in 0..inputs {
+            next[input + 1] += next[input];
+        }
+        let mut lists = vec![0; next[inputs]];
+        for set in sets() {
+            for input in set {
+                lists[next[*input]..][..set.len()].copy_from_slice(set);
+                next[*input] += set.len();
+            }
+        }
+        let mut neighbours = Neighbours {
+            ends: next[..inputs].to_vec(),
+            lists,
+        };
+        neighbours.retain(|_| true);
+        neighbours
     }
-    Some(neighbours)
+
+    /// How many inputs there are.
+    pub(crate) fn inputs(&self) -> usize {
+        self.ends.len()
+    }
+
+    /// Of one input, in rising order.
+    pub(crate) fn of(&self, input: usize) -> &[usize] {
+        &self.lists[self.places(input)]
+    }
+
+    /// Where the list of an input stands among all.
+    pub(crate) fn places(&self, input: usize) -> Range<usize> {
+        let start = input.checked_sub(1).map_or(0, |before| self.ends[before]);
+        start..self.ends[input]
+    }
+
+    /// Length of all lists.
+    pub(crate) fn pairs(&self) -> usize {
+        self.lists.len()
+    }
+
+    /// Where, among all, a neighbour stands in the list of an input.
+    pub(crate) fn place(&self, input: usize, neighbour: usize) -> Option<usize> {
+        let places = self.places(input);
+        let place = self.lists[places.clone()].binary_search(&neighbour).ok()?;
+        Some(places.start + place)
+    }
+
+    /// Those of the first inputs, among these.
+    pub(crate) fn among_first(mut self, inputs: usize) -> Self {
+        self.ends.truncate(inputs);
+        self.retain(|place| place < inputs);
+        self
+    }
+
+    /// Leaves in the lists, each in rising order, what is to be kept, once.
+    fn retain(&mut self, keep: impl Fn(usize) -> bool) {
+        let (mut start, mut kept) = (0, 0);
+        for end in &mut self.ends {
+            let list = start..std::mem::replace(end, 0);
+            start = list.end;
+            self.lists[list.clone()].sort_unstable();
+            let first = kept;
+            for place in list {
+                let neighbour = self.lists[place];
+                let known = kept > first && self.lists[kept - 1] == neighbour;
+                if !known && keep(neighbour) {
+                    self.lists[kept] = neighbour;
+                    kept += 1;
+                }
+            }
+            *end = kept;
+        }
+        self.lists.truncate(kept);
+    }
 }
 
 /// Shows the operands that are not constant, and whether the operation is nonlinear in them.

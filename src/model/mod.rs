@@ -50,6 +50,7 @@ pub use block::BlockRunner;
 pub use catalogue::{FunctionInfo, functions};
 pub use check::compile;
 pub(crate) use cut::Cut;
+pub(crate) use interaction::Neighbours;
 pub use notice::{Notice, Office};
 pub use outline::{Outline, outline};
 pub(crate) use tree::Leaf;
@@ -254,8 +255,8 @@ impl Model {
 
     /// For each input those with which it may have mixed derivatives, itself included; `None` where they are
     /// too many to be listed. Finer than [`Model::interactions`] where terms overlap.
-    pub(crate) fn neighbours(&self) -> Option<Vec<Vec<usize>>> {
-        interaction::neighbours(&self.graph, self.inputs)
+    pub(crate) fn neighbours(&self) -> Option<Neighbours> {
+        Neighbours::new(&self.graph, self.inputs)
     }
 
     /// Which inputs one output uses.

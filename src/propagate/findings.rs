@@ -244,9 +244,9 @@ impl Evidence<'_> {
             *changes &= !unseen(sight);
         }
         let with = &self.second_order[measurand];
-        let without = &second_order::evaluate_over(self.budget, self.linear, &others)[measurand];
-        let shift = with.shift - without.shift;
-        let (more, less) = (with.curvature, without.curvature);
+        let (rest, less) = second_order::among(self.budget, self.linear, measurand, with, &others);
+        let shift = with.shift - rest;
+        let more = with.curvature;
         let u_effect = ((more - less) * (more + less)).max(0.0).sqrt();
         let u_first = self.results[measurand].gum.u;
         let told = shift.is_finite() && u_effect.is_finite() && !seen.contains(&Sight::Neither);

@@ -20,9 +20,13 @@
 //! as in a standard deviation or a weighted mean, also where inputs correlate ([`hubs`]).
 
 mod bordered;
+mod hessian;
 mod hubs;
 mod sparse;
 mod spread;
+
+use hessian::Hessian;
+use spread::Spread;
 
 use super::SecondOrder;
 use super::covariance::Covariance;
@@ -66,6 +70,8 @@ pub(super) struct Outcome {
     /// Root of Σ_k ¼ h_kk² (μ4 − 1) + Σ_{k<l} h_kl²: what the second derivatives alone add to u(y),
     /// in quadrature.
     pub curvature: f64,
+    /// The second derivatives where they are at hand: what part of the inputs do follows from them.
+    hessian: Option<Hessian>,
 }
 
 /// The second-order terms of one measurand.
@@ -84,9 +90,29 @@ pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<Outcome> {
     evaluate_over(budget, linear, &vec![true; linear.x.len()])
 }
 
-/// Second-order terms when only the inputs marked in `changing` change, the others staying at their
-/// estimates: of these, `shift` and `curvature` have a meaning.
-pub(super) fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Outcome> {
+/// `shift` and `curvature` of one measurand when only the inputs marked in `changing` change, the others staying at
+/// their estimates; `all` is its outcome when all change.
+pub(super) fn among(
+    budget: &Budget,
+    linear: &Linear,
+    measurand: usize,
+    all: &Outcome,
+    changing: &[bool],
+) -> (f64, f64) {
+    let known = all.hessian.as_ref().and_then(|hessian| {
+        let spread = Spread::new(budget, linear, changing)?;
+        let unit = unit(linear.measurands[measurand].u);
+        let over = hessian.over(&spread);
+        Some((over.shift() * unit, over.curvature().sqrt() * unit))
+    });
+    known.unwrap_or_else(|| {
+        let outcome = &evaluate_over(budget, linear, changing)[measurand];
+        (outcome.shift, outcome.curvature)
+    })
+}
+
+/// Second-order terms when only the inputs marked in `changing` change.
+fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Outcome> {
     let blocks = budget.model.interactions().into_iter().zip(changing);
     let blocks: Vec<Option<usize>> = blocks
         .map(|(block, changes)| block.filter(|_| *changes))
@@ -389,6 +415,7 @@ impl Sums {
             slope_deviation,
             shift: self.shift * unit,
             curvature: self.curvature.sqrt() * unit,
+            hessian: None,
         }
     }
 }

@@ -3,12 +3,13 @@
 use nalgebra::DMatrix;
 
 use super::spread::Spread;
+use crate::model::Neighbours;
 
 /// Second derivatives with respect to x and s.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bordered {
-    /// A: per input the entries for its neighbours among the inputs, in their order.
-    pub few: Vec<Vec<f64>>,
+    /// A: per input the entries for its neighbours, in their order.
+    pub few: Vec<f64>,
     /// B: per hub the entries for the inputs.
     pub border: Vec<Vec<f64>>,
     /// M: hubs × hubs.
@@ -17,27 +18,27 @@ pub(super) struct Bordered {
 
 impl Bordered {
     /// Without entries, for inputs with these neighbours and so many hubs.
-    pub(super) fn zero(near: &[Vec<usize>], hubs: usize) -> Self {
+    pub(super) fn zero(near: &Neighbours, hubs: usize) -> Self {
         Bordered {
-            few: near.iter().map(|near| vec![0.0; near.len()]).collect(),
-            border: vec![vec![0.0; near.len()]; hubs],
+            few: vec![0.0; near.pairs()],
+            border: vec![vec![0.0; near.inputs()]; hubs],
             corner: DMatrix::zeros(hubs, hubs),
         }
     }
 
     /// Whether all entries are zero.
     pub(super) fn is_zero(&self) -> bool {
-        let entries = self.few.iter().chain(&self.border).flatten();
-        entries.chain(self.corner.iter()).all(|entry| *entry == 0.0)
+        let mut entries = self.few.iter().chain(self.border.iter().flatten());
+        entries.all(|entry| *entry == 0.0) && self.corner.iter().all(|entry| *entry == 0.0)
     }
 
     /// Takes the entries of the columns of inputs no two of which have a neighbour in common, from the sum of these
     /// columns.
-    pub(super) fn set_few(&mut self, near: &[Vec<usize>], inputs: &[usize], column: &[f64]) {
+    pub(super) fn set_few(&mut self, near: &Neighbours, inputs: &[usize], column: &[f64]) {
         for &j in inputs {
-            for &i in &near[j] {
-                if let Ok(place) = near[i].binary_search(&j) {
-                    self.few[i][place] = column[i];
+            for &i in near.of(j) {
+                if let Some(place) = near.place(i, j) {
+                    self.few[place] = column[i];
                 }
             }
         }
@@ -45,26 +46,23 @@ impl Bordered {
 
     /// Takes the column of a hub.
     pub(super) fn set_border(&mut self, hub: usize, column: &[f64]) {
-        let (inputs, hubs) = column.split_at(self.few.len());
+        let (inputs, hubs) = column.split_at(self.border[hub].len());
         self.border[hub].copy_from_slice(inputs);
         self.corner.column_mut(hub).copy_from_slice(hubs);
     }
 
     /// A d.
-    pub(super) fn times_few(&self, near: &[Vec<usize>], d: &[f64]) -> Vec<f64> {
-        let rows = near.iter().zip(&self.few);
-        rows.map(|(near, entries)| {
-            near.iter()
-                .zip(entries)
-                .map(|(j, entry)| entry * d[*j])
-                .sum()
-        })
-        .collect()
+    pub(super) fn times_few(&self, near: &Neighbours, d: &[f64]) -> Vec<f64> {
+        let row = |i: usize| {
+            let entries = near.of(i).iter().zip(&self.few[near.places(i)]);
+            entries.map(|(j, entry)| entry * d[*j]).sum()
+        };
+        (0..near.inputs()).map(row).collect()
     }
 
     /// The product with a direction of x and s.
-    pub(super) fn times(&self, near: &[Vec<usize>], w: &[f64]) -> Vec<f64> {
-        let (x, s) = w.split_at(near.len());
+    pub(super) fn times(&self, near: &Neighbours, w: &[f64]) -> Vec<f64> {
+        let (x, s) = w.split_at(near.inputs());
         let mut out = self.times_few(near, x);
         for (border, s) in self.border.iter().zip(s) {
             add_scaled(&mut out, *s, border);
@@ -76,10 +74,10 @@ impl Bordered {
     }
 
     /// w·(this)·w for a step of an input and what it moves the hubs by.
-    pub(super) fn along(&self, near: &[Vec<usize>], input: usize, hubs: &[Vec<f64>]) -> f64 {
+    pub(super) fn along(&self, near: &Neighbours, input: usize, hubs: &[Vec<f64>]) -> f64 {
         let step = |k: usize| hubs[k][input];
-        let own = near[input].binary_search(&input);
-        let mut sum = own.map_or(0.0, |place| self.few[input][place]);
+        let own = near.place(input, input);
+        let mut sum = own.map_or(0.0, |place| self.few[place]);
         for (k, border) in self.border.iter().enumerate() {
             sum += step(k) * (2.0 * border[input] + self.in_corner(k, step));
         }
@@ -110,7 +108,7 @@ impl<'a> Lifted<'a> {
     }
 
     /// The trace of the product with a matrix.
-    pub(super) fn trace(&self, near: &[Vec<usize>], of: &Bordered) -> f64 {
+    pub(super) fn trace(&self, near: &Neighbours, of: &Bordered) -> f64 {
         let borders = self.k.iter().zip(&of.border);
         let border: f64 = borders.map(|(k, b)| dot(k, b)).sum();
         self.spread.trace(near, &of.few) + 2.0 * border + self.q.dot(&of.corner)

@@ -17,6 +17,7 @@
 use nalgebra::DMatrix;
 
 use super::bordered::{Bordered, Lifted, add_scaled, dot};
+use super::hessian::Hessian;
 use super::sparse::sweeps;
 use super::spread::Spread;
 use super::{Outcome, Sums, unit};
@@ -39,7 +40,12 @@ pub(super) fn outcomes(
         let at_hubs = AtHubs::new(&cut, &linear.x, &spread, unit)?;
         let mut sums = Sums::new(measurand, unit, linear.x.len(), 0);
         at_hubs.add_to(&mut sums);
-        Some(sums.outcome(unit))
+        let outcome = sums.outcome(unit);
+        let finite = outcome.shift.is_finite() && outcome.curvature.is_finite();
+        Some(Outcome {
+            hessian: finite.then_some(at_hubs.hessian),
+            ..outcome
+        })
     };
     (0..linear.measurands.len()).map(outcome).collect()
 }
@@ -53,20 +59,16 @@ struct AtHubs<'a> {
     scales: Vec<f64>,
     /// What f and the hubs, in the units of the file, are multiplied with in L.
     weights: Vec<f64>,
-    /// Per input those of its neighbours that are inputs.
-    near: Vec<Vec<usize>>,
     /// ∂f/∂x of f(x, s(x)).
     gradient: Vec<f64>,
     /// ∂s_k/∂s_j of the hubs before.
     before: DMatrix<f64>,
-    /// S: per hub its derivatives.
-    hubs: Vec<Vec<f64>>,
     /// Inputs that move together, and then D³L[c, c, ·].
     colours: Vec<(Vec<usize>, Vec<f64>)>,
     /// Per hub D³L[s_k, s_k, ·].
     alone: Vec<Vec<f64>>,
-    /// D²L.
-    whole: Bordered,
+    /// Of f, by D²L and the derivatives of the hubs.
+    hessian: Hessian,
     /// Per hub D²s_k.
     parts: Vec<Bordered>,
 }
@@ -84,10 +86,7 @@ struct Sweep {
 impl<'a> AtHubs<'a> {
     fn new(cut: &'a Cut<'a>, x: &[f64], spread: &'a Spread<'a>, unit: f64) -> Option<Self> {
         let (n, r) = (cut.inputs(), cut.hubs());
-        let mut near = cut.neighbours()?;
-        near.truncate(n);
-        let inputs = near.iter_mut();
-        inputs.for_each(|near| near.retain(|place| *place < n));
+        let near = cut.neighbours()?;
         let moved = (0..n).filter(|input| spread.scales()[*input] > 0.0);
         let colours = sweeps(moved, &near);
         let mut at_hubs = AtHubs {
@@ -98,15 +97,17 @@ impl<'a> AtHubs<'a> {
             weights: vec![1.0 / unit],
             gradient: Vec::new(),
             before: DMatrix::zeros(r, r),
-            hubs: Vec::new(),
             colours: colours
                 .into_iter()
                 .map(|colour| (colour, Vec::new()))
                 .collect(),
             alone: Vec::new(),
-            whole: Bordered::zero(&near, r),
             parts: vec![Bordered::zero(&near, r); r],
-            near,
+            hessian: Hessian {
+                whole: Bordered::zero(&near, r),
+                hubs: Vec::new(),
+                near,
+            },
         };
         at_hubs.find_first_derivatives();
         at_hubs.find_second_derivatives();
@@ -128,7 +129,7 @@ impl<'a> AtHubs<'a> {
         }
         for k in 0..r {
             if !moving[k] {
-                self.hubs.push(vec![0.0; n]);
+                self.hessian.hubs.push(vec![0.0; n]);
                 self.scales.push(0.0);
                 continue;
             }
@@ -136,7 +137,7 @@ impl<'a> AtHubs<'a> {
             for j in hubs().filter(|j| *j < k) {
                 let slope = gradients[k + 1][n + j] * self.scales[n + j];
                 self.before[(k, j)] = slope;
-                add_scaled(&mut slopes, slope, &self.hubs[j]);
+                add_scaled(&mut slopes, slope, &self.hessian.hubs[j]);
             }
             // A hub that does not move to first order is measured by what it does to f.
             let sizes = [self.spread.deviation(&slopes), 1.0 / lambda[k].abs()];
@@ -149,13 +150,13 @@ impl<'a> AtHubs<'a> {
                 .row_mut(k)
                 .iter_mut()
                 .for_each(|slope| *slope /= scale);
-            self.hubs.push(slopes);
+            self.hessian.hubs.push(slopes);
             self.scales.push(scale);
         }
         self.gradient = self.in_units(gradients[0][..n].to_vec());
         for k in hubs() {
             let slope = gradients[0][n + k] * self.scales[n + k];
-            add_scaled(&mut self.gradient, slope, &self.hubs[k]);
+            add_scaled(&mut self.gradient, slope, &self.hessian.hubs[k]);
         }
         self.gradient.iter_mut().for_each(|g| *g *= self.weights[0]);
         self.weights.append(&mut lambda);
@@ -177,16 +178,18 @@ impl<'a> AtHubs<'a> {
         let mut colours = std::mem::take(&mut self.colours);
         for (colour, third) in &mut colours {
             let sweep = self.sweep(&self.ones(colour));
-            self.whole.set_few(&self.near, colour, &sweep.whole);
+            self.hessian
+                .whole
+                .set_few(&self.hessian.near, colour, &sweep.whole);
             for (part, column) in self.parts.iter_mut().zip(&sweep.parts) {
-                part.set_few(&self.near, colour, column);
+                part.set_few(&self.hessian.near, colour, column);
             }
             *third = sweep.third;
         }
         self.colours = colours;
         for k in 0..self.cut.hubs() {
             let sweep = self.sweep(&self.ones(&[n + k]));
-            self.whole.set_border(k, &sweep.whole);
+            self.hessian.whole.set_border(k, &sweep.whole);
             for (part, column) in self.parts.iter_mut().zip(&sweep.parts) {
                 part.set_border(k, column);
             }
@@ -255,7 +258,7 @@ impl<'a> AtHubs<'a> {
 
     /// (d, S d).
     fn lifted(&self, d: Vec<f64>) -> Vec<f64> {
-        let along: Vec<f64> = self.hubs.iter().map(|hub| dot(hub, &d)).collect();
+        let along: Vec<f64> = self.hessian.hubs.iter().map(|hub| dot(hub, &d)).collect();
         d.into_iter().chain(along).collect()
     }
 
@@ -268,75 +271,45 @@ impl<'a> AtHubs<'a> {
             .map(|(_, third)| third)
             .chain(&self.alone);
         let bends = |hessian: &Bordered| !hessian.is_zero();
-        sums.nonlinear = bends(&self.whole)
+        sums.nonlinear = bends(&self.hessian.whole)
             || self.parts.iter().any(bends)
             || thirds.flatten().any(|third| *third != 0.0)
             || drift != 0.0;
-        self.add_traces(sums);
-        self.add_moments(sums);
-        sums.curvature = sums.curvature.max(0.0);
-        sums.added += sums.curvature + drift;
-    }
-
-    /// ½ tr(HC), ½ tr(HCHC) and (HCH)_ii with H = A + U W Uᵀ.
-    fn add_traces(&self, sums: &mut Sums) {
-        let (n, r) = (self.cut.inputs(), self.cut.hubs());
-        let Bordered {
-            few,
-            border,
-            corner,
-        } = &self.whole;
-        let u: Vec<&Vec<f64>> = border.iter().chain(&self.hubs).collect();
-        let mut w = DMatrix::zeros(2 * r, 2 * r);
-        w.view_mut((0, r), (r, r)).fill_with_identity();
-        w.view_mut((r, 0), (r, r)).fill_with_identity();
-        w.view_mut((r, r), (r, r)).copy_from(corner);
-        let cu: Vec<Vec<f64>> = u.iter().map(|u| self.spread.times(u)).collect();
-        let acu: Vec<Vec<f64>> = cu
-            .iter()
-            .map(|cu| self.whole.times_few(&self.near, cu))
-            .collect();
-        let ucu = DMatrix::from_fn(2 * r, 2 * r, |a, b| dot(u[a], &cu[b]));
-        let ucacu = DMatrix::from_fn(2 * r, 2 * r, |a, b| dot(&cu[a], &acu[b]));
-        let along = &w * &ucu;
-        sums.shift = 0.5 * (self.spread.trace(&self.near, few) + along.trace());
-        let mixed = 2.0 * (&w * &ucacu).trace();
-        let square =
-            self.spread.trace_of_square(&self.near, few) + mixed + (&along * &along).trace();
-        sums.curvature = 0.5 * square;
-        let around = &along * &w;
-        for i in (0..n).filter(|i| self.scales[*i] > 0.0) {
-            let mut square = self.spread.around(&self.near[i], &few[i]);
-            for a in 0..2 * r {
-                for b in 0..2 * r {
-                    square += (2.0 * acu[a][i] * w[(a, b)] + u[a][i] * around[(a, b)]) * u[b][i];
-                }
+        let over = self.hessian.over(self.spread);
+        sums.shift = over.shift();
+        sums.curvature = over.curvature();
+        let squares = over.slopes().into_iter().zip(self.spread.scales());
+        let slope = |(square, scale): (f64, &f64)| {
+            if *scale > 0.0 {
+                square / (scale * scale)
+            } else {
+                0.0
             }
-            sums.slope[i] = square.max(0.0) / (self.scales[i] * self.scales[i]);
-        }
+        };
+        sums.slope = squares.map(slope).collect();
+        sums.added = sums.curvature + drift + self.beyond_normal();
     }
 
-    /// Adds what third and fourth moments of components that stand alone add to those of the normal
-    /// distribution.
-    fn add_moments(&self, sums: &mut Sums) {
+    /// What third and fourth moments of components that stand alone add beside the curvature.
+    fn beyond_normal(&self) -> f64 {
         let own = self.spread.own_moments();
         if own.is_empty() {
-            return;
+            return 0.0;
         }
         let thirds = Thirds::new(self);
-        for &(input, share, moments) in own {
-            let h = share * share * self.whole.along(&self.near, input, &self.hubs);
+        let terms = own.iter().map(|&(input, share, moments)| {
+            let h = share * share * self.hessian.along(input);
             let g = share * self.gradient[input];
             let t = share.powi(3) * thirds.along(input);
-            sums.curvature += 0.25 * h * h * (moments.fourth - 3.0);
-            sums.added += g * h * moments.third + g * t * (moments.fourth / 3.0 - 1.0);
-        }
+            g * h * moments.third + g * t * (moments.fourth / 3.0 - 1.0)
+        });
+        terms.sum()
     }
 
     /// Σ_l D³f[v, d_l, d_l] over the coordinates l, with v = Σ_l g_l d_l = C ∂f/∂x.
     fn drift(&self) -> f64 {
         let (n, r) = (self.cut.inputs(), self.cut.hubs());
-        let lifted = Lifted::new(self.spread, &self.hubs);
+        let lifted = Lifted::new(self.spread, &self.hessian.hubs);
         let v = self.lifted(self.spread.times(&self.gradient));
         let resting = self.third(&v);
         // 2 D³L[v, d, ·] where D³L[d, d, ·] is known.
@@ -346,24 +319,31 @@ impl<'a> AtHubs<'a> {
             let both = self.third(&both).into_iter().zip(others);
             both.map(|(both, (v, d))| both - v - d).collect()
         };
-        let mut twice = Bordered::zero(&self.near, r);
+        let mut twice = Bordered::zero(&self.hessian.near, r);
         for (colour, alone) in &self.colours {
-            twice.set_few(&self.near, colour, &mixed(&self.ones(colour), alone));
+            twice.set_few(
+                &self.hessian.near,
+                colour,
+                &mixed(&self.ones(colour), alone),
+            );
         }
         for (k, alone) in self.alone.iter().enumerate() {
             twice.set_border(k, &mixed(&self.ones(&[n + k]), alone));
         }
-        let moved = self.whole.times(&self.near, &v);
-        let bent = self.through_hubs(|part| lifted.trace(&self.near, part));
-        let mut sum = 0.5 * lifted.trace(&self.near, &twice) + dot(&moved[n..], &bent);
+        let moved = self.hessian.whole.times(&self.hessian.near, &v);
+        let bent = self.through_hubs(|part| lifted.trace(&self.hessian.near, part));
+        let mut sum = 0.5 * lifted.trace(&self.hessian.near, &twice) + dot(&moved[n..], &bent);
         // s″_vl = q·w_l.
         let mut q: Vec<Vec<f64>> = Vec::with_capacity(r);
         for (k, part) in self.parts.iter().enumerate() {
-            let mut own = part.times(&self.near, &v);
+            let mut own = part.times(&self.hessian.near, &v);
             for (j, earlier) in q.iter().enumerate() {
                 add_scaled(&mut own, self.before[(k, j)], earlier);
             }
-            let column = self.whole.times(&self.near, &self.ones(&[n + k]));
+            let column = self
+                .hessian
+                .whole
+                .times(&self.hessian.near, &self.ones(&[n + k]));
             sum += 2.0 * dot(&own, &lifted.times(&column));
             q.push(own);
         }
@@ -429,7 +409,7 @@ impl<'b, 'a> Thirds<'b, 'a> {
 
     /// D³f[d, d, d] for a step d of one unit of an input.
     fn along(&self, input: usize) -> f64 {
-        let (n, hubs) = (self.of.cut.inputs(), &self.of.hubs);
+        let (n, hubs) = (self.of.cut.inputs(), &self.of.hessian.hubs);
         let step: Vec<f64> = hubs.iter().map(|hub| hub[input]).collect();
         let mut sum = self.own[input];
         for (once, step) in self.once.iter().zip(&step) {
@@ -438,8 +418,8 @@ impl<'b, 'a> Thirds<'b, 'a> {
         for (k, l, pair) in &self.twice {
             sum += (3.0 * pair[input] + dot(&pair[n..], &step)) * step[*k] * step[*l];
         }
-        let whole = &self.of.whole;
-        let near = &self.of.near;
+        let whole = &self.of.hessian.whole;
+        let near = &self.of.hessian.near;
         let bent = self.of.through_hubs(|part| part.along(near, input, hubs));
         for (k, bent) in bent.iter().enumerate() {
             let corner: f64 = step

@@ -7,6 +7,7 @@
 
 use super::{Direction, Outcome, Sums, movers, unit};
 use crate::budget::Budget;
+use crate::model::Neighbours;
 use crate::propagate::gum::Linear;
 
 /// The outcomes of all measurands, where inputs are independent and interact with few others.
@@ -56,25 +57,25 @@ pub(super) fn outcomes(
 /// The inputs with which those of a direction interact.
 fn near<'a>(
     direction: &'a Direction,
-    neighbours: &'a [Vec<usize>],
+    neighbours: &'a Neighbours,
 ) -> impl Iterator<Item = usize> + 'a {
     let moved = direction.steps.iter();
-    moved.flat_map(|(input, _)| neighbours[*input].iter().copied())
+    moved.flat_map(|(input, _)| neighbours.of(*input).iter().copied())
 }
 
 /// Inputs that share a sweep: each goes into the first one in which nothing moves that it has a neighbour in
 /// common with.
 pub(super) fn sweeps(
     inputs: impl Iterator<Item = usize>,
-    neighbours: &[Vec<usize>],
+    neighbours: &Neighbours,
 ) -> Vec<Vec<usize>> {
     let mut sweeps: Vec<Vec<usize>> = Vec::new();
     // Per input the sweeps in which something moves that it interacts with.
-    let mut taken: Vec<Vec<usize>> = vec![Vec::new(); neighbours.len()];
+    let mut taken: Vec<Vec<usize>> = vec![Vec::new(); neighbours.inputs()];
     let mut refused = Vec::new();
     for input in inputs {
         refused.resize(sweeps.len(), usize::MAX);
-        for sweep in neighbours[input].iter().flat_map(|near| &taken[*near]) {
+        for sweep in neighbours.of(input).iter().flat_map(|near| &taken[*near]) {
             refused[*sweep] = input;
         }
         let free = refused.iter().position(|last| *last != input);
@@ -83,7 +84,7 @@ pub(super) fn sweeps(
             sweeps.push(Vec::new());
         }
         sweeps[sweep].push(input);
-        for near in &neighbours[input] {
+        for near in neighbours.of(input) {
             taken[*near].push(sweep);
         }
     }

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::{Moments, NORMAL, moments};
 use crate::budget::Budget;
+use crate::model::Neighbours;
 use crate::propagate::gum::Linear;
 
 /// Independent parts of inputs, and groups of correlated ones.
@@ -137,15 +138,12 @@ impl<'a> Spread<'a> {
     }
 
     /// tr(A C), A given by the entries of each row for its neighbours.
-    pub(super) fn trace(&self, near: &[Vec<usize>], few: &[Vec<f64>]) -> f64 {
-        let rows = near.iter().zip(few).enumerate();
-        let row = |(i, (near, few)): (usize, (&Vec<usize>, &Vec<f64>))| -> f64 {
-            near.iter()
-                .zip(few)
-                .map(|(j, a)| a * self.entry(i, *j))
-                .sum()
+    pub(super) fn trace(&self, near: &Neighbours, few: &[f64]) -> f64 {
+        let row = |i: usize| -> f64 {
+            let entries = near.of(i).iter().zip(&few[near.places(i)]);
+            entries.map(|(j, a)| a * self.entry(i, *j)).sum()
         };
-        rows.map(row).sum()
+        (0..near.inputs()).map(row).sum()
     }
 
     /// (A C A)_ii from the entries of row i.
@@ -164,9 +162,11 @@ impl<'a> Spread<'a> {
     }
 
     /// tr(A C A C): of what is alone, of that and of groups, of groups.
-    pub(super) fn trace_of_square(&self, near: &[Vec<usize>], few: &[Vec<f64>]) -> f64 {
+    pub(super) fn trace_of_square(&self, near: &Neighbours, few: &[f64]) -> f64 {
+        let row = |i: usize| (near.of(i), &few[near.places(i)]);
         let mut sum = 0.0;
-        for (i, (near, few)) in near.iter().zip(few).enumerate() {
+        for i in 0..near.inputs() {
+            let (near, few) = row(i);
             let alone = near.iter().zip(few).map(|(j, a)| a * a * self.alone[*j]);
             let grouped = self.around_in_groups(near, few);
             sum += self.alone[i] * (alone.sum::<f64>() + 2.0 * grouped);
@@ -174,15 +174,11 @@ impl<'a> Spread<'a> {
         if self.groups.is_empty() {
             return sum;
         }
-        let products: Vec<Vec<(usize, Vec<f64>)>> = near
-            .iter()
-            .zip(few)
-            .enumerate()
-            .map(|(i, (near, few))| match self.places[i] {
-                Some(_) => self.row_of_product(near, few),
-                None => Vec::new(),
-            })
-            .collect();
+        let product = |i: usize| {
+            let (near, few) = row(i);
+            self.places[i].map_or(Vec::new(), |_| self.row_of_product(near, few))
+        };
+        let products: Vec<Vec<(usize, Vec<f64>)>> = (0..near.inputs()).map(product).collect();
         for (i, place) in self.places.iter().enumerate() {
             let Some((own, row)) = *place else { continue };
             for (group, entries) in &products[i] {

@@ -75,15 +75,19 @@ impl<'m> Cut<'m> {
         self.graph.along(point, direction)
     }
 
-    /// The same of f and the s_k, added with weights.
-    pub(crate) fn sum_along(&self, point: &[f64], direction: &[f64], weights: &[f64]) -> Along {
-        self.graph.sum_along(point, direction, weights)
+    /// Third derivatives of f and the s_k, added with weights, twice along a direction.
+    pub(crate) fn third_along(
+        &self,
+        point: &[f64],
+        direction: &[f64],
+        weights: &[f64],
+    ) -> Vec<f64> {
+        self.graph.third_along(point, direction, weights)
     }
 
-    /// For each of x those with which it may have mixed derivatives; `None` where they are not few.
+    /// For each of x and s those with which it may have mixed derivatives; `None` where they are not few.
     pub(crate) fn neighbours(&self) -> Option<Neighbours> {
-        let all = Neighbours::new(&self.graph, self.inputs + self.hubs.len())?;
-        Some(all.among_first(self.inputs))
+        Neighbours::new(&self.graph, self.inputs + self.hubs.len())
     }
 }
 

@@ -327,27 +327,35 @@ impl Binary {
 
 /// x^c and its first three derivatives, for a constant exponent.
 pub fn power(x: f64, c: f64) -> [f64; 4] {
-    let mut out = [0.0; 4];
-    let mut factor = 1.0;
-    for (k, value) in out.iter_mut().enumerate() {
-        let exponent = c - k as f64;
-        *value = if factor == 0.0 {
-            0.0
-        } else {
-            factor * raised(x, exponent)
-        };
+    let mut power = product(x, c).unwrap_or_else(|| libm::pow(x, c));
+    let mut out = [power, 0.0, 0.0, 0.0];
+    let reciprocal = 1.0 / x;
+    let (mut factor, mut exponent) = (1.0, c);
+    for derivative in &mut out[1..] {
         factor *= exponent;
+        exponent -= 1.0;
+        if factor == 0.0 {
+            break;
+        }
+        // One search for logarithms does, where quotients keep their digits.
+        let divisible = power.is_normal() && reciprocal.is_normal();
+        let quotient = divisible.then_some(power * reciprocal);
+        power = product(x, exponent)
+            .or(quotient)
+            .unwrap_or_else(|| libm::pow(x, exponent));
+        *derivative = factor * power;
     }
     out
 }
 
-/// x^c, without a search for logarithms where a product says it.
-fn raised(x: f64, c: f64) -> f64 {
+/// x^c where it is a short product.
+fn product(x: f64, c: f64) -> Option<f64> {
     match c {
-        0.0 => 1.0,
-        1.0 => x,
-        2.0 => x * x,
-        _ => libm::pow(x, c),
+        0.0 => Some(1.0),
+        1.0 => Some(x),
+        2.0 => Some(x * x),
+        3.0 => Some(x * x * x),
+        _ => None,
     }
 }
 

@@ -116,21 +116,53 @@ impl Graph {
         values: &[Jet<N>],
         of: Id,
     ) -> Vec<(usize, Jet<N>)> {
+        /// A step from one operation to the next takes as long as a look at so many of them.
+        const LOOKS: usize = 32;
         let mut gradient = Vec::new();
         // Operands stand before what is made of them: the last one is complete.
         let mut open = BTreeMap::from([(of, Jet::constant(1.0))]);
+        let mut steps = 0;
         while let Some((id, bar)) = open.pop_last() {
-            if let Op::Input(place) = self.ops[id as usize] {
-                gradient.push((place as usize, bar));
-            }
-            if !bar.is_zero() {
-                self.pass_on(values, id, bar, |operand, part| {
-                    let sum = open.entry(operand).or_insert(Jet::constant(0.0));
-                    *sum = *sum + part;
-                });
+            self.step_back(values, id, bar, &mut gradient, |operand, part| {
+                let sum = open.entry(operand).or_insert(Jet::constant(0.0));
+                *sum = *sum + part;
+            });
+            steps += 1;
+            if steps * LOOKS > id as usize {
+                break;
             }
         }
+        // The part is a good deal of the graph.
+        let left = open.last_key_value().map_or(0, |(last, _)| last + 1);
+        let mut adjoints = vec![Jet::constant(0.0); left as usize];
+        for (id, bar) in open {
+            adjoints[id as usize] = bar;
+        }
+        for id in (0..left).rev() {
+            let bar = adjoints[id as usize];
+            self.step_back(values, id, bar, &mut gradient, |operand, part| {
+                adjoints[operand as usize] = adjoints[operand as usize] + part;
+            });
+        }
         gradient
+    }
+
+    /// Gives the adjoint of an operation to the gradient, if the operation is an input, or to its operands.
+    fn step_back<const N: usize>(
+        &self,
+        values: &[Jet<N>],
+        id: Id,
+        bar: Jet<N>,
+        gradient: &mut Vec<(usize, Jet<N>)>,
+        give: impl FnMut(Id, Jet<N>),
+    ) {
+        if bar.is_zero() {
+            return;
+        }
+        match self.ops[id as usize] {
+            Op::Input(place) => gradient.push((place as usize, bar)),
+            _ => self.pass_on(values, id, bar, give),
+        }
     }
 
     /// First, second and third derivatives of every output along a direction.
@@ -143,11 +175,12 @@ impl Graph {
         self.outputs.iter().map(sweep).collect()
     }
 
-    /// The same of a weighted sum of the outputs.
-    pub fn sum_along(&self, x: &[f64], direction: &[f64], weights: &[f64]) -> Along {
+    /// Third derivatives of a weighted sum of the outputs, twice along a direction.
+    pub fn third_along(&self, x: &[f64], direction: &[f64], weights: &[f64]) -> Vec<f64> {
         let values = self.evaluate(&line(x, direction));
         let sum = self.outputs.iter().copied().zip(weights.iter().copied());
-        Along::new(&self.at_inputs(self.adjoints_of_sum(&values, sum), x.len()))
+        let gradient = self.at_inputs(self.adjoints_of_sum(&values, sum), x.len());
+        gradient.iter().map(|g| g.0[2]).collect()
     }
 
     /// Derivatives of one operation with respect to the inputs.

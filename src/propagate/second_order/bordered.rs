@@ -32,23 +32,31 @@ impl Bordered {
         entries.all(|entry| *entry == 0.0) && self.corner.iter().all(|entry| *entry == 0.0)
     }
 
-    /// Takes the entries of the columns of inputs no two of which have a neighbour in common, from the sum of these
-    /// columns.
-    pub(super) fn set_few(&mut self, near: &Neighbours, inputs: &[usize], column: &[f64]) {
-        for &j in inputs {
-            for &i in near.of(j) {
-                if let Some(place) = near.place(i, j) {
-                    self.few[place] = column[i];
+    /// Takes the columns of variables from their sum: no two inputs among them have another input for a neighbour in
+    /// common, and no hub any neighbour in common with the others.
+    pub(super) fn set(
+        &mut self,
+        near: &Neighbours,
+        neighbours: &Neighbours,
+        variables: &[usize],
+        sum: &[f64],
+    ) {
+        let n = near.inputs();
+        for &j in variables {
+            for &i in neighbours.of(j) {
+                match (i.checked_sub(n), j.checked_sub(n)) {
+                    (None, None) => {
+                        if let Some(place) = near.place(i, j) {
+                            self.few[place] = sum[i];
+                        }
+                    }
+                    (None, Some(hub)) => self.border[hub][i] = sum[i],
+                    (Some(row), Some(column)) => self.corner[(row, column)] = sum[i],
+                    // The border is taken from its hub's column.
+                    (Some(_), None) => {}
                 }
             }
         }
-    }
-
-    /// Takes the column of a hub.
-    pub(super) fn set_border(&mut self, hub: usize, column: &[f64]) {
-        let (inputs, hubs) = column.split_at(self.border[hub].len());
-        self.border[hub].copy_from_slice(inputs);
-        self.corner.column_mut(hub).copy_from_slice(hubs);
     }
 
     /// A d.

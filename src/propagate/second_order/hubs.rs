@@ -14,6 +14,8 @@
 //! Inputs are measured in their standard uncertainties, f in u(y), and hubs in theirs, so that C is a correlation
 //! matrix and all numbers are of one size.
 
+use std::ops::Range;
+
 use nalgebra::DMatrix;
 
 use super::bordered::{Bordered, Lifted, add_scaled, dot};
@@ -22,7 +24,7 @@ use super::sparse::sweeps;
 use super::spread::Spread;
 use super::{Outcome, Sums, unit};
 use crate::budget::Budget;
-use crate::model::Cut;
+use crate::model::{Cut, Neighbours};
 use crate::propagate::gum::Linear;
 
 /// The outcomes of all measurands when some inputs change, where components are not shared between inputs and
@@ -63,10 +65,10 @@ struct AtHubs<'a> {
     gradient: Vec<f64>,
     /// ∂s_k/∂s_j of the hubs before.
     before: DMatrix<f64>,
-    /// Inputs that move together, and then D³L[c, c, ·].
-    colours: Vec<(Vec<usize>, Vec<f64>)>,
-    /// Per hub D³L[s_k, s_k, ·].
-    alone: Vec<Vec<f64>>,
+    /// For each of x and s those with which it may have mixed derivatives.
+    neighbours: Neighbours,
+    /// Variables that move together, and then D³L[d, d, ·].
+    sweeps: Vec<(Vec<usize>, Vec<f64>)>,
     /// Of f, by D²L and the derivatives of the hubs.
     hessian: Hessian,
     /// Per hub D²s_k.
@@ -86,9 +88,8 @@ struct Sweep {
 impl<'a> AtHubs<'a> {
     fn new(cut: &'a Cut<'a>, x: &[f64], spread: &'a Spread<'a>, unit: f64) -> Option<Self> {
         let (n, r) = (cut.inputs(), cut.hubs());
-        let near = cut.neighbours()?;
-        let moved = (0..n).filter(|input| spread.scales()[*input] > 0.0);
-        let colours = sweeps(moved, &near);
+        let neighbours = cut.neighbours()?;
+        let near = neighbours.clone().among_first(n);
         let mut at_hubs = AtHubs {
             cut,
             spread,
@@ -97,11 +98,8 @@ impl<'a> AtHubs<'a> {
             weights: vec![1.0 / unit],
             gradient: Vec::new(),
             before: DMatrix::zeros(r, r),
-            colours: colours
-                .into_iter()
-                .map(|colour| (colour, Vec::new()))
-                .collect(),
-            alone: Vec::new(),
+            neighbours,
+            sweeps: Vec::new(),
             parts: vec![Bordered::zero(&near, r); r],
             hessian: Hessian {
                 whole: Bordered::zero(&near, r),
@@ -174,27 +172,36 @@ impl<'a> AtHubs<'a> {
     }
 
     fn find_second_derivatives(&mut self) {
+        for places in self.moving_together() {
+            let sweep = self.sweep(&self.ones(&places));
+            let near = &self.hessian.near;
+            let whole = std::iter::once((&mut self.hessian.whole, &sweep.whole));
+            for (matrix, column) in whole.chain(self.parts.iter_mut().zip(&sweep.parts)) {
+                matrix.set(near, &self.neighbours, &places, column);
+            }
+            self.sweeps.push((places, sweep.third));
+        }
+    }
+
+    /// Variables whose columns of D²L are found together: inputs that have no neighbour among the inputs in common,
+    /// as what they have with hubs is in the columns of these; and hubs that have no neighbour in common with the
+    /// others.
+    fn moving_together(&self) -> Vec<Vec<usize>> {
         let n = self.cut.inputs();
-        let mut colours = std::mem::take(&mut self.colours);
-        for (colour, third) in &mut colours {
-            let sweep = self.sweep(&self.ones(colour));
-            self.hessian
-                .whole
-                .set_few(&self.hessian.near, colour, &sweep.whole);
-            for (part, column) in self.parts.iter_mut().zip(&sweep.parts) {
-                part.set_few(&self.hessian.near, colour, column);
+        let moved = |places: Range<usize>| places.filter(|place| self.scales[*place] > 0.0);
+        let mut together = sweeps(moved(0..n), &self.hessian.near);
+        let mut met = vec![false; self.scales.len()];
+        for hub in moved(n..self.scales.len()) {
+            let near = self.neighbours.of(hub);
+            near.iter().for_each(|place| met[*place] = true);
+            let meets = |place: &usize| self.neighbours.of(*place).iter().any(|near| met[*near]);
+            match together.iter_mut().find(|sweep| !sweep.iter().any(meets)) {
+                Some(sweep) => sweep.push(hub),
+                None => together.push(vec![hub]),
             }
-            *third = sweep.third;
+            near.iter().for_each(|place| met[*place] = false);
         }
-        self.colours = colours;
-        for k in 0..self.cut.hubs() {
-            let sweep = self.sweep(&self.ones(&[n + k]));
-            self.hessian.whole.set_border(k, &sweep.whole);
-            for (part, column) in self.parts.iter_mut().zip(&sweep.parts) {
-                part.set_border(k, column);
-            }
-            self.alone.push(sweep.third);
-        }
+        together
     }
 
     fn sweep(&self, direction: &[f64]) -> Sweep {
@@ -228,7 +235,7 @@ impl<'a> AtHubs<'a> {
     /// D³L[d, d, ·].
     fn third(&self, direction: &[f64]) -> Vec<f64> {
         let moved = self.moved(direction);
-        self.in_units(self.cut.sum_along(&self.point, &moved, &self.weights).third)
+        self.in_units(self.cut.third_along(&self.point, &moved, &self.weights))
     }
 
     /// A direction in the units of the file.
@@ -256,6 +263,11 @@ impl<'a> AtHubs<'a> {
         direction
     }
 
+    /// Whether two variables may have mixed derivatives.
+    fn are_near(&self, a: usize, b: usize) -> bool {
+        self.neighbours.place(a, b).is_some()
+    }
+
     /// (d, S d).
     fn lifted(&self, d: Vec<f64>) -> Vec<f64> {
         let along: Vec<f64> = self.hessian.hubs.iter().map(|hub| dot(hub, &d)).collect();
@@ -265,15 +277,11 @@ impl<'a> AtHubs<'a> {
     /// Adds all terms of the second order to sums that are empty.
     fn add_to(&self, sums: &mut Sums) {
         let drift = self.drift();
-        let thirds = self
-            .colours
-            .iter()
-            .map(|(_, third)| third)
-            .chain(&self.alone);
+        let mut thirds = self.sweeps.iter().flat_map(|(_, third)| third);
         let bends = |hessian: &Bordered| !hessian.is_zero();
         sums.nonlinear = bends(&self.hessian.whole)
             || self.parts.iter().any(bends)
-            || thirds.flatten().any(|third| *third != 0.0)
+            || thirds.any(|third| *third != 0.0)
             || drift != 0.0;
         let over = self.hessian.over(self.spread);
         sums.shift = over.shift();
@@ -320,15 +328,9 @@ impl<'a> AtHubs<'a> {
             both.map(|(both, (v, d))| both - v - d).collect()
         };
         let mut twice = Bordered::zero(&self.hessian.near, r);
-        for (colour, alone) in &self.colours {
-            twice.set_few(
-                &self.hessian.near,
-                colour,
-                &mixed(&self.ones(colour), alone),
-            );
-        }
-        for (k, alone) in self.alone.iter().enumerate() {
-            twice.set_border(k, &mixed(&self.ones(&[n + k]), alone));
+        for (places, alone) in &self.sweeps {
+            let column = mixed(&self.ones(places), alone);
+            twice.set(&self.hessian.near, &self.neighbours, places, &column);
         }
         let moved = self.hessian.whole.times(&self.hessian.near, &v);
         let bent = self.through_hubs(|part| lifted.trace(&self.hessian.near, part));
@@ -377,28 +379,43 @@ impl<'b, 'a> Thirds<'b, 'a> {
     fn new(of: &'b AtHubs<'a>) -> Self {
         let (n, r) = (of.cut.inputs(), of.cut.hubs());
         let mut own = vec![0.0; n];
+        let mut alone = vec![vec![0.0; n + r]; r];
+        for (places, third) in &of.sweeps {
+            for &place in places {
+                match place.checked_sub(n) {
+                    None => own[place] = third[place],
+                    Some(k) => {
+                        let near = of.neighbours.of(place).iter();
+                        near.for_each(|i| alone[k][*i] = third[*i]);
+                    }
+                }
+            }
+        }
         let mut once = vec![vec![0.0; n]; r];
-        for (colour, alone) in &of.colours {
-            colour.iter().for_each(|i| own[*i] = alone[*i]);
-            for (k, hub) in of.alone.iter().enumerate() {
-                let mut places = colour.clone();
-                places.push(n + k);
-                let both = of.third(&of.ones(&places));
-                for &i in colour {
-                    once[k][i] = 1.5 * (both[i] - alone[i] - hub[i]);
+        for (places, _) in &of.sweeps {
+            for (k, hub) in alone.iter().enumerate() {
+                let inputs = places.iter().copied().filter(|place| *place < n);
+                let mut both: Vec<usize> = inputs.filter(|i| of.are_near(*i, n + k)).collect();
+                if both.is_empty() {
+                    continue;
+                }
+                both.push(n + k);
+                let third = of.third(&of.ones(&both));
+                for &i in both.iter().filter(|i| **i < n) {
+                    once[k][i] = 1.5 * (third[i] - own[i] - hub[i]);
                 }
             }
         }
         let mut twice = Vec::new();
-        for (k, first) in of.alone.iter().enumerate() {
-            twice.push((k, k, first.clone()));
-            for (l, second) in of.alone.iter().enumerate().skip(k + 1) {
+        for k in 0..r {
+            for l in (k + 1..r).filter(|l| of.are_near(n + k, n + l)) {
                 let mut both = of.third(&of.ones(&[n + k, n + l]));
-                add_scaled(&mut both, -1.0, first);
-                add_scaled(&mut both, -1.0, second);
+                add_scaled(&mut both, -1.0, &alone[k]);
+                add_scaled(&mut both, -1.0, &alone[l]);
                 twice.push((k, l, both));
             }
         }
+        twice.extend(alone.into_iter().enumerate().map(|(k, hub)| (k, k, hub)));
         Thirds {
             of,
             own,

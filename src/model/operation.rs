@@ -259,41 +259,35 @@ impl Unary {
 impl Binary {
     /// f at jets.
     pub fn value<const N: usize>(&self, a: Jet<N>, b: Jet<N>) -> Jet<N> {
-        let value = (self.scalar)(a.value(), b.value());
-        if N == 1 {
-            return Jet::constant(value);
-        }
-        let jet = match self.rule {
+        let value = || (self.scalar)(a.value(), b.value());
+        match self.rule {
             Rule::Add => a + b,
             Rule::Sub => a - b,
             Rule::Mul => a * b,
             Rule::Div => a / b,
+            _ if N == 1 => Jet::constant(value()),
             Rule::Pow => {
                 // exp(b ln a), where a and b both move.
                 let exponent = b * a.compose(&logarithm(elementary::ln(a.value()), a.value(), 1.0));
-                exponent.compose(&[value; 3])
+                exponent.compose(&[value(); 3])
             }
             Rule::Atan2 => {
                 // atan2(a, b) turned back by its own value is atan of this quotient, which is 0 here.
                 let (a0, b0) = (Jet::constant(a.value()), Jet::constant(b.value()));
-                ((b0 * a - a0 * b) / (b0 * b + a0 * a)).compose(&[0.0, 1.0, 0.0])
+                let quotient = (b0 * a - a0 * b) / (b0 * b + a0 * a);
+                quotient.compose(&[0.0, 1.0, 0.0]).with_value(value())
             }
             Rule::Hypot => {
+                let value = value();
                 let scale = Jet::constant(if value == 0.0 { 1.0 } else { value });
                 let (p, q) = (a / scale, b / scale);
-                scale * (p * p + q * q).sqrt()
+                (scale * (p * p + q * q).sqrt()).with_value(value)
             }
-            Rule::Pick => {
-                if value == a.value() {
-                    a
-                } else {
-                    b
-                }
-            }
-            Rule::Constant => Jet::constant(value),
-            Rule::Staircase => a,
-        };
-        jet.with_value(value)
+            Rule::Pick if value() == a.value() => a,
+            Rule::Pick => b.with_value(value()),
+            Rule::Constant => Jet::constant(value()),
+            Rule::Staircase => a.with_value(value()),
+        }
     }
 
     /// ∂f/∂a and ∂f/∂b at jets.

@@ -6,7 +6,7 @@ use super::{Graph, Id, Op};
 use crate::model::Along;
 use crate::model::implicit;
 use crate::model::jet::Jet;
-use crate::model::operation;
+use crate::model::operation::{self, Rule};
 
 impl Graph {
     /// Every operation's value at `inputs`.
@@ -85,6 +85,14 @@ impl Graph {
         match self.ops[id as usize] {
             Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => {}
             Op::Unary(row, a) => pass(a, row.slope(at(a))),
+            Op::Binary(row, a, b) if row.rule == Rule::Add => {
+                give(a, bar);
+                give(b, bar);
+            }
+            Op::Binary(row, a, b) if row.rule == Rule::Sub => {
+                give(a, bar);
+                give(b, -bar);
+            }
             Op::Binary(row, a, b) => {
                 let (da, db) = row.slopes(at(a), at(b));
                 pass(a, da);

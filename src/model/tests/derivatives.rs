@@ -1,5 +1,8 @@
 //! Derivatives against closed forms and against num-dual.
 
+use super::super::jet::Jet;
+use super::super::operation::power;
+use super::super::points;
 use super::*;
 use num_dual::{Dual3, Dual64, DualNum};
 
@@ -155,4 +158,51 @@ fn gradient_of_a_square_at_a_dual_point() {
     let gradient = model("x", "x^2 / (1 + x)", "").gradients(&[0.7])[(0, 0)];
     let x = Dual64::new(0.7, 1.0);
     close(gradient, (x * x / (x + 1.0)).eps, 1e-15, "quotient");
+}
+
+/// Every derivative by a power of its own, also where quotients of powers would have no digits left.
+#[test]
+fn powers_of_small_large_and_negative_numbers() {
+    let exponents = [
+        -3.5, -2.0, -0.5, 0.3, 1.0, 1.5, 2.5, 3.0, 4.0, 5.0, 7.25, 100.0,
+    ];
+    for c in exponents {
+        for x in [1e-310_f64, 3e-105, 1e-3, 0.7, 1.9, 44.0, 2e104, 1e307] {
+            for x in [x, -x] {
+                let found = power(x, c);
+                let factors = [1.0, c, c * (c - 1.0), c * (c - 1.0) * (c - 2.0)];
+                for (k, (found, factor)) in found.into_iter().zip(factors).enumerate() {
+                    let expected = match factor {
+                        0.0 => 0.0,
+                        _ => factor * libm::pow(x, c - k as f64),
+                    };
+                    let same = found == expected || found.is_nan() && expected.is_nan();
+                    // The exponent c - k is rounded, too.
+                    let rounding = 4e-16 * (5.0 + x.abs().ln().abs());
+                    let near = (found - expected).abs() <= rounding * expected.abs();
+                    // Numbers below the normal ones have few digits.
+                    let small = found.abs().max(expected.abs()) < 1e-300;
+                    assert!(same || near || small, "{x}^{c}, {k}: {found} {expected}");
+                }
+            }
+        }
+    }
+    assert_eq!(power(0.0, 1.5)[..2], [0.0, 0.0]);
+    assert_eq!(power(0.0, 3.0), [0.0, 0.0, 0.0, 6.0]);
+}
+
+#[test]
+fn parts_of_a_formula_have_the_derivatives_of_the_whole() {
+    // Of the operations some are made of little, some of nearly everything.
+    let graph = model("x[100]", "exp(mean(x)) / x[3] + sd(x)", "").graph;
+    let x: Vec<f64> = (0..100).map(|i| 1.0 + 0.01 * f64::from(i)).collect();
+    let values = graph.evaluate(&points(&x));
+    for of in 0..graph.ops.len() as u32 {
+        let whole = graph.gradient(&values, of, x.len());
+        let mut part = vec![Jet::constant(0.0); x.len()];
+        for (place, slope) in graph.gradient_of_part(&values, of) {
+            part[place] = slope;
+        }
+        assert_eq!(part, whole);
+    }
 }

@@ -43,6 +43,7 @@ pub(super) fn outcomes(
         let mut sums = Sums::new(measurand, unit, linear.x.len(), 0);
         at_hubs.add_to(&mut sums);
         let outcome = sums.outcome(unit);
+        // One input at which a derivative does not exist spoils what the others do.
         let finite = outcome.shift.is_finite() && outcome.curvature.is_finite();
         Some(Outcome {
             hessian: finite.then_some(at_hubs.hessian),

@@ -35,7 +35,8 @@ pub fn blocks(graph: &Graph, inputs: usize) -> Vec<Option<usize>> {
 /// Operations that are looked at, and pairs that are listed, per operation and input of the model at most.
 const FEW: usize = 64;
 
-/// For each input those with which it may have mixed derivatives, itself included.
+/// For each input those with which it may have mixed derivatives, itself included. Of a formula cut at hubs, these are
+/// inputs, too.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Neighbours {
     /// Where the list of each input ends.
@@ -132,7 +133,7 @@ impl Neighbours {
         start..self.ends[input]
     }
 
-    /// Length of all lists.
+    /// Length of all lists: pairs of inputs, each in both orders.
     pub(crate) fn pairs(&self) -> usize {
         self.lists.len()
     }

@@ -319,11 +319,15 @@ impl Binary {
     }
 }
 
-/// x^c and its first three derivatives, for a constant exponent.
-pub fn power(x: f64, c: f64) -> [f64; 4] {
-    let mut power = product(x, c).unwrap_or_else(|| libm::pow(x, c));
-    let mut out = [power, 0.0, 0.0, 0.0];
-    let reciprocal = 1.0 / x;
+/// x^c, for a constant exponent.
+pub fn power(x: f64, c: f64) -> f64 {
+    product(x, c).unwrap_or_else(|| libm::pow(x, c))
+}
+
+/// x^c and its first three derivatives.
+pub fn power_derivatives(x: f64, c: f64) -> [f64; 4] {
+    let mut value = power(x, c);
+    let mut out = [value, 0.0, 0.0, 0.0];
     let (mut factor, mut exponent) = (1.0, c);
     for derivative in &mut out[1..] {
         factor *= exponent;
@@ -331,24 +335,24 @@ pub fn power(x: f64, c: f64) -> [f64; 4] {
         if factor == 0.0 {
             break;
         }
-        // One search for logarithms does, where quotients keep their digits.
-        let divisible = power.is_normal() && reciprocal.is_normal();
-        let quotient = divisible.then_some(power * reciprocal);
-        power = product(x, exponent)
-            .or(quotient)
-            .unwrap_or_else(|| libm::pow(x, exponent));
-        *derivative = factor * power;
+        // x^(c − 1) = x^c / x spares a search for logarithms, unless x^c is zero, infinite or of few digits.
+        value = match product(x, exponent) {
+            Some(value) => value,
+            None if value.is_normal() => value / x,
+            None => libm::pow(x, exponent),
+        };
+        *derivative = factor * value;
     }
     out
 }
 
-/// x^c where it is a short product.
+/// x^c where it is a short product, as in blocks.
 fn product(x: f64, c: f64) -> Option<f64> {
     match c {
         0.0 => Some(1.0),
         1.0 => Some(x),
         2.0 => Some(x * x),
-        3.0 => Some(x * x * x),
+        3.0 => Some(x * (x * x)),
         _ => None,
     }
 }

@@ -201,7 +201,8 @@ impl Tree<'_> {
                 found[0] = Some((a, None, alone([first, second, third])));
             }
             Op::Power(a, c) if moves(a) => {
-                let [_, first, second, third] = operation::power(at(a), f64::from_bits(c));
+                let [_, first, second, third] =
+                    operation::power_derivatives(at(a), f64::from_bits(c));
                 found[0] = Some((a, None, alone([first, second, third])));
             }
             Op::Select(c, a, b) => {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::{Graph, Id, Implicit, Label, Op, Table};
-use crate::model::operation::{Binary, Unary, binary_row, unary};
+use crate::model::operation::{self, Binary, Unary, binary_row, unary};
 
 /// Builds a graph.
 #[derive(Debug, Default)]
@@ -66,7 +66,7 @@ impl Builder {
     /// a^exponent.
     pub fn power(&mut self, a: Id, exponent: f64) -> Id {
         if let Some(value) = self.constant_at(a) {
-            return self.constant(libm::pow(value, exponent));
+            return self.constant(operation::power(value, exponent));
         }
         if exponent == 0.0 {
             self.constant(1.0)

@@ -99,7 +99,7 @@ impl Graph {
                 pass(b, db);
             }
             Op::Power(a, c) => {
-                let derivatives = operation::power(at(a).value(), f64::from_bits(c));
+                let derivatives = operation::power_derivatives(at(a).value(), f64::from_bits(c));
                 pass(a, at(a).compose(&derivatives[1..]));
             }
             Op::Select(c, a, b) => {
@@ -118,7 +118,7 @@ impl Graph {
     }
 
     /// Derivatives of one operation with respect to the inputs that it uses, (place, derivative), in no
-    /// particular order: the time goes with what the operation is made of, not with the size of the graph.
+    /// particular order and without those that are zero: the time goes with what the operation is made of, not with the size of the graph.
     pub fn gradient_of_part<const N: usize>(
         &self,
         values: &[Jet<N>],
@@ -140,7 +140,7 @@ impl Graph {
                 break;
             }
         }
-        // The part is a good deal of the graph.
+        // What is left where the part is a good deal of the graph.
         let left = open.last_key_value().map_or(0, |(last, _)| last + 1);
         let mut adjoints = vec![Jet::constant(0.0); left as usize];
         for (id, bar) in open {
@@ -231,7 +231,7 @@ impl Along {
 
 fn power_value<const N: usize>(x: Jet<N>, c: f64) -> Jet<N> {
     if N == 1 {
-        return Jet::constant(libm::pow(x.value(), c));
+        return Jet::constant(operation::power(x.value(), c));
     }
-    x.compose(&operation::power(x.value(), c))
+    x.compose(&operation::power_derivatives(x.value(), c))
 }

@@ -1,7 +1,7 @@
 //! Derivatives against closed forms and against num-dual.
 
 use super::super::jet::Jet;
-use super::super::operation::power;
+use super::super::operation::{power, power_derivatives};
 use super::super::points;
 use super::*;
 use num_dual::{Dual3, Dual64, DualNum};
@@ -169,7 +169,7 @@ fn powers_of_small_large_and_negative_numbers() {
     for c in exponents {
         for x in [1e-310_f64, 3e-105, 1e-3, 0.7, 1.9, 44.0, 2e104, 1e307] {
             for x in [x, -x] {
-                let found = power(x, c);
+                let found = power_derivatives(x, c);
                 let factors = [1.0, c, c * (c - 1.0), c * (c - 1.0) * (c - 2.0)];
                 for (k, (found, factor)) in found.into_iter().zip(factors).enumerate() {
                     let expected = match factor {
@@ -187,8 +187,18 @@ fn powers_of_small_large_and_negative_numbers() {
             }
         }
     }
-    assert_eq!(power(0.0, 1.5)[..2], [0.0, 0.0]);
-    assert_eq!(power(0.0, 3.0), [0.0, 0.0, 0.0, 6.0]);
+    assert_eq!(power_derivatives(0.0, 1.5)[..2], [0.0, 0.0]);
+    assert_eq!(power_derivatives(0.0, 3.0), [0.0, 0.0, 0.0, 6.0]);
+    // Whole numbers stay whole.
+    for x in (2..200).map(f64::from) {
+        let expected = [x * x * x * x, 4.0 * x * x * x, 12.0 * x * x, 24.0 * x];
+        assert_eq!(power_derivatives(x, 4.0), expected);
+        assert_eq!(power_derivatives(x, 5.0)[1], 5.0 * x * x * x * x);
+    }
+    // The value is the same with derivatives and without.
+    for x in (0..3000).map(|i| f64::from(i) / 10.0) {
+        assert_eq!(power_derivatives(x, 3.0)[0], power(x, 3.0));
+    }
 }
 
 #[test]

@@ -32,8 +32,8 @@ impl Bordered {
         entries.all(|entry| *entry == 0.0) && self.corner.iter().all(|entry| *entry == 0.0)
     }
 
-    /// Takes the columns of variables from their sum: no two inputs among them have another input for a neighbour in
-    /// common, and no hub any neighbour in common with the others.
+    /// Takes the columns of variables from their sum: no two inputs among them have an input for a neighbour in common,
+    /// and no hub has any neighbour in common with the others. Each is its own neighbour.
     pub(super) fn set(
         &mut self,
         near: &Neighbours,

@@ -1,5 +1,5 @@
-//! The second derivatives of a measurand whose inputs meet in hubs, and what they do to the covariance of the
-//! inputs: no sum runs over all pairs of inputs.
+//! The second derivatives H of a measurand whose inputs meet in hubs, and what follows from them and the covariance C
+//! of the inputs: ½ tr(HC), ½ tr(HCHC) and (HCH)_ii. No sum runs over all pairs of inputs.
 
 use nalgebra::DMatrix;
 
@@ -19,6 +19,11 @@ pub(super) struct Hessian {
 }
 
 impl Hessian {
+    /// How many numbers it consists of, about.
+    pub(super) fn numbers(&self) -> usize {
+        2 * self.near.pairs() + (2 * self.hubs.len() + 1) * self.near.inputs()
+    }
+
     /// The second derivative along one unit of an input.
     pub(super) fn along(&self, input: usize) -> f64 {
         self.whole.along(&self.near, input, &self.hubs)

@@ -8,8 +8,8 @@
 //! - D³f[d, e, g] = D³L[w_d, w_e, w_g] + D²L[w_d, s″_eg] + D²L[w_e, s″_dg] + D²L[w_g, s″_de],
 //!
 //! and D²L is a matrix A with few entries, bordered by a row B_k and column for each hub, with M where these
-//! cross. The Hessian of f is A + B S + SᵀBᵀ + SᵀM S = A + U W Uᵀ with U = (B, Sᵀ): what it does to the
-//! covariance of the inputs needs no sum over all pairs of them.
+//! cross. The Hessian of f is A + B S + SᵀBᵀ + SᵀM S = A + U W Uᵀ with U = (B, Sᵀ): the traces of its products with
+//! the covariance of the inputs need no sum over all pairs of them.
 //!
 //! Inputs are measured in their standard uncertainties, f in u(y), and hubs in theirs, so that C is a correlation
 //! matrix and all numbers are of one size.
@@ -26,6 +26,9 @@ use super::{Outcome, Sums, unit};
 use crate::budget::Budget;
 use crate::model::{Cut, Neighbours};
 use crate::propagate::gum::Linear;
+
+/// Most numbers that the Hessians of all measurands are kept with.
+const MOST_NUMBERS: usize = 1 << 24;
 
 /// The outcomes of all measurands when some inputs change, where components are not shared between inputs and
 /// hubs are few.
@@ -44,9 +47,10 @@ pub(super) fn outcomes(
         at_hubs.add_to(&mut sums);
         let outcome = sums.outcome(unit);
         // One input at which a derivative does not exist spoils what the others do.
-        let finite = outcome.shift.is_finite() && outcome.curvature.is_finite();
+        let usable = outcome.shift.is_finite() && outcome.curvature.is_finite();
+        let small = at_hubs.hessian.numbers() <= MOST_NUMBERS / linear.measurands.len();
         Some(Outcome {
-            hessian: finite.then_some(at_hubs.hessian),
+            hessian: (usable && small).then_some(at_hubs.hessian),
             ..outcome
         })
     };
@@ -184,9 +188,8 @@ impl<'a> AtHubs<'a> {
         }
     }
 
-    /// Variables whose columns of D²L are found together: inputs that have no neighbour among the inputs in common,
-    /// as what they have with hubs is in the columns of these; and hubs that have no neighbour in common with the
-    /// others.
+    /// Variables whose columns of D²L are found together, as [`Bordered::set`] takes them. A hub may be a neighbour of
+    /// two inputs that move together: its entries are taken from its own column.
     fn moving_together(&self) -> Vec<Vec<usize>> {
         let n = self.cut.inputs();
         let moved = |places: Range<usize>| places.filter(|place| self.scales[*place] > 0.0);
@@ -372,7 +375,7 @@ struct Thirds<'b, 'a> {
     own: Vec<f64>,
     /// Per hub 3 L_iik.
     once: Vec<Vec<f64>>,
-    /// Per pair of hubs k ≤ l the L_·kl, for both orders together.
+    /// L_·kk per hub, and 2 L_·kl per pair of hubs that may have mixed derivatives.
     twice: Vec<(usize, usize, Vec<f64>)>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::super::{Terms, over};
+use super::super::{Terms, among, over};
 use super::*;
 use crate::propagate::gum::linearise;
 
@@ -100,6 +100,30 @@ fn sums_over_pairs_are_found_without_pairs() {
 fn correlated_inputs_too() {
     for model in MODELS {
         agrees(&correlated(model), model);
+    }
+}
+
+/// What part of the inputs adds follows from the second derivatives of all.
+#[test]
+fn part_of_the_inputs_by_the_derivatives_of_all() {
+    for model in MODELS {
+        for budget in [independent(model), correlated(model)] {
+            let linear = linearise(&budget).unwrap();
+            let changing: Vec<bool> = (0..linear.x.len()).map(|input| input % 4 != 1).collect();
+            let all = outcomes(&budget, &linear, &vec![true; linear.x.len()])
+                .unwrap()
+                .remove(0);
+            assert!(all.hessian.is_some(), "{model}");
+            let (shift, curvature) = among(&budget, &linear, 0, &all, &changing);
+            let blocks = budget.model.interactions().into_iter().zip(&changing);
+            let blocks: Vec<_> = blocks
+                .map(|(block, changes)| block.filter(|_| *changes))
+                .collect();
+            let expected = over(&budget, &linear, &blocks).remove(0);
+            let u = linear.measurands[0].u;
+            near(shift, expected.shift, u, model);
+            near(curvature, expected.curvature, expected.curvature, model);
+        }
     }
 }
 

@@ -83,9 +83,9 @@ def run(program, file, trials, threads):
     return usage.ru_utime + usage.ru_stime, wall, usage.ru_maxrss / 1024
 
 
-def lines_of(command, folder=".", environment={}):
+def lines_of(command, folder=".", environment=None):
     """The JSON lines that a command prints; none where it fails."""
-    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"} | environment
+    environment = os.environ | {"PYTHONDONTWRITEBYTECODE": "1"} | (environment or {})
     done = subprocess.run(
         [str(word) for word in command],
         cwd=folder,

@@ -8,7 +8,7 @@ use std::fmt::Write;
 use common::{best_of, budget, words};
 use gumption::propagate::{MonteCarloChoice, Options, evaluate};
 
-const RUNS: usize = 40;
+const RUNS: usize = 5;
 
 fn main() {
     println!("Milliseconds, one thread, both orders, k and U, without Monte Carlo\n");

@@ -85,6 +85,7 @@ impl Graph {
         match self.ops[id as usize] {
             Op::Input(_) | Op::Constant(_) | Op::Unknown(_) => {}
             Op::Unary(row, a) => pass(a, row.slope(at(a))),
+            // Most of a large formula are sums, which need no product with a slope of 1.
             Op::Binary(row, a, b) if row.rule == Rule::Add => {
                 give(a, bar);
                 give(b, bar);
@@ -118,7 +119,8 @@ impl Graph {
     }
 
     /// Derivatives of one operation with respect to the inputs that it uses, (place, derivative), in no
-    /// particular order and without those that are zero: the time goes with what the operation is made of, not with the size of the graph.
+    /// particular order and without those that are zero: the time goes with what the operation is made of,
+    /// not with the size of the graph.
     pub fn gradient_of_part<const N: usize>(
         &self,
         values: &[Jet<N>],

@@ -46,7 +46,7 @@ impl Hessian {
         let ucu = DMatrix::from_fn(2 * r, 2 * r, |a, b| dot(u[a], &cu[b]));
         let ucacu = DMatrix::from_fn(2 * r, 2 * r, |a, b| dot(&cu[a], &acu[b]));
         Over {
-            along: &w * ucu,
+            wucu: &w * ucu,
             mixed: (&w * ucacu).trace(),
             hessian: self,
             spread,
@@ -66,7 +66,7 @@ pub(super) struct Over<'a> {
     /// A C U, per column.
     acu: Vec<Vec<f64>>,
     /// W UᵀC U.
-    along: DMatrix<f64>,
+    wucu: DMatrix<f64>,
     /// tr(W UᵀC A C U).
     mixed: f64,
 }
@@ -75,26 +75,26 @@ impl Over<'_> {
     /// ½ tr(HC).
     pub(super) fn shift(&self) -> f64 {
         let Hessian { near, whole, .. } = self.hessian;
-        0.5 * (self.spread.trace(near, &whole.few) + self.along.trace())
+        0.5 * (self.spread.trace(near, &whole.few) + self.wucu.trace())
     }
 
     /// ½ tr(HCHC), and what the fourth moments of components that stand alone add to it.
     pub(super) fn curvature(&self) -> f64 {
         let Hessian { near, whole, .. } = self.hessian;
         let few = self.spread.trace_of_square(near, &whole.few);
-        let square = few + 2.0 * self.mixed + (&self.along * &self.along).trace();
+        let square = few + 2.0 * self.mixed + (&self.wucu * &self.wucu).trace();
         let own = self.spread.own_moments().iter();
-        let beyond_normal = own.map(|&(input, share, moments)| {
+        let fourth = own.map(|&(input, share, moments)| {
             let h = share * share * self.hessian.along(input);
             0.25 * h * h * (moments.fourth - 3.0)
         });
-        (0.5 * square + beyond_normal.sum::<f64>()).max(0.0)
+        not_below_zero(0.5 * square + fourth.sum::<f64>())
     }
 
     /// Per input (HCH)_ii.
     pub(super) fn slopes(&self) -> Vec<f64> {
         let Hessian { near, whole, .. } = self.hessian;
-        let around = &self.along * &self.w;
+        let around = &self.wucu * &self.w;
         let columns = || 0..self.u.len();
         let slope = |i: usize| {
             let mut square = self.spread.around(near.of(i), &whole.few[near.places(i)]);
@@ -104,8 +104,13 @@ impl Over<'_> {
                     square += (2.0 * acu * self.w[(a, b)] + u * around[(a, b)]) * self.u[b][i];
                 }
             }
-            square.max(0.0)
+            not_below_zero(square)
         };
         (0..near.inputs()).map(slope).collect()
     }
+}
+
+/// A sum of squares, which rounding may have taken below zero; what is not a number stays so.
+fn not_below_zero(sum: f64) -> f64 {
+    sum.clamp(0.0, f64::INFINITY)
 }

@@ -154,8 +154,8 @@ fn all_finite<S: Simd>(simd: S, x: &Block) -> bool {
 /// Stretches that are all looked at for every value; of more, the right one is looked for.
 pub(crate) const FEW: usize = 16;
 
-/// Drops the values from `first` on that lie in no stretch. The stretches ascend and have no number in common and
-/// no infinite end.
+/// Drops the values from `first` on that lie in no stretch. The stretches have no infinite end; where they are more
+/// than a few, they ascend and have no number in common.
 pub fn keep_inside(level: Level, values: &mut Vec<f64>, first: usize, stretches: &[Stretch]) {
     let later = &mut values[first..];
     let kept = if stretches.len() > FEW {

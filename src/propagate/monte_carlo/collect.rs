@@ -287,8 +287,19 @@ fn pilot(column: &[f64], pivot: Pivot, p: f64) -> (Pivot, Ordered) {
     }
     let order = Sieve::order(finite, p);
     // The moments' own origin need not be the mean; a constant's has to be exact.
-    let sd = Moments::of(finite, pivot).sd();
-    (Pivot::new(order.median(), sd), order)
+    let pivot = pivot.moved(order.median());
+    (Pivot::new(order.median(), sd(finite, pivot)), order)
+}
+
+/// Standard deviation of finite values, of which the pivot is near the mean.
+fn sd(values: &[f64], pivot: Pivot) -> f64 {
+    let mut sums = OutputSums::new(&pivot);
+    let (blocks, rest) = values.as_chunks();
+    for block in blocks {
+        sums.add(level(), &Block(*block));
+    }
+    sums.add_each(rest);
+    sums.close().sd()
 }
 
 fn only_finite(column: &mut Vec<f64>) {

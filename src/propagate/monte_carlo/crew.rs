@@ -4,6 +4,7 @@
 //! has many parts, with little to do between them. Its threads therefore stay until it ends, and look for
 //! further work for a moment before they sleep.
 
+use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::mpsc::{Receiver, RecvError, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -19,7 +20,7 @@ type Job<'env> = Box<dyn FnOnce() + Send + 'env>;
 
 /// The thread that calls, and helpers that work on things that outlive them all.
 pub(super) struct Crew<'env> {
-    helpers: Vec<Sender<Job<'env>>>,
+    helpers: RefCell<Vec<Sender<Job<'env>>>>,
 }
 
 impl<'env> Crew<'env> {
@@ -38,16 +39,21 @@ impl<'env> Crew<'env> {
                 let started = Builder::new().spawn_scoped(scope, work);
                 started.ok().map(|_| sender)
             };
-            let crew = Crew {
-                helpers: (1..threads).map_while(helper).collect(),
-            };
-            run(&crew)
+            let helpers = (1..threads).map_while(helper).collect();
+            run(&Crew {
+                helpers: RefCell::new(helpers),
+            })
         })
     }
 
     /// How many threads there are.
     pub(super) fn threads(&self) -> usize {
-        self.helpers.len() + 1
+        self.helpers.borrow().len() + 1
+    }
+
+    /// Lets the helpers go, so that nobody has to wait for them at the end. Further tasks are left to the caller.
+    pub(super) fn dismiss(&self) {
+        self.helpers.borrow_mut().clear();
     }
 
     /// `task` of every item. Each thread that is needed begins with a `seed`, and makes a scratch space of it. Results
@@ -66,7 +72,8 @@ impl<'env> Crew<'env> {
         T: Send + 'env,
         R: Send + 'env,
     {
-        let helpers = self.helpers.iter().take(items.len().saturating_sub(1));
+        let helpers = self.helpers.borrow();
+        let helpers = helpers.iter().take(items.len().saturating_sub(1));
         let queue = Mutex::new(items.into_iter().enumerate());
         let work = Arc::new(move |seed: D| {
             let mut scratch = begin(seed);
@@ -193,6 +200,17 @@ mod tests {
         let panic = catch_unwind(AssertUnwindSafe(work)).expect_err("the helper panics");
         let text = panic.downcast_ref::<String>().expect("a text");
         assert!(text.contains("no helper"), "{text}");
+    }
+
+    #[test]
+    fn without_helpers_the_caller_does_the_work() {
+        let threads = Crew::with(3, 20, |crew| {
+            let thread = |(): &mut (), ()| std::thread::current().id();
+            crew.dismiss();
+            assert_eq!(crew.threads(), 1);
+            crew.map(vec![(); 20], || (), |()| (), thread, |()| ()).0
+        });
+        assert_eq!(threads, [std::thread::current().id(); 20]);
     }
 
     #[test]

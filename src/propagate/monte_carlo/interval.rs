@@ -3,7 +3,8 @@
 //! Only the two tails of (1 − p)·M values are sorted; one pass with cuts that a small part of the
 //! values suggests separates them from the middle. Results are exactly those of a full sort.
 
-use gumption_lanes::sift::to_front;
+use gumption_lanes::level;
+use gumption_lanes::sift::keep_inside;
 
 /// The ranks of JCGM 101 7.7.2: of M ordered values, an interval reaches from rank r to rank r + q.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,21 +61,15 @@ impl Ordered {
     fn selected(values: &[f64], depth: usize, cuts: &Cuts) -> Option<Self> {
         let [low_end, high_start] = cuts.tails;
         let [from, to] = cuts.middle;
+        let stretches = [[f64::MIN, low_end], [from, to], [high_start, f64::MAX]];
         let mut held = values.to_vec();
-        let count = to_front(&mut held, |value| {
-            (value <= low_end) | (value >= high_start) | ((from <= value) & (value <= to))
-        });
-        held.truncate(count);
+        keep_inside(level(), &mut held, 0, &stretches);
         // The three may overlap where many values are the same.
-        let part = |inside: &dyn Fn(f64) -> bool| -> Vec<f64> {
-            held.iter()
-                .copied()
-                .filter(|value| inside(*value))
-                .collect()
-        };
-        let mut low = part(&|value| value <= low_end);
-        let mut high = part(&|value| value >= high_start);
-        let mut middle = part(&|value| from <= value && value <= to);
+        let [mut low, mut middle, mut high] = stretches.map(|stretch| {
+            let mut part = held.clone();
+            keep_inside(level(), &mut part, 0, &[stretch]);
+            part
+        });
         if low.len() < depth || high.len() < depth {
             return None;
         }

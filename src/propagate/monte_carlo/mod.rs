@@ -286,6 +286,10 @@ impl Question<'_> {
                 let count = sieve.count();
                 let depth = self.depth(count as usize);
                 let resolved = Resolved::new(sieve, &self.wanted(count), depth, output, redraw);
+                if self.pivots.len() == 1 {
+                    // All trials that were needed have been drawn.
+                    redraw.crew.dismiss();
+                }
                 let picture = |interval| sieve.histogram(interval);
                 self.results(moments, &resolved, picture, self.heavy[output].as_ref())
             }

@@ -37,6 +37,11 @@ impl Pivot {
         }
     }
 
+    /// The same scale about another origin.
+    pub(super) fn moved(self, origin: f64) -> Self {
+        Pivot { origin, ..self }
+    }
+
     /// Origin and factor of the coordinates.
     pub(super) fn coordinates(self) -> [f64; 2] {
         [self.origin, self.inverse]

@@ -17,7 +17,10 @@ use super::interval::{Ranked, Ranks};
 use super::sieve::{MOST_KEPT, Sieve};
 
 /// Values that are sorted without a look at finer counts.
-const SORTED: u64 = 1 << 14;
+const SORTED: u64 = 1 << 12;
+
+/// The same where the bins of the values are known.
+const SORTED_IN_BINS: u64 = 1 << 14;
 
 /// Consecutive values between two numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,17 +105,21 @@ impl Resolved {
         let mut stuck = false;
         loop {
             let total: u64 = runs.iter().map(|run| run.count).sum();
-            let sorts = stuck || total <= SORTED;
+            let few = match held {
+                Some(Kept::Counted(_)) => SORTED_IN_BINS,
+                Some(Kept::Fresh(_)) | None => SORTED,
+            };
+            let sorts = stuck || total <= few;
             if held.is_none() && (sorts || total <= MOST_KEPT as u64) {
                 held = Some(Kept::Fresh(gathered(&runs, output, again)));
             }
             cells = match held.take() {
                 Some(kept) if sorts => {
-                    let values = kept.in_order(&runs);
+                    let values = kept.in_order(&runs, again.crew());
                     return Resolved::holding(values, &runs, known, wanted.count, depth);
                 }
                 Some(kept) => {
-                    let counted = kept.counted(&runs, total, again.crew());
+                    let counted = kept.counted(&runs, again.crew());
                     let cells = counted.finer.cells();
                     held = Some(Kept::Counted(counted));
                     cells
@@ -260,19 +267,19 @@ struct Part {
 }
 
 impl Kept {
-    /// Leaves those values that lie in runs, `total` of them, which may be rows of cells of the finer counts so far,
-    /// and counts them anew.
-    fn counted(self, runs: &[Run], total: u64, crew: &Crew) -> Counted {
+    /// Leaves those values that lie in runs, which may be rows of cells of the finer counts so far, and counts them
+    /// anew.
+    fn counted(self, runs: &[Run], crew: &Crew) -> Counted {
         let own = runs.to_vec();
         let counted = match self {
-            Kept::Fresh(parts) => of_each(parts, total, crew, move |mut values| {
+            Kept::Fresh(parts) => of_each(parts, Vec::len, crew, move |mut values| {
                 keep_inside(&mut values, &own);
                 let places = Vec::new();
                 Part { values, places }.counted(&own)
             }),
             Kept::Counted(Counted { parts, finer }) => {
                 let chosen = finer.chosen(runs);
-                of_each(parts, total, crew, move |mut part| {
+                of_each(parts, Part::len, crew, move |mut part| {
                     part.keep(&chosen);
                     part.counted(&own)
                 })
@@ -286,7 +293,7 @@ impl Kept {
     }
 
     /// The values that lie in runs, ascending.
-    fn in_order(self, runs: &[Run]) -> Vec<f64> {
+    fn in_order(self, runs: &[Run], crew: &Crew) -> Vec<f64> {
         match self {
             Kept::Fresh(mut parts) => {
                 parts
@@ -296,12 +303,24 @@ impl Kept {
                 values.sort_unstable_by(f64::total_cmp);
                 values
             }
-            Kept::Counted(Counted { parts, finer }) => finer.in_order(parts, &finer.chosen(runs)),
+            Kept::Counted(Counted { parts, finer }) => {
+                let chosen = finer.chosen(runs);
+                let own = chosen.clone();
+                let parts = of_each(parts, Part::len, crew, move |mut part| {
+                    part.keep(&own);
+                    part
+                });
+                finer.in_order(&parts, &chosen)
+            }
         }
     }
 }
 
 impl Part {
+    fn len(&self) -> usize {
+        self.values.len()
+    }
+
     /// Leaves the values of chosen bins.
     fn keep(&mut self, chosen: &[bool]) {
         let mut kept = 0;
@@ -331,13 +350,13 @@ impl Part {
 /// What a task makes of each part of some values.
 fn of_each<'env, I: Send + 'env, T: Send + 'env>(
     parts: Vec<I>,
-    values: u64,
+    values: impl Fn(&I) -> usize,
     crew: &Crew<'env>,
     task: impl Fn(I) -> T + Send + Sync + 'env,
 ) -> Vec<T> {
     /// Fewer values are done before another thread is awake.
-    const LEAST: u64 = 1 << 14;
-    if values < LEAST {
+    const LEAST: usize = 1 << 14;
+    if parts.iter().map(values).sum::<usize>() < LEAST {
         return parts.into_iter().map(task).collect();
     }
     crew.map(parts, || (), |()| (), move |(), part| task(part), |()| ())
@@ -409,7 +428,7 @@ fn gathered<'env>(runs: &[Run], output: usize, again: &impl Again<'env>) -> Vec<
 }
 
 /// Values in a finer bin, on average, where there are enough bins.
-const PER_BIN: usize = 8;
+const PER_BIN: usize = 16;
 
 /// Counts of some runs in finer bins.
 struct Finer {
@@ -479,9 +498,8 @@ impl Finer {
         chosen
     }
 
-    /// Sorts the values of the chosen bins among those that have been counted: each into its bin, the bins in
-    /// themselves.
-    fn in_order(&self, parts: Vec<Part>, chosen: &[bool]) -> Vec<f64> {
+    /// Sorts the values of the chosen bins: each into its bin, the bins in themselves.
+    fn in_order(&self, parts: &[Part], chosen: &[bool]) -> Vec<f64> {
         let counts = self.bins.iter().zip(chosen);
         let counts = counts.map(|((count, ..), chosen)| if *chosen { *count as usize } else { 0 });
         let mut total = 0;
@@ -491,8 +509,7 @@ impl Finer {
             total += count;
         }
         let mut values = vec![0.0; total];
-        for mut part in parts {
-            part.keep(chosen);
+        for part in parts {
             for (value, place) in part.values.iter().zip(&part.places) {
                 let next = &mut next[*place as usize];
                 values[*next] = *value;

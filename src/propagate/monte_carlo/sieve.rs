@@ -128,9 +128,11 @@ impl Sieve {
             keeps[next..].fill(true);
         }
         // With their neighbours.
-        for (bin, kept) in self.keeps.iter_mut().enumerate() {
-            let (before, after) = (bin.saturating_sub(1), (bin + 1).min(BINS - 1));
-            *kept &= keeps[before] | keeps[bin] | keeps[after];
+        let (mut before, mut here) = (false, keeps[0]);
+        let after = keeps[1..].iter().chain([&false]);
+        for (kept, after) in self.keeps.iter_mut().zip(after) {
+            *kept &= before | here | after;
+            (before, here) = (here, *after);
         }
         if self.count() >= PICTURED && self.keeps.contains(&true) {
             self.lump(&cells, &rows, wanted.middle());
@@ -227,11 +229,14 @@ impl Sieve {
         let mut next = 0;
         while next < BINS {
             let first = next;
-            let together = self.lumped[first..].iter().take_while(|lumped| **lumped);
-            next += together.count().max(1);
-            let count: u64 = self.counts[first..next].iter().sum();
+            let mut count = self.counts[first];
+            next += 1;
+            while next < BINS && self.lumped[first] && self.lumped[next] {
+                count += self.counts[next];
+                next += 1;
+            }
             if count > 0 {
-                let [low, high] = [self.bounds(first)[0], self.bounds(next - 1)[1]];
+                let [low, high] = self.bounds(first..=next - 1);
                 cells.push(Cell {
                     low,
                     high,
@@ -245,16 +250,17 @@ impl Sieve {
         (cells, rows)
     }
 
-    /// Bounds of the values of a bin, widened by what rounding may do to its edges.
-    fn bounds(&self, bin: usize) -> [f64; 2] {
+    /// Bounds of the values of a row of bins, widened by what rounding may do to its edges.
+    fn bounds(&self, bins: RangeInclusive<usize>) -> [f64; 2] {
         let blur = |edge: f64| 1e-6 * self.grid.width() + 4.0 * f64::EPSILON * edge.abs();
+        let (first, last) = bins.into_inner();
         let [mut low, mut high] = self.range;
-        if bin > 0 {
-            let edge = self.grid.edge(bin);
+        if first > 0 {
+            let edge = self.grid.edge(first);
             low = low.max(edge - blur(edge));
         }
-        if bin < BINS - 1 {
-            let edge = self.grid.edge(bin + 1);
+        if last < BINS - 1 {
+            let edge = self.grid.edge(last + 1);
             high = high.min(edge + blur(edge));
         }
         [low, high]

@@ -82,12 +82,13 @@ impl Tails {
         const LOOK: usize = 24;
         let [least, most] = self.room(p);
         let at = |i: usize| least + (most - least) * i as f64 / LOOK as f64;
-        let width = |below: f64| {
-            let [low, high] = self.interval(below, p);
+        let width = |i: usize| {
+            let [low, high] = self.interval(at(i), p);
             high - low
         };
+        let widths: Vec<f64> = (0..=LOOK).map(width).collect();
         let best = (0..=LOOK)
-            .min_by(|a, b| width(at(*a)).total_cmp(&width(at(*b))))
+            .min_by(|a, b| widths[*a].total_cmp(&widths[*b]))
             .unwrap_or(0);
         self.refined([at(best.saturating_sub(1)), at((best + 1).min(LOOK))], p)
     }

@@ -437,6 +437,21 @@ mod tests {
         assert_eq!(ordered.median(), median);
     }
 
+    /// The cuts of tails and middle fall on the same values, or leave none between.
+    #[test]
+    fn few_different_values() {
+        for different in [1, 2, 3, 7, 100] {
+            let sample: Vec<f64> = (0..5 * PILOT)
+                .map(|i| (i * 7919 % 10_007 % different) as f64)
+                .collect();
+            let ranks = Ranks::new(sample.len(), 0.95);
+            let (symmetric, _, median) = by_full_sort(&sample, 0.95);
+            let ordered = Ordered::new(&sample, ranks.last);
+            assert_eq!(ordered.symmetric(ranks), symmetric, "{different}");
+            assert_eq!(ordered.median(), median, "{different}");
+        }
+    }
+
     #[test]
     fn ranks_of_the_standard() {
         // 7.7.2: pM whole: q = 9500, (M − q)/2 = 250.

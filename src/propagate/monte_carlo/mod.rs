@@ -287,7 +287,7 @@ impl Question<'_> {
                 let depth = self.depth(count as usize);
                 let resolved = Resolved::new(sieve, &self.wanted(count), depth, output, redraw);
                 if self.pivots.len() == 1 {
-                    // All trials that were needed have been drawn.
+                    // Nothing is left to share; other outputs, and coverage regions, would need helpers again.
                     redraw.crew.dismiss();
                 }
                 let picture = |interval| sieve.histogram(interval);

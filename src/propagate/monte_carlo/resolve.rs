@@ -19,7 +19,7 @@ use super::sieve::{MOST_KEPT, Sieve};
 /// Values that are sorted without a look at finer counts.
 const SORTED: u64 = 1 << 12;
 
-/// The same where the bins of the values are known.
+/// Values that are sorted without a further look where finer bins have put them in order roughly.
 const SORTED_IN_BINS: u64 = 1 << 14;
 
 /// Consecutive values between two numbers.

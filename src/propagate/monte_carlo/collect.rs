@@ -1,5 +1,7 @@
 //! Trials as they come: the first ones are kept, and tell how to take the rest without keeping it.
 
+use std::iter::repeat_with;
+use std::mem::replace;
 use std::ops::Range;
 
 use gumption_lanes::moments::{PowerSums, all_finite};
@@ -8,7 +10,7 @@ use gumption_lanes::{Block, LANES, Level, level};
 use super::cells::Wanted;
 use super::comoments::CoMoments;
 use super::crew::Crew;
-use super::engine::{CHUNK, Layout, Sink, Source, simulate};
+use super::engine::{CHUNK, Drawing, Layout, Sink, Source, simulate, start};
 use super::interval::{Ordered, Ranked};
 use super::moments::{Moments, Pivot};
 use super::sieve::Sieve;
@@ -23,6 +25,9 @@ const FEWEST: u64 = 1 << 12;
 /// Trials after a look at what is to be kept, for each one before. Seldom looks let more be kept than need be,
 /// frequent ones take time themselves.
 const GROWTH: u64 = 3;
+
+/// Chunks that every helper draws while the look is taken.
+const AHEAD: u64 = 4;
 
 /// Most chunks between two looks.
 const MOST_CHUNKS: u64 = 1 << 10;
@@ -120,34 +125,17 @@ impl<'a, 'env, S: Source> Collector<'a, 'env, S> {
 
     /// Draws trials until there are so many chunks.
     pub(super) fn extend(&mut self, chunks: u64) {
-        while self.chunks < chunks {
-            let end = match self.held {
-                Held::Columns(_) => chunks.min(self.chunks + PILOT / CHUNK),
-                Held::Sieved(_) => {
-                    chunks.min(self.chunks + (GROWTH * self.chunks).min(MOST_CHUNKS))
-                }
-            };
-            let next = self.chunks..end;
-            let Plan {
-                crew,
-                source,
-                layout,
-                ask,
-                ..
-            } = self.plan;
-            match &mut self.held {
-                Held::Columns(_) => {
-                    let values = self.draw(next.clone());
-                    self.commit(next, values);
-                }
-                Held::Sieved(sieved) => {
-                    sieved.plan(ask);
-                    let tally = || Tally::new(sieved);
-                    let (moments, tallies) = simulate(crew, source, layout, next.clone(), tally);
-                    sieved.absorb(moments, tallies);
-                    self.drawn(next);
-                }
-            }
+        while self.chunks < chunks && matches!(self.held, Held::Columns(_)) {
+            let next = self.chunks..chunks.min(self.chunks + PILOT / CHUNK);
+            let values = self.draw(next.clone());
+            self.commit(next, values);
+        }
+        if let Held::Sieved(sieved) = &mut self.held
+            && self.chunks < chunks
+        {
+            let new = self.chunks..chunks;
+            sieved.extend(&self.plan, new.clone());
+            self.drawn(new);
         }
     }
 
@@ -232,6 +220,43 @@ impl Sieved {
         sieved
     }
 
+    /// Draws some chunks.
+    ///
+    /// While one thread plans what to keep of the next round, the others draw the first chunks of that round by the
+    /// plan before. More is kept of them than need be; what becomes known is the same.
+    fn extend<S: Source>(&mut self, plan: &Plan<S>, chunks: Range<u64>) {
+        let last = chunks.end;
+        let helpers = plan.crew.threads() as u64 - 1;
+        let mut drawn = chunks.start;
+        let mut begun = drawn..drawn;
+        let mut ahead = self.start(plan, begun.clone(), 0);
+        while drawn < last {
+            self.plan(plan.ask);
+            let end = end_of_round(drawn, last);
+            let rest = begun.end..end;
+            let others = (rest.end - rest.start).saturating_sub(1);
+            let round = self.start(plan, rest, others);
+            begun = end..end_of_round(end, last).min(end + AHEAD * helpers);
+            let next = self.start(plan, begun.clone(), begun.end - begun.start);
+            let results = round.join(Tally::new(self));
+            for (moments, tallies) in [replace(&mut ahead, next).wait(), results] {
+                self.absorb(moments, tallies);
+            }
+            drawn = end;
+        }
+    }
+
+    /// Lets so many helpers, at most, begin to draw some chunks.
+    fn start<'env, S: Source>(
+        &mut self,
+        plan: &Plan<'_, 'env, S>,
+        chunks: Range<u64>,
+        helpers: u64,
+    ) -> Drawing<'env, Tally> {
+        let tallies = repeat_with(|| Tally::new(self)).take(helpers as usize);
+        start(plan.crew, plan.source, plan.layout, chunks, tallies)
+    }
+
     /// Takes values that are at hand.
     fn take(&mut self, columns: &[Vec<f64>], ask: &Ask) {
         self.plan(ask);
@@ -264,6 +289,11 @@ impl Sieved {
             }
         }
     }
+}
+
+/// The last of so many chunks after those that have been `drawn` until the next look.
+fn end_of_round(drawn: u64, last: u64) -> u64 {
+    last.min(drawn + (GROWTH * drawn).min(MOST_CHUNKS))
 }
 
 /// Sums over a chunk.

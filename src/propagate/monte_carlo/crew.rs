@@ -56,8 +56,51 @@ impl<'env> Crew<'env> {
         self.helpers.borrow_mut().clear();
     }
 
-    /// `task` of every item. Each thread that is needed begins with a `seed`, and makes a scratch space of it. Results
-    /// in the order of the items, and what `finish` makes of the scratch spaces in no order.
+    /// Asks the helpers for `task` of every item. Each of them begins with a seed, for as many as there are seeds, and
+    /// makes a scratch space of it. The caller goes on at once.
+    pub(super) fn start<I, D, W, T, R>(
+        &self,
+        items: Vec<I>,
+        seeds: impl Iterator<Item = D>,
+        begin: impl Fn(D) -> W + Send + Sync + 'env,
+        task: impl Fn(&mut W, I) -> T + Send + Sync + 'env,
+        finish: impl Fn(W) -> R + Send + Sync + 'env,
+    ) -> Started<'env, D, T, R>
+    where
+        I: Send + 'env,
+        D: Send + 'env,
+        T: Send + 'env,
+        R: Send + 'env,
+    {
+        let queue = Mutex::new(items.into_iter().enumerate());
+        let work: Work<'env, D, T, R> = Arc::new(move |seed: D| {
+            let mut scratch = begin(seed);
+            let mut done = Vec::new();
+            loop {
+                // Whoever panics while taking an item leaves the queue consistent.
+                let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+                let Some((index, item)) = next else { break };
+                done.push((index, task(&mut scratch, item)));
+            }
+            (done, finish(scratch))
+        });
+        let (sender, results) = channel();
+        for (helper, seed) in self.helpers.borrow().iter().zip(seeds) {
+            let (work, sender) = (Arc::clone(&work), sender.clone());
+            let job = move || {
+                let result = catch_unwind(AssertUnwindSafe(|| work(seed)));
+                // Nobody waits for it where the caller has panicked.
+                let _ = sender.send(result);
+            };
+            // A helper is there as long as its crew.
+            let _ = helper.send(Box::new(job));
+        }
+        Started { work, results }
+    }
+
+    /// `task` of every item, by the helpers and the caller. Each thread that is needed begins with a `seed`, and makes
+    /// a scratch space of it. Results in the order of the items, and what `finish` makes of the scratch spaces in no
+    /// order.
     pub(super) fn map<I, D, W, T, R>(
         &self,
         items: Vec<I>,
@@ -72,42 +115,47 @@ impl<'env> Crew<'env> {
         T: Send + 'env,
         R: Send + 'env,
     {
-        let helpers = self.helpers.borrow();
-        let helpers = helpers.iter().take(items.len().saturating_sub(1));
-        let queue = Mutex::new(items.into_iter().enumerate());
-        let work = Arc::new(move |seed: D| {
-            let mut scratch = begin(seed);
-            let mut done = Vec::new();
-            loop {
-                // Whoever panics while taking an item leaves the queue consistent.
-                let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-                let Some((index, item)) = next else { break };
-                done.push((index, task(&mut scratch, item)));
-            }
-            (done, finish(scratch))
-        });
-        let (sender, results) = channel();
-        for helper in helpers {
-            let (work, sender, seed) = (Arc::clone(&work), sender.clone(), seed());
-            let job = move || {
-                let result = catch_unwind(AssertUnwindSafe(|| work(seed)));
-                // Nobody waits for it where the caller has panicked.
-                let _ = sender.send(result);
-            };
-            // A helper is there as long as its crew.
-            let _ = helper.send(Box::new(job));
+        let others = items.len().saturating_sub(1);
+        let seeds = std::iter::repeat_with(&mut seed).take(others);
+        let started = self.start(items, seeds, begin, task, finish);
+        started.join(seed())
+    }
+}
+
+/// Results with the numbers of their items, and what became of a scratch space.
+type Done<T, R> = (Vec<(usize, T)>, R);
+
+/// What a thread does with a seed, until no item is left.
+type Work<'env, D, T, R> = Arc<dyn Fn(D) -> Done<T, R> + Send + Sync + 'env>;
+
+/// What helpers have been asked for.
+pub(super) struct Started<'env, D, T, R> {
+    work: Work<'env, D, T, R>,
+    results: Receiver<std::thread::Result<Done<T, R>>>,
+}
+
+impl<D, T, R> Started<'_, D, T, R> {
+    /// Takes part, with a seed, and waits for the others. Results as of [`Crew::map`].
+    pub(super) fn join(self, seed: D) -> (Vec<T>, Vec<R>) {
+        let own = (self.work)(seed);
+        self.wait_with(Some(own))
+    }
+
+    /// Waits for the helpers, of which at least one must have been asked if there were items. Results as of
+    /// [`Crew::map`].
+    pub(super) fn wait(self) -> (Vec<T>, Vec<R>) {
+        self.wait_with(None)
+    }
+
+    fn wait_with(self, own: Option<Done<T, R>>) -> (Vec<T>, Vec<R>) {
+        let mut all: Vec<Done<T, R>> = own.into_iter().collect();
+        while let Ok(result) = soon(&self.results) {
+            all.push(result.unwrap_or_else(|panic| resume_unwind(panic)));
         }
-        drop(sender);
-        let (mut done, own) = work(seed());
-        let mut rest = vec![own];
-        while let Ok(result) = soon(&results) {
-            let (theirs, finished) = result.unwrap_or_else(|panic| resume_unwind(panic));
-            done.extend(theirs);
-            rest.push(finished);
-        }
+        let (done, rest): (Vec<Vec<_>>, Vec<R>) = all.into_iter().unzip();
+        let mut done: Vec<(usize, T)> = done.into_iter().flatten().collect();
         done.sort_unstable_by_key(|(index, _)| *index);
-        let done = done.into_iter().map(|(_, result)| result).collect();
-        (done, rest)
+        (done.into_iter().map(|(_, result)| result).collect(), rest)
     }
 }
 
@@ -186,6 +234,21 @@ mod tests {
             .map(|n: usize| n * 3 + n * n.saturating_sub(1) / 2)
             .collect();
         assert_eq!(sums, expected);
+    }
+
+    #[test]
+    fn helpers_work_while_the_caller_does_something_else() {
+        let caller = std::thread::current().id();
+        let (done, seeds) = Crew::with(3, 20, |crew| {
+            let thread = |_: &mut u8, ()| std::thread::current().id();
+            let begun = crew.start(vec![(); 20], [4, 5].into_iter(), |seed| seed, thread, |s| s);
+            let more = crew.start(vec![(); 5], [6].into_iter(), |seed| seed, thread, |s| s);
+            assert_eq!(more.join(7).1.len(), 2);
+            begun.wait()
+        });
+        assert_eq!(done.len(), 20);
+        assert!(!done.contains(&caller));
+        assert_eq!(seeds.iter().sum::<u8>(), 9);
     }
 
     #[test]

@@ -5,11 +5,12 @@
 //! chunk first and then over chunks in their order; results are therefore the same bits for any
 //! number of threads. Trials go block by block from a [`Source`] to a [`Sink`] and are not kept.
 
+use std::iter::repeat_with;
 use std::ops::Range;
 
 use gumption_lanes::{Block, LANES};
 
-use super::crew::Crew;
+use super::crew::{Crew, Started};
 use crate::propagate::progress;
 
 /// Most trials in a chunk: 64 blocks of 256.
@@ -92,11 +93,28 @@ pub(super) fn simulate<'env, S: Source, K: Sink + 'env>(
     source: &'env S,
     layout: Layout,
     chunks: Range<u64>,
-    sink: impl FnMut() -> K,
+    mut sink: impl FnMut() -> K,
 ) -> (Vec<K::Chunk>, Vec<K>) {
-    crew.map(
+    let others = (chunks.end - chunks.start).saturating_sub(1) as usize;
+    let sinks = repeat_with(&mut sink).take(others);
+    let drawing = start(crew, source, layout, chunks, sinks);
+    drawing.join(sink())
+}
+
+/// Chunks that helpers draw.
+pub(super) type Drawing<'env, K> = Started<'env, K, <K as Sink>::Chunk, K>;
+
+/// Lets helpers begin to draw some chunks, each with one of the sinks. Results as of [`simulate`].
+pub(super) fn start<'env, S: Source, K: Sink + 'env>(
+    crew: &Crew<'env>,
+    source: &'env S,
+    layout: Layout,
+    chunks: Range<u64>,
+    sinks: impl Iterator<Item = K>,
+) -> Drawing<'env, K> {
+    crew.start(
         chunks.collect(),
-        sink,
+        sinks,
         |sink| {
             let outputs = vec![Block::ZERO; source.outputs()];
             (source.worker(), outputs, sink)

@@ -4,6 +4,7 @@
 //! again; where they are too many to be kept at once, they are first counted in a finer grid. The
 //! results are those of a full sort of all values, to the last bit.
 
+use std::cmp::Reverse;
 use std::ops::Range;
 
 use gumption_lanes::bins::{BINS, Grid, Grids};
@@ -271,21 +272,26 @@ impl Kept {
     /// anew.
     fn counted(self, runs: &[Run], crew: &Crew) -> Counted {
         let own = runs.to_vec();
-        let counted = match self {
-            Kept::Fresh(parts) => of_each(parts, Vec::len, crew, move |mut values| {
-                keep_inside(&mut values, &own);
-                let places = Vec::new();
-                Part { values, places }.counted(&own)
-            }),
+        let begin = {
+            let own = own.clone();
+            move || Finer::new(&own)
+        };
+        let (parts, counts) = match self {
+            Kept::Fresh(parts) => {
+                of_each(parts, Vec::len, crew, begin, move |finer, mut values| {
+                    keep_inside(&mut values, &own);
+                    let places = Vec::new();
+                    Part { values, places }.counted(finer)
+                })
+            }
             Kept::Counted(Counted { parts, finer }) => {
                 let chosen = finer.chosen(runs);
-                of_each(parts, Part::len, crew, move |mut part| {
+                of_each(parts, Part::len, crew, begin, move |finer, mut part| {
                     part.keep(&chosen);
-                    part.counted(&own)
+                    part.counted(finer)
                 })
             }
         };
-        let (parts, counts): (Vec<Part>, Vec<Finer>) = counted.into_iter().unzip();
         Counted {
             parts,
             finer: Finer::of_all(counts, runs),
@@ -306,10 +312,11 @@ impl Kept {
             Kept::Counted(Counted { parts, finer }) => {
                 let chosen = finer.chosen(runs);
                 let own = chosen.clone();
-                let parts = of_each(parts, Part::len, crew, move |mut part| {
+                let keep = move |(): &mut (), mut part: Part| {
                     part.keep(&own);
                     part
-                });
+                };
+                let (parts, _) = of_each(parts, Part::len, crew, || (), keep);
                 finer.in_order(&parts, &chosen)
             }
         }
@@ -336,31 +343,34 @@ impl Part {
     }
 
     /// Counts the values in new bins.
-    fn counted(mut self, runs: &[Run]) -> (Part, Finer) {
-        let mut counts = Finer::new(runs);
+    fn counted(mut self, finer: &mut Finer) -> Part {
         self.places.resize(self.values.len(), 0);
         let rows = self.places.chunks_mut(LANES);
         for (values, places) in self.values.chunks(LANES).zip(rows) {
-            counts.count(values, places);
+            finer.count(values, places);
         }
-        (self, counts)
+        self
     }
 }
 
-/// What a task makes of each part of some values.
-fn of_each<'env, I: Send + 'env, T: Send + 'env>(
-    parts: Vec<I>,
+/// What a task makes of each part of some values, in no order, and of what every thread begins with.
+fn of_each<'env, I: Send + 'env, W: Send + 'env, T: Send + 'env>(
+    mut parts: Vec<I>,
     values: impl Fn(&I) -> usize,
     crew: &Crew<'env>,
-    task: impl Fn(I) -> T + Send + Sync + 'env,
-) -> Vec<T> {
+    begin: impl Fn() -> W + Send + Sync + 'env,
+    task: impl Fn(&mut W, I) -> T + Send + Sync + 'env,
+) -> (Vec<T>, Vec<W>) {
     /// Fewer values are done before another thread is awake.
     const LEAST: usize = 1 << 14;
-    if parts.iter().map(values).sum::<usize>() < LEAST {
-        return parts.into_iter().map(task).collect();
+    if parts.iter().map(&values).sum::<usize>() < LEAST {
+        let mut scratch = begin();
+        let done = parts.into_iter().map(|part| task(&mut scratch, part));
+        return (done.collect(), vec![scratch]);
     }
-    crew.map(parts, || (), |()| (), move |(), part| task(part), |()| ())
-        .0
+    // The small ones last, so that no thread waits long for another.
+    parts.sort_by_key(|part| Reverse(values(part)));
+    crew.map(parts, || (), move |()| begin(), task, |scratch| scratch)
 }
 
 /// Rows of neighbouring cells that are all chosen.

@@ -81,13 +81,13 @@ impl Sieve {
         Strainer::new(self.grid, |bin| self.keeps[bin], &self.gaps, part)
     }
 
-    /// Takes over what was counted.
+    /// Takes over what was counted, by the last plan or one before.
     pub(super) fn absorb(&mut self, strained: Strained) {
         for (all, count) in self.counts.iter_mut().zip(strained.counts()) {
             *all += count;
         }
-        for (gap, taken) in self.gaps.iter().zip(strained.taken) {
-            self.counts[*gap.bins.start()] += taken;
+        for (bin, taken) in strained.taken {
+            self.counts[bin] += taken;
         }
         let [low, high] = strained.range;
         // Zero has no sign: which of two came first depends on the threads.

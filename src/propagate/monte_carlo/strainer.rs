@@ -24,6 +24,8 @@ pub(super) struct Strainer {
     grid: Grid,
     counter: Counter,
     gaps: [Stretch; 2],
+    /// The first bin of each gap.
+    firsts: [usize; 2],
     /// What lies outside of the gaps, until there is enough of it to be counted.
     sifted: Sifted,
     picked: Vec<f64>,
@@ -40,8 +42,8 @@ pub(super) struct Strainer {
 /// What a strainer has found.
 pub(super) struct Strained {
     counter: Counter,
-    /// Counts of the gaps.
-    pub(super) taken: [u64; 2],
+    /// The first bin of each gap, and how many values lay in it.
+    pub(super) taken: [(usize, u64); 2],
     /// What was picked out, unless it was too much.
     pub(super) picked: Option<Vec<f64>>,
     /// The smallest and the largest value.
@@ -59,12 +61,14 @@ impl Strainer {
         picked: Vec<f64>,
     ) -> Self {
         let span = |index: usize| gaps.get(index).map_or(EMPTY, |gap| gap.span);
+        let first = |index: usize| gaps.get(index).map_or(0, |gap| *gap.bins.start());
         Strainer {
             picks_ends: keeps(0) && keeps(BINS - 1),
             level: level(),
             grid,
             counter: Counter::new(keeps),
             gaps: [span(0), span(1)],
+            firsts: [first(0), first(1)],
             sifted: Sifted::default(),
             known: picked.len(),
             picked,
@@ -140,10 +144,11 @@ impl Strainer {
     /// Ends the straining.
     pub(super) fn finish(mut self) -> Strained {
         self.settle();
+        let [first, second] = self.sifted.taken();
         Strained {
             range: self.range,
             counter: self.counter,
-            taken: self.sifted.taken(),
+            taken: [(self.firsts[0], first), (self.firsts[1], second)],
             picked: (!self.overflowed).then_some(self.picked),
         }
     }

@@ -313,12 +313,11 @@ impl<'p, 'b> Conditional<'p, 'b> {
         replicates.collect()
     }
 
-    /// The shortest interval of every scramble.
-    pub(super) fn shortest(&self) -> Vec<[f64; 2]> {
-        let below = self.tails(&self.total()).shortest(self.p);
+    /// The shortest interval of every scramble, which is near that of all points.
+    pub(super) fn shortest(&self, [low, _]: [f64; 2]) -> Vec<[f64; 2]> {
         let of = |tally: &Tally| {
             let tails = self.tails(tally);
-            tails.covering(tails.shortest_near(below, self.p), self.p)
+            tails.covering(tails.shortest_near(tails.below(low), self.p), self.p)
         };
         if self.points.are_one() {
             return vec![of(&self.tallies[0]); REPLICATES];

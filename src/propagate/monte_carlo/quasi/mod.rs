@@ -272,9 +272,9 @@ impl Method<'_, '_> {
         }
     }
 
-    fn shortest(&self, threads: usize) -> Vec<[f64; 2]> {
+    fn shortest(&self, pooled: [f64; 2], threads: usize) -> Vec<[f64; 2]> {
         match self {
-            Method::Conditional(of) => of.shortest(),
+            Method::Conditional(of) => of.shortest(pooled),
             Method::Counted(of) => of.shortest(threads),
         }
     }
@@ -381,7 +381,7 @@ impl Goal {
             if reached || enough {
                 return Ok(Found {
                     picture: method.picture(pooled.symmetric, all, threads),
-                    shortest: method.shortest(threads),
+                    shortest: method.shortest(pooled.shortest, threads),
                     pooled,
                     scatter,
                     points: all,

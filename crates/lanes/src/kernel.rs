@@ -330,17 +330,24 @@ fn bent_powers(
 /// `out`ₙ = Σ aₙ₊ₘ₋ₖ·`taps`ₖ, m the middle of the taps, which are of an odd number: probabilities of the sum of two
 /// quantities from those of each in equal cells. What falls beyond the ends is lost.
 pub fn convolve(level: Level, a: &[f64], taps: &[f64], out: &mut [f64]) {
+    /// Sums that are kept in registers.
+    const ROW: usize = 32;
     let middle = taps.len() / 2;
+    // With zeros on both sides nobody has to ask where the ends are.
+    let mut wide = vec![0.0; out.len().next_multiple_of(ROW) + 2 * middle];
+    for (wide, a) in wide[middle..].iter_mut().zip(a) {
+        *wide = *a;
+    }
     dispatch!(level, _ => {
-        out.fill(0.0);
-        for (k, tap) in taps.iter().enumerate() {
-            let (to, from) = (k.saturating_sub(middle), middle.saturating_sub(k));
-            let (Some(to), Some(from)) = (out.get_mut(to..), a.get(from..)) else {
-                continue;
-            };
-            for (out, a) in to.iter_mut().zip(from) {
-                *out = f64::mul_add(*a, *tap, *out);
+        for (row, out) in out.chunks_mut(ROW).enumerate() {
+            let reached = &wide[row * ROW..][..ROW + 2 * middle];
+            let mut sums = [0.0; ROW];
+            for (a, tap) in reached.windows(ROW).rev().zip(taps) {
+                for lane in 0..ROW {
+                    sums[lane] = f64::mul_add(a[lane], *tap, sums[lane]);
+                }
             }
+            out.copy_from_slice(&sums[..out.len()]);
         }
     });
 }

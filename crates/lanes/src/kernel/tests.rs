@@ -142,6 +142,21 @@ fn convolution_adds_quantities() {
 }
 
 #[test]
+fn convolutions_follow_their_definition() {
+    let a: Vec<f64> = (0..75).map(|i| f64::from(i).sqrt()).collect();
+    let taps: Vec<f64> = (0..9).map(|k| 1.0 / f64::from(k + 3)).collect();
+    let term = |n: usize, k: usize| Some(a.get((n + 4).checked_sub(k)?)? * taps[k]);
+    for level in levels() {
+        let mut out = vec![9.0; a.len()];
+        convolve(level, &a, &taps, &mut out);
+        for (n, out) in out.iter().enumerate() {
+            let sum: f64 = (0..9).filter_map(|k| term(n, k)).sum();
+            assert!((out - sum).abs() < 1e-14 * sum, "{n}: {out} {sum}");
+        }
+    }
+}
+
+#[test]
 fn all_instruction_sets_agree() {
     let (start, slope) = lines();
     let kernel = Kernel::Unbounded {

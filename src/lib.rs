@@ -71,25 +71,14 @@
 //! # Ok::<(), String>(())
 //! ```
 
-// Tests may hold results against the platform's own functions.
-#![cfg_attr(test, allow(clippy::disallowed_methods))]
-
-pub mod budget;
-pub mod calibrate;
-pub mod challenge;
-mod dd;
-pub mod diagnose;
-pub mod distribution;
-pub mod equations;
-pub mod fault;
-pub mod files;
-pub mod language;
-pub mod least_squares;
-pub mod model;
-pub mod propagate;
-pub mod quantity;
-pub mod recording;
-pub mod report;
-pub mod special;
-pub mod statistics;
-pub mod verify;
+pub use gumption_challenge as challenge;
+pub use gumption_core::{
+    distribution, equations, least_squares, model, quantity, special, statistics,
+};
+pub use gumption_fault as fault;
+pub use gumption_fault::language;
+pub use gumption_format::files;
+pub use gumption_gum::{budget, propagate};
+pub use gumption_lab::{calibrate, diagnose, recording};
+pub use gumption_report as report;
+pub use gumption_verify as verify;

@@ -1,0 +1,335 @@
+//! The further measurement that a diagnosis recommends for a list of names, made by the simulator, and what
+//! the longer recording says.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use super::report::{Study, table};
+use super::trial::Trial;
+use crate::further::Further;
+use crate::grade::{self, Answer, Finding, Graded, GradedEffect};
+use crate::rig::Rig;
+use crate::truth::Truth;
+
+/// Promises from here on are held to.
+pub const PROMISED: f64 = 0.95;
+/// Lists of weaker effects are left alone.
+const STRONG: f64 = 8.0;
+
+/// What a diagnosis recommends: a part of what `gumption diagnose --json` prints.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Advice {
+    /// For each effect with several names.
+    separating: Vec<ForEffect>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct ForEffect {
+    /// Place among the effects.
+    effect: usize,
+    /// Numbers of its names; those that share one say the same of every measurement.
+    classes: Vec<usize>,
+    /// The best first.
+    measurements: Vec<Measurement>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct Measurement {
+    measure: Measure,
+    resolved: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct Measure {
+    kind: String,
+    #[serde(default)]
+    column: String,
+    #[serde(default)]
+    value: f64,
+    #[serde(default)]
+    unit: String,
+}
+
+impl Measure {
+    /// What the simulator can do of it.
+    fn on(&self, rig: Rig) -> Option<Further> {
+        let words = match self.kind.as_str() {
+            "again" | "reversed" => self.kind.clone(),
+            "set" if self.unit == "°" => format!("{}={}", self.column, self.value),
+            "between" => format!("{} between", self.column),
+            _ => return None,
+        };
+        let further: Further = words.parse().ok()?;
+        further.is_possible(rig).then_some(further)
+    }
+}
+
+/// What became of a list for which a further measurement was asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Sequel {
+    /// All names of the list say the same of every measurement.
+    Same,
+    /// No measurement promises to decide.
+    Unpromised,
+    /// Only such as the simulator cannot make.
+    Impossible,
+    /// A measurement was made.
+    Made(Further, Decision),
+}
+
+/// What a longer recording says of a list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Decision {
+    /// The right name, alone.
+    Resolved,
+    /// The right name, and others that say the same of every measurement.
+    Class,
+    /// Still a list with the right name.
+    Listed,
+    /// A wrong name, alone.
+    Wrong,
+    /// No name.
+    Unnamed,
+}
+
+/// A further measurement to make, or why there is none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Request {
+    /// Not asked: no list, or of a faint effect.
+    None,
+    /// Asked in vain.
+    InVain(Sequel),
+    /// To be made.
+    Make(Further),
+}
+
+/// Which further measurement a graded answer calls for: one effect of λ ≥ 8, whole, its right name in a list.
+/// It is the best of those that promise to decide and that the simulator can make.
+pub fn request(
+    trial: &Trial,
+    truth: &Truth,
+    graded: &Graded,
+    answer: &Answer,
+    advice: &Advice,
+) -> Request {
+    let [effect] = graded.effects.as_slice() else {
+        return Request::None;
+    };
+    let asked = trial.is_single()
+        && effect.truth.lambda_beside >= STRONG
+        && matches!(effect.finding, Finding::Listed(_));
+    if !asked {
+        return Request::None;
+    }
+    let Some(list) = advice.on(effect, answer) else {
+        return Request::InVain(Sequel::Unpromised);
+    };
+    if list.is_one_class(answer) {
+        return Request::InVain(Sequel::Same);
+    }
+    let promising: Vec<&Measurement> = (list.measurements.iter())
+        .filter(|one| one.resolved.is_some_and(|p| p >= PROMISED))
+        .collect();
+    let possible = promising.iter().find_map(|one| one.measure.on(truth.rig));
+    match possible {
+        Some(further) => Request::Make(further),
+        None if promising.is_empty() => Request::InVain(Sequel::Unpromised),
+        None => Request::InVain(Sequel::Impossible),
+    }
+}
+
+/// What a graded answer to the longer recording says.
+pub fn decision(graded: &Graded, answer: &Answer, advice: &Advice) -> Decision {
+    let Some(effect) = graded.effects.first() else {
+        return Decision::Unnamed;
+    };
+    if !graded.wrong_names.is_empty() {
+        return Decision::Wrong;
+    }
+    let same = || {
+        let list = advice.on(effect, answer);
+        list.is_some_and(|list| list.is_one_class(answer))
+    };
+    match effect.finding {
+        Finding::Unique => Decision::Resolved,
+        Finding::Listed(_) if same() => Decision::Class,
+        Finding::Listed(_) => Decision::Listed,
+        Finding::Unexplained | Finding::Missed => Decision::Unnamed,
+    }
+}
+
+impl Advice {
+    /// What is said of the list that holds the right name.
+    fn on(&self, effect: &GradedEffect, answer: &Answer) -> Option<&ForEffect> {
+        let right = |list: &&ForEffect| {
+            let mut names = answer
+                .effects
+                .get(list.effect)
+                .into_iter()
+                .flat_map(|e| &e.named);
+            names.any(|name| grade::accepts(effect.truth.physics, name))
+        };
+        self.separating.iter().find(right)
+    }
+}
+
+impl ForEffect {
+    /// Whether all names of the list say the same of every measurement.
+    fn is_one_class(&self, answer: &Answer) -> bool {
+        let listed = answer.effects.get(self.effect).map_or(0, |e| e.named.len());
+        listed == self.classes.len() && self.classes.iter().all(|class| *class == 0)
+    }
+}
+
+impl Decision {
+    const ALL: [(Decision, &'static str); 5] = [
+        (Decision::Resolved, "resolved"),
+        (Decision::Class, "class"),
+        (Decision::Listed, "list"),
+        (Decision::Wrong, "wrong"),
+        (Decision::Unnamed, "unnamed"),
+    ];
+}
+
+impl Sequel {
+    /// What the measurement that was made decided.
+    pub(super) fn decision(self) -> Option<Decision> {
+        match self {
+            Sequel::Made(_, decision) => Some(decision),
+            Sequel::Same | Sequel::Unpromised | Sequel::Impossible => None,
+        }
+    }
+
+    /// The word in the file: `mount=90:resolved`, `unpromised`, `impossible`.
+    pub(super) fn word(self) -> String {
+        match self {
+            Sequel::Same => "same".into(),
+            Sequel::Unpromised => "unpromised".into(),
+            Sequel::Impossible => "impossible".into(),
+            Sequel::Made(further, decision) => {
+                let all = Decision::ALL.iter();
+                let word = all
+                    .filter(|(one, _)| *one == decision)
+                    .map(|(_, word)| *word);
+                format!("{further}:{}", word.collect::<String>())
+            }
+        }
+    }
+
+    /// The sequel of a word; nothing for one that is none.
+    pub(super) fn of_word(word: &str) -> Option<Sequel> {
+        match word {
+            "same" => Some(Sequel::Same),
+            "unpromised" => Some(Sequel::Unpromised),
+            "impossible" => Some(Sequel::Impossible),
+            _ => {
+                let (further, decision) = word.split_once(':')?;
+                let found = Decision::ALL.iter().find(|(_, word)| *word == decision)?;
+                Some(Sequel::Made(further.parse().ok()?, found.0))
+            }
+        }
+    }
+}
+
+impl Study<'_> {
+    /// What became of the lists for which a further measurement was asked.
+    pub(super) fn sequels(&self) -> impl Iterator<Item = Sequel> {
+        self.singles().filter_map(|(record, _)| record.further)
+    }
+
+    /// The lists by the measurement that was recommended.
+    pub(super) fn further(&self) -> String {
+        let mut by_measure: BTreeMap<Sequel, usize> = BTreeMap::new();
+        let mut made: BTreeMap<Further, Vec<Decision>> = BTreeMap::new();
+        for sequel in self.sequels() {
+            match sequel {
+                Sequel::Made(further, decision) => made.entry(further).or_default().push(decision),
+                other => *by_measure.entry(other).or_default() += 1,
+            }
+        }
+        let mut rows: Vec<Vec<String>> = made
+            .into_iter()
+            .map(|(further, decisions)| {
+                let count = |wanted| decisions.iter().filter(|d| **d == wanted).count();
+                let mut row = vec![further.to_string(), decisions.len().to_string()];
+                row.extend(Decision::ALL.iter().map(|(d, _)| count(*d).to_string()));
+                row
+            })
+            .collect();
+        let without = [
+            (
+                Sequel::Same,
+                "none: all names say the same of every measurement",
+            ),
+            (Sequel::Unpromised, "none that promises it"),
+            (Sequel::Impossible, "one that the simulator cannot make"),
+        ];
+        for (sequel, words) in without {
+            let count = by_measure.get(&sequel).copied().unwrap_or_default();
+            let mut row = vec![words.to_owned(), count.to_string()];
+            row.extend(Decision::ALL.iter().map(|_| String::new()));
+            rows.push(row);
+        }
+        table(
+            "Lists, and the measurement that was recommended",
+            &format!(
+                "One effect of λ ≥ 8 whose right name is in a list. The best measurement that promises, with a \
+                 probability of {:.0} % or more, to decide was made by the simulator in the same life of the \
+                 device, and the whole recording was diagnosed anew.",
+                100.0 * PROMISED
+            ),
+            &[
+                "recommended",
+                "lists",
+                "then named rightly",
+                "or with names that say the same",
+                "still listed",
+                "a wrong name",
+                "no name",
+            ],
+            &rows,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_best_measurement_that_can_be_made_is_taken() {
+        let text = r#"{"separating": [{"effect": 0, "rivals": [], "classes": [0, 1], "kappa": 0.1, "measurements": [
+            {"name": "a", "measure": {"kind": "opposite", "column": "temperature"}, "resolved": 0.99},
+            {"name": "b", "measure": {"kind": "set", "column": "mount", "value": 45.0, "unit": "°"}, "resolved": 0.4},
+            {"name": "c", "measure": {"kind": "set", "column": "mount", "value": 90.0, "unit": "°"}, "resolved": 0.99},
+            {"name": "d", "measure": {"kind": "again"}, "resolved": null}]}]}"#;
+        let advice: Advice = serde_json::from_str(text).unwrap();
+        let of: Vec<Option<Further>> = advice.separating[0]
+            .measurements
+            .iter()
+            .map(|one| one.measure.on(Rig::Tumble))
+            .collect();
+        let words: Vec<Option<String>> = of.iter().map(|f| f.map(|f| f.to_string())).collect();
+        let some = |word: &str| Some(word.to_owned());
+        assert_eq!(
+            words,
+            [None, some("mount=45"), some("mount=90"), some("again")]
+        );
+        let mount = &advice.separating[0].measurements[2].measure;
+        assert_eq!(mount.on(Rig::RateTable), None);
+    }
+
+    #[test]
+    fn words_of_sequels_are_read_as_they_are_written() {
+        for word in [
+            "unpromised",
+            "impossible",
+            "mount=90:resolved",
+            "head between:list",
+        ] {
+            assert_eq!(Sequel::of_word(word).unwrap().word(), word);
+        }
+        assert_eq!(Sequel::of_word("-"), None);
+    }
+}

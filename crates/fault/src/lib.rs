@@ -1,0 +1,151 @@
+//! What is wrong in a user's file: a stable code, the place, what was expected, the mend.
+//!
+//! A [`Fault`] is plain data; a [`Rejection`] draws all faults of a file under the user's own lines. Spans are
+//! byte ranges into *the text that the faulty module was given*: the model module is given the
+//! text of a formula, and the budget module moves its spans to the place of that formula in the
+//! file.
+
+// Tests may hold results against the platform's own functions.
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
+pub mod language;
+
+mod rejection;
+
+use std::ops::Range;
+
+pub use rejection::Rejection;
+
+/// A stable error code with its explanation (`gumption explain CODE`).
+///
+/// Every module lists its codes in a `pub const CODES: &[Code]` (`budget::faults::CODES`,
+/// `model::faults::CODES`, …).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Code {
+    /// `B…` for the budget file, `C…` for calibration files, `D…` for case files, `E…` for evaluation, `M…` for the
+    /// model language, `Q…` for measurement equations, `R…` for recordings, `U…` for units.
+    pub id: &'static str,
+    /// One line: what is wrong.
+    pub title: &'static str,
+    /// The same in Chinese, in the terms of JJF 1001 and JJF 1059.1.
+    pub title_zh: &'static str,
+    /// A paragraph: why it is refused and what to do, with a small example.
+    pub explanation: &'static str,
+}
+
+/// Defines the codes of a module, `NAME = "id", "title", "title in Chinese", "explanation";`, and the list of them.
+#[macro_export]
+macro_rules! codes {
+    ($($name:ident = $id:literal, $title:literal, $title_zh:literal, $explanation:literal;)*) => {
+        $(
+            #[doc = $title]
+            pub const $name: $crate::Code = $crate::Code {
+                id: $id,
+                title: $title,
+                title_zh: $title_zh,
+                explanation: $explanation,
+            };
+        )*
+
+        /// Every code of this module, for `gumption explain`.
+        pub const CODES: &[$crate::Code] = &[$($name),*];
+    };
+}
+
+/// One fault in one text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    /// Which kind of fault.
+    pub code: Code,
+    /// One sentence without a final stop, with the user's own names and numbers in it.
+    pub message: String,
+    /// Where, as bytes of the text.
+    pub span: Range<usize>,
+    /// Short text under the marked place: what was expected there.
+    pub label: String,
+    /// Other places that matter ("first stated here").
+    pub related: Vec<(Range<usize>, String)>,
+    /// The mend, in the imperative ("write `half_width`", "add `unit = \"mm\"`").
+    pub help: Option<String>,
+}
+
+impl Fault {
+    /// A fault with its place and message; add the rest with the builder methods.
+    pub fn new(code: Code, span: Range<usize>, message: impl Into<String>) -> Self {
+        Fault {
+            code,
+            message: message.into(),
+            span,
+            label: String::new(),
+            related: Vec::new(),
+            help: None,
+        }
+    }
+
+    /// Sets the text under the marked place.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Marks another place.
+    #[must_use]
+    pub fn related(mut self, span: Range<usize>, label: impl Into<String>) -> Self {
+        self.related.push((span, label.into()));
+        self
+    }
+
+    /// Says how to mend it.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Moves every span through `place`, which maps a range of the inner text to the outer one.
+    #[must_use]
+    pub fn moved(mut self, place: impl Fn(Range<usize>) -> Range<usize>) -> Self {
+        self.span = place(self.span);
+        for (span, _) in &mut self.related {
+            *span = place(span.clone());
+        }
+        self
+    }
+}
+
+/// The known name nearest to a misspelt one, if any is near enough to be meant.
+///
+/// Damerau–Levenshtein distance at most a third of the length (at least one edit), compared
+/// without regard to case. Names that have no character in common are never near: `V` is not a
+/// misspelt `I`.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let wanted = name.to_lowercase();
+    known
+        .into_iter()
+        .map(|k| (strsim::damerau_levenshtein(&wanted, &k.to_lowercase()), k))
+        .filter(|(distance, k)| {
+            let length = name.chars().count().max(k.chars().count());
+            *distance <= (length / 3).max(1) && *distance < length
+        })
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, k)| k)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn near_names_share_something() {
+        assert_eq!(
+            nearest("half_widht", ["value", "half_width"]),
+            Some("half_width")
+        );
+        assert_eq!(nearest("i_0", ["V", "I_0"]), Some("I_0"));
+        assert_eq!(nearest("r", ["P", "R"]), Some("R"));
+        assert_eq!(nearest("J", ["V", "I"]), None);
+        assert_eq!(nearest("δ", ["V", "I"]), None);
+        assert_eq!(nearest("", ["V"]), None);
+    }
+}

@@ -1,0 +1,278 @@
+//! A refused file: all of its faults, drawn under the user's own lines.
+
+use std::fmt;
+use std::ops::Range;
+
+use annotate_snippets::{
+    AnnotationKind, Level, Message, Renderer, Snippet, normalize_untrusted_str,
+};
+
+use super::Fault;
+use crate::language::Language;
+
+/// Nobody mends more at once.
+const SHOWN: usize = 25;
+
+/// A file that was refused, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rejection {
+    /// Name of the file as the user gave it.
+    pub name: String,
+    /// Its text (empty when it could not be read).
+    pub text: String,
+    /// All faults, in the order of the file.
+    pub faults: Vec<Fault>,
+    /// Other files that it uses and that have faults themselves.
+    pub others: Vec<Rejection>,
+}
+
+impl Rejection {
+    /// Sorts the faults by place and drops repeated ones.
+    pub fn new(name: &str, text: &str, mut faults: Vec<Fault>) -> Self {
+        faults.sort_by(|a, b| {
+            (a.span.start, a.span.end, a.code.id).cmp(&(b.span.start, b.span.end, b.code.id))
+        });
+        faults.dedup();
+        Rejection {
+            name: name.into(),
+            text: text.into(),
+            faults,
+            others: Vec::new(),
+        }
+    }
+
+    /// Draws every fault, and counts them, in English.
+    pub fn render(&self, color: bool) -> String {
+        self.render_in(Language::English, color)
+    }
+
+    /// Draws every fault, and counts them.
+    ///
+    /// Messages and mends are in English whatever the language: in Chinese the title of the code stands above the
+    /// lines of the user, and the message below them.
+    pub fn render_in(&self, language: Language, color: bool) -> String {
+        let renderer = if color {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
+        let mut out = String::new();
+        for fault in self.faults.iter().take(SHOWN) {
+            out += &self.draw(fault, language, &renderer);
+            out += "\n\n";
+        }
+        out += &self.count(language);
+        for other in &self.others {
+            out += "\n";
+            out += &other.render_in(language, color);
+        }
+        out
+    }
+
+    /// The closing line: how many faults there are, and whether all of them are shown.
+    fn count(&self, language: Language) -> String {
+        let count = self.faults.len();
+        let rest = if count > SHOWN {
+            language.pick(
+                format!("; the first {SHOWN} are shown"),
+                format!("；仅列出前 {SHOWN} 处"),
+            )
+        } else {
+            String::new()
+        };
+        let name = &self.name;
+        match (language, name.is_empty()) {
+            (Language::English, unnamed) => {
+                let plural = if count == 1 { "" } else { "s" };
+                let file = if unnamed { "the file" } else { name };
+                format!("{count} error{plural} in {file}{rest}\n")
+            }
+            (Language::Chinese, true) => format!("文件中有 {count} 处错误{rest}\n"),
+            (Language::Chinese, false) => format!("{name} 中有 {count} 处错误{rest}\n"),
+        }
+    }
+
+    fn draw(&self, fault: &Fault, language: Language, renderer: &Renderer) -> String {
+        let headline = language.pick(fault.message.as_str(), fault.code.title_zh);
+        let title = Level::ERROR
+            .with_name(language.pick("error", "错误"))
+            .primary_title(headline)
+            .id(fault.code.id);
+        let mut group = annotate_snippets::Group::with_title(title);
+        if self.text.is_empty() {
+            group = group.element(annotate_snippets::Origin::path(self.name.as_str()));
+        } else {
+            let primary = AnnotationKind::Primary.span(self.clamp(&fault.span));
+            let mut snippet = Snippet::source(self.text.as_str())
+                .path(self.name.as_str())
+                .annotation(if fault.label.is_empty() {
+                    primary
+                } else {
+                    primary.label(fault.label.as_str())
+                });
+            for (span, label) in &fault.related {
+                snippet = snippet.annotation(
+                    AnnotationKind::Context
+                        .span(self.clamp(span))
+                        .label(label.as_str()),
+                );
+            }
+            group = group.element(snippet);
+        }
+        if let Some(note) = note(fault, language) {
+            group = group.element(note);
+        }
+        if let Some(help) = &fault.help {
+            let level = Level::HELP.with_name(language.pick("help", "提示"));
+            group = group.element(level.message(help.as_str()));
+        }
+        renderer.render(&[group])
+    }
+
+    /// The range inside the text, at character boundaries, and never behind its end.
+    fn clamp(&self, span: &Range<usize>) -> Range<usize> {
+        let start = self
+            .text
+            .floor_char_boundary(span.start.min(self.text.len()));
+        let end = self
+            .text
+            .ceil_char_boundary(span.end.clamp(start, self.text.len()));
+        start..end
+    }
+}
+
+/// The message, where the headline does not say it. It quotes the file, and a terminal must not obey what a file says;
+/// headlines are made harmless by the renderer, notes are not.
+fn note(fault: &Fault, language: Language) -> Option<Message<'static>> {
+    let message = || normalize_untrusted_str(&fault.message);
+    match language {
+        Language::English => None,
+        Language::Chinese => Some(Level::NOTE.with_name("说明").message(message())),
+    }
+}
+
+impl fmt::Display for Rejection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Rejection {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Code;
+
+    const TEXT: &str = "[input.\"电压\"]\nunit = \"V\"\nhalf_width = \"0.1 mA\"\n";
+
+    const UNIT_CLASH: Code = Code {
+        id: "B0112",
+        title: "a unit does not fit",
+        title_zh: "单位不合适",
+        explanation: "",
+    };
+
+    const UNREADABLE_FILE: Code = Code {
+        id: "B0101",
+        title: "a file cannot be read",
+        title_zh: "文件无法读取",
+        explanation: "",
+    };
+
+    /// One fault, at the unit of the half-width.
+    fn clash() -> Fault {
+        let start = TEXT.find("\"0.1").expect("an amount");
+        Fault::new(
+            UNIT_CLASH,
+            start..start + 8,
+            "mA does not fit 电压, which is in V",
+        )
+        .label("a current")
+        .help("write the half-width in V")
+    }
+
+    #[test]
+    fn english_has_the_message_as_its_headline() {
+        let rejection = Rejection::new("budget.toml", TEXT, vec![clash()]);
+        insta::assert_snapshot!(rejection.render(false), @r#"
+        error[B0112]: mA does not fit 电压, which is in V
+         --> budget.toml:3:14
+          |
+        3 | half_width = "0.1 mA"
+          |              ^^^^^^^^ a current
+          |
+          = help: write the half-width in V
+
+        1 error in budget.toml
+        "#);
+        assert_eq!(rejection.render(false), rejection.to_string());
+    }
+
+    #[test]
+    fn chinese_has_the_title_as_its_headline_and_the_message_below() {
+        let rejection = Rejection::new("budget.toml", TEXT, vec![clash()]);
+        insta::assert_snapshot!(rejection.render_in(Language::Chinese, false), @r#"
+        错误[B0112]: 单位不合适
+         --> budget.toml:3:14
+          |
+        3 | half_width = "0.1 mA"
+          |              ^^^^^^^^ a current
+          |
+          = 说明: mA does not fit 电压, which is in V
+          = 提示: write the half-width in V
+
+        budget.toml 中有 1 处错误
+        "#);
+    }
+
+    #[test]
+    fn a_file_without_text_and_the_files_below_are_drawn_in_the_same_language() {
+        let fault = Fault::new(UNREADABLE_FILE, 0..0, "other.toml does not exist");
+        let mut rejection = Rejection::new("budget.toml", TEXT, vec![clash()]);
+        rejection.others = vec![Rejection::new("other.toml", "", vec![fault])];
+        let shown = rejection.render_in(Language::Chinese, false);
+        let (_, other) = shown
+            .split_once("budget.toml 中有 1 处错误\n")
+            .expect("a count");
+        insta::assert_snapshot!(other.trim_start(), @r"
+        错误[B0101]: 文件无法读取
+        --> other.toml
+         = 说明: other.toml does not exist
+
+        other.toml 中有 1 处错误
+        ");
+    }
+
+    #[test]
+    fn more_faults_than_are_shown_are_counted() {
+        let faults = (0..=SHOWN).map(|place| Fault::new(UNIT_CLASH, place..place + 1, "no"));
+        let mut rejection = Rejection::new("", TEXT, faults.collect());
+        let last = |rejection: &Rejection, language| {
+            let shown = rejection.render_in(language, false);
+            shown.lines().last().map(String::from)
+        };
+        assert_eq!(
+            last(&rejection, Language::English).as_deref(),
+            Some("26 errors in the file; the first 25 are shown")
+        );
+        assert_eq!(
+            last(&rejection, Language::Chinese).as_deref(),
+            Some("文件中有 26 处错误；仅列出前 25 处")
+        );
+        rejection.faults.truncate(1);
+        assert_eq!(
+            last(&rejection, Language::English).as_deref(),
+            Some("1 error in the file")
+        );
+    }
+
+    /// What a file says is quoted; it does not command the terminal.
+    #[test]
+    fn messages_below_the_lines_are_harmless() {
+        let fault = Fault::new(UNIT_CLASH, 0..1, "a \u{1b}[31mred\u{1b}[0m name");
+        let rejection = Rejection::new("budget.toml", TEXT, vec![fault]);
+        let shown = rejection.render_in(Language::Chinese, false);
+        assert!(!shown.contains('\u{1b}'), "{shown:?}");
+    }
+}

@@ -1,0 +1,329 @@
+//! Where a file is no well-formed TOML: what its writer meant, in place of what the parser expected.
+
+use std::ops::Range;
+
+use super::faults::{TOML_SYNTAX, UNUSED};
+use crate::fault::Fault;
+
+/// After so many syntax errors the rest of the file is hardly a budget.
+const MAX_SYNTAX_FAULTS: usize = 8;
+
+/// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
+pub fn syntax_faults(errors: &[toml::de::Error], text: &str) -> Vec<Fault> {
+    let mut faults: Vec<Fault> = Vec::new();
+    let mut seen = Vec::new();
+    for error in errors {
+        if in_repeated_table(error, errors, text) {
+            continue;
+        }
+        let fault = syntax_fault(error, text);
+        let line = text[..text.floor_char_boundary(fault.span.start)]
+            .matches('\n')
+            .count();
+        if !seen.contains(&line) {
+            seen.push(line);
+            faults.push(fault);
+        }
+        if faults.len() == MAX_SYNTAX_FAULTS {
+            break;
+        }
+    }
+    faults
+}
+
+/// Whether a key is repeated only because the header above it is.
+fn in_repeated_table(error: &toml::de::Error, errors: &[toml::de::Error], text: &str) -> bool {
+    let repeated = |error: &toml::de::Error| error.message().contains("duplicate key");
+    let line = |error: &toml::de::Error| line_of(error.span().map_or(0, |span| span.start), text);
+    let header = |line: &Range<usize>| text[line.clone()].trim_start().starts_with('[');
+    let own = line(error);
+    repeated(error)
+        && !header(&own)
+        && errors.iter().filter(|other| repeated(other)).any(|other| {
+            let above = line(other);
+            above.end < own.start
+                && header(&above)
+                && !text[above.end..own.start]
+                    .lines()
+                    .any(|line| line.trim_start().starts_with('['))
+        })
+}
+
+/// Whether what stands on the other lines can be judged all the same.
+pub(super) fn leaves_the_rest(error: &toml::de::Error) -> bool {
+    let message = error.message();
+    [
+        "string values must be quoted",
+        "invalid unquoted key",
+        "string, expected",
+        "duplicate key",
+    ]
+    .iter()
+    .any(|words| message.contains(words))
+}
+
+/// The faults that no line with a syntax error has part in.
+pub(super) fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str) -> Vec<Fault> {
+    let line = |at: usize| text[..text.floor_char_boundary(at)].matches('\n').count();
+    let broken: Vec<usize> = syntax.iter().map(|fault| line(fault.span.start)).collect();
+    let touches = |fault: &Fault| {
+        let lines = line(fault.span.start)..=line(fault.span.end);
+        broken.iter().any(|broken| lines.contains(broken))
+    };
+    // What a broken line would have used seems unused.
+    faults
+        .into_iter()
+        .filter(|fault| fault.code != UNUSED && !touches(fault))
+        .collect()
+}
+
+fn syntax_fault(error: &toml::de::Error, text: &str) -> Fault {
+    let end = text.len();
+    let span = error.span().unwrap_or(end..end);
+    if let Some(fault) = foreign_sign(&span, text).or_else(|| decimal_comma(&span, text)) {
+        return fault;
+    }
+    let marked = text.get(span.clone()).unwrap_or_default();
+    let message = error.message();
+    let says = |words: &str| message.contains(words);
+    let fault = |message: String| Fault::new(TOML_SYNTAX, span.clone(), message);
+    if says("duplicate key") {
+        fault(format!("`{marked}` is stated a second time"))
+            .label("stated before")
+            .help("a key can be stated once in a table; several components stand in a list")
+    } else if says("string values must be quoted") && marked.is_empty() {
+        fault("there is nothing behind the `=`".into())
+            .label("expected a value")
+            .help("write a number, or a text in quotes; remove the line if there is nothing to say")
+    } else if says("string values must be quoted")
+        && let Some((number, unit)) = amount(marked)
+    {
+        fault(format!("`{marked}` needs quotes"))
+            .label("an amount with a unit is a text")
+            .help(format!("write \"{number} {unit}\""))
+    } else if says("invalid unquoted key") && !marked.is_empty() {
+        fault(format!("`{marked}` needs quotes where it is a key"))
+            .label("only A-Z a-z 0-9 _ - may stand without quotes here")
+            .help(format!(
+                "write \"{marked}\", also behind a dot: [input.\"{marked}\"]; formulas use the name without quotes"
+            ))
+    } else if says("string values must be quoted") {
+        fault(format!("`{marked}` is no number, and a text needs quotes"))
+            .label("expected a number or a text in quotes")
+            .help(format!(
+                "write \"{}\" for the text",
+                marked.replace('"', "'")
+            ))
+    } else if says("string, expected") {
+        fault("the text is not closed".into())
+            .label("expected the closing quote")
+            .help("add the quote at the end of the text")
+    } else if says("unclosed array") || says("unclosed inline table") {
+        let bracket = if says("array") { "]" } else { "}" };
+        fault(format!("the list is not closed by `{bracket}`"))
+            .label(format!("expected `,` or `{bracket}`"))
+    } else if says("key with no value") {
+        fault(format!("`{marked}` has no `=` and no value"))
+            .label("expected `=`")
+            .help("write `key = value`; a remark stands behind `#`")
+    } else if says("invalid mantissa") || says("expected digits") {
+        fault("a number needs digits before and behind its decimal point".into())
+            .label("a digit is missing")
+            .help("write for example 0.5 or 5.0")
+    } else {
+        fault(format!("not well-formed TOML: {message}")).label("not understood here")
+    }
+}
+
+/// The line around a place.
+fn line_of(at: usize, text: &str) -> Range<usize> {
+    let at = text.floor_char_boundary(at);
+    let start = text[..at].rfind('\n').map_or(0, |end| end + 1);
+    let end = text[at..].find('\n').map_or(text.len(), |end| at + end);
+    start..end
+}
+
+/// The characters of a line that stand in no text in quotes and in no remark, with their places.
+fn bare(line: Range<usize>, text: &str) -> impl Iterator<Item = (usize, char)> {
+    /// Where a character of the line stands.
+    enum At {
+        Bare,
+        Quoted(char),
+        Remark,
+    }
+    let mut place = At::Bare;
+    let characters = text[line.clone()].char_indices();
+    characters
+        .filter(move |(_, c)| {
+            let (here, bare) = match (&place, *c) {
+                (At::Remark, _) | (At::Bare, '#') => (At::Remark, false),
+                (At::Bare, '"' | '\'') => (At::Quoted(*c), false),
+                (At::Bare, _) => (At::Bare, true),
+                (At::Quoted(open), c) if *open == c => (At::Bare, false),
+                (At::Quoted(open), _) => (At::Quoted(*open), false),
+            };
+            place = here;
+            bare
+        })
+        .map(move |(at, c)| (line.start + at, c))
+}
+
+/// A sign of a Chinese keyboard or of a word processor where TOML has its own: `｛`, `“`, `，`.
+fn foreign_sign(span: &Range<usize>, text: &str) -> Option<Fault> {
+    let (at, sign, meant) = bare(line_of(span.start, text), text).find_map(|(at, sign)| {
+        let (_, meant) = FOREIGN.iter().find(|(foreign, _)| *foreign == sign)?;
+        Some((at, sign, meant))
+    })?;
+    Some(
+        Fault::new(
+            TOML_SYNTAX,
+            at..at + sign.len_utf8(),
+            format!("`{sign}` is not the sign that the file needs"),
+        )
+        .label(format!("expected `{meant}`"))
+        .help(format!(
+            "write `{meant}`, and the like for other such signs on the line; only texts in straight quotes may hold them"
+        )),
+    )
+}
+
+/// Signs that look like those of TOML, and those.
+const FOREIGN: [(char, &str); 16] = [
+    ('“', "\""),
+    ('”', "\""),
+    ('„', "\""),
+    ('＂', "\""),
+    ('‘', "'"),
+    ('’', "'"),
+    ('｛', "{"),
+    ('｝', "}"),
+    ('［', "["),
+    ('］', "]"),
+    ('【', "["),
+    ('】', "]"),
+    ('＝', "="),
+    ('，', ","),
+    ('。', "."),
+    ('　', " "),
+];
+
+/// `value = 0,3888`, where the parser stops at the comma or behind it.
+fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
+    let line = line_of(span.start, text);
+    let digits = |c: char| c.is_ascii_digit();
+    let of_number = |c: char| c.is_ascii_digit() || ".eE+-".contains(c);
+    let commas = bare(line.clone(), text).filter(|(_, c)| *c == ',');
+    let number = commas
+        .map(|(at, _)| {
+            let before = text[line.start..at].trim_end_matches(digits).len() + line.start;
+            let behind = text[at + 1..line.end].trim_start_matches(of_number).len();
+            (before, at, line.end - behind)
+        })
+        .find(|(start, at, end)| {
+            let alone = text[line.start..*start]
+                .trim_end_matches(['+', '-', ' ', '\t'])
+                .ends_with('=');
+            let followed = text[at + 1..*end].starts_with(digits);
+            let spaces = text[*end..line.end].len() - text[*end..line.end].trim_start().len();
+            alone && start < at && followed && (*at..=end + spaces).contains(&span.start)
+        });
+    let (start, _, end) = number?;
+    let number = &text[start..end];
+    Some(
+        Fault::new(TOML_SYNTAX, start..end, format!("`{number}` has a comma"))
+            .label("expected a decimal point")
+            .help(without_comma(number, "")),
+    )
+}
+
+/// What to write for a number with a comma, between `quotes`: a decimal point, or nothing where the comma
+/// may part thousands.
+pub(super) fn without_comma(number: &str, quotes: &str) -> String {
+    let point = number.replacen(',', ".", 1);
+    let behind = number.split_once(',').map_or("", |(_, behind)| behind);
+    let places = behind.bytes().take_while(u8::is_ascii_digit).count();
+    let joined = number.replace(',', "");
+    if places != 3 {
+        format!("write a decimal point: {quotes}{point}{quotes}")
+    } else if behind[places..].starts_with(['.', ',']) {
+        format!("write it without commas: {quotes}{joined}{quotes}")
+    } else {
+        format!(
+            "write {quotes}{joined}{quotes}, or {quotes}{point}{quotes} if the comma is a decimal one"
+        )
+    }
+}
+
+/// Number and unit of an amount that was written without quotes.
+fn amount(text: &str) -> Option<(&str, &str)> {
+    let end = text
+        .char_indices()
+        .take_while(|(_, c)| c.is_ascii_digit() || "+-._".contains(*c))
+        .map(|(at, c)| at + c.len_utf8())
+        .last()?;
+    let (number, unit) = text.split_at(end);
+    let unit = unit.trim();
+    let plausible = number.parse::<f64>().is_ok() && !unit.is_empty() && !unit.contains(' ');
+    plausible.then_some((number, unit))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use toml::de::DeTable;
+
+    /// Marked text and help of the first fault.
+    fn first(text: &str) -> (String, String) {
+        let (_, errors) = DeTable::parse_recoverable(text);
+        let fault = syntax_faults(&errors, text).into_iter().next().expect(text);
+        let marked = text[fault.span.clone()].to_owned();
+        (marked, fault.help.unwrap_or_default())
+    }
+
+    #[test]
+    fn what_was_meant_is_said() {
+        for (text, marked, help) in [
+            ("value = 0,3888", "0,3888", ": 0.3888"),
+            ("x = { value = 1,25, u = 2 }", "1,25", ": 1.25"),
+            ("value = -1,5e-3", "1,5e-3", ": 1.5e-3"),
+            ("value =\t1,5", "1,5", ": 1.5"),
+            ("x = { unit = \"#\", value = 1,25 }", "1,25", ": 1.25"),
+            ("value = 10,000", "10,000", "write 10000, or 10.000"),
+            ("value = 10,000.5", "10,000.5", ": 10000.5"),
+            ("unit = “mm”", "“", "write `\"`"),
+            ("title = “10 kg 砝码”", "“", "write `\"`"),
+            ("c = ｛ U = 1, k = 2 }", "｛", "write `{`"),
+            ("limits = [1，2]", "，", "write `,`"),
+            ("value ＝ 3", "＝", "write `=`"),
+            ("value = .5", "", "0.5"),
+        ] {
+            let (found, mend) = first(text);
+            assert_eq!(found, marked, "{text}");
+            assert!(mend.contains(help), "{text}: {mend}");
+        }
+    }
+
+    #[test]
+    fn a_list_that_is_not_closed_is_not_a_comma() {
+        for text in ["readings = [1,2", "readings = [1.5,2", "readings = [1,2}"] {
+            let (_, help) = first(text);
+            assert!(!help.contains("decimal"), "{text}: {help}");
+        }
+    }
+
+    #[test]
+    fn a_repeated_table_is_one_fault() {
+        let text =
+            "[input.R]\nvalue = 1\nu = 2\n[input.S]\nvalue = 1\n[input.R]\nvalue = 1\nu = 3\n";
+        let (_, errors) = DeTable::parse_recoverable(text);
+        let faults = syntax_faults(&errors, text);
+        assert_eq!(faults.len(), 1, "{faults:?}");
+        assert!(faults[0].message.contains("`R`"));
+    }
+
+    #[test]
+    fn texts_and_remarks_hold_any_sign() {
+        let (marked, _) = first("note = \"，“” 1,5\" # ｛ 2,5\nvalue = x y");
+        assert_eq!(marked, "x y");
+    }
+}

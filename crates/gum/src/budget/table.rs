@@ -1,0 +1,470 @@
+//! One definition per table of the budget file.
+//!
+//! [`table!`] makes four things from one definition: the raw structure, its reader over spanned
+//! TOML that reports every fault at once, its JSON Schema and the rows of the reference of keys.
+//! Adding a key is one line with its documentation.
+
+use std::ops::Range;
+
+use serde_json::{Map, Value};
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use super::faults::UNKNOWN_KEY;
+use crate::fault::{Code, Fault, nearest};
+
+/// A value of the file as the parser gives it.
+pub type Raw<'t> = Spanned<DeValue<'t>>;
+
+/// A value that the file states, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stated<T> {
+    /// What is stated.
+    pub value: T,
+    /// Place of the value.
+    pub span: Range<usize>,
+    /// Place of the key (of the value itself in a list).
+    pub key: Range<usize>,
+}
+
+impl<T> Stated<T> {
+    /// The same place with another value.
+    pub fn map<U>(&self, f: impl FnOnce(&T) -> U) -> Stated<U> {
+        Stated {
+            value: f(&self.value),
+            span: self.span.clone(),
+            key: self.key.clone(),
+        }
+    }
+}
+
+/// Collects faults while tables are read.
+#[derive(Debug)]
+pub struct Reader<'f> {
+    /// The whole file.
+    pub file: &'f str,
+    /// What was found wrong, in the order of reading.
+    pub faults: Vec<Fault>,
+}
+
+impl Reader<'_> {
+    /// Reports a fault and yields nothing, for use as the last expression of a reader.
+    pub fn refuse<T>(&mut self, fault: Fault) -> Option<T> {
+        self.faults.push(fault);
+        None
+    }
+
+    /// Reports that the value is of the wrong type.
+    pub fn wrong_type<T>(&mut self, code: Code, value: &Raw<'_>, expected: &str) -> Option<T> {
+        let found = found(value.get_ref());
+        self.refuse(
+            Fault::new(
+                code,
+                value.span(),
+                format!("expected {expected}, found {found}"),
+            )
+            .label(format!("expected {expected}")),
+        )
+    }
+}
+
+/// A value in words, for "found …".
+fn found(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) if text.chars().count() <= 30 => format!("the text {text:?}"),
+        DeValue::String(_) => "a text".into(),
+        DeValue::Integer(number) => format!("the number {number}"),
+        DeValue::Float(number) => format!("the number {number}"),
+        DeValue::Boolean(truth) => truth.to_string(),
+        DeValue::Datetime(date) => format!("the date {date}"),
+        DeValue::Array(_) => "a list".into(),
+        DeValue::Table(_) => "a table".into(),
+    }
+}
+
+/// Something that a key may be set to.
+pub trait FromToml: Sized {
+    /// What is expected, in words with the article: `a number`.
+    fn expected() -> String;
+
+    /// Reads the value, or reports why not.
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self>;
+
+    /// JSON Schema (draft-07) of the value.
+    fn schema() -> Value;
+
+    /// The tables inside, for the reference of keys.
+    fn tables(_path: &str, _rows: &mut Vec<KeyRow>) {}
+}
+
+/// One row of the reference of keys.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct KeyRow {
+    /// Where the key stands: `input.X.certificate`.
+    pub table: String,
+    /// The key.
+    pub key: &'static str,
+    /// What it may be set to, in words.
+    pub kind: String,
+    /// What it says.
+    pub doc: String,
+}
+
+/// A table of known keys.
+pub trait Table: Default {
+    /// Takes the entry if the table has such a key.
+    fn accept(
+        &mut self,
+        key: &Spanned<DeString<'_>>,
+        value: &Raw<'_>,
+        reader: &mut Reader<'_>,
+    ) -> bool;
+
+    /// Notes that the table has a key that is not known.
+    fn refuse(&mut self);
+
+    /// What this table says, and where it says nothing, what `below` says.
+    #[must_use]
+    fn over(self, below: Self) -> Self;
+
+    /// Every key, in the order of the definition.
+    fn keys() -> Vec<&'static str>;
+
+    /// Adds the schema of every key.
+    fn properties(into: &mut Map<String, Value>);
+
+    /// Adds the rows of this table and of those inside it.
+    fn rows(path: &str, rows: &mut Vec<KeyRow>);
+}
+
+/// Words that people try, and the key that they mean.
+const SYNONYMS: [(&str, &str); 22] = [
+    ("a", "half_width"),
+    ("halfwidth", "half_width"),
+    ("tolerance", "half_width"),
+    ("std", "u"),
+    ("stdev", "u"),
+    ("sd", "u"),
+    ("sigma", "u"),
+    ("uncertainty", "u"),
+    ("standard_uncertainty", "u"),
+    ("resolution", "step"),
+    ("q", "step"),
+    ("data", "readings"),
+    ("observations", "readings"),
+    ("measurements", "readings"),
+    ("dist", "distribution"),
+    ("pdf", "distribution"),
+    ("nu", "dof"),
+    ("degrees_of_freedom", "dof"),
+    ("degf", "dof"),
+    ("estimate", "value"),
+    ("mean", "value"),
+    ("formula", "model"),
+];
+
+/// The known key that an unknown one most likely means.
+fn meant(name: &str, known: &[&'static str]) -> Option<&'static str> {
+    let name = name.to_lowercase().replace(['-', ' '], "_");
+    let name = name.as_str();
+    let synonym = SYNONYMS
+        .iter()
+        .find(|(word, key)| *word == name && known.contains(key));
+    synonym
+        .map(|(_, key)| *key)
+        .or_else(|| nearest(name, known.iter().copied()))
+}
+
+/// Reads the entries of a table in the order of the file.
+pub fn read_table<T: Table>(table: &DeTable<'_>, name: &str, reader: &mut Reader<'_>) -> T {
+    let mut result = T::default();
+    for (key, value) in in_order(table) {
+        if !result.accept(key, value, reader) {
+            reader.faults.push(unknown_key(key, name, &T::keys()));
+            // What an unknown key was meant to state is not asked for a second time.
+            result.refuse();
+        }
+    }
+    result
+}
+
+/// The entries of a table in the order of the file (the parser sorts them by name).
+pub fn in_order<'a, 't>(table: &'a DeTable<'t>) -> Vec<(&'a Spanned<DeString<'t>>, &'a Raw<'t>)> {
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    entries
+}
+
+fn unknown_key(key: &Spanned<DeString<'_>>, table: &str, known: &[&'static str]) -> Fault {
+    let name = key.get_ref();
+    let fault = Fault::new(
+        UNKNOWN_KEY,
+        key.span(),
+        format!("{table} has no key `{name}`"),
+    )
+    .label("unknown key");
+    // `U` must not be taken for a misspelt `u`: they differ by the coverage factor.
+    if matches!(name.as_ref(), "U" | "k" | "expanded") && known.contains(&"certificate") {
+        return fault
+            .help("an expanded uncertainty stands with its k: certificate = { U = …, k = 2 }");
+    }
+    match meant(name, known) {
+        Some(near) => fault.help(format!("did you mean `{near}`?")),
+        None if super::tables::FileTable::keys().contains(&name.as_ref()) => fault.help(format!(
+            "`{name}` belongs to the top of the file, above the first [table]: a line belongs to the header above it"
+        )),
+        None if ["specification", "certificate"].contains(&table)
+            && ["p", "k", "dof", "distribution", "name"].contains(&name.as_ref()) =>
+        {
+            fault.help(format!("`{name}` stands beside `{table}`, not in it"))
+        }
+        None => fault.help(format!("known keys: {}", known.join(", "))),
+    }
+}
+
+/// A documentation comment as one line of text.
+pub fn doc_text(lines: &[&str]) -> String {
+    lines
+        .iter()
+        .map(|line| line.trim())
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Defines one table of the budget file; see the module.
+///
+/// `key as "spelling"` gives a key a spelling that is no Rust name; `with rest: Other` adds all
+/// keys of another table.
+#[macro_export]
+macro_rules! table {
+    (
+        $( #[doc = $doc:literal] )+
+        $name:ident $title:literal {
+            $( $( #[doc = $key_doc:literal] )+ $key:ident $( as $spelling:literal )? : $kind:ty, )*
+            $( with $rest:ident : $rest_kind:ty )?
+        }
+    ) => {
+        $( #[doc = $doc] )+
+        #[derive(Debug, Clone, Default)]
+        #[allow(non_snake_case)]
+        pub struct $name {
+            $( $( #[doc = $key_doc] )+ pub $key: Option<$crate::budget::table::Stated<$kind>>, )*
+            $( /// The keys that this table shares with another.
+            pub $rest: $rest_kind, )?
+            /// Every own key that the file states, also those whose value was refused.
+            pub present: Vec<(&'static str, std::ops::Range<usize>)>,
+            /// Whether a key or its value was refused (what is missing is then not asked for).
+            pub refused: bool,
+            /// Whether it has a key that is not known, which may have been meant for any other.
+            pub unknown: bool,
+        }
+
+        impl $crate::budget::table::Table for $name {
+            fn accept(
+                &mut self,
+                key: &toml::Spanned<toml::de::DeString<'_>>,
+                value: &$crate::budget::table::Raw<'_>,
+                reader: &mut $crate::budget::table::Reader<'_>,
+            ) -> bool {
+                use $crate::budget::table::{FromToml, Stated};
+                let name: &str = key.get_ref();
+                let before = reader.faults.len();
+                $(
+                    if name == table!(@spelling $key $( $spelling )?) {
+                        self.present.push((table!(@spelling $key $( $spelling )?), key.span()));
+                        self.$key = <$kind as FromToml>::read(value, reader)
+                            .map(|read| Stated { value: read, span: value.span(), key: key.span() });
+                        self.refused |= self.$key.is_none() || reader.faults.len() > before;
+                        return true;
+                    }
+                )*
+                $( if self.$rest.accept(key, value, reader) {
+                    return true;
+                } )?
+                let _ = (name, value, before, reader);
+                false
+            }
+
+            fn refuse(&mut self) {
+                self.refused = true;
+                self.unknown = true;
+                $( self.$rest.refuse(); )?
+            }
+
+            fn over(self, below: Self) -> Self {
+                $name {
+                    $( $key: self.$key.or(below.$key), )*
+                    $( $rest: $crate::budget::table::Table::over(self.$rest, below.$rest), )?
+                    present: self.present.into_iter().chain(below.present).collect(),
+                    refused: self.refused || below.refused,
+                    unknown: self.unknown || below.unknown,
+                }
+            }
+
+            fn keys() -> Vec<&'static str> {
+                #[allow(unused_mut)]
+                let mut keys = vec![ $( table!(@spelling $key $( $spelling )?) ),* ];
+                $( keys.extend(<$rest_kind as $crate::budget::table::Table>::keys()); )?
+                keys
+            }
+
+            fn properties(into: &mut serde_json::Map<String, serde_json::Value>) {
+                $(
+                    let doc = $crate::budget::table::doc_text(&[ $( $key_doc ),+ ]);
+                    let schema = $crate::budget::table::described(
+                        <$kind as $crate::budget::table::FromToml>::schema(), doc);
+                    into.insert(table!(@spelling $key $( $spelling )?).to_string(), schema);
+                )*
+                $( <$rest_kind as $crate::budget::table::Table>::properties(into); )?
+            }
+
+            fn rows(path: &str, rows: &mut Vec<$crate::budget::table::KeyRow>) {
+                $(
+                    rows.push($crate::budget::table::KeyRow {
+                        table: path.to_string(),
+                        key: table!(@spelling $key $( $spelling )?),
+                        kind: <$kind as $crate::budget::table::FromToml>::expected(),
+                        doc: $crate::budget::table::doc_text(&[ $( $key_doc ),+ ]),
+                    });
+                )*
+                $( <$rest_kind as $crate::budget::table::Table>::rows(path, rows); )?
+                $(
+                    <$kind as $crate::budget::table::FromToml>::tables(
+                        &$crate::budget::table::inner(path, table!(@spelling $key $( $spelling )?)), rows);
+                )*
+            }
+        }
+
+        impl $crate::budget::table::FromToml for $name {
+            fn expected() -> String {
+                "a table".into()
+            }
+
+            fn read(
+                value: &$crate::budget::table::Raw<'_>,
+                reader: &mut $crate::budget::table::Reader<'_>,
+            ) -> Option<Self> {
+                match value.get_ref() {
+                    toml::de::DeValue::Table(table) =>
+                        Some($crate::budget::table::read_table::<Self>(table, $title, reader)),
+                    _ => reader.wrong_type($crate::budget::faults::WRONG_TYPE, value, "a table"),
+                }
+            }
+
+            fn schema() -> serde_json::Value {
+                let mut properties = serde_json::Map::new();
+                <Self as $crate::budget::table::Table>::properties(&mut properties);
+                serde_json::json!({
+                    "type": "object",
+                    "description": $crate::budget::table::doc_text(&[ $( $doc ),+ ]),
+                    "properties": properties,
+                    "additionalProperties": false,
+                })
+            }
+
+            fn tables(path: &str, rows: &mut Vec<$crate::budget::table::KeyRow>) {
+                <Self as $crate::budget::table::Table>::rows(path, rows);
+            }
+        }
+    };
+    (@spelling $key:ident) => { stringify!($key) };
+    (@spelling $key:ident $spelling:literal) => { $spelling };
+}
+pub use crate::table;
+
+/// Defines a choice of words, each with its documentation; further spellings after `|`.
+#[macro_export]
+macro_rules! words {
+    (
+        $( #[doc = $doc:literal] )+
+        $name:ident {
+            $( $( #[doc = $word_doc:literal] )+ $variant:ident $word:literal $( | $alias:literal )*, )+
+        }
+    ) => {
+        $( #[doc = $doc] )+
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum $name {
+            $( $( #[doc = $word_doc] )+ $variant, )+
+        }
+
+        impl $name {
+            /// The word as the file spells it.
+            #[allow(dead_code)]
+            pub fn word(self) -> &'static str {
+                match self {
+                    $( Self::$variant => $word, )+
+                }
+            }
+
+            /// What a word stands for.
+            #[allow(dead_code)]
+            pub fn named(word: &str) -> Option<Self> {
+                match word {
+                    $( $word $( | $alias )* => Some(Self::$variant), )+
+                    _ => None,
+                }
+            }
+        }
+
+        impl $crate::budget::table::FromToml for $name {
+            fn expected() -> String {
+                let words: Vec<String> = [ $( $word ),+ ].iter().map(|word| format!("\"{word}\"")).collect();
+                format!("one of {}", words.join(", "))
+            }
+
+            fn read(
+                value: &$crate::budget::table::Raw<'_>,
+                reader: &mut $crate::budget::table::Reader<'_>,
+            ) -> Option<Self> {
+                let toml::de::DeValue::String(text) = value.get_ref() else {
+                    return reader.wrong_type(
+                        $crate::budget::faults::WRONG_TYPE, value, &<Self as $crate::budget::table::FromToml>::expected());
+                };
+                match text.as_ref() {
+                    $( $word $( | $alias )* => Some(Self::$variant), )+
+                    other => {
+                        let known = [ $( $word, $( $alias, )* )+ ];
+                        reader.refuse($crate::budget::table::unknown_word(
+                            value, other, &known, &<Self as $crate::budget::table::FromToml>::expected()))
+                    }
+                }
+            }
+
+            fn schema() -> serde_json::Value {
+                serde_json::json!({ "enum": [ $( $word, $( $alias, )* )+ ] })
+            }
+        }
+    };
+}
+pub use crate::words;
+
+/// The fault for a word that is none of the choice.
+pub fn unknown_word(value: &Raw<'_>, word: &str, known: &[&'static str], expected: &str) -> Fault {
+    let fault = Fault::new(
+        super::faults::UNKNOWN_WORD,
+        value.span(),
+        format!("`{word}` is not known here"),
+    )
+    .label(format!("expected {expected}"));
+    match nearest(word, known.iter().copied()) {
+        Some(near) => fault.help(format!("did you mean \"{near}\"?")),
+        None => fault,
+    }
+}
+
+/// A schema with its description.
+pub fn described(mut schema: Value, doc: String) -> Value {
+    if let Value::Object(entries) = &mut schema {
+        entries.insert("description".into(), doc.into());
+    }
+    schema
+}
+
+/// The path of a table inside another.
+pub fn inner(path: &str, key: &str) -> String {
+    if path.is_empty() {
+        key.to_string()
+    } else {
+        format!("{path}.{key}")
+    }
+}

@@ -1,0 +1,81 @@
+//! Calibration: from a recording and measurement equations to coefficients with their covariance.
+//!
+//! A calibration procedure is a set of measurement equations with what is known of references, schedule and
+//! omitted effects; one engine does the rest for all of them.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `tables` | every table of a calibration file |
+//! | [`procedure`] | the procedures of the library: calibration files themselves |
+//! | `source` | the tables of a file over those of its procedure |
+//! | `define` | from tables to a checked experiment, or all faults |
+//! | `names`, `parameters`, `extras` | what names are; units; omitted effects and results |
+//! | `doubts`, `components` | inputs and readings; the errors that make them uncertain |
+//! | `data`, `positions`, `schedule` | where the points come from |
+//! | `points`, `dwells`, `together` | the points of an experiment: rows, or averages of dwells and of repeated positions |
+//! | `experiment` | the checked experiment |
+//! | `stack` | its readings as a problem of least squares |
+//! | `gain` | how coefficients follow readings, columns and inputs |
+//! | `scatter`, `causes` | what makes the coefficients uncertain |
+//! | `identify` | rank, condition, aliases |
+//! | `swaps`, `signs`, `apart`, `limits` | readings that look exchanged, that stand apart, or look saturated |
+//! | `calibration`, `plan` | the results, after and before measuring |
+//! | `budget` | coefficients as measurands of a budget file |
+//!
+//! # Least squares and uncertainty are two things
+//!
+//! The procedure prescribes the weights; the uncertainty follows from all errors through the estimator that
+//! these weights make: an error e that changes the equation of row i by ∂f_i/∂e changes a coefficient by
+//! Σ_i ∂coefficient/∂y_i · ∂f_i/∂e. The sum is over all rows on which *one* error acts, so that common
+//! errors do not average away and correlate the coefficients, and independent ones do average.
+
+mod apart;
+mod budget;
+mod calibration;
+mod causes;
+mod components;
+mod data;
+mod define;
+mod doubts;
+mod dwells;
+mod experiment;
+mod extras;
+pub mod faults;
+mod gain;
+mod identify;
+mod limits;
+mod names;
+mod parameters;
+mod plan;
+mod points;
+mod positions;
+pub mod procedure;
+mod scatter;
+mod schedule;
+mod signs;
+mod source;
+mod stack;
+mod swaps;
+pub mod tables;
+#[cfg(test)]
+mod tests;
+mod together;
+mod trouble;
+
+pub use apart::Apart;
+pub use budget::budget;
+pub use calibration::{Calibration, Coefficient, Figures, Residual, calibrate, estimates};
+pub use causes::{Cause, Origin};
+pub use define::{Purpose, load, read};
+pub use dwells::{Dwelling, DwellsBy};
+pub use experiment::{
+    Act, Doubt, Experiment, FunctionResult, Heading, Input, Observed, Omitted, Parameter, Prior,
+    Scatter, Scope, Target, Weights, Words,
+};
+pub use identify::{Alias, Combination, Identifiability, NearAlias};
+pub use limits::Limit;
+pub use plan::{Plan, plan};
+pub use points::{PointColumn, Points};
+pub use scatter::{ResponseScatter, ScatterTest};
+pub use tables::schema;
+pub use trouble::Trouble;

@@ -1,0 +1,499 @@
+//! The catalogue of omitted physics: names and prose as data, regressors by a grammar.
+//!
+//! An effect is a *node* of the model (the output, its gain, a parameter, a column) times a *modifier*
+//! (a covariate, a power, a lag, a law of time, levels of a factor …). The regressor of an effect is the
+//! slope of the model by the node times the modifier, row by row, averaged over the blocks.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `effects.toml` | names, prose, formulas of all effects |
+//! | `modifiers` | what a disturbance may follow, computed row by row |
+//! | `sharp` | grids of time constants and knees, with the best value exactly |
+//! | `ground` | slopes of the nodes, and which columns can be what |
+//! | `response`, `powers`, `limits`, `history` | what a stimulus does otherwise than declared |
+//! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
+//! | `implicit` | the same where the model holds a constant against several columns |
+//! | `cross` | what an output takes of the stimuli of others |
+//! | `zero`, `parameters` | errors of what the model takes as exact, changes of a parameter |
+//! | `conditions`, `time`, `levels`, `rows` | conditions, laws of time, factors, single rows |
+//! | `heating`, `stem`, `waves` | power of the signal, loss along a stem, what repeats |
+//! | `readout`, `stuck` | rounding and slips, readings that stand still |
+//! | `angles`, `fields` | errors of angles; what stays in the laboratory while the sensor turns |
+//! | `finer` | values between those of the grids |
+//! | `generics` | competitors without a name |
+
+mod angles;
+mod conditions;
+mod cross;
+mod fields;
+mod finer;
+mod generics;
+mod ground;
+mod heating;
+mod history;
+mod implicit;
+mod inputs;
+mod levels;
+mod limits;
+pub(super) mod modifiers;
+mod parameters;
+mod powers;
+mod readout;
+mod response;
+mod rows;
+mod sharp;
+mod stem;
+mod stuck;
+mod time;
+mod user;
+mod waves;
+mod zero;
+
+use crate::language::Language;
+use std::sync::LazyLock;
+
+use nalgebra::{DMatrix, DVector};
+use serde::Deserialize;
+
+pub use finer::Finer;
+pub use ground::{Ground, Node};
+
+use super::case::Case;
+use super::evidence;
+use crate::quantity::Unit;
+
+/// A text in both languages.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Text {
+    /// English.
+    pub en: String,
+    /// Simplified Chinese.
+    pub zh: String,
+}
+
+impl Text {
+    /// The text in a language.
+    pub fn of(&self, language: Language) -> &str {
+        language.pick(&self.en, &self.zh)
+    }
+}
+
+/// An entry of the catalogue.
+#[derive(Debug, Clone, Deserialize)]
+pub struct Effect {
+    /// Stable identifier.
+    pub id: String,
+    /// Effects of one family are next of kin.
+    pub family: String,
+    /// Its name; `{x}`, `{y}`, `{z}`, `{p}` stand for columns and quantities.
+    pub name: Text,
+    /// One paragraph.
+    pub prose: Text,
+    /// What it adds to the model.
+    pub formula: String,
+    /// Sizes that are usual.
+    pub typical: String,
+    /// The size that it must have if it is there at all.
+    pub exact: Option<f64>,
+    /// The effect of which this is another order: the cause is the same.
+    pub order_of: Option<String>,
+    /// It says what the recording looks like, and not why.
+    #[serde(default)]
+    pub describes: bool,
+    /// Several of its variants may act at once: bad rows, jumps.
+    #[serde(default)]
+    pub repeats: bool,
+}
+
+impl Effect {
+    /// Whether a fitted size may belong to this effect: any, unless its size is known.
+    pub fn admits(&self, size: f64, u: f64) -> bool {
+        /// Standard uncertainties that a fitted size may differ by.
+        const FAR: f64 = 4.0;
+        /// Part of the size that it may differ by: a slip is hardly ever alone.
+        const PART: f64 = 0.2;
+        self.exact.is_none_or(|exact| {
+            let differs = (size - exact).abs();
+            differs.is_nan() || differs <= (FAR * u).max(PART * exact.abs())
+        })
+    }
+}
+
+/// All effects, in the order of the catalogue.
+pub fn effects() -> &'static [Effect] {
+    #[derive(Deserialize)]
+    struct File {
+        effect: Vec<Effect>,
+    }
+    static EFFECTS: LazyLock<Vec<Effect>> = LazyLock::new(|| {
+        let file: File = toml::from_str(include_str!("effects.toml"))
+            .expect("the catalogue is part of the program");
+        file.effect
+    });
+    &EFFECTS
+}
+
+/// The effect of an identifier.
+fn effect(id: &str) -> &'static Effect {
+    let found = effects().iter().find(|effect| effect.id == id);
+    found.expect("the grammar asks for effects of the catalogue only")
+}
+
+/// What the placeholders of an effect's texts stand for.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Words {
+    /// The column or quantity that the disturbance follows.
+    pub x: String,
+    /// A second one.
+    pub z: String,
+    /// The output.
+    pub y: String,
+    /// The quantity that is disturbed.
+    pub p: String,
+}
+
+impl Words {
+    /// A text with the placeholders replaced.
+    pub fn fill(&self, text: &str) -> String {
+        text.replace("{x}", &self.x)
+            .replace("{z}", &self.z)
+            .replace("{y}", &self.y)
+            .replace("{p}", &self.p)
+    }
+}
+
+/// A candidate: an effect of the catalogue on quantities of this case, in all of its variants.
+#[derive(Debug, Clone)]
+pub struct Cell {
+    /// The effect.
+    pub effect: &'static Effect,
+    /// What its texts speak of.
+    pub words: Words,
+    /// Where it acts: node and what it follows.
+    pub place: evidence::Place,
+    /// Values of its shape parameters, axes, times.
+    pub variants: Vec<Variation>,
+    /// A size that would not surprise, in the units of the columns.
+    pub typical: Option<f64>,
+    /// A sentence of the user's own.
+    pub description: Option<String>,
+    /// Odds beforehand, over those of a usual effect.
+    pub odds: f64,
+}
+
+impl Cell {
+    /// An effect of the catalogue, without a size or a sentence of the user's own.
+    fn new(id: &str, words: Words, place: evidence::Place, variants: Vec<Variation>) -> Cell {
+        Cell {
+            effect: effect(id),
+            words,
+            place,
+            variants,
+            typical: None,
+            description: None,
+            odds: 1.0,
+        }
+    }
+}
+
+/// One variant of a candidate.
+#[derive(Debug, Clone)]
+pub struct Variation {
+    /// What distinguishes it: `τ = 0.5 h`, `from run 3 on`.
+    pub label: String,
+    /// Its terms, one for each coefficient.
+    pub terms: Vec<Term>,
+    /// For competitors without a name: variances of the coefficients relative to one another.
+    pub spectrum: Option<Vec<f64>>,
+    /// A continuous parameter that the grid of variants steps through.
+    pub shape: Option<ShapeParameter>,
+    /// How likely it is beforehand, relative to the other variants of its candidate.
+    pub weight: f64,
+}
+
+/// A parameter of a variant that may take any value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeParameter {
+    /// `τ`, `t₀` …
+    pub symbol: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its unit as text.
+    pub unit: String,
+}
+
+/// What a disturbance follows.
+#[derive(Debug, Clone)]
+pub struct Modifier {
+    /// Row by row.
+    pub values: Vec<f64>,
+    /// As a formula, in which columns stand for numbers in their own units.
+    pub text: String,
+    /// Its unit: a size has that of the node divided by this.
+    pub unit: Unit,
+}
+
+impl Modifier {
+    /// In a unit.
+    pub fn new(values: Vec<f64>, text: impl Into<String>, unit: Unit) -> Modifier {
+        Modifier {
+            values,
+            text: text.into(),
+            unit,
+        }
+    }
+
+    /// A number.
+    pub fn number(values: Vec<f64>, text: impl Into<String>) -> Modifier {
+        Modifier::new(values, text, Unit::one())
+    }
+
+    /// For a search that shows no formula.
+    pub fn unnamed(values: Vec<f64>) -> Modifier {
+        Modifier::number(values, "")
+    }
+
+    fn square(&self) -> Modifier {
+        Modifier::new(
+            modifiers::map(&self.values, |x| x * x),
+            format!("{}^2", self.text),
+            self.unit.product(&self.unit),
+        )
+    }
+}
+
+/// Labels of variants with the modifiers of their terms.
+type Variants = Vec<(String, Vec<Modifier>)>;
+
+/// A disturbance of one node.
+#[derive(Debug, Clone)]
+pub struct Term {
+    /// The quantity that is disturbed.
+    pub node: Node,
+    /// The only response on which it acts; `None` for all.
+    pub response: Option<usize>,
+    /// What it follows, as the search takes it.
+    pub modifier: Modifier,
+    /// The same effect as it stands in the improved model, where the search takes another form, which
+    /// differs from it by what the parameters absorb.
+    written: Option<Modifier>,
+    /// Whether it has the coefficient of the term before it: one disturbance, which reaches the responses
+    /// in different ways.
+    pub tied: bool,
+}
+
+impl Term {
+    /// A disturbance of all responses alike, with a coefficient of its own.
+    pub fn new(node: Node, modifier: Modifier) -> Term {
+        Term {
+            node,
+            response: None,
+            modifier,
+            written: None,
+            tied: false,
+        }
+    }
+
+    /// With another form in the improved model.
+    #[must_use]
+    pub fn written_as(mut self, modifier: Modifier) -> Term {
+        self.written = Some(modifier);
+        self
+    }
+
+    /// What it follows, as it stands in the improved model.
+    pub fn written(&self) -> &Modifier {
+        self.written.as_ref().unwrap_or(&self.modifier)
+    }
+
+    /// The unit of its size: that of the node, for each unit of what it follows.
+    pub fn unit_of_size(&self, case: &Case) -> Unit {
+        let node = match self.node {
+            Node::Output => case.responses[self.response.unwrap_or(0)].unit.clone(),
+            Node::Gain => Unit::one(),
+            Node::Parameter(parameter) => case.parameters[parameter].unit.clone(),
+            Node::Column(column) => case.columns[column].unit.clone(),
+        };
+        node.quotient(&self.written().unit)
+    }
+
+    /// On one response only.
+    #[must_use]
+    pub fn on(mut self, response: usize) -> Term {
+        self.response = Some(response);
+        self
+    }
+}
+
+/// Gives all terms the coefficient of the first.
+fn tied(mut terms: Vec<Term>) -> Vec<Term> {
+    for term in terms.iter_mut().skip(1) {
+        term.tied = true;
+    }
+    terms
+}
+
+impl Variation {
+    /// A variant with one coefficient.
+    pub fn one(label: impl Into<String>, term: Term) -> Variation {
+        Variation::of(label, vec![term])
+    }
+
+    /// A variant with several coefficients.
+    pub fn of(label: impl Into<String>, terms: Vec<Term>) -> Variation {
+        Variation {
+            label: label.into(),
+            terms,
+            spectrum: None,
+            shape: None,
+            weight: 1.0,
+        }
+    }
+
+    /// With the value of a shape parameter.
+    #[must_use]
+    pub fn shaped(mut self, symbol: &'static str, value: f64, unit: &str) -> Variation {
+        self.shape = Some(ShapeParameter {
+            symbol,
+            value,
+            unit: unit.to_owned(),
+        });
+        self
+    }
+
+    /// The label for a reader: a time constant is the best of some that were tried, and has three digits. A
+    /// knee may need more, where the range is far from zero.
+    pub fn short_label(&self) -> String {
+        let Some(shape) = self.shape.as_ref().filter(|shape| shape.symbol != "x₀") else {
+            return self.label.clone();
+        };
+        let exact = modifiers::figure(shape.value);
+        let short = format!("{:.2e}", shape.value).parse();
+        let short = short.map_or_else(|_| exact.clone(), modifiers::figure);
+        let words = self.label.split(' ');
+        let words = words.map(|word| if word == exact { &short } else { word });
+        words.collect::<Vec<&str>>().join(" ")
+    }
+
+    /// Number of coefficients.
+    pub fn coefficients(&self) -> usize {
+        self.terms.iter().filter(|term| !term.tied).count()
+    }
+
+    /// Observations × coefficients: derivatives of the outputs by the coefficients.
+    pub fn columns(&self, ground: &Ground<'_>) -> DMatrix<f64> {
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        for term in &self.terms {
+            let column = ground.column(term);
+            match columns.last_mut() {
+                Some(last) if term.tied => *last += column,
+                _ => columns.push(column),
+            }
+        }
+        if columns.is_empty() {
+            return DMatrix::zeros(ground.frame.observations(), 0);
+        }
+        DMatrix::from_columns(&columns)
+    }
+}
+
+/// All candidates of the catalogue that this case can have, without those that the user excludes.
+pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+    let mut cells = response::cells(ground);
+    cells.extend(inputs::cells(ground));
+    cells.extend(cross::cells(ground));
+    cells.extend(fields::cells(ground));
+    cells.extend(conditions::cells(ground));
+    cells.extend(zero::cells(ground));
+    cells.extend(time::cells(ground));
+    cells.extend(waves::cells(ground));
+    cells.extend(levels::cells(ground));
+    cells.extend(parameters::cells(ground));
+    cells.extend(angles::cells(ground));
+    cells.extend(rows::cells(ground));
+    cells.extend(readout::cells(ground));
+    cells.extend(stuck::cells(ground));
+    cells.extend(stem::cells(ground));
+    cells.extend(heating::cells(ground));
+    cells.extend(user::cells(ground));
+    let settings = &ground.frame.case.settings;
+    let wanted = |cell: &Cell| {
+        let named = |word: &String| *word == cell.effect.id || *word == cell.effect.family;
+        let chosen = settings
+            .catalogue
+            .as_ref()
+            .is_none_or(|list| list.iter().any(named));
+        (chosen || cell.effect.family == "user") && !settings.exclude.iter().any(named)
+    };
+    cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
+    let mut cells = distinct(cells);
+    ground.finer.prune(&mut cells);
+    cells.extend(generics::cells(ground));
+    cells.extend(inputs::unnamed(ground));
+    cells
+}
+
+/// Without cells that do the same to every row as one before them: the nonlinearity "in head" and "in mount"
+/// of a model of head + mount.
+fn distinct(cells: Vec<Cell>) -> Vec<Cell> {
+    let terms = |cell: &Cell| -> Vec<(Node, Option<usize>, Vec<f64>)> {
+        let all = cell.variants.iter().flat_map(|variation| &variation.terms);
+        all.map(|term| (term.node, term.response, term.modifier.values.clone()))
+            .collect()
+    };
+    let mut kept: Vec<Cell> = Vec::new();
+    for cell in cells {
+        let mut alike = kept
+            .iter()
+            .filter(|other| other.effect.id == cell.effect.id);
+        if !alike.any(|other| terms(other) == terms(&cell)) {
+            kept.push(cell);
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reversal_is_complete() {
+        let reversed = effect("polarity");
+        assert!(reversed.admits(0.99, 1e-4) && reversed.admits(0.5, 0.2));
+        assert!(!reversed.admits(0.002, 1e-4));
+        assert!(effect("cubic").admits(0.002, 1e-4));
+    }
+
+    #[test]
+    fn what_was_tried_is_said_with_three_digits() {
+        let of = |label: &str| Variation::of(label, Vec::new()).shaped("τ", 2641.4, "s");
+        assert_eq!(of("τ = 2641.4 s").short_label(), "τ = 2640 s");
+        assert_eq!(of("ay, τ = 2641.4 s").short_label(), "ay, τ = 2640 s");
+        assert_eq!(
+            Variation::of("row 26414", Vec::new()).short_label(),
+            "row 26414"
+        );
+    }
+
+    #[test]
+    fn identifiers_are_unique_and_texts_complete() {
+        let all = effects();
+        for (at, effect) in all.iter().enumerate() {
+            assert!(
+                !all[..at].iter().any(|other| other.id == effect.id),
+                "{}",
+                effect.id
+            );
+            for text in [
+                &effect.name.en,
+                &effect.name.zh,
+                &effect.prose.en,
+                &effect.prose.zh,
+                &effect.formula,
+            ] {
+                assert!(!text.is_empty(), "{}", effect.id);
+            }
+        }
+    }
+}

@@ -1,0 +1,465 @@
+//! From a CSV file to the columns that a procedure asks for.
+
+use std::collections::HashMap;
+use std::io::ErrorKind;
+use std::ops::Range;
+use std::path::Path;
+
+use super::column_unit::unit_of;
+use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, SAME_NAME, UNIT_CLASH, UNREADABLE};
+use super::field::{Field, Instant, is_like_a_time, mend};
+use super::heading::Heading;
+use super::sheet::{Row, SHOWN, Sheet};
+use super::{Column, Data, Labels, Recording};
+use crate::fault::{Fault, Rejection, nearest};
+use crate::files::Files;
+use crate::quantity::{Unit, UnitTable};
+
+/// A column that is asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// What it is for, in the words of the asker; [`Recording::column`] finds it by this.
+    pub role: String,
+    /// Its name in the first line, with or without the unit.
+    pub column: String,
+    /// What it holds.
+    pub content: Content,
+    /// The unit, where the asker states it. It must not contradict the header.
+    pub unit: Option<Unit>,
+    /// A unit of the dimension that the numbers must have; `None` if any will do. Numbers stay in the
+    /// unit of the column; [`Column::values_in`] converts.
+    pub like: Option<Unit>,
+}
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Content {
+    /// Numbers.
+    Numbers,
+    /// Texts, also if they look like numbers: runs, positions, operators.
+    Labels,
+    /// Numbers if every field is one or missing, texts otherwise.
+    Either,
+}
+
+impl Request {
+    /// A column of numbers.
+    pub fn numbers(role: &str, column: &str) -> Request {
+        Request {
+            role: role.to_owned(),
+            column: column.to_owned(),
+            content: Content::Numbers,
+            unit: None,
+            like: None,
+        }
+    }
+
+    /// A column of labels.
+    pub fn labels(role: &str, column: &str) -> Request {
+        Request {
+            content: Content::Labels,
+            ..Request::numbers(role, column)
+        }
+    }
+
+    /// States the unit.
+    #[must_use]
+    pub fn in_unit(mut self, unit: Unit) -> Request {
+        self.unit = Some(unit);
+        self
+    }
+
+    /// Requires the dimension of a unit.
+    #[must_use]
+    pub fn like(mut self, unit: Unit) -> Request {
+        self.like = Some(unit);
+        self
+    }
+}
+
+impl Recording {
+    /// Reads the columns asked for from a file.
+    ///
+    /// `path` is looked up in `files` as it stands; `units` knows the units of the headers.
+    ///
+    /// # Errors
+    /// All faults of the file at once, each at its place in the text.
+    pub fn open(
+        files: Files,
+        path: &Path,
+        requests: &[Request],
+        units: &UnitTable,
+    ) -> Result<Recording, Rejection> {
+        let name = path.display().to_string();
+        let text = text_of(files, path, &name)?;
+        Recording::read(&name, &text, requests, units)
+    }
+
+    /// Reads the columns asked for from a text; `name` is that of the file, for messages.
+    ///
+    /// # Errors
+    /// All faults of the text at once, each at its place in it.
+    pub fn read(
+        name: &str,
+        text: &str,
+        requests: &[Request],
+        units: &UnitTable,
+    ) -> Result<Recording, Rejection> {
+        let reject = |faults| Rejection::new(name, text, faults);
+        let sheet = Sheet::new(text).map_err(|fault| reject(vec![*fault]))?;
+        let headings = headings_of(&sheet, units);
+        let mut faults = Vec::new();
+        let mut drafts: Vec<Draft> = requests
+            .iter()
+            .filter_map(|request| {
+                Draft::new(&sheet, &headings, request)
+                    .map_err(|fault| faults.push(*fault))
+                    .ok()
+            })
+            .collect();
+        let undecided: Vec<usize> = (0..drafts.len())
+            .filter(|i| drafts[*i].content == Content::Either)
+            .collect();
+        if !undecided.is_empty() {
+            let mut numeric = vec![false; drafts.len()];
+            let mut texts = vec![false; drafts.len()];
+            // The faults of rows come with the second reading.
+            let _ = sheet.visit(|row| {
+                for i in &undecided {
+                    match Field::read(row.field(drafts[*i].place), &sheet).and_then(Field::number) {
+                        Some(value) => numeric[*i] |= !value.is_nan(),
+                        None => texts[*i] = true,
+                    }
+                }
+            });
+            for i in undecided {
+                drafts[i].content = match numeric[i] && !texts[i] {
+                    true => Content::Numbers,
+                    false => Content::Labels,
+                };
+            }
+        }
+        for draft in &mut drafts {
+            draft.settle_unit(&mut faults);
+        }
+        let mut lines = Vec::new();
+        let visited = sheet.visit(|row| {
+            lines.push(row.line);
+            for draft in &mut drafts {
+                draft.take(&sheet, row);
+            }
+        });
+        faults.extend(visited.err().unwrap_or_default());
+        for draft in &mut drafts {
+            draft.settle_clock(units.parse("s").ok());
+            faults.extend(draft.take_faults());
+        }
+        if !faults.is_empty() {
+            return Err(reject(faults));
+        }
+        Ok(Recording {
+            name: name.to_owned(),
+            columns: drafts.into_iter().map(Draft::finish).collect(),
+            lines,
+        })
+    }
+
+    /// Reads all columns that have a name. The role of each is its name without the unit, or the whole
+    /// text of the header where others have that name too.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_all(name: &str, text: &str, units: &UnitTable) -> Result<Recording, Rejection> {
+        let sheet = Sheet::new(text).map_err(|fault| Rejection::new(name, text, vec![*fault]))?;
+        let headings = headings_of(&sheet, units);
+        let alone = |heading: &Heading| {
+            headings
+                .iter()
+                .filter(|other| other.name == heading.name)
+                .count()
+                == 1
+        };
+        let requests: Vec<Request> = headings
+            .iter()
+            .filter(|heading| !heading.text.is_empty())
+            .map(|heading| {
+                let role = if alone(heading) {
+                    &heading.name
+                } else {
+                    &heading.text
+                };
+                Request {
+                    content: Content::Either,
+                    ..Request::numbers(role, &heading.text)
+                }
+            })
+            .collect();
+        Recording::read(name, text, &requests, units)
+    }
+}
+
+/// The headings of a CSV text, in the order of its columns.
+///
+/// # Errors
+/// When the text has no line of names.
+pub fn headings(text: &str, units: &UnitTable) -> Result<Vec<Heading>, Box<Fault>> {
+    Ok(headings_of(&Sheet::new(text)?, units))
+}
+
+fn headings_of(sheet: &Sheet, units: &UnitTable) -> Vec<Heading> {
+    let fields = sheet.header().fields();
+    fields.map(|field| Heading::read(field, units)).collect()
+}
+
+/// The text of a file that a calibration or a case names.
+///
+/// # Errors
+/// It is not there, may not be read, or is no UTF-8.
+pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejection> {
+    let refuse = |code, message: String, help: &str| {
+        Rejection::new(name, "", vec![Fault::new(code, 0..0, message).help(help)])
+    };
+    let bytes = files.read(path).map_err(|error| {
+        let message = match error.kind() {
+            _ if files.is_folder(path) => format!("{name} is a folder, not a file"),
+            ErrorKind::NotFound => format!("there is no file {name}"),
+            ErrorKind::PermissionDenied => format!("{name} may not be read"),
+            _ => format!("{name} cannot be read: {error}"),
+        };
+        refuse(
+            UNREADABLE,
+            message,
+            "the path starts from the folder of the file that names it",
+        )
+    })?;
+    String::from_utf8(bytes).map_err(|error| {
+        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
+        let at = valid.len() + 1;
+        let message = format!("{name} is not UTF-8 text from byte {at} on, in line {line}");
+        refuse(
+            NOT_UTF8,
+            message,
+            "save the recording as CSV in UTF-8: spreadsheets call it “CSV UTF-8”; or convert it, `iconv -f LATIN1 -t UTF-8 old.csv > new.csv`, with GBK for LATIN1 where the text is Chinese",
+        )
+    })
+}
+
+/// A column that is being read.
+struct Draft<'a> {
+    request: &'a Request,
+    heading: &'a Heading,
+    place: usize,
+    span: Range<usize>,
+    content: Content,
+    unit: Option<Unit>,
+    numbers: Vec<f64>,
+    labels: Labels,
+    levels: HashMap<String, u32>,
+    faults: Vec<Fault>,
+    refused: usize,
+    style: Style,
+}
+
+/// How the numbers of a column are written so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Style {
+    Unknown,
+    Whole,
+    Point,
+    Comma,
+    /// As times, with the first of them.
+    Clock(Instant),
+}
+
+impl<'a> Draft<'a> {
+    fn new(
+        sheet: &Sheet,
+        headings: &'a [Heading],
+        request: &'a Request,
+    ) -> Result<Draft<'a>, Box<Fault>> {
+        let place = find(sheet, headings, &request.column)?;
+        Ok(Draft {
+            request,
+            heading: &headings[place],
+            place,
+            span: sheet.place(sheet.header(), place),
+            content: request.content,
+            unit: None,
+            numbers: Vec::new(),
+            labels: Labels::default(),
+            levels: HashMap::new(),
+            faults: Vec::new(),
+            refused: 0,
+            style: Style::Unknown,
+        })
+    }
+
+    /// The unit that the header and the asker agree on. Labels have none.
+    fn settle_unit(&mut self, faults: &mut Vec<Fault>) {
+        if self.content != Content::Numbers {
+            return;
+        }
+        match unit_of(self.heading, self.request, &self.span) {
+            Ok(unit) => self.unit = unit,
+            Err(fault) => faults.push(*fault),
+        }
+    }
+
+    fn take(&mut self, sheet: &Sheet, row: &Row) {
+        let field = row.field(self.place);
+        if self.content == Content::Labels {
+            let levels = &mut self.labels.levels;
+            let next = levels.len() as u32;
+            let level = match self.levels.get(field) {
+                Some(level) => *level,
+                None => {
+                    levels.push(field.to_owned());
+                    self.levels.insert(field.to_owned(), next);
+                    next
+                }
+            };
+            self.labels.of_row.push(level);
+            return;
+        }
+        let read = Field::read(field, sheet);
+        if let Some(number) = read.and_then(|read| self.number(read)) {
+            self.numbers.push(number);
+            return;
+        }
+        self.refused += 1;
+        // Times that cannot be read are so in every row of the column: one says it.
+        let is_time = read.is_none() && is_like_a_time(field);
+        let (shown, expected) = match is_time {
+            true => (1, "a time of a known form"),
+            false => (SHOWN, "a number"),
+        };
+        if self.faults.len() < shown {
+            let (line, column) = (row.line, &self.heading.text);
+            let message =
+                format!("line {line}, column \"{column}\": \"{field}\" is not {expected}");
+            let help = match read {
+                Some(_) => "write all numbers of a column alike: all with a decimal point, all with a decimal comma, or all as times".to_owned(),
+                None => mend(field),
+            };
+            self.faults.push(
+                Fault::new(NOT_A_NUMBER, sheet.place(row, self.place), message)
+                    .label(format!("expected {expected}"))
+                    .related(self.span.clone(), "the column")
+                    .help(help),
+            );
+        }
+    }
+
+    /// The number of a field, if it is written as those before it are. Times count from the first one.
+    fn number(&mut self, field: Field) -> Option<f64> {
+        self.style = match (self.style, field) {
+            (_, Field::Whole(value)) if value.is_nan() => return Some(value),
+            (Style::Unknown, Field::Whole(_)) => Style::Whole,
+            (style @ (Style::Whole | Style::Point | Style::Comma), Field::Whole(_)) => style,
+            (Style::Unknown | Style::Whole | Style::Point, Field::Point(_)) => Style::Point,
+            (Style::Unknown | Style::Whole | Style::Comma, Field::Comma(_)) => Style::Comma,
+            (Style::Unknown, Field::Clock(first)) => Style::Clock(first),
+            (style @ Style::Clock(_), Field::Clock(_)) => style,
+            _ => return None,
+        };
+        match (field, self.style) {
+            (Field::Clock(instant), Style::Clock(first)) => Some(instant.since(first)),
+            (field, _) => field.number(),
+        }
+    }
+
+    /// Times of the calendar are in seconds.
+    fn settle_clock(&mut self, second: Option<Unit>) {
+        if !matches!(self.style, Style::Clock(_)) {
+            return;
+        }
+        match &self.unit {
+            None => self.unit = second,
+            Some(unit) if Some(unit) == second.as_ref() => {}
+            Some(unit) => {
+                let (text, unit) = (&self.heading.text, &unit.symbol);
+                let message =
+                    format!("column \"{text}\" is in {unit}, and holds times of the calendar");
+                let help = "leave the unit out: such times count in seconds from the first one";
+                self.faults.push(
+                    Fault::new(UNIT_CLASH, self.span.clone(), message)
+                        .label(format!("in {unit}"))
+                        .help(help),
+                );
+            }
+        }
+    }
+
+    fn take_faults(&mut self) -> Vec<Fault> {
+        let more = self.refused.saturating_sub(self.faults.len());
+        if let Some(last) = self.faults.last_mut().filter(|_| more > 0) {
+            last.message += &format!("; {more} more fields of the column are no numbers");
+        }
+        std::mem::take(&mut self.faults)
+    }
+
+    fn finish(self) -> Column {
+        Column {
+            role: self.request.role.clone(),
+            header: self.heading.text.clone(),
+            name: self.heading.name.clone(),
+            unit: self.unit,
+            decimal_comma: self.style == Style::Comma,
+            data: match self.content {
+                Content::Labels => Data::Labels(self.labels),
+                _ => Data::Numbers(self.numbers),
+            },
+        }
+    }
+}
+
+/// The column of a name.
+fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Box<Fault>> {
+    let wanted = wanted.trim();
+    let those = |key: fn(&Heading) -> &str| -> Vec<usize> {
+        (0..headings.len())
+            .filter(|i| key(&headings[*i]) == wanted)
+            .collect()
+    };
+    let exact = those(|heading| &heading.text);
+    let matching = if exact.is_empty() {
+        those(|heading| &heading.name)
+    } else {
+        exact
+    };
+    let span = |i: usize| sheet.place(sheet.header(), i);
+    match matching[..] {
+        [only] => Ok(only),
+        [first, second, ..] => Err(Box::new(
+            Fault::new(
+                SAME_NAME,
+                span(second),
+                format!("\"{wanted}\" is the name of two columns"),
+            )
+            .label("the second")
+            .related(span(first), "the first")
+            .help("give each column a name of its own, or ask for it with its unit"),
+        )),
+        [] => {
+            let texts: Vec<&str> = headings
+                .iter()
+                .map(|heading| heading.text.as_str())
+                .collect();
+            let names = headings.iter().map(|heading| heading.name.as_str());
+            let near = nearest(wanted, names.chain(texts.iter().copied()));
+            let list = texts.join(", ");
+            let help = match near {
+                Some(near) => format!("did you mean \"{near}\"? The columns are: {list}"),
+                None => format!("the columns are: {list}"),
+            };
+            let whole = span(0).start..span(headings.len().saturating_sub(1)).end;
+            let message = format!("there is no column \"{wanted}\"");
+            Err(Box::new(
+                Fault::new(NO_COLUMN, whole, message)
+                    .label("the columns of the recording")
+                    .help(help),
+            ))
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! What stands beside the table: origins of components, correlations, constants.
+
+use super::{LONG, SMALL, kind};
+use crate::budget::Component;
+use crate::document::Block;
+use crate::how;
+use crate::language::{Language, Word};
+use crate::number::exact;
+use crate::statement::coefficient;
+use crate::table::{ColumnKind, Row, Table};
+use crate::{Report, symbol};
+
+/// How each u was found, and from which certificate.
+pub(crate) fn origins(report: &Report<'_>) -> Vec<Block> {
+    let l = report.language;
+    let mut table = Table::new([
+        (Word::Component.of(l), ColumnKind::Names),
+        (Word::TypeShort.of(l), ColumnKind::Words),
+        (Word::Where.of(l), ColumnKind::Wrapped),
+        (Word::Sources.of(l), ColumnKind::Wrapped),
+    ]);
+    let components = &report.budget.components;
+    let mut order: Vec<usize> = (0..components.len()).collect();
+    let weight = |t: usize| -> f64 {
+        let shares = report
+            .evaluation
+            .results
+            .iter()
+            .filter_map(|r| r.gum.components.get(t));
+        shares.map(|c| c.share.abs()).fold(0.0, f64::max)
+    };
+    if order.len() > LONG {
+        order.sort_by(|a, b| weight(*b).total_cmp(&weight(*a)));
+        order.truncate(LONG);
+        order.retain(|t| weight(*t) >= SMALL);
+    }
+    for t in &order {
+        let component = &components[*t];
+        let from = provenance(component, l);
+        table.push(vec![
+            component.name.clone().into(),
+            kind(component.evaluation).into(),
+            how::how(&component.how, l).into(),
+            from.into(),
+        ]);
+    }
+    let left_out = components.len() - order.len();
+    if left_out > 0 {
+        table.rows.push(Row::Across(match l {
+            Language::English => {
+                format!("… and {left_out} smaller ones; all are in the JSON output")
+            }
+            Language::Chinese => format!("…… 其余 {left_out} 个较小的分量见 JSON 输出"),
+        }));
+    }
+    vec![
+        Block::Section(Word::Origin.of(l).to_string()),
+        Block::Table(table.without_empty_columns()),
+    ]
+}
+
+fn provenance(component: &Component, language: Language) -> String {
+    let certificate = component.certificate.iter();
+    let mut parts: Vec<String> = certificate
+        .flat_map(|c| {
+            let due = c
+                .due
+                .as_ref()
+                .map(|due| language.pick(format!("due {due}"), format!("有效期至 {due}")));
+            [c.number.clone(), c.laboratory.clone(), c.date.clone(), due]
+        })
+        .flatten()
+        .collect();
+    parts.extend(component.reference.clone());
+    parts.join(language.pick(", ", "，"))
+}
+
+/// Correlated components, as pairs or in short.
+pub(crate) fn correlated(report: &Report<'_>) -> Vec<Block> {
+    /// More pairs are for the JSON output.
+    const MOST: usize = 24;
+    let l = report.language;
+    let name = |t: usize| report.budget.components[t].name.as_str();
+    let mut pairs = Vec::new();
+    for group in &report.budget.groups {
+        for (i, a) in group.members.iter().enumerate() {
+            for (j, b) in group.members.iter().enumerate().skip(i + 1) {
+                let r = group.correlation[(i, j)];
+                if r != 0.0 {
+                    pairs.push(format!(
+                        "r({}, {}) = {}",
+                        name(*a),
+                        name(*b),
+                        coefficient(r)
+                    ));
+                }
+            }
+        }
+    }
+    if pairs.is_empty() {
+        return Vec::new();
+    }
+    let left_out = pairs.len().saturating_sub(MOST);
+    pairs.truncate(MOST);
+    if left_out > 0 {
+        pairs.push(l.pick(
+            format!("… and {left_out} more"),
+            format!("…… 其余 {left_out} 对"),
+        ));
+    }
+    vec![
+        Block::Section(Word::CorrelatedComponents.of(l).to_string()),
+        Block::List(pairs),
+    ]
+}
+
+/// Exactly known quantities.
+pub(crate) fn constants(report: &Report<'_>) -> Vec<Block> {
+    /// Elements of a vector that are shown.
+    const MOST: usize = 6;
+    let lines: Vec<(String, String)> = report
+        .budget
+        .constants
+        .iter()
+        .map(|c| {
+            let unit = symbol(&c.unit);
+            let mut numbers: Vec<String> = c.values.iter().take(MOST).map(|v| exact(*v)).collect();
+            if c.values.len() > MOST {
+                numbers.push(format!("… ({})", c.values.len()));
+            }
+            let mut text = numbers.join(", ");
+            for more in [Some(&unit), c.description.as_ref(), c.reference.as_ref()]
+                .into_iter()
+                .flatten()
+                .filter(|t| !t.is_empty())
+            {
+                text.push_str(if more == &unit { " " } else { "; " });
+                text.push_str(more);
+            }
+            (c.name.clone(), text)
+        })
+        .collect();
+    if lines.is_empty() {
+        return Vec::new();
+    }
+    vec![
+        Block::Section(Word::Exact.of(report.language).to_string()),
+        Block::Fields(lines),
+    ]
+}

@@ -1,0 +1,226 @@
+//! The report as a sequence of blocks, in the order in which it is read.
+
+use crate::budget::{CoverageRule, TScale};
+use crate::quantity::Rounding;
+
+use super::document::Block;
+use super::language::{Language, Word};
+use super::number::{exact, probability};
+use super::{
+    Report, analyses, budget_table, claim, comparison, decisions, fits, indices, joint, remarks,
+    statement,
+};
+
+/// All blocks of a report.
+pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
+    let l = report.language;
+    let mut blocks = heading(report);
+    blocks.extend(model(report));
+    blocks.extend(taken(report));
+    blocks.extend(budget_table::constants(report));
+    blocks.extend(fits::blocks(report));
+    let several = report.evaluation.results.len() > 1;
+    for m in 0..report.evaluation.results.len() {
+        let name = report.measurand(m).0;
+        blocks.push(Block::Section(l.pick(
+            format!("Uncertainty budget of {name}"),
+            format!("{name} 的不确定度评定"),
+        )));
+        blocks.extend(budget_table::blocks(report, m));
+        let head = Word::SideBySide.of(l);
+        blocks.push(Block::Section(if several {
+            l.pick(format!("{name}: {head}"), format!("{name}：{head}"))
+        } else {
+            head.to_string()
+        }));
+        blocks.extend(comparison::blocks(report, m));
+        blocks.extend(indices::blocks(report, m));
+    }
+    blocks.extend(joint::blocks(report));
+    blocks.extend(decisions::blocks(report));
+    blocks.extend(budget_table::origins(report));
+    blocks.extend(analyses::blocks(report));
+    blocks.extend(budget_table::correlated(report));
+    blocks.extend(claim::blocks(report));
+    let remarks = remarks::remarks(report);
+    if !remarks.is_empty() {
+        blocks.push(Block::Section(Word::Remarks.of(l).to_string()));
+        blocks.push(Block::List(remarks));
+    }
+    blocks.push(Block::Section(Word::Statement.of(l).to_string()));
+    blocks.push(Block::Statement(statement::statement(report)));
+    blocks.push(Block::Footer(footer(report)));
+    blocks
+}
+
+fn heading(report: &Report<'_>) -> Vec<Block> {
+    let l = report.language;
+    let heading = &report.budget.heading;
+    let title = match report.label {
+        Some(label) => format!("{} · {label}", heading.title),
+        None => heading.title.clone(),
+    };
+    let mut fields: Vec<(String, String)> = [
+        (Word::Method, &heading.method),
+        (Word::Object, &heading.object),
+        (Word::Author, &heading.author),
+        (Word::Date, &heading.date),
+        (Word::Source, &heading.reference),
+        (Word::Note, &heading.note),
+    ]
+    .into_iter()
+    .filter_map(|(word, text)| Some((word.of(l).to_string(), text.clone()?)))
+    .collect();
+    for measurand in &report.budget.measurands {
+        if let Some(description) = &measurand.description {
+            fields.push((
+                Word::Measurand.of(l).to_string(),
+                format!("{}: {description}", measurand.name),
+            ));
+        }
+    }
+    let mut blocks = vec![Block::Title(title)];
+    if !fields.is_empty() {
+        blocks.push(Block::Fields(fields));
+    }
+    blocks
+}
+
+fn model(report: &Report<'_>) -> Vec<Block> {
+    let mut lines: Vec<String> = Vec::new();
+    for output in report.budget.model.outputs() {
+        // Several measurands of one model share their first statements.
+        for line in output.equation.lines() {
+            // A parameter of a fit that is reported as it is needs no equation.
+            let itself = line == format!("{0} = {0}", output.name);
+            if !itself && !lines.iter().any(|l| l == line) {
+                lines.push(line.to_string());
+            }
+        }
+    }
+    if lines.is_empty() {
+        return Vec::new();
+    }
+    let mut blocks = vec![
+        Block::Section(Word::Model.of(report.language).to_string()),
+        Block::Formula(lines),
+    ];
+    let words: Vec<(String, String)> = report
+        .budget
+        .inputs
+        .iter()
+        .filter_map(|i| Some((i.name.clone(), i.description.clone()?)))
+        .collect();
+    /// A longer list of words says nothing that the file does not say better.
+    const MOST: usize = 40;
+    if !words.is_empty() && words.len() <= MOST {
+        blocks.push(Block::Fields(words));
+    }
+    blocks
+}
+
+/// Results of other files that are inputs here.
+fn taken(report: &Report<'_>) -> Vec<Block> {
+    let l = report.language;
+    let results = &report.budget.chain.taken;
+    if results.is_empty() {
+        return Vec::new();
+    }
+    let stop = l.pick("; ", "；");
+    let fields = results.iter().map(|taken| {
+        let row = taken.row.iter().map(|row| format!("[{row}]"));
+        let what = format!("{}{}", taken.measurand, row.collect::<String>());
+        let file = &taken.file;
+        let mut words = l.pick(format!("{what} of {file}"), format!("{file} 的 {what}"));
+        if !taken.title.is_empty() {
+            words.push_str(stop);
+            words.push_str(&taken.title);
+        }
+        match &taken.equation {
+            Some(equation) => {
+                let lines: Vec<&str> = equation.lines().collect();
+                words.push_str(stop);
+                words.push_str(&lines.join(stop));
+            }
+            None => words.push_str(l.pick("; saved, in linear form", "；已保存的线性形式")),
+        }
+        (taken.input.clone(), words)
+    });
+    vec![
+        Block::Section(
+            l.pick("Results of other budgets", "引用的其他评定结果")
+                .to_string(),
+        ),
+        Block::Fields(fields.collect()),
+    ]
+}
+
+/// Profile, what the file changed in it, and the version.
+fn footer(report: &Report<'_>) -> Vec<String> {
+    let conventions = &report.budget.conventions;
+    let l = report.language;
+    let p = probability(conventions.coverage_probability);
+    let digits = conventions.digits;
+    let k = match (conventions.coverage_factor, l) {
+        (CoverageRule::Output, Language::English) => {
+            "k from t, or from the distribution of the result where a few components dominate"
+                .to_string()
+        }
+        (CoverageRule::Output, Language::Chinese) => {
+            "k 取自 t 分布，少数分量占优势时取自输出量的分布".to_string()
+        }
+        (CoverageRule::StudentT, Language::English) => "k from the t-distribution".to_string(),
+        (CoverageRule::StudentT, Language::Chinese) => "k 取自 t 分布".to_string(),
+        (CoverageRule::Normal, Language::English) => "k from the normal distribution".to_string(),
+        (CoverageRule::Normal, Language::Chinese) => "k 取自正态分布".to_string(),
+        (CoverageRule::Fixed(k), _) => format!("k = {}", exact(k)),
+    };
+    let rounding = match (conventions.rounding, l) {
+        (Rounding::HalfEven, Language::English) => "rounding to nearest, ties to even",
+        (Rounding::HalfEven, Language::Chinese) => "四舍六入五成双",
+        (Rounding::HalfUp, Language::English) => "rounding to nearest, ties up",
+        (Rounding::HalfUp, Language::Chinese) => "四舍五入",
+        (Rounding::Up, Language::English) => "U always rounded up",
+        (Rounding::Up, Language::Chinese) => "U 只进不舍",
+    };
+    let scale = match (conventions.t_scale, l) {
+        (TScale::Scale, Language::English) => "u is the scale of t",
+        (TScale::Scale, Language::Chinese) => "u 为 t 分布的尺度参数",
+        (TScale::StandardDeviation, Language::English) => {
+            "u is the standard deviation of t (its scale where ν ≤ 2)"
+        }
+        (TScale::StandardDeviation, Language::Chinese) => {
+            "u 为 t 分布的标准差（ν ≤ 2 时为尺度参数）"
+        }
+    };
+    let profile = &conventions.profile;
+    let fixed = matches!(conventions.coverage_factor, CoverageRule::Fixed(_));
+    let k = match (fixed && !conventions.state_probability, l) {
+        (true, Language::English) => {
+            format!("{k}, no probability stated (intervals in this report are for {p})")
+        }
+        (true, Language::Chinese) => format!("{k}，不注明包含概率（本报告中的区间取 p = {p}）"),
+        (false, Language::English) => format!("p = {p}, {k}"),
+        (false, Language::Chinese) => format!("p = {p}，{k}"),
+    };
+    let mut lines = vec![match l {
+        Language::English => {
+            let plural = if digits == 1 { "digit" } else { "digits" };
+            format!(
+                "Profile {profile}: {k}, {digits} {plural} of U, {rounding}, Monte Carlo: {scale}."
+            )
+        }
+        Language::Chinese => format!(
+            "规范 {profile}：{k}，U 取 {digits} 位有效数字，{rounding}，蒙特卡洛法：{scale}。"
+        ),
+    }];
+    if !conventions.overrides.is_empty() {
+        let changes = conventions.overrides.join(", ");
+        lines.push(l.pick(
+            format!("Changed by the file: {changes}."),
+            format!("文件中另行规定：{changes}。"),
+        ));
+    }
+    lines.push(format!("gumption {}", env!("CARGO_PKG_VERSION")));
+    lines
+}

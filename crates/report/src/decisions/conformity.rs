@@ -1,0 +1,179 @@
+//! One conformity assessment: its section and its sentence.
+
+use super::{Rows, chance, with_unit};
+use crate::budget::{Conformity, DecisionRule, Interval};
+use crate::document::Block;
+use crate::language::Language;
+use crate::number::{NONE, TABLE_DIGITS, aligned, exact, print};
+use crate::propagate::{ConformityResult, Verdict};
+use crate::quantity::Unit;
+use crate::{Report, difference_symbol, symbol};
+
+/// One conformity assessment.
+pub(super) struct Assessment<'a> {
+    pub report: &'a Report<'a>,
+    pub stated: &'a Conformity,
+    pub found: &'a ConformityResult,
+    pub l: Language,
+    pub unit: &'a Unit,
+}
+
+impl Assessment<'_> {
+    /// The section of the report.
+    pub fn section(&self) -> Vec<Block> {
+        let (l, name) = (self.l, &self.stated.name);
+        let mut rows = Rows::default();
+        rows.add(l.pick("Tolerance", "容许区间"), self.tolerance());
+        rows.add(l.pick("Decision rule", "判定规则"), self.rule());
+        rows.add(l.pick("Accepted", "接受"), self.acceptance());
+        if self
+            .found
+            .acceptance
+            .is_some_and(|a| a != self.found.rejection)
+        {
+            rows.add(l.pick("Rejected", "拒绝"), self.rejected());
+        }
+        if let Some(verdict) = self.found.verdict {
+            rows.add(l.pick("Measured", "测得值"), self.measured());
+            rows.add(l.pick("Verdict", "结论"), self.verdict(verdict).to_string());
+        }
+        self.specific(&mut rows);
+        self.capability(&mut rows);
+        self.global(&mut rows);
+        rows.under(l.pick(
+            format!("Conformity of {name}"),
+            format!("{name} 的符合性评定"),
+        ))
+    }
+
+    /// The sentence for the certificate; none in planning.
+    pub fn sentence(&self) -> Option<String> {
+        let (name, l) = (&self.stated.name, self.l);
+        let verdict = self.found.verdict?;
+        let word = self.verdict(verdict);
+        let (measured, tolerance, rule) = (self.measured(), self.tolerance(), self.rule());
+        let probability = self
+            .found
+            .conformance
+            .and_then(|known| known.probability)
+            .map(chance);
+        let probability = probability.map_or_else(String::new, |p| {
+            let (en, zh) = match p.split_once(' ') {
+                Some((">", p)) => (format!("is above {p}"), format!("大于 {p}")),
+                Some(("<", p)) => (format!("is below {p}"), format!("小于 {p}")),
+                _ => (format!("is {p}"), format!("为 {p}")),
+            };
+            l.pick(
+                format!(" The conformance probability {en}."),
+                format!("符合概率{zh}。"),
+            )
+        });
+        let acceptance = self.acceptance();
+        Some(match l {
+            Language::English => format!(
+                "{name}, tolerance {tolerance}: {word}. Decision rule: {rule}; measured values accepted: {acceptance}; measured: {measured}.{probability}"
+            ),
+            Language::Chinese => format!(
+                "{name}：{word}（容许区间 {tolerance}）。判定规则：{rule}，接受条件：{acceptance}；测得值 {measured}。{probability}"
+            ),
+        })
+    }
+
+    /// The verdict in words. That a guard band decided against the tolerance limit itself is said.
+    fn verdict(&self, verdict: Verdict) -> &'static str {
+        let inside = self.stated.tolerance.contains(self.found.estimate);
+        let (english, chinese) = match (verdict, inside) {
+            (Verdict::Conforming, true) => ("conforming", "合格"),
+            (Verdict::Conforming, false) => (
+                "conforming under the rule (outside the tolerance, but non-conformance is not shown)",
+                "按规则判为合格（超出容许区间，但不足以证明不合格）",
+            ),
+            (Verdict::NotConforming, false) => ("not conforming", "不合格"),
+            (Verdict::NotConforming, true) => (
+                "not conforming under the rule (inside the tolerance, but conformance is not shown)",
+                "按规则判为不合格（在容许区间内，但不足以证明合格）",
+            ),
+            (Verdict::Undecided, _) => ("cannot be decided under the rule", "待定"),
+        };
+        self.l.pick(english, chinese)
+    }
+
+    fn tolerance(&self) -> String {
+        self.interval(self.stated.tolerance, &exact)
+    }
+
+    fn acceptance(&self) -> String {
+        let stated = matches!(
+            self.stated.rule,
+            DecisionRule::Simple | DecisionRule::Stated(_)
+        );
+        match self.found.acceptance {
+            None => self
+                .l
+                .pick(
+                    "no value: u is too large for this tolerance",
+                    "无：对该容许区间而言 u 过大",
+                )
+                .to_string(),
+            Some(acceptance) if stated => self.interval(acceptance, &exact),
+            Some(acceptance) => self.interval(acceptance, &|x| self.limit(x)),
+        }
+    }
+
+    /// What lies beyond the limits of rejection.
+    fn rejected(&self) -> String {
+        let Interval { lower, upper } = self.found.rejection;
+        let beyond = |sign: &str, limit: f64| {
+            let number = format!("{sign} {}", self.limit(limit));
+            with_unit(&number, symbol(self.unit))
+        };
+        match (lower.is_finite(), upper.is_finite()) {
+            (true, true) => {
+                [beyond("<", lower), beyond(">", upper)].join(self.l.pick(" or ", " 或 "))
+            }
+            (true, false) => beyond("<", lower),
+            (false, true) => beyond(">", upper),
+            (false, false) => NONE.to_string(),
+        }
+    }
+
+    fn interval(&self, interval: Interval, number: &dyn Fn(f64) -> String) -> String {
+        let unit = symbol(self.unit);
+        let bound =
+            |sign: &str, limit: f64| with_unit(&format!("{sign} {}", number(limit)), unit.clone());
+        match (interval.lower.is_finite(), interval.upper.is_finite()) {
+            (true, true) => with_unit(
+                &format!("[{}, {}]", number(interval.lower), number(interval.upper)),
+                unit,
+            ),
+            (true, false) => bound("≥", interval.lower),
+            (false, true) => bound("≤", interval.upper),
+            (false, false) => self.l.pick("any value", "任意值").to_string(),
+        }
+    }
+
+    /// A limit that follows from u.
+    fn limit(&self, x: f64) -> String {
+        aligned(x, self.found.u, TABLE_DIGITS)
+    }
+
+    fn measured(&self) -> String {
+        let rule = self.report.budget.conventions.rounding_rule();
+        let (estimate, expanded) = (self.found.estimate, self.found.expanded);
+        if expanded.is_nan() || expanded <= 0.0 || expanded.is_infinite() {
+            return with_unit(&exact(estimate), symbol(self.unit));
+        }
+        let pair = rule.align(estimate, expanded);
+        format!(
+            "{}{}U = {}",
+            with_unit(&print(&pair.estimate), symbol(self.unit)),
+            self.l.pick(", ", "，"),
+            with_unit(&print(&pair.uncertainty), self.deviations())
+        )
+    }
+
+    /// Unit of a difference.
+    pub fn deviations(&self) -> String {
+        difference_symbol(self.unit)
+    }
+}

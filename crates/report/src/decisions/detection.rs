@@ -1,0 +1,217 @@
+//! Characteristic limits of one measurand: their section and their sentence.
+
+use super::{Rows, with_unit};
+use crate::budget::Detection;
+use crate::document::Block;
+use crate::language::Language;
+use crate::number::{TABLE_DIGITS, aligned, at_place, exact, print, probability, significant};
+use crate::propagate::{DetectionLimit, DetectionResult};
+use crate::quantity::Unit;
+use crate::{Report, difference_symbol, symbol};
+
+/// Characteristic limits of one measurand.
+pub(super) struct Limits<'a> {
+    pub report: &'a Report<'a>,
+    pub stated: &'a Detection,
+    pub found: &'a DetectionResult,
+    pub l: Language,
+    pub name: &'a str,
+    pub unit: &'a Unit,
+}
+
+impl Limits<'_> {
+    /// The section of the report.
+    pub fn section(&self) -> Vec<Block> {
+        let l = self.l;
+        let mut rows = Rows::default();
+        self.limits(&mut rows);
+        self.suitability(&mut rows);
+        rows.add(l.pick("Verdict", "结论"), self.verdict().to_string());
+        self.best(&mut rows);
+        rows.under(l.pick(
+            format!("Characteristic limits of {}", self.name),
+            format!("{} 的特征限", self.name),
+        ))
+    }
+
+    /// Decision threshold and detection limit.
+    fn limits(&self, rows: &mut Rows) {
+        let (l, trials) = (self.l, self.found.from_trials);
+        let label = l.pick("Decision threshold", "判断限");
+        let Some(limits) = self.found.limits else {
+            return rows.add(label, self.no_threshold());
+        };
+        let [k_alpha, k_beta] = self.stated.quantiles;
+        let (alpha, beta) = (
+            error(self.stated.alpha, k_alpha),
+            error(self.stated.beta, k_beta),
+        );
+        let comma = l.pick(", ", "，");
+        let threshold = self.value(limits.decision_threshold);
+        let by_trials = self.of_trials(trials.map(|t| t.decision_threshold));
+        rows.add(
+            label,
+            format!("y* = {threshold}{comma}α = {alpha}{by_trials}"),
+        );
+        let by_trials = self.of_trials(trials.and_then(|t| t.detection_limit.value()));
+        let limit = match limits.detection_limit {
+            DetectionLimit::Found(y) => {
+                format!("y# = {}{comma}β = {beta}{by_trials}", self.value(y))
+            }
+            DetectionLimit::Missing { relative } => self.no_limit(relative),
+        };
+        rows.add(l.pick("Detection limit", "探测限"), limit);
+    }
+
+    /// The same limit from the trials of the Monte Carlo method.
+    fn of_trials(&self, limit: Option<f64>) -> String {
+        limit.map_or_else(String::new, |limit| {
+            let text = self.value(limit);
+            self.l.pick(
+                format!(" (Monte Carlo {text})"),
+                format!("（蒙特卡洛法 {text}）"),
+            )
+        })
+    }
+
+    /// Whether the procedure can see what it has to see.
+    fn suitability(&self, rows: &mut Rows) {
+        let (l, stated) = (self.l, self.stated);
+        let (Some(suitable), Some(guideline)) = (self.found.suitable(stated), stated.guideline)
+        else {
+            return;
+        };
+        let guideline = with_unit(&exact(guideline), symbol(self.unit));
+        let word = match (suitable, l) {
+            (true, Language::English) => "suitable",
+            (false, Language::English) => "not suitable",
+            (true, Language::Chinese) => "适用",
+            (false, Language::Chinese) => "不适用",
+        };
+        rows.add(
+            l.pick("Procedure", "测量程序"),
+            l.pick(
+                format!("{word} for the guideline value {guideline}"),
+                format!("对参考值 {guideline} {word}"),
+            ),
+        );
+    }
+
+    /// What is known of the measurand beside the decision, given that it is not negative.
+    fn best(&self, rows: &mut Rows) {
+        let (l, best) = (self.l, self.found.best);
+        let u = significant(best.u, TABLE_DIGITS);
+        rows.add(
+            l.pick("Best estimate", "最佳估计值"),
+            format!(
+                "ŷ = {}{}u(ŷ) = {}",
+                self.beside(best.value, best.u),
+                l.pick(", ", "，"),
+                with_unit(&u, difference_symbol(self.unit))
+            ),
+        );
+        let interval = |ends: [f64; 2]| {
+            let [low, high] = ends.map(|end| aligned(end, best.u, TABLE_DIGITS));
+            with_unit(&format!("[{low}, {high}]"), symbol(self.unit))
+        };
+        let (symmetric, shortest) = (interval(best.symmetric), interval(best.shortest));
+        let p = probability(best.coverage_probability);
+        rows.add(
+            l.pick("Coverage interval", "包含区间"),
+            l.pick(
+                format!("{symmetric}, shortest {shortest}, p = {p}"),
+                format!("{symmetric}，最短 {shortest}，p = {p}"),
+            ),
+        );
+    }
+
+    fn no_threshold(&self) -> String {
+        let gross = &self.report.budget.inputs[self.stated.gross].name;
+        self.l.pick(
+            format!(
+                "none: no value of {gross} gives {} = 0 with a u that is finite",
+                self.name
+            ),
+            format!(
+                "不存在：{gross} 取任何值都不能使 {} = 0 且 u 有限",
+                self.name
+            ),
+        )
+    }
+
+    fn no_limit(&self, relative: f64) -> String {
+        let percent = print(&at_place(100.0 * relative, 0));
+        self.l.pick(
+            format!("none: for large values u is {percent} % of the value, so that none is recognised with certainty enough"),
+            format!("不存在：数值较大时 u 达到其 {percent} %，任何值都不能以足够的概率被识别"),
+        )
+    }
+
+    fn verdict(&self) -> &'static str {
+        let (english, chinese) = match self.found.recognised() {
+            Some(true) => ("effect recognised: y > y*", "识别出效应：y > y*"),
+            Some(false) => ("no effect recognised: y ≤ y*", "未识别出效应：y ≤ y*"),
+            None => ("no decision threshold", "无判断限"),
+        };
+        self.l.pick(english, chinese)
+    }
+
+    /// The sentence for the certificate.
+    pub fn sentence(&self) -> String {
+        let (name, l, best) = (self.name, self.l, self.found.best);
+        let verdict = self.verdict();
+        let limits = self.limits_in_brackets();
+        let p = probability(best.coverage_probability);
+        let estimate = self.beside(best.value, best.u);
+        let u = with_unit(&significant(best.u, 2), difference_symbol(self.unit));
+        let [low, high] = best
+            .symmetric
+            .map(|end| with_unit(&aligned(end, best.u, 2), symbol(self.unit)));
+        match l {
+            Language::English => format!(
+                "{name}: {verdict}{limits}. Best estimate of the non-negative measurand {estimate}, u = {u}, {p} coverage interval from {low} to {high} (ISO 11929)."
+            ),
+            Language::Chinese => format!(
+                "{name}：{verdict}{limits}。非负被测量的最佳估计值 {estimate}，u = {u}，{p} 包含区间为 {low} 至 {high}（ISO 11929）。"
+            ),
+        }
+    }
+
+    fn limits_in_brackets(&self) -> String {
+        let l = self.l;
+        self.found.limits.map_or_else(String::new, |limits| {
+            let threshold = self.value(limits.decision_threshold);
+            let limit = limits.detection_limit.value().map_or_else(
+                || l.pick("no detection limit", "探测限不存在").to_string(),
+                |y| {
+                    let y = self.value(y);
+                    l.pick(
+                        format!("detection limit y# = {y}"),
+                        format!("探测限 y# = {y}"),
+                    )
+                },
+            );
+            l.pick(
+                format!(" (decision threshold y* = {threshold}, {limit})"),
+                format!("（判断限 y* = {threshold}，{limit}）"),
+            )
+        })
+    }
+
+    /// A limit: a figure of its own, to three digits.
+    fn value(&self, x: f64) -> String {
+        with_unit(&significant(x, TABLE_DIGITS), symbol(self.unit))
+    }
+
+    fn beside(&self, x: f64, u: f64) -> String {
+        with_unit(&aligned(x, u, TABLE_DIGITS), symbol(self.unit))
+    }
+}
+
+/// A probability of error, with the quantile that the file states for it.
+fn error(p: f64, quantile: Option<f64>) -> String {
+    match quantile {
+        None => probability(p),
+        Some(k) => format!("{} (k = {})", probability(p), exact(k)),
+    }
+}

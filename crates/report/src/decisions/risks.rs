@@ -1,0 +1,132 @@
+//! Probabilities and risks: of the item that was measured, and of all items.
+
+use super::conformity::Assessment;
+use super::{Rows, chance, related};
+use crate::language::Language;
+use crate::number::{NONE, significant};
+use crate::propagate::Verdict;
+
+impl Assessment<'_> {
+    /// What is known of the item that was measured.
+    pub(super) fn specific(&self, rows: &mut Rows) {
+        let (l, Some(known)) = (self.l, self.found.conformance) else {
+            return;
+        };
+        let alone = l.pick("from the result alone", "仅由测量结果");
+        let by_gum = chance(known.from_measurement);
+        let trials = known.from_trials.map(chance);
+        let trials = trials.map_or_else(String::new, |p| {
+            l.pick(format!(", Monte Carlo {p}"), format!("，蒙特卡洛法 {p}"))
+        });
+        let label = l.pick("Conformance probability", "符合概率");
+        if self.stated.process.is_some() {
+            let both = known.probability.map_or_else(
+                || {
+                    l.pick(
+                        "none: the measured value is impossible for this process",
+                        "不存在：对该过程而言测得值不可能出现",
+                    )
+                    .to_string()
+                },
+                |p| {
+                    let p = related("p_c", &chance(p));
+                    l.pick(
+                        format!("{p}, with the knowledge of the process"),
+                        format!("{p}（计入过程信息）"),
+                    )
+                },
+            );
+            rows.add(
+                label,
+                [both, format!("{alone} {by_gum}{trials}")].join(l.pick("; ", "；")),
+            );
+        } else {
+            rows.add(label, format!("{}{trials}", related("p_c", &by_gum)));
+        }
+        let risk = match self.found.verdict {
+            Some(Verdict::Conforming) => known.complement.map(|p| {
+                (
+                    l.pick("Specific consumer's risk", "特定使用方风险"),
+                    chance(p),
+                )
+            }),
+            Some(Verdict::NotConforming) => known.probability.map(|p| {
+                (
+                    l.pick("Specific producer's risk", "特定生产方风险"),
+                    chance(p),
+                )
+            }),
+            Some(Verdict::Undecided) | None => None,
+        };
+        if let Some((label, text)) = risk {
+            rows.add(label, text);
+        }
+    }
+
+    pub(super) fn capability(&self, rows: &mut Rows) {
+        let l = self.l;
+        let (Some(capability), Some(ratio)) =
+            (self.found.capability, self.found.test_uncertainty_ratio)
+        else {
+            return;
+        };
+        let (c, ratio_text) = (significant(capability, 3), significant(ratio, 3));
+        let met = match (ratio >= 3.0, l) {
+            (true, Language::English) => "U ≤ MPEV/3 (JJF 1094) is met",
+            (false, Language::English) => "U ≤ MPEV/3 (JJF 1094) is not met",
+            (true, Language::Chinese) => "满足 U ≤ MPEV/3（JJF 1094）",
+            (false, Language::Chinese) => "不满足 U ≤ MPEV/3（JJF 1094）",
+        };
+        rows.add(
+            l.pick("Capability", "测量能力"),
+            l.pick(
+                format!("C_m = T/(4u) = {c}, TUR = T/(2U) = {ratio_text}: {met}"),
+                format!("C_m = T/(4u) = {c}，TUR = T/(2U) = {ratio_text}：{met}"),
+            ),
+        );
+    }
+
+    /// Risks over all items.
+    pub(super) fn global(&self, rows: &mut Rows) {
+        let (l, Some(risk), Some(process)) = (self.l, self.found.global, &self.stated.process)
+        else {
+            return;
+        };
+        let kind = process.kind();
+        let inside = chance(risk.in_tolerance);
+        rows.add(
+            l.pick("Process", "过程"),
+            l.pick(
+                format!(
+                    "{} distribution; {inside} of the items conform",
+                    kind.name_en
+                ),
+                format!("{}；{inside} 的产品合格", kind.name_zh),
+            ),
+        );
+        rows.add(l.pick("Items accepted", "接受率"), chance(risk.accepted));
+        let given = |p: f64| {
+            if p.is_finite() {
+                chance(p)
+            } else {
+                NONE.to_string()
+            }
+        };
+        let (consumer, producer) = (chance(risk.consumer), chance(risk.producer));
+        let (wrong, lost) = (given(risk.false_acceptance), given(risk.false_rejection));
+        rows.add(
+            l.pick("Global consumer's risk", "总体使用方风险"),
+            l.pick(
+                format!("R_C = {consumer}; of the accepted items {wrong} do not conform"),
+                format!("R_C = {consumer}；被接受者中不合格的占 {wrong}"),
+            ),
+        );
+        rows.add(
+            l.pick("Global producer's risk", "总体生产方风险"),
+            l.pick(
+                format!("R_P = {producer}; of the rejected items {lost} conform"),
+                format!("R_P = {producer}；被拒绝者中合格的占 {lost}"),
+            ),
+        );
+    }
+}

@@ -1,0 +1,130 @@
+//! The joint result of several measurands (JCGM 102).
+
+use nalgebra::DMatrix;
+
+use super::document::Block;
+use super::language::{Language, Word};
+use super::number::{TABLE_DIGITS, freedom, in_unit, probability, significant};
+use super::statement::coefficient;
+use super::table::{Cell, Column, ColumnKind, Table};
+use super::{Report, symbol};
+
+/// Correlation matrices and the factors of the coverage regions.
+pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {
+    let Some(joint) = &report.evaluation.joint else {
+        return Vec::new();
+    };
+    let l = report.language;
+    let mut blocks = vec![Block::Section(Word::Joint.of(l).to_string())];
+    let names: Vec<&str> = (0..report.evaluation.results.len())
+        .map(|m| report.measurand(m).0)
+        .collect();
+    let gum = matrix(l, &names, &joint.correlation, Word::Gum.of(l));
+    blocks.push(Block::Table(gum));
+    if let Some(correlation) = &joint.monte_carlo_correlation {
+        let trials = matrix(l, &names, correlation, Word::MonteCarlo.of(l));
+        blocks.push(Block::Table(trials));
+    }
+    if joint.degenerate {
+        blocks.push(Block::Paragraph(
+            l.pick(
+                "At least one measurand is a linear function of the others, so that no joint coverage region exists; use the single intervals.",
+                "至少一个输出量是其他输出量的线性函数，联合包含区域不存在；请使用各输出量的包含区间。",
+            )
+            .to_string(),
+        ));
+        return blocks;
+    }
+    blocks.push(Block::Table(regions(report)));
+    let p = probability(report.coverage_probability());
+    let dof = freedom(joint.dof.value());
+    blocks.push(Block::Paragraph(match l {
+        Language::English => format!(
+            "k_q·u(y_j) are the half-widths of intervals that hold all measurands at once with probability {p}; k_p scales the ellipsoid given by the covariance matrix (ν = {dof})."
+        ),
+        Language::Chinese => format!("k_q·u(y_j) 为各输出量同时落入的区间半宽，联合包含概率为 {p}；k_p 为由协方差矩阵确定的椭球的包含因子（ν = {dof}）。"),
+    }));
+    blocks
+}
+
+/// A correlation matrix; `of` says of what or by which method.
+pub(super) fn matrix(l: Language, names: &[&str], correlation: &DMatrix<f64>, of: &str) -> Table {
+    let label = [Word::Correlation.of(l), of].join(l.pick(", ", "，"));
+    let column = |head: &str, kind| Column {
+        head: head.to_string(),
+        kind,
+    };
+    let mut columns = vec![column(&label, ColumnKind::Names)];
+    columns.extend(names.iter().map(|name| column(name, ColumnKind::Numbers)));
+    let mut table = Table {
+        columns,
+        rows: Vec::new(),
+    };
+    for (i, name) in names.iter().enumerate() {
+        let mut cells: Vec<Cell> = vec![(*name).into()];
+        cells.extend((0..names.len()).map(|j| match correlation.get((i, j)) {
+            Some(r) => coefficient(*r).into(),
+            None => Cell::Empty,
+        }));
+        table.push(cells);
+    }
+    table
+}
+
+/// The product of the units of all measurands, in which the size of a region is.
+fn size_unit(report: &Report<'_>) -> String {
+    let all = (0..report.evaluation.results.len()).map(|m| report.measurand(m).1.difference());
+    let product = all.reduce(|product, unit| product.product(&unit));
+    product.map_or_else(String::new, |unit| symbol(&unit))
+}
+
+fn regions(report: &Report<'_>) -> Table {
+    let l = report.language;
+    let mut table = Table::new([
+        (l.pick("coverage region", "包含区域"), ColumnKind::Words),
+        (Word::Gum.of(l), ColumnKind::Numbers),
+        (Word::MonteCarlo.of(l), ColumnKind::Numbers),
+    ]);
+    let Some(joint) = &report.evaluation.joint else {
+        return table;
+    };
+    let regions = joint.regions.as_ref();
+    let show = |x: Option<f64>| x.map_or(Cell::Empty, |x| significant(x, TABLE_DIGITS).into());
+    let comma = l.pick(", ", "，");
+    let mut row = |label: String, gum: Option<f64>, trials: Option<f64>| {
+        table.push(vec![label.into(), show(gum), show(trials)])
+    };
+    row(
+        format!("k_p{comma}{}", Word::Ellipsoid.of(l)),
+        Some(joint.k_ellipsoid),
+        regions.map(|r| r.k_ellipsoid),
+    );
+    row(
+        format!("k_q{comma}{}", Word::Hyperrectangle.of(l)),
+        Some(joint.k_rectangle),
+        regions.map(|r| r.k_rectangle),
+    );
+    if let Some(regions) = regions {
+        let size = match report.evaluation.results.len() {
+            2 => l.pick("area", "面积"),
+            _ => l.pick("volume", "体积"),
+        };
+        let size = in_unit(size, &size_unit(report));
+        row(
+            format!("{size}{comma}{}", Word::Ellipsoid.of(l)),
+            None,
+            Some(regions.ellipsoid_volume),
+        );
+        if let Some(smallest) = regions.smallest_volume {
+            row(
+                l.pick(
+                    format!("{size}, smallest region"),
+                    format!("{size}，最小区域"),
+                ),
+                None,
+                Some(smallest),
+            );
+        }
+    }
+    table
+}

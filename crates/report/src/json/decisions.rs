@@ -1,0 +1,147 @@
+//! Verdicts: conformity with a tolerance, decision threshold and detection limit.
+
+use super::{Number, number, numbers};
+use crate::budget::{Conformity, Detection, Interval};
+use crate::propagate::{ConformityResult, DetectionResult};
+use crate::{Report, decisions, schema::record};
+
+record! {
+    /// A conformity assessment (JCGM 106).
+    ConformityJson<'a> {
+        /// Its name; its figures begin with it.
+        name: &'a str,
+        /// Measurand.
+        measurand: &'a str,
+        /// Tolerance limits, lower and upper; infinite where there is none.
+        tolerance: Vec<Number>,
+        /// Acceptance limits; null where no value is accepted.
+        acceptance: Option<Vec<Number>>,
+        /// Values outside of these limits are rejected.
+        rejection: Vec<Number>,
+        /// Decision: conforming, not_conforming, undecided; null in planning.
+        verdict: Option<&'static str>,
+        /// Conformance probability, with the knowledge of the process where there is some.
+        conformance_probability: Option<Number>,
+        /// Its complement.
+        nonconformance_probability: Option<Number>,
+        /// Conformance probability from the GUM result alone.
+        from_measurement: Option<Number>,
+        /// Conformance probability as the fraction of the Monte Carlo trials.
+        from_trials: Option<Number>,
+        /// Measurement capability index C_m.
+        capability: Option<Number>,
+        /// Test uncertainty ratio.
+        test_uncertainty_ratio: Option<Number>,
+        /// Risks over all items of the process.
+        global: Option<GlobalJson>,
+    }
+}
+
+record! {
+    /// Risks over all items of a process.
+    GlobalJson {
+        /// Probability that an item conforms.
+        in_tolerance: Number,
+        /// Probability that an item is accepted.
+        accepted: Number,
+        /// Global consumer's risk.
+        consumer: Number,
+        /// Global producer's risk.
+        producer: Number,
+        /// Probability that an accepted item does not conform.
+        false_acceptance: Number,
+        /// Probability that a rejected item conforms.
+        false_rejection: Number,
+    }
+}
+
+record! {
+    /// Characteristic limits (ISO 11929).
+    DetectionJson<'a> {
+        /// Measurand.
+        measurand: &'a str,
+        /// Probability of recognising an effect that is not there.
+        alpha: Number,
+        /// Probability of missing an effect at the detection limit.
+        beta: Number,
+        /// Decision threshold.
+        decision_threshold: Option<Number>,
+        /// Detection limit; null where there is none.
+        detection_limit: Option<Number>,
+        /// Decision threshold, Monte Carlo.
+        monte_carlo_decision_threshold: Option<Number>,
+        /// Detection limit, Monte Carlo.
+        monte_carlo_detection_limit: Option<Number>,
+        /// Whether the effect is recognised.
+        recognised: Option<bool>,
+        /// Whether the detection limit is at most the guideline value.
+        suitable: Option<bool>,
+        /// Best estimate of the non-negative measurand.
+        best_estimate: Number,
+        /// Its standard uncertainty.
+        best_standard_uncertainty: Number,
+        /// Limits of the symmetric coverage interval.
+        symmetric_interval: Vec<Number>,
+        /// Limits of the shortest coverage interval.
+        shortest_interval: Vec<Number>,
+        /// Coverage probability of both.
+        coverage_probability: Number,
+    }
+}
+
+pub(super) fn conformity<'a>(report: &Report<'a>) -> Vec<ConformityJson<'a>> {
+    let ends = |interval: Interval| numbers(&[interval.lower, interval.upper]);
+    let pairs = report.budget.conformity.iter();
+    let pairs = pairs.zip(&report.evaluation.conformity);
+    let one = |(stated, found): (&'a Conformity, &ConformityResult)| ConformityJson {
+        name: &stated.name,
+        measurand: report.measurand(stated.measurand).0,
+        tolerance: ends(stated.tolerance),
+        acceptance: found.acceptance.map(ends),
+        rejection: ends(found.rejection),
+        verdict: found.verdict.map(decisions::verdict_code),
+        conformance_probability: found.conformance.and_then(|c| c.probability).map(Number),
+        nonconformance_probability: found.conformance.and_then(|c| c.complement).map(Number),
+        from_measurement: found.conformance.map(|c| Number(c.from_measurement)),
+        from_trials: found.conformance.and_then(|c| c.from_trials).map(Number),
+        capability: found.capability.map(Number),
+        test_uncertainty_ratio: found.test_uncertainty_ratio.map(Number),
+        global: found.global.map(|risk| GlobalJson {
+            in_tolerance: number(risk.in_tolerance),
+            accepted: number(risk.accepted),
+            consumer: number(risk.consumer),
+            producer: number(risk.producer),
+            false_acceptance: number(risk.false_acceptance),
+            false_rejection: number(risk.false_rejection),
+        }),
+    };
+    pairs.map(one).collect()
+}
+
+pub(super) fn detection<'a>(report: &Report<'a>) -> Vec<DetectionJson<'a>> {
+    let pairs = report.budget.detection.iter();
+    let pairs = pairs.zip(&report.evaluation.detection);
+    let one = |(stated, found): (&Detection, &DetectionResult)| DetectionJson {
+        measurand: report.measurand(stated.measurand).0,
+        alpha: number(stated.alpha),
+        beta: number(stated.beta),
+        decision_threshold: found.limits.map(|l| Number(l.decision_threshold)),
+        detection_limit: found
+            .limits
+            .and_then(|l| l.detection_limit.value())
+            .map(Number),
+        monte_carlo_decision_threshold: found.from_trials.map(|l| Number(l.decision_threshold)),
+        monte_carlo_detection_limit: found
+            .from_trials
+            .and_then(|l| l.detection_limit.value())
+            .map(Number),
+        recognised: found.recognised(),
+        suitable: found.suitable(stated),
+        best_estimate: number(found.best.value),
+        best_standard_uncertainty: number(found.best.u),
+        symmetric_interval: numbers(&found.best.symmetric),
+        shortest_interval: numbers(&found.best.shortest),
+        coverage_probability: number(found.best.coverage_probability),
+    };
+    pairs.map(one).collect()
+}

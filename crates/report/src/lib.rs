@@ -1,0 +1,128 @@
+//! Renderers of an evaluation: text, Markdown, JSON, and the sentence for the certificate.
+//!
+//! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
+//! composed once; [`json`] is the machine form.
+
+// Tests may hold results against the platform's own functions.
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
+use gumption_core::{distribution, quantity, special, statistics};
+use gumption_gum::{budget, propagate};
+use gumption_lab::{calibrate, diagnose, recording};
+use gumption_verify as verify;
+
+mod allan;
+mod analyses;
+mod budget_table;
+mod calibration;
+mod claim;
+mod comparison;
+mod compose;
+mod decisions;
+mod diagnosis;
+mod document;
+mod fits;
+mod how;
+mod indices;
+mod joint;
+mod json;
+mod language;
+mod markdown;
+mod moments;
+mod number;
+mod quasi;
+mod remarks;
+mod save;
+mod schema;
+mod series;
+mod statement;
+mod table;
+mod text;
+mod verification;
+
+#[cfg(test)]
+mod fixtures;
+#[cfg(test)]
+mod tests;
+
+pub use allan::{AllanReport, allan_json, allan_markdown, allan_text};
+pub use calibration::{
+    calibration_json, calibration_markdown, calibration_text, calibration_trouble, plan_json,
+    plan_markdown, plan_text,
+};
+pub use diagnosis::{
+    FORMAT as DIAGNOSIS_FORMAT, OUTLOOK_FORMAT, assumed_noise, failure as diagnosis_failure,
+    json as diagnosis_json, markdown as diagnosis_markdown, outlook_json, outlook_markdown,
+    outlook_text, plots as diagnosis_plots, text as diagnosis_text,
+};
+pub use json::{FORMAT, json};
+pub use language::Language;
+pub use markdown::markdown;
+pub use remarks::failure;
+pub use save::saved;
+pub use schema::schema;
+pub use series::{series_markdown, series_text};
+pub use statement::statement;
+pub use text::{Page, text};
+pub use verification::{
+    Detail, FORMAT as VERIFICATION_FORMAT, json as verification_json,
+    markdown as verification_markdown, schema as verification_schema, text as verification_text,
+};
+
+use crate::budget::Budget;
+use crate::propagate::{Evaluation, FindingKind};
+use crate::quantity::Unit;
+
+/// One evaluated budget, ready to be shown.
+#[derive(Debug, Clone, Copy)]
+pub struct Report<'a> {
+    /// What was evaluated.
+    pub budget: &'a Budget,
+    /// What was found.
+    pub evaluation: &'a Evaluation,
+    /// The row of a series; `None` for a budget that stands alone.
+    pub label: Option<&'a str>,
+    /// Language of the sentences and headings.
+    pub language: Language,
+}
+
+impl<'a> Report<'a> {
+    /// Name and unit of a measurand.
+    fn measurand(&self, measurand: usize) -> (&'a str, &'a Unit) {
+        let output = &self.budget.model.outputs()[measurand];
+        (&output.name, &output.unit)
+    }
+
+    /// Whether a finding of this kind concerns the measurand.
+    fn finds(&self, measurand: usize, is_it: impl Fn(&FindingKind) -> bool) -> bool {
+        let concerned = |m: Option<usize>| m.is_none() || m == Some(measurand);
+        self.evaluation
+            .findings
+            .iter()
+            .any(|f| concerned(f.measurand) && is_it(&f.kind))
+    }
+
+    /// p of the coverage intervals.
+    fn coverage_probability(&self) -> f64 {
+        let of_run = self
+            .evaluation
+            .run
+            .as_ref()
+            .map(|run| run.coverage_probability);
+        of_run.unwrap_or(self.budget.conventions.coverage_probability)
+    }
+}
+
+/// The unit as printed after a number (`Ω` for `ohm`); nothing for the unit one.
+fn symbol(unit: &Unit) -> String {
+    if unit.is_one() {
+        String::new()
+    } else {
+        unit.typeset()
+    }
+}
+
+/// The unit of a difference, in which uncertainties are: kelvin for a Celsius temperature.
+fn difference_symbol(unit: &Unit) -> String {
+    symbol(&unit.difference())
+}

@@ -18,14 +18,12 @@ pub fn budget(text: &str) -> Budget {
 
 /// Both methods, as the text says.
 #[track_caller]
-#[allow(dead_code, reason = "not every test file needs it")]
 pub fn evaluate(text: &str) -> Evaluation {
     evaluation_of(&budget(text), MonteCarloChoice::AsBudget)
 }
 
 /// First and second order alone.
 #[track_caller]
-#[allow(dead_code, reason = "not every test file needs it")]
 pub fn gum(text: &str) -> Evaluation {
     evaluation_of(&budget(text), MonteCarloChoice::Off)
 }
@@ -41,7 +39,6 @@ fn evaluation_of(budget: &Budget, monte_carlo: MonteCarloChoice) -> Evaluation {
 
 /// What the reader of a refused text is told.
 #[track_caller]
-#[allow(dead_code, reason = "not every test file needs it")]
 pub fn refusal(text: &str) -> String {
     match budget::read(text, "test.toml", Path::new("")) {
         Ok(_) => panic!("accepted:\n{text}"),
@@ -56,7 +53,6 @@ pub fn only(evaluation: &Evaluation) -> &MeasurandResult {
 }
 
 /// The Monte Carlo result of a budget with one measurand.
-#[allow(dead_code, reason = "not every test file needs it")]
 pub fn sampled(evaluation: &Evaluation) -> &MonteCarlo {
     only(evaluation)
         .monte_carlo
@@ -75,7 +71,6 @@ pub fn close(found: f64, expected: f64, tolerance: f64) {
 
 /// The same for both ends of an interval.
 #[track_caller]
-#[allow(dead_code, reason = "not every test file needs it")]
 pub fn close_ends(found: [f64; 2], expected: [f64; 2], tolerance: f64) {
     close(found[0], expected[0], tolerance);
     close(found[1], expected[1], tolerance);

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "every test file uses its own part")]
 
 pub mod cases;
+pub mod evaluation;
 
 use std::path::{Path, PathBuf};
 

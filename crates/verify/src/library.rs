@@ -1,6 +1,6 @@
 //! The published examples that the program carries with it: every file below `budgets/` but the index.
 //!
-//! Generated: `GUMPTION_UPDATE=1 cargo test --test verify` renews the list, and without it that test tells when
+//! Generated: `GUMPTION_UPDATE=1 cargo test --test library` renews the list, and without it that test tells when
 //! the list is out of date.
 
 macro_rules! library {

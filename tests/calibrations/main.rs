@@ -1,0 +1,15 @@
+//! Calibrations: the files of `calibrations/`, studies against other algorithms, and reports of published ones.
+
+#![allow(
+    clippy::disallowed_methods,
+    reason = "held against the platform's own functions"
+)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod gyros;
+mod library;
+mod reports;
+mod rest;
+mod studies;

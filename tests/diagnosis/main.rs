@@ -1,0 +1,22 @@
+//! Recordings with something left out of their model: what a diagnosis finds, names, and refuses.
+
+#![allow(
+    clippy::disallowed_methods,
+    reason = "held against the platform's own functions"
+)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod allan;
+mod catalogue;
+mod concealed;
+mod design;
+mod evidence;
+mod examples;
+mod instruments;
+mod noise;
+mod reading;
+mod recordings;
+mod refusals;
+mod sizes;

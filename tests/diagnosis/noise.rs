@@ -1,0 +1,179 @@
+//! Noise that differs from reading to reading: what is told of it, and that it raises no false alarm.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::common::Noise;
+use crate::common::cases::{diagnosed_with, folder, gumption, planned};
+
+/// A photodiode at twenty powers over three decades, three times each in an order of no meaning; noise by
+/// the number of the power and the current.
+fn photodiode(seed: u64, u: impl Fn(usize, f64) -> f64) -> String {
+    let mut noise = Noise(seed);
+    // Seeds close to each other begin alike.
+    for _ in 0..20 {
+        noise.uniform();
+    }
+    let mut text = "P [µW],I [µA],lamp [°C],pressure [kPa],t [s]\n".to_owned();
+    let mut pressure = 101.2;
+    for row in 0..60 {
+        let level = (row * 37 + 11) % 60 / 3;
+        let power = libm::pow(10.0, 3.0 * level as f64 / 19.0);
+        let current = 0.15 + 0.4123 * power;
+        let reading = current + u(level, current) * noise.normal();
+        let lamp = 31.0 + 1.5 * libm::sin(row as f64 * 0.157) + 0.1 * noise.normal();
+        pressure += 0.0125 * noise.normal();
+        let _ = writeln!(
+            text,
+            "{power:.3},{reading:.3},{lamp:.2},{pressure:.3},{}",
+            20 * row
+        );
+    }
+    text
+}
+
+const COLUMNS: &str = r#"
+model = "I = dark + s * P"
+
+[columns]
+I = "output"
+P = "stimulus"
+lamp = "covariate"
+pressure = "covariate"
+t = "time"
+
+[diagnosis]
+draws = 1024
+"#;
+
+const REPLICATES: &str = "\n[noise]\nreplicates = [\"P\"]\n";
+
+fn growing(_: usize, current: f64) -> f64 {
+    libm::hypot(0.05, 0.002 * current)
+}
+
+fn origin(found: &Value) -> &str {
+    found["noise"]["origin"].as_str().unwrap_or("")
+}
+
+/// Recordings of an adequate model in which something is found.
+fn alarms(name: &str, case: &str) -> usize {
+    let alarm = |seed: &u64| {
+        let found = diagnosed_with(name, &photodiode(*seed, growing), case);
+        assert!(
+            origin(&found).contains("growing with the reading"),
+            "{found}"
+        );
+        found["verdict"] != "none"
+    };
+    (1..=12).filter(alarm).count()
+}
+
+#[test]
+fn noise_that_grows_over_decades_raises_no_alarm() {
+    // One in a hundred is allowed for; two of twelve happen once in two hundred.
+    let found = alarms("growing", COLUMNS);
+    assert!(found < 2, "{found} alarms");
+}
+
+#[test]
+fn replicates_whose_scatter_grows_raise_no_alarm() {
+    let found = alarms("growing-replicates", &format!("{COLUMNS}{REPLICATES}"));
+    assert!(found < 2, "{found} alarms");
+}
+
+#[test]
+fn replicates_of_one_scatter_have_one_uncertainty() {
+    let case = format!("{COLUMNS}{REPLICATES}");
+    let found = diagnosed_with("even-replicates", &photodiode(1, |_, _| 0.3), &case);
+    assert_eq!(found["verdict"], "none", "{found}");
+    assert_eq!(origin(&found), "from replicates, ν = 40");
+}
+
+#[test]
+fn replicates_that_scatter_unevenly_are_told() {
+    let odd = |level: usize, _: f64| if level.is_multiple_of(2) { 0.03 } else { 0.3 };
+    let folder = folder("uneven-replicates");
+    std::fs::write(folder.join("recording.csv"), photodiode(1, odd)).expect("written");
+    let case = format!("recording = \"recording.csv\"\n{COLUMNS}{REPLICATES}");
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    for (language, words) in [("en", "scatter unevenly"), ("zh", "分散性不一致")] {
+        let (good, text) = gumption(&folder, &["diagnose", "case.toml", "--lang", language]);
+        assert!(good && text.contains(words), "{text}");
+    }
+}
+
+/// What a simulation adds to the model, row by row.
+fn errors(simulated: &str, output: &str) -> Vec<f64> {
+    let mut lines = simulated.lines();
+    let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    let place = |name: &str| header.iter().position(|one| *one == name);
+    let model = place(&format!("{output}_model")).expect("the model");
+    let of = header.iter().position(|one| one.starts_with(output));
+    let of = of.expect("the output");
+    let error = |line: &str| -> f64 {
+        let fields: Vec<f64> = line
+            .split(',')
+            .map(|x| x.parse().unwrap_or(f64::NAN))
+            .collect();
+        fields[of] - fields[model]
+    };
+    lines.map(error).collect()
+}
+
+#[test]
+fn plans_and_simulations_have_the_noise_of_the_recording() {
+    let folder = folder("planned-noise");
+    std::fs::write(folder.join("recording.csv"), photodiode(1, growing)).expect("written");
+    for claim in ["", REPLICATES] {
+        let case = format!("recording = \"recording.csv\"\n{COLUMNS}{claim}");
+        let plan = planned(&folder, &case);
+        assert!(
+            origin(&plan).contains("growing with the reading"),
+            "{claim}"
+        );
+        assert_eq!(plan["noise"]["claimed"], true, "{claim}");
+        let (good, simulated) = gumption(&folder, &["simulate", "case.toml"]);
+        let errors = errors(&simulated, "I");
+        let least = |row: &usize| (row * 37 + 11) % 60 / 3 < 5;
+        let largest = errors.iter().enumerate();
+        let largest = largest
+            .filter(|(row, _)| least(row))
+            .map(|(_, error)| error.abs());
+        let largest = largest.fold(0.0, f64::max);
+        assert!(good && largest < 0.5, "{claim} {largest}");
+    }
+}
+
+#[test]
+fn noise_that_only_a_recording_shows_is_said_to_be_unknown() {
+    let folder = folder("unknown-noise");
+    std::fs::write(folder.join("recording.csv"), "P [µW]\n1\n1\n2\n2\n3\n3\n").expect("written");
+    let model = "recording = \"recording.csv\"\nmodel = \"I = dark + s * P\"\n[columns]\nI = { role = \"output\", unit = \"µA\" }\nP = \"stimulus\"\n[parameter]\ns = { start = 0.4 }\n";
+    for (claim, why) in [
+        ("", "not claimed, and no outputs are recorded"),
+        (REPLICATES, "once their outputs are recorded"),
+    ] {
+        let plan = planned(&folder, &format!("{model}{claim}"));
+        assert!(origin(&plan).contains(why), "{plan:#}");
+        assert_eq!(plan["noise"]["claimed"], false, "{claim}");
+    }
+}
+
+#[test]
+fn simulated_noise_walks_where_it_is_claimed_to() {
+    let folder = folder("simulated-walk");
+    let rows: String = (0..200).map(|row| format!("{row},{}\n", row % 7)).collect();
+    std::fs::write(folder.join("recording.csv"), format!("t [s],x\n{rows}")).expect("written");
+    let case = "recording = \"recording.csv\"\nmodel = \"y = a + b * x\"\n[columns]\ny = { role = \"output\", unit = \"V\" }\nx = \"stimulus\"\nt = \"time\"\n[parameter]\na = { start = 1 }\nb = { start = 2 }\n[noise]\nu = \"1 mV\"\nwalk = \"1 V\"\n";
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let (good, simulated) = gumption(&folder, &["simulate", "case.toml"]);
+    assert!(good, "{simulated}");
+    // A step of the walk in one second has a standard deviation of 1/60 V; white noise of the same size would
+    // jump by several times as much.
+    let errors = errors(&simulated, "y");
+    let steps = errors.windows(2).map(|pair| (pair[1] - pair[0]).powi(2));
+    let step = (steps.sum::<f64>() / 199.0).sqrt();
+    assert!((0.8..1.25).contains(&(step * 60.0)), "{step}");
+}

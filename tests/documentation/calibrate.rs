@@ -1,0 +1,90 @@
+//! The examples of docs/calibrate.md evaluate, and its plan says what the page says.
+
+use crate::common;
+use gumption::calibrate::{self, Purpose};
+
+/// The blocks with this word behind the backquotes.
+fn blocks(word: &str) -> Vec<String> {
+    let path = common::root().join("docs/calibrate.md");
+    let text = std::fs::read_to_string(path).expect("a readable page");
+    let opening = format!("```toml {word}\n");
+    let pieces = text.split(&opening).skip(1);
+    pieces
+        .map(|piece| piece.split("```").next().unwrap_or_default().to_owned())
+        .collect()
+}
+
+#[test]
+fn calibrations_have_coefficients() {
+    let found = blocks("calibrate");
+    assert!(found.len() >= 3);
+    for block in found {
+        let folder = common::root().join("docs");
+        let experiment = calibrate::read(&block, "calibrate.md", &folder, Purpose::Calibrate)
+            .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+        let found = calibrate::calibrate(&experiment).expect("coefficients");
+        let k = &found.figures.coefficients[0];
+        assert!((k.value - 2.003).abs() < 4.0 * k.u, "{} ± {}", k.value, k.u);
+    }
+}
+
+#[test]
+fn plans_say_what_hides() {
+    for block in blocks("plan") {
+        let folder = common::root().join("docs");
+        let read = |text: &str| {
+            calibrate::read(text, "calibrate.md", &folder, Purpose::Plan)
+                .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)))
+        };
+        let plan = calibrate::plan(&read(&block)).expect("a plan");
+        assert_eq!(plan.identifiability.rank, 3);
+        let five = block.replace("[0, 1, 0, -1]", "[1, 0.5, 0, -0.5, -1]");
+        let plan = calibrate::plan(&read(&five)).expect("a plan");
+        assert!(plan.figures.is_some());
+    }
+}
+
+#[test]
+fn the_schema_is_fresh_and_knows_every_key() {
+    let schema = calibrate::schema();
+    let text = serde_json::to_string_pretty(&schema).expect("a schema is JSON") + "\n";
+    let path = common::root().join("docs/calibration.schema.json");
+    let stale: Vec<String> = common::stale(&path, &text).into_iter().collect();
+    common::assert_fresh(&stale);
+    for file in common::files("calibrations", "toml") {
+        let text = std::fs::read_to_string(&file).expect("a file");
+        let table: toml::Table = text.parse().expect("TOML");
+        for key in table.keys() {
+            assert!(schema["properties"].get(key).is_some(), "{key}");
+        }
+    }
+    let recording = &schema["properties"]["recording"]["properties"];
+    assert!(recording.get("together").is_some() && recording.get("still").is_some());
+}
+
+/// The part of a calibration on shared causes, with readings.
+#[test]
+fn shared_causes_correlate_as_the_page_says() {
+    let parts = blocks("calibrate-part");
+    let part = parts.iter().find(|part| part.contains("[[correlation]]"));
+    let part = part.expect("a part").clone() + "[recording]\nfile = \"run.csv\"\n";
+    let folder = std::env::temp_dir().join(format!("gumption-shared-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let csv = "omega [deg/s],U [mV],V [mV]\n-1,-2,-1\n0,0,0\n1,2,1\n";
+    std::fs::write(folder.join("run.csv"), csv).expect("a file");
+    let experiment = calibrate::read(&part, "calibrate.md", &folder, Purpose::Calibrate)
+        .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
+    std::fs::remove_dir_all(&folder).expect("the folder goes");
+    let found = calibrate::calibrate(&experiment)
+        .expect("coefficients")
+        .figures;
+    let place = |name: &str| {
+        let mut all = found.coefficients.iter();
+        all.position(|one| one.name == name).expect("a coefficient")
+    };
+    let (b, c) = (place("b"), place("c"));
+    let common = 0.05_f64.powi(2) / 3.0;
+    let noise = 0.02_f64.powi(2) / 3.0;
+    let expected = 0.5 * common + 0.6 * noise;
+    assert!((found.covariance[(b, c)] / expected - 1.0).abs() < 1e-9);
+}

@@ -1,0 +1,20 @@
+//! Budgets, from their text to their figures: the library against its published figures and its reports, the whole
+//! program against closed forms and independent algorithms.
+
+#![allow(
+    clippy::disallowed_methods,
+    reason = "held against the platform's own functions"
+)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bit_identity;
+mod budgets;
+mod chains;
+mod independent;
+mod interruption;
+mod peers;
+mod published;
+mod references;
+mod strd;

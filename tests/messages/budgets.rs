@@ -1,0 +1,116 @@
+//! The gallery of mistakes: every file of `tests/bad_budgets` is refused, and what the user then reads is
+//! the text beside it. Read the texts as a new user would.
+
+use crate::common;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Runs the program on a bad file, as a user would, from the folder of the file.
+fn message(path: &Path) -> (i32, String) {
+    let folder = path.parent().expect("a file has a folder");
+    let name = path.file_name().and_then(|name| name.to_str());
+    run(folder, &["eval", name.expect("a file has a name")])
+}
+
+/// Exit code, and all that the program says.
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+        .current_dir(folder)
+        .args(arguments)
+        .env("NO_COLOR", "1")
+        .output()
+        .expect("the program runs");
+    let shown = format!(
+        "{}{}",
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    (output.status.code().unwrap_or(-1), shown)
+}
+
+#[test]
+fn every_mistake_is_refused_with_its_message() {
+    let mut stale = Vec::new();
+    let mut accepted = Vec::new();
+    for path in common::files("tests/bad_budgets", "toml") {
+        let (code, shown) = message(&path);
+        if code != 2 || !shown.contains("error") {
+            accepted.push(format!("{} (exit {code})", common::relative(&path)));
+        }
+        stale.extend(common::stale(&path.with_extension("txt"), &shown));
+    }
+    assert!(
+        accepted.is_empty(),
+        "not refused as bad input:\n  {}",
+        accepted.join("\n  ")
+    );
+    common::assert_fresh(&stale);
+}
+
+#[test]
+fn no_message_shows_the_inside_of_the_program() {
+    for path in common::files("tests/bad_budgets", "txt") {
+        let text = std::fs::read_to_string(&path).expect("a readable file");
+        for inside in [
+            "panicked", "unwrap", "Option<", "Some(", "None,", "src/", "f64", "serde",
+        ] {
+            assert!(
+                !text.contains(inside),
+                "{} shows `{inside}`",
+                common::relative(&path)
+            );
+        }
+    }
+}
+
+/// A folder of its own, which goes when the test is over.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("gumption-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a writable folder");
+        Folder(path)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        std::fs::write(self.0.join(name), text).expect("a writable file");
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Every command that reports in Chinese refuses a file in Chinese, too.
+#[test]
+fn faults_are_headed_in_chinese() {
+    let folder = Folder::new("chinese");
+    folder.write(
+        "budget.toml",
+        "[measurand.Y]\nmodel = 'X'\n[input.X]\nvalue = 1\nuu = 1\n",
+    );
+    folder.write("calibration.toml", "equations = 1\n");
+    folder.write("case.toml", "recording = 1\nmodel = 1\n");
+    for (arguments, wanted) in [
+        (&["eval", "budget.toml"][..], "错误[B0104]: 未知的键"),
+        (&["verify", "budget.toml"], "错误[B0104]: 未知的键"),
+        (&["calibrate", "calibration.toml"], "错误["),
+        (&["plan", "calibration.toml"], "错误["),
+        (&["plan", "case.toml"], "错误["),
+        (&["diagnose", "case.toml"], "错误["),
+        (
+            &["allan", "none.csv", "--column", "x", "--interval", "1"],
+            "错误[R0101]: 记录无法读取",
+        ),
+    ] {
+        let (code, shown) = run(&folder.0, &[arguments, &["--lang", "zh"]].concat());
+        assert_eq!(code, 2, "{arguments:?}\n{shown}");
+        for part in [wanted, "说明: ", "处错误\n"] {
+            assert!(shown.contains(part), "{arguments:?}: no {part} in\n{shown}");
+        }
+        assert!(!shown.contains("error"), "{arguments:?}\n{shown}");
+    }
+}

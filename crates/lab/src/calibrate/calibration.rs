@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::apart::{Apart, apart};
-use super::causes::{Cause, causes};
+use super::causes::{Cause, Contribution, causes};
 use super::experiment::{Experiment, Scatter, Weights, Words};
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
@@ -83,6 +83,94 @@ pub struct Coefficient {
     pub k: f64,
     /// The probability that a coefficient that is zero comes out as far from it (two-sided t test).
     pub p_value: f64,
+}
+
+impl Coefficient {
+    /// Whether it differs from zero beyond chance; `None` where no test says so.
+    pub fn is_significant(&self) -> Option<bool> {
+        /// Usual level of a test.
+        const RARE: f64 = 0.05;
+        (!self.p_value.is_nan()).then_some(self.p_value < RARE)
+    }
+}
+
+impl Figures {
+    /// What each cause contributes to a coefficient, in the order of the causes.
+    pub fn contributions(&self, coefficient: usize) -> impl Iterator<Item = Contribution<'_>> {
+        let u = self.coefficients[coefficient].u;
+        let causes = self.causes.iter();
+        causes.map(move |cause| cause.contributes(coefficient, u))
+    }
+
+    /// What makes a coefficient uncertain, the largest first.
+    pub fn budget(&self, coefficient: usize) -> Vec<Contribution<'_>> {
+        let all = self.contributions(coefficient);
+        let mut all: Vec<Contribution<'_>> = all.filter(|one| !one.is_nothing).collect();
+        all.sort_by(|a, b| b.u.total_cmp(&a.u));
+        all
+    }
+
+    /// Correlation coefficients; 0 for what is known exactly.
+    pub fn correlation(&self) -> DMatrix<f64> {
+        let v = &self.covariance;
+        DMatrix::from_fn(v.nrows(), v.ncols(), |i, j| {
+            let scale = (v[(i, i)] * v[(j, j)]).sqrt();
+            match i == j {
+                true => 1.0,
+                false if scale > 0.0 => v[(i, j)] / scale,
+                false => 0.0,
+            }
+        })
+    }
+}
+
+impl Calibration {
+    /// The residuals, the most conspicuous first.
+    pub fn largest_residuals(&self) -> Vec<&Residual> {
+        let size = |one: &Residual| match one.standardised.is_nan() {
+            true => (one.observed - one.fitted).abs(),
+            false => one.standardised.abs(),
+        };
+        let mut all: Vec<&Residual> = self.residuals.iter().collect();
+        all.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        all
+    }
+
+    /// How each coefficient scatters from part to part.
+    pub fn scatter_of_parts(&self) -> Vec<PartScatter> {
+        let of = |index: usize| {
+            let parts = self.parts.iter();
+            let values = parts.map(|(_, part)| part.figures.coefficients[index].value);
+            PartScatter::of(&values.collect::<Vec<_>>())
+        };
+        (0..self.figures.coefficients.len()).map(of).collect()
+    }
+}
+
+/// How the values of a coefficient from several parts scatter, in its unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartScatter {
+    /// Arithmetic mean.
+    pub mean: f64,
+    /// Experimental standard deviation of one value.
+    pub s: f64,
+    /// Largest less smallest.
+    pub range: f64,
+}
+
+impl PartScatter {
+    fn of(values: &[f64]) -> PartScatter {
+        let n = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / n;
+        let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+        let extreme = |better: fn(f64, f64) -> f64| values.iter().copied().reduce(better);
+        let range = extreme(f64::max).zip(extreme(f64::min));
+        PartScatter {
+            mean,
+            s: (squares / (n - 1.0)).sqrt(),
+            range: range.map_or(f64::NAN, |(most, least)| most - least),
+        }
+    }
 }
 
 /// What is left of a reading.

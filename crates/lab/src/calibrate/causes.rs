@@ -66,6 +66,21 @@ impl Cause {
         (self.effects.ncols() == 1).then(|| self.effects[(coefficient, 0)])
     }
 
+    /// What it contributes to the standard uncertainty `u` of a coefficient.
+    pub fn contributes(&self, coefficient: usize, u: f64) -> Contribution<'_> {
+        /// Part of the standard uncertainty.
+        const NOTHING: f64 = 1e-6;
+        let own = self.contribution(coefficient);
+        Contribution {
+            is_nothing: own <= NOTHING * u,
+            cause: self,
+            u: own,
+            effect: self.effect(coefficient),
+            share: (own / u).powi(2),
+            dof: self.contribution_dof(coefficient),
+        }
+    }
+
     /// Both as one cause.
     fn beside(self, other: Cause) -> Cause {
         let columns: Vec<_> = self
@@ -93,6 +108,23 @@ impl Cause {
             .sum();
         squares.sum().powi(2) / welch
     }
+}
+
+/// What a cause contributes to the standard uncertainty of a coefficient.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contribution<'c> {
+    /// The cause.
+    pub cause: &'c Cause,
+    /// Its part of the standard uncertainty.
+    pub u: f64,
+    /// The change of the coefficient by one standard uncertainty, with its sign, where the cause is one error.
+    pub effect: Option<f64>,
+    /// Its share of the variance, 0 … 1.
+    pub share: f64,
+    /// Its degrees of freedom.
+    pub dof: f64,
+    /// Whether it is a rounding error, or might as well be.
+    pub is_nothing: bool,
 }
 
 /// All causes that act on any coefficient.

@@ -51,6 +51,62 @@ pub struct Alias {
     pub shifts: Vec<f64>,
 }
 
+/// What an omitted effect of some size does to the coefficients.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shifts {
+    /// Coefficients that it shifts, without those that it shifts slightly beside others.
+    pub listed: Vec<Shift>,
+    /// The others are shifted by less than so many standard uncertainties, if there are others.
+    pub bound: Option<f64>,
+}
+
+/// A coefficient shifted by an omitted effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shift {
+    /// Its index.
+    pub coefficient: usize,
+    /// By how much, in its unit.
+    pub by: f64,
+    /// The size of that in standard uncertainties, where these are known.
+    pub times: Option<f64>,
+}
+
+impl Alias {
+    /// What an effect of a size does to coefficients of these standard uncertainties; without any, they are not known.
+    pub fn shifts_at(&self, size: f64, u: &[f64]) -> Shifts {
+        /// What is less than this part of the largest shift, both in multiples of u, is slight.
+        const SLIGHT: f64 = 0.01;
+        /// What is less than this part of the largest shift is its rounding.
+        const ROUNDING: f64 = 1e-9;
+        let most = self
+            .shifts
+            .iter()
+            .fold(0.0_f64, |most, s| most.max(s.abs()));
+        let felt = self.shifts.iter().enumerate();
+        let felt = felt.filter(|(_, shift)| shift.abs() > ROUNDING * most);
+        let mut listed: Vec<Shift> = felt
+            .map(|(coefficient, shift)| {
+                let u = u.get(coefficient).filter(|u| **u > 0.0);
+                let by = shift * size;
+                let times = u.map(|u| (by / u).abs());
+                Shift {
+                    coefficient,
+                    by,
+                    times,
+                }
+            })
+            .collect();
+        let largest = listed
+            .iter()
+            .filter_map(|one| one.times)
+            .fold(0.0, f64::max);
+        let all = listed.len();
+        listed.retain(|one| one.times.is_none_or(|times| times >= SLIGHT * largest));
+        let bound = (listed.len() < all).then_some(SLIGHT * largest);
+        Shifts { listed, bound }
+    }
+}
+
 /// Columns whose remainder after projection on the others is smaller than this share of their length are
 /// combinations of them, for all that double precision tells.
 const SINGULAR: f64 = 1e-9;

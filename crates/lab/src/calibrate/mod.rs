@@ -64,18 +64,20 @@ mod trouble;
 
 pub use apart::Apart;
 pub use budget::budget;
-pub use calibration::{Calibration, Coefficient, Figures, Residual, calibrate, estimates};
-pub use causes::{Cause, Origin};
+pub use calibration::{
+    Calibration, Coefficient, Figures, PartScatter, Residual, calibrate, estimates,
+};
+pub use causes::{Cause, Contribution, Origin};
 pub use define::{Purpose, load, read};
 pub use dwells::{Dwelling, DwellsBy};
 pub use experiment::{
     Act, Doubt, Experiment, FunctionResult, Heading, Input, Observed, Omitted, Parameter, Prior,
     Scatter, Scope, Target, Weights, Words,
 };
-pub use identify::{Alias, Combination, Identifiability, NearAlias};
+pub use identify::{Alias, Combination, Identifiability, NearAlias, Shift, Shifts};
 pub use limits::Limit;
 pub use plan::{Plan, plan};
 pub use points::{PointColumn, Points};
-pub use scatter::{ResponseScatter, ScatterTest};
+pub use scatter::{Misfit, ResponseScatter, ScatterTest};
 pub use tables::schema;
 pub use trouble::Trouble;

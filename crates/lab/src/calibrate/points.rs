@@ -56,6 +56,12 @@ impl Points {
         points
     }
 
+    /// Whether any values are averages of samples.
+    pub fn are_sampled(&self) -> bool {
+        let mut columns = self.columns.iter();
+        columns.any(|column| !column.averages.is_empty())
+    }
+
     /// Some of the points, in the given order; places that do not exist are passed over.
     #[must_use]
     pub fn select(&self, rows: &[usize]) -> Points {

@@ -51,20 +51,62 @@ pub struct ScatterTest {
     pub dof: f64,
     /// The probability of a larger χ².
     pub p_value: f64,
+    /// What that says of the errors.
+    pub misfit: Option<Misfit>,
+}
+
+impl ScatterTest {
+    fn new(expected: f64, chi_squared: f64, dof: f64, way: Scatter, sampled: bool) -> ScatterTest {
+        let p_value = chi_squared_sf(chi_squared, dof);
+        ScatterTest {
+            expected,
+            chi_squared,
+            dof,
+            p_value,
+            misfit: Misfit::of(p_value, way, sampled),
+        }
+    }
+
+    /// χ²/ν, 1 where the residuals are as large as expected.
+    pub fn reduced(&self) -> f64 {
+        self.chi_squared / self.dof
+    }
+}
+
+/// What residuals say of the known errors of their readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Misfit {
+    /// They are larger than the samples of the dwells let expect, and tell the scatter themselves: something changes
+    /// from dwell to dwell.
+    BetweenDwells,
+    /// They are larger than the errors that make the uncertainties: these are too small.
+    Larger,
+    /// They are smaller than the errors of the readings.
+    Smaller,
+}
+
+impl Misfit {
+    /// From the probability of a larger χ². Where residuals tell the scatter, they may be larger than stated errors.
+    fn of(p_value: f64, way: Scatter, sampled: bool) -> Option<Misfit> {
+        /// Probability of a χ² as far out.
+        const RARE: f64 = 0.005;
+        let large = p_value < RARE;
+        match way {
+            Scatter::Residuals if large && sampled => Some(Misfit::BetweenDwells),
+            Scatter::Dwells | Scatter::Stated if large => Some(Misfit::Larger),
+            _ if p_value > 1.0 - RARE => Some(Misfit::Smaller),
+            _ => None,
+        }
+    }
 }
 
 impl Experiment {
     /// What tells the scatter: as the file says, else residuals where there are any, else samples.
     pub(super) fn way_of_scatter(&self, rows: usize) -> Scatter {
-        let sampled = self
-            .points
-            .columns
-            .iter()
-            .any(|column| !column.averages.is_empty());
         match self.scatter {
             Some(way) => way,
             None if rows > self.parameters.len() => Scatter::Residuals,
-            None if sampled => Scatter::Dwells,
+            None if self.points.are_sampled() => Scatter::Dwells,
             None => Scatter::Stated,
         }
     }
@@ -135,11 +177,7 @@ impl Scatters {
     ) -> Result<Scatters, Trouble> {
         let experiment = stack.experiment;
         let way = experiment.way_of_scatter(stack.rows.len());
-        let sampled = experiment
-            .points
-            .columns
-            .iter()
-            .any(|column| !column.averages.is_empty());
+        let sampled = experiment.points.are_sampled();
         if way == Scatter::Dwells && !sampled {
             return Err(Trouble::NoSamples);
         }
@@ -212,12 +250,8 @@ impl Scatters {
                 test: (complete && dof > 0.0).then(|| {
                     let chi_squared = sum(&expected);
                     let expected: f64 = rows.iter().map(|row| expected[*row].powi(2)).sum();
-                    ScatterTest {
-                        expected: (expected / rows.len() as f64).sqrt(),
-                        chi_squared,
-                        dof,
-                        p_value: chi_squared_sf(chi_squared, dof),
-                    }
+                    let expected = (expected / rows.len() as f64).sqrt();
+                    ScatterTest::new(expected, chi_squared, dof, way, sampled)
                 }),
             });
         }

@@ -16,6 +16,8 @@
 //! | `held_out` | prediction of a recording that the fit has not seen |
 //! | `likeness` | what can stand in for something whose trace is known |
 //! | `inquiry` | candidates and recording as matrices, asked of `evidence` |
+//! | `conclusion` | what is said: names that are told, tentative ones, what has none |
+//! | `emphasis` | what is worth attention: lines that change a result, measurements that decide |
 //! | `result` | the parameters as the measurands of a budget |
 //! | [`rivals`] | methods in common use, to be compared with |
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
@@ -25,9 +27,11 @@ pub mod at_rest;
 pub mod case;
 pub mod catalogue;
 mod compare;
+mod conclusion;
 mod confirm;
 mod contender;
 mod correlation;
+mod emphasis;
 pub mod evidence;
 mod extra;
 pub mod faults;
@@ -56,7 +60,9 @@ mod typical;
 
 pub use adopt::{Addition, Extended, Free};
 pub use compare::{Opinion, Pick, opinions};
+pub use conclusion::{Conclusion, Doubt, Nameless};
 pub use confirm::Quality;
+pub use emphasis::{Agreement, Unseen};
 pub use extra::{Extra, Measure};
 pub use fit::NoFit;
 pub use held_out::{HeldOutQuality, Prediction};

@@ -100,12 +100,20 @@ pub struct Effect {
     /// It says what the recording looks like, and not why.
     #[serde(default)]
     pub describes: bool,
+    /// It says where to look: at one level of a factor.
+    #[serde(default)]
+    pub locates: bool,
     /// Several of its variants may act at once: bad rows, jumps.
     #[serde(default)]
     pub repeats: bool,
 }
 
 impl Effect {
+    /// Whether its name is not complete without the place of its variant: a bad row, a jump, a slip.
+    pub fn has_place(&self) -> bool {
+        self.repeats || self.exact.is_some()
+    }
+
     /// Whether a fitted size may belong to this effect: any, unless its size is known.
     pub fn admits(&self, size: f64, u: f64) -> bool {
         /// Standard uncertainties that a fitted size may differ by.

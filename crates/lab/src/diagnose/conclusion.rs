@@ -1,0 +1,249 @@
+//! What a diagnosis says: which names are told, which are tentative, and what stays without a name.
+//!
+//! Everything that is weighed is weighed here; reports put it into words.
+
+use super::case::Case;
+use super::catalogue::{Term, Variation};
+use super::evidence::{Alternative, Slot, State, Verdict};
+use super::run::{Diagnosis, Estimated};
+
+/// What a diagnosis says, in one sentence.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Conclusion<'d> {
+    /// Model and recording agree.
+    Agreement,
+    /// The model leaves out named effects, and nothing else.
+    LeavesOut {
+        /// Effects with one name, or one that is far likelier than the others.
+        told: Vec<&'d Slot>,
+        /// Effects with several names that the recording cannot tell apart.
+        open: Vec<&'d Slot>,
+    },
+    /// The model leaves out named effects, and that is not all.
+    AndMore {
+        /// Effects with a name.
+        named: Vec<&'d Slot>,
+        /// What has no name.
+        nameless: Option<Nameless>,
+        /// Names that are not certain.
+        tentative: Vec<&'d Alternative>,
+    },
+    /// No name is certain.
+    Tentative {
+        /// Names that are not certain.
+        names: Vec<&'d Alternative>,
+        /// Where the rest sits.
+        places: Vec<&'d Alternative>,
+    },
+    /// A name is about as likely as something without one.
+    Undecided {
+        /// The name.
+        name: &'d Alternative,
+        /// Where what has no name sits.
+        places: Vec<&'d Alternative>,
+    },
+    /// Nothing in the catalogue explains the recording.
+    Unexplained {
+        /// Where the mismatch sits.
+        places: Vec<&'d Alternative>,
+    },
+}
+
+/// How something without a name stands to the named effects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Nameless {
+    /// It remains beside them.
+    Beside,
+    /// It varies smoothly, and explains the recording as well as they do.
+    Instead,
+}
+
+/// Why the names of an unexplained slot are to be taken with care.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Doubt<'d> {
+    /// There is neither a name nor a place.
+    Nothing,
+    /// The name may be the shape of another effect.
+    Uncertain,
+    /// It sits here; names, where there are any, are tentative.
+    At {
+        /// Competitors without a name that are likely enough.
+        places: Vec<&'d Alternative>,
+        /// Whether names resemble it.
+        resembles: bool,
+    },
+}
+
+impl Slot {
+    /// Whether no explanation of a list is far likelier than the others.
+    pub fn is_open(&self) -> bool {
+        /// Probability of a first one that leads.
+        const LEADS: f64 = 0.95;
+        let first = self.named.first();
+        self.state == State::Ambiguous && first.is_none_or(|first| first.probability < LEADS)
+    }
+
+    /// Whether it has names that hold.
+    pub fn is_explained(&self) -> bool {
+        self.state != State::Unexplained
+    }
+
+    /// Names worth telling: all that hold, and of those that do not the likely ones.
+    pub fn told(&self) -> impl Iterator<Item = &Alternative> {
+        let named = self.named.iter();
+        named.filter(|one| self.is_explained() || one.weighs())
+    }
+}
+
+impl Alternative {
+    /// Whether it is likely enough to be told although it is not certain.
+    pub fn weighs(&self) -> bool {
+        const LEAST: f64 = 0.005;
+        self.probability >= LEAST
+    }
+
+    /// Whether nothing else comes near.
+    pub fn is_sure(&self) -> bool {
+        const SURE: f64 = 0.999;
+        self.probability > SURE
+    }
+}
+
+impl Diagnosis {
+    /// The answer in one sentence.
+    pub fn conclusion(&self) -> Conclusion<'_> {
+        let slots = self.examination.slots.iter();
+        let named = slots.clone().filter(|slot| slot.is_explained());
+        let (open, told): (Vec<&Slot>, Vec<&Slot>) = named.partition(|slot| slot.is_open());
+        match self.examination.verdict {
+            Verdict::None => return Conclusion::Agreement,
+            Verdict::Identified | Verdict::Ambiguous => {
+                return Conclusion::LeavesOut { told, open };
+            }
+            Verdict::Partly | Verdict::Contested | Verdict::Unexplained => {}
+        }
+        let named: Vec<&Slot> = told.into_iter().chain(open).collect();
+        let names: Vec<&Alternative> = slots.filter_map(|slot| self.tentative(slot)).collect();
+        let places = self.places();
+        match (named.is_empty(), names.is_empty()) {
+            (true, true) => match self.undecided() {
+                Some(name) => Conclusion::Undecided { name, places },
+                None => Conclusion::Unexplained { places },
+            },
+            (true, false) => Conclusion::Tentative { names, places },
+            (false, _) => Conclusion::AndMore {
+                named,
+                nameless: (names.is_empty() || !places.is_empty()).then_some(
+                    match self.examination.verdict {
+                        Verdict::Contested => Nameless::Instead,
+                        _ => Nameless::Beside,
+                    },
+                ),
+                tentative: names,
+            },
+        }
+    }
+
+    /// Why the names of a slot are to be taken with care; `None` where they hold.
+    pub fn doubt<'d>(&self, slot: &'d Slot) -> Option<Doubt<'d>> {
+        if slot.is_explained() {
+            return None;
+        }
+        let places: Vec<&Alternative> = slot.generic.iter().filter(|one| one.weighs()).collect();
+        let resembles = slot.named.iter().any(Alternative::weighs);
+        Some(match (places.is_empty(), resembles) {
+            (true, false) => Doubt::Nothing,
+            (true, true) => Doubt::Uncertain,
+            _ if self.tentative(slot).is_some() => Doubt::Uncertain,
+            _ => Doubt::At { places, resembles },
+        })
+    }
+
+    /// The name of a slot that is not certain, but far likelier than everything without a name.
+    fn tentative<'d>(&self, slot: &'d Slot) -> Option<&'d Alternative> {
+        /// What has no name is out of question below this …
+        const UNLIKELY: f64 = 0.05;
+        /// … and a name is tentative from here on.
+        const LIKELY: f64 = 0.5;
+        let unlikely = slot.generic.iter().all(|one| one.probability < UNLIKELY);
+        let first = slot.named.first().filter(|one| one.probability > LIKELY);
+        let first = first.filter(|one| !self.describes(one));
+        first.filter(|_| !slot.is_explained() && unlikely)
+    }
+
+    /// Whether a name only tells how the recording looks, which is no name beside something unexplained. A shift from
+    /// one level of a factor to another tells more: where to look.
+    fn describes(&self, one: &Alternative) -> bool {
+        let effect = self.cells[one.candidate].effect;
+        effect.describes && !effect.locates
+    }
+
+    /// The first name of the first slot, if it is not much less likely than what has no name.
+    fn undecided(&self) -> Option<&Alternative> {
+        const LEAST: f64 = 0.2;
+        let slot = self.examination.slots.first()?;
+        let first = slot.named.first().filter(|one| one.probability >= LEAST);
+        slot.generic.first()?;
+        first.filter(|one| !self.describes(one))
+    }
+
+    /// Where what is unexplained sits: what is likely enough; else, where no name is tentative either, the best
+    /// there is.
+    fn places(&self) -> Vec<&Alternative> {
+        let slots = self.examination.slots.iter();
+        let unexplained = slots.filter(|s| !s.is_explained() && self.tentative(s).is_none());
+        let found: Vec<&Alternative> = unexplained.filter_map(|s| s.generic.first()).collect();
+        let likely: Vec<&Alternative> = found.iter().copied().filter(|a| a.weighs()).collect();
+        if likely.is_empty() { found } else { likely }
+    }
+
+    /// The most probable variant of an alternative.
+    pub fn variation(&self, alternative: &Alternative) -> Option<&Variation> {
+        let (cell, variation) = self.atoms[alternative.variants.first()?.atom];
+        Some(&self.cells[cell].variants[variation])
+    }
+
+    /// The terms of that variant that have a size of their own.
+    pub fn terms(&self, alternative: &Alternative) -> Vec<&Term> {
+        let terms = self.variation(alternative).into_iter();
+        let terms = terms.flat_map(|variation| &variation.terms);
+        terms.filter(|term| !term.tied).collect()
+    }
+
+    /// Candidates of the same cause and another order that may stand instead of an alternative, with their shares.
+    pub fn other_orders(&self, alternative: &Alternative) -> Vec<(usize, f64)> {
+        /// Orders of less than this share are out of the question.
+        const SHARE: f64 = 0.01;
+        let mut shares = std::collections::BTreeMap::new();
+        for variant in &alternative.variants {
+            *shares.entry(self.atoms[variant.atom].0).or_insert(0.0) += variant.share;
+        }
+        shares.remove(&alternative.candidate);
+        shares
+            .into_iter()
+            .filter(|(_, share)| *share >= SHARE)
+            .collect()
+    }
+
+    /// The amplitude of what repeats with the sine and the cosine of one argument, in the unit of the sine's size.
+    pub fn amplitude(&self, case: &Case, alternative: &Alternative) -> Option<Estimated> {
+        let [sine, cosine] = self.terms(alternative)[..] else {
+            return None;
+        };
+        let argument = sine.written().text.strip_prefix("sin(")?;
+        if cosine.written().text.strip_prefix("cos(") != Some(argument) {
+            return None;
+        }
+        let value = alternative.estimate.norm();
+        let gradient = &alternative.estimate / value;
+        let of_noise = gradient.dot(&(&alternative.covariance * &gradient)).sqrt();
+        let of_choice = gradient.component_mul(&alternative.choice).norm();
+        let u = alternative.widened(of_noise, of_choice);
+        u.is_finite().then(|| Estimated {
+            name: "amplitude".to_owned(),
+            unit: sine.unit_of_size(case).typeset(),
+            value,
+            u,
+        })
+    }
+}

@@ -329,16 +329,22 @@ fn in_a_file(kind: &str, shapes: &[String], rows: &[KeyRow]) -> String {
     format!("In a budget file:\n{}", ways.join("\n"))
 }
 
-/// The codes of all modules.
+/// The codes of all modules, in their order.
 fn codes() -> impl Iterator<Item = &'static Code> {
-    budget::faults::CODES
-        .iter()
-        .chain(model::faults::CODES)
-        .chain(quantity::faults::CODES)
-        .chain(recording::faults::CODES)
-        .chain(equations::faults::CODES)
-        .chain(calibrate::faults::CODES)
-        .chain(diagnose::faults::CODES)
+    let modules = [
+        gumption_format::toml::faults::CODES,
+        budget::faults::CODES,
+        model::faults::CODES,
+        quantity::faults::CODES,
+        recording::faults::CODES,
+        equations::faults::CODES,
+        calibrate::faults::CODES,
+        diagnose::faults::CODES,
+    ];
+    let mut codes: Vec<&Code> = modules.into_iter().flatten().collect();
+    // Those of TOML have numbers among those of budgets.
+    codes.sort_by_key(|code| code.id);
+    codes.into_iter()
 }
 
 #[cfg(test)]

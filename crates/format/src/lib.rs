@@ -4,3 +4,4 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 pub mod files;
+pub mod toml;

@@ -4,11 +4,11 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeString, DeValue};
 
-use super::faults::{UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
-use super::table::{FromToml, KeyRow, Raw, Reader, Stated, table, words};
-use super::values::Dof;
 use crate::distribution::{Kind, kind_named};
 use crate::fault::Fault;
+use gumption_format::toml::Dof;
+use gumption_format::toml::faults::{UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
+use gumption_format::toml::{FromToml, KeyRow, Raw, Reader, Stated, table, words};
 
 words! {
     /// A shape whose width another way states.

@@ -17,6 +17,7 @@ mod distributions;
 pub mod doubts;
 pub mod faults;
 mod fit;
+pub mod hints;
 mod parametric;
 mod profile;
 mod reader;
@@ -24,11 +25,7 @@ mod reader;
 pub mod saved;
 mod series;
 mod shelf;
-pub mod strings;
-mod syntax;
-pub mod table;
 pub mod tables;
-pub mod values;
 pub mod variants;
 pub mod writing;
 
@@ -40,11 +37,10 @@ pub use decision::{
     Conformity, DecisionRule, Detection, Following, Follows, Guard, ISO_14253_PROBABILITY, Interval,
 };
 pub use fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest, Verdict as FitVerdict};
+pub use gumption_format::toml::KeyRow;
 pub use profile::{PROFILES, Profile, profile_named};
 pub use reader::{Loaded, keys, load, load_from, load_under, read, schema, template};
 pub use saved::{RESULT_FORMAT, result_schema};
-pub use syntax::syntax_faults;
-pub use table::KeyRow;
 
 pub use crate::fault::Rejection;
 pub use crate::files::Files;

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::distributions::{DiscreteTable, DistributionTable, LimitsTable, StudentTable};
 use super::faults::{DISTRIBUTION, MISSING_KEY, TWO_WAYS};
-use super::table::Stated;
 use crate::distribution::Distribution;
 use crate::fault::Fault;
+use gumption_format::toml::Stated;
 
 /// A fully stated distribution, and whether its location is stated too.
 #[derive(Debug, Clone, PartialEq)]

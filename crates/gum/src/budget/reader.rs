@@ -7,15 +7,17 @@ use serde_json::{Value, json};
 use toml::de::DeTable;
 
 use super::check::{self, Origin, Variant};
-use super::faults::{NOT_UTF8, UNREADABLE_FILE};
+use super::faults::UNUSED;
+use super::hints::HINTS;
 use super::series;
 use super::shelf::Shelf;
-use super::syntax::{elsewhere, leaves_the_rest, syntax_faults};
-use super::table::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use super::tables::FileTable;
 use super::{Heading, Profile, Row};
 use crate::fault::{Fault, Rejection};
 use crate::files::Files;
+use gumption_format::toml::faults::UNREADABLE_FILE;
+use gumption_format::toml::{FromToml, KeyRow, Reader, Stated, Table, read_table};
+use gumption_format::toml::{decoded, elsewhere, leaves_the_rest, syntax_faults};
 
 /// A file that was accepted.
 #[derive(Debug, Clone)]
@@ -68,22 +70,7 @@ fn bytes_of(files: Files<'_>, path: &Path) -> Result<Vec<u8>, Rejection> {
 /// # Errors
 /// It cannot be read, or is not UTF-8.
 pub(super) fn text_of(files: Files<'_>, path: &Path) -> Result<String, Rejection> {
-    decoded(bytes_of(files, path)?, &path.display().to_string())
-}
-
-fn decoded(bytes: Vec<u8>, name: &str) -> Result<String, Rejection> {
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
-        let fault = Fault::new(
-            NOT_UTF8,
-            at..at,
-            format!("{name} is not UTF-8 text from byte {} on", at + 1),
-        )
-        .label("the readable part ends here")
-        .help("save the file as UTF-8");
-        Rejection::new(name, &valid, vec![fault])
-    })
+    decoded(bytes_of(files, path)?, path)
 }
 
 /// Reads and checks a budget file of this content.
@@ -101,7 +88,7 @@ pub(super) fn load_bytes(
     {
         return Err(refuse(not_a_budget(&name)));
     }
-    let text = decoded(bytes, &name)?;
+    let text = decoded(bytes, path)?;
     let origin = Origin {
         shelf,
         directory: path.parent().unwrap_or_else(|| Path::new("")),
@@ -179,7 +166,7 @@ fn read_under(
         Err(found) => faults.extend(found),
     }
     if !syntax.is_empty() {
-        let others = elsewhere(faults, &syntax, text);
+        let others = elsewhere(faults, &syntax, text, UNUSED);
         syntax.extend(others);
         faults = syntax;
     }
@@ -196,10 +183,7 @@ fn variants(
     text: &str,
     profile: Option<&Profile>,
 ) -> (Vec<Variant>, Vec<Fault>) {
-    let mut reader = Reader {
-        file: text,
-        faults: Vec::new(),
-    };
+    let mut reader = Reader::new(text, &HINTS);
     let file = tables(table, profile, &mut reader);
     let rows = match &file.series {
         Some(stated) => series::variants(table, stated, &mut reader.faults),

@@ -7,10 +7,10 @@ use toml::Spanned;
 use toml::de::{DeArray, DeString, DeTable, DeValue};
 
 use super::faults::{SERIES, UNKNOWN_NAME};
-use super::table::{Raw, Stated, Table};
 use super::tables::{FileTable, SeriesTable};
-use super::values::{Cell, amount_parts};
 use crate::fault::{Fault, nearest};
+use gumption_format::toml::{Cell, amount_parts};
+use gumption_format::toml::{Raw, Stated, Table};
 
 /// One row: its label, and the file with its values in place.
 pub(super) struct Variant<'t> {

@@ -3,11 +3,11 @@
 use serde_json::{Value, json};
 use toml::de::DeValue;
 
-use super::faults::WRONG_TYPE;
-use super::table::{FromToml, KeyRow, Raw, Reader, Stated, unknown_word};
 use super::tables::{ColumnTable, ConstantTable, FitParameterTable, GroupColumnTable, SourceTable};
-use super::values::{Amount, Named};
 use crate::fault::Fault;
+use gumption_format::toml::faults::WRONG_TYPE;
+use gumption_format::toml::{Amount, Named};
+use gumption_format::toml::{FromToml, KeyRow, Raw, Reader, Stated, unknown_word};
 
 /// `[source.NAME]`: causes of uncertainty that several inputs share.
 #[derive(Debug, Clone)]
@@ -114,11 +114,11 @@ pub enum Amounts {
     Column(Box<ColumnTable>),
 }
 
-impl Stated<Amounts> {
+impl Amounts {
     /// The amount that holds for an element; nothing when the list is too short.
-    pub fn of_element(&self, element: usize) -> Option<Stated<Amount>> {
-        match &self.value {
-            Amounts::One(amount) => Some(self.map(|_| amount.clone())),
+    pub fn of_element(stated: &Stated<Self>, element: usize) -> Option<Stated<Amount>> {
+        match &stated.value {
+            Amounts::One(amount) => Some(stated.map(|_| amount.clone())),
             Amounts::Each(list) => list.get(element).cloned(),
             Amounts::Column(_) => None,
         }

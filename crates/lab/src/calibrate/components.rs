@@ -7,11 +7,11 @@ use super::doubts::Known;
 use super::experiment::{Act, Doubt, Scope, Target};
 use super::faults::KEY;
 use super::tables::ScopeWord;
-use crate::budget::table::Stated;
 use crate::budget::{Budget, Evaluation, Group, Owner};
 use crate::distribution::Distribution;
 use crate::fault::Fault;
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// Every component as an error, correlated ones as sums of independent errors; `inputs` are the names of
 /// the inputs that the equations see.

@@ -11,7 +11,6 @@ use super::points::Points;
 use super::positions::{expected, optional};
 use super::schedule::scheduled;
 use super::tables::{HoldsWord, RecordingTable};
-use crate::budget::table::Stated;
 use crate::budget::{Files, Rejection};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
@@ -19,6 +18,7 @@ use crate::recording::{
     Checks, Finding, Heading, Problem, Recording, Request, Settling, Severity, check, headings,
     text_of,
 };
+use gumption_format::toml::Stated;
 
 /// The points; `None` after faults of the calibration file.
 pub(super) fn points(
@@ -327,7 +327,7 @@ fn dwelling(
         .and_then(|role| recording.column(role))
         .and_then(|column| column.unit.clone())
         .unwrap_or_else(Unit::one);
-    let mut in_time = |stated: &Option<Stated<crate::budget::values::Amount>>| match stated {
+    let mut in_time = |stated: &Option<Stated<gumption_format::toml::Amount>>| match stated {
         Some(amount) => definer.amount(amount, &unit).map(Some),
         None => Some(None),
     };

@@ -15,13 +15,13 @@ use super::positions;
 use super::source::{self, Source};
 use super::tables::{CalibrationTable, ScatterWord, WeightsWord};
 use crate::budget::doubts::text_of;
-use crate::budget::table::Stated;
-use crate::budget::values::{Amount, Named};
 use crate::budget::{Rejection, Remark};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::Fault;
 use crate::model::{Role, Symbol, outline};
 use crate::quantity::{Unit, UnitTable};
+use gumption_format::toml::Stated;
+use gumption_format::toml::{Amount, Named};
 
 /// What an experiment is read for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -13,17 +13,17 @@ use super::faults::{KEY, STATE_INPUT};
 use super::names::{Kind, Names};
 use super::tables::{KnownTable, SharedTable};
 use crate::budget::doubts::checked;
-use crate::budget::table::Stated;
 use crate::budget::tables::{
     ConstantTable, CorrelationTable, FileTable, InputTable, MeasurandTable, SourceTable,
 };
-use crate::budget::values::{Amount, Named, OneOrMany};
 use crate::budget::variants::{ConstantEntry, Sources};
 use crate::budget::{Budget, Remark};
 use crate::equations::Quantity;
 use crate::fault::Fault;
 use crate::model::{Role, Symbol};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
+use gumption_format::toml::{Amount, Named, OneOrMany};
 
 /// What the file says of inputs, readings and constants.
 pub(super) struct Doubts {

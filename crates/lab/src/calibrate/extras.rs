@@ -3,11 +3,11 @@
 use super::define::{Definer, entries, equation_text, quantity, symbol, words};
 use super::experiment::{FunctionResult, Input, Omitted, Parameter};
 use super::faults::{RESULT, TERM};
-use crate::budget::table::Stated;
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::Fault;
 use crate::model::{Symbol, outline};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 impl Definer<'_> {
     /// Effects that the equations leave out.

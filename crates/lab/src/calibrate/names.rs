@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use super::define::{Definer, Purpose, entries};
 use super::faults::NAME_TWICE;
-use crate::budget::strings::StringMap;
-use crate::budget::table::Stated;
 use crate::fault::Fault;
 use crate::model::outline;
+use gumption_format::toml::Stated;
+use gumption_format::toml::StringMap;
 
 /// What a name is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

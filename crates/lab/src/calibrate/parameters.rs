@@ -4,11 +4,11 @@ use super::define::{Definer, entries, quantity, symbol, words};
 use super::doubts::Doubts;
 use super::experiment::Parameter;
 use super::faults::UNIT;
-use crate::budget::table::Stated;
 use crate::equations::Quantity;
 use crate::fault::Fault;
 use crate::model::{Symbol, outline};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 impl Definer<'_> {
     /// What the file estimates.

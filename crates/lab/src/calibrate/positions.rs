@@ -6,9 +6,9 @@ use super::define::Definer;
 use super::faults::POSITION;
 use super::points::{PointColumn, Points};
 use super::tables::PositionsTable;
-use crate::budget::table::Stated;
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// Labels that must occur.
 pub(super) fn expected(table: &PositionsTable) -> Vec<&str> {

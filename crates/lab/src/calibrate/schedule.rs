@@ -6,11 +6,11 @@ use super::experiment::Words;
 use super::faults::SCHEDULE;
 use super::names::Names;
 use super::points::{PointColumn, Points};
-use crate::budget::table::Stated;
-use crate::budget::values::Cell;
 use crate::fault::Fault;
 use crate::quantity::Unit;
 use crate::recording::{Heading, Labels};
+use gumption_format::toml::Cell;
+use gumption_format::toml::Stated;
 
 /// The points of a schedule in the file.
 pub(super) fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Points> {

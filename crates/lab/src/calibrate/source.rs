@@ -6,10 +6,12 @@ use super::define::entries;
 use super::faults::NO_PROCEDURE;
 use super::procedure::{PROCEDURES, procedure_named};
 use super::tables::CalibrationTable;
-use crate::budget::doubts::tables_of;
-use crate::budget::table::{Stated, Table};
-use crate::budget::values::Named;
+use crate::budget::faults::UNUSED;
+use crate::budget::hints::HINTS;
 use crate::fault::{Fault, nearest};
+use gumption_format::toml::Named;
+use gumption_format::toml::tables_of;
+use gumption_format::toml::{Stated, Table};
 
 /// The tables of a file over those of its procedure.
 pub(super) struct Source {
@@ -34,7 +36,7 @@ pub(super) struct Listed {
 
 /// Reads a file and the procedure that it names.
 pub(super) fn read(text: &str) -> Result<Source, Vec<Fault>> {
-    let (own, mut faults) = tables_of::<CalibrationTable>(text, "a calibration")?;
+    let (own, mut faults) = tables_of::<CalibrationTable>(text, "a calibration", &HINTS, UNUSED)?;
     let listed = Listed {
         parameters: names(&own.parameter),
         inputs: names(&own.input),
@@ -61,7 +63,7 @@ pub(super) fn read(text: &str) -> Result<Source, Vec<Fault>> {
     };
     // Places in the procedure follow those in the file.
     let padded = format!("{}\n{below}", " ".repeat(text.len()));
-    let (base, wrong) = tables_of::<CalibrationTable>(&padded, "a procedure")?;
+    let (base, wrong) = tables_of::<CalibrationTable>(&padded, "a procedure", &HINTS, UNUSED)?;
     faults.extend(wrong);
     Ok(Source {
         text: format!("{text}\n{below}"),

@@ -3,12 +3,12 @@
 use serde_json::{Value, json};
 
 use super::procedure::PROCEDURES;
-use crate::budget::table::{FromToml, Stated, table, words};
 use crate::budget::tables::{
     ConventionsTable, CorrelationTable, InputTable, MonteCarloTable, SourceTable,
 };
-use crate::budget::values::{Amount, Cell, Date, Named, OneOrMany};
 use crate::budget::variants::ConstantEntry;
+use gumption_format::toml::{Amount, Cell, Date, Named, OneOrMany};
+use gumption_format::toml::{FromToml, Stated, table, words};
 
 type List<T> = Vec<Stated<T>>;
 

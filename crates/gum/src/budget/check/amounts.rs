@@ -5,12 +5,12 @@ use std::ops::Range;
 use super::draft::{Context, show};
 use super::{Checker, entries};
 use crate::budget::faults::{NOT_POSITIVE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, UNIT_CLASH};
-use crate::budget::strings::StringMap;
-use crate::budget::table::Stated;
 use crate::budget::tables::FileTable;
-use crate::budget::values::Amount;
 use crate::fault::Fault;
 use crate::quantity::{DefinitionError, Unit, revolutions_as_angle};
+use gumption_format::toml::Amount;
+use gumption_format::toml::Stated;
+use gumption_format::toml::StringMap;
 
 /// Whether a unit of dimension one names a ratio, of which one asks "of what?" (in contrast to angles).
 pub(super) fn is_ratio(symbol: &str) -> bool {

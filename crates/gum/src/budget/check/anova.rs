@@ -8,12 +8,12 @@ use super::draft::{Context, Core, show};
 use super::type_a::Evaluated;
 use super::ways::Way;
 use crate::budget::faults::{GROUPS, MISSING_KEY, NO_SCATTER};
-use crate::budget::table::Stated;
 use crate::budget::tables::{BetweenWord, ComponentTable, GroupColumnTable, GroupSummaryTable};
 use crate::budget::variants::{Groups, ReadingsOf};
 use crate::budget::{Anova, Finding, NestedAnova};
 use crate::fault::Fault;
 use crate::statistics::{Dd, Group, Nested, Of, OneWay, Policy, Uncertainty, Verdict};
+use gumption_format::toml::Stated;
 
 /// Groups, or groups of subgroups.
 enum Design {

@@ -7,10 +7,10 @@ use super::draft::{Context, Core, show};
 use super::shapes::Width;
 use crate::budget::distributions::Shape;
 use crate::budget::faults::{DOF, K_AND_P, NO_COVERAGE_FACTOR, NOT_POSITIVE, PROBABILITY};
-use crate::budget::table::Stated;
 use crate::budget::tables::{CertificateTable, ComponentTable};
 use crate::fault::Fault;
 use crate::special::student_t_two_sided_quantile;
+use gumption_format::toml::Stated;
 
 impl Checker<'_> {
     pub(super) fn expanded(

@@ -3,14 +3,14 @@
 use super::register::Register;
 use super::{Checker, entries};
 use crate::budget::faults::{CLAIM, LIMITS, NOT_POSITIVE, UNKNOWN_NAME};
-use crate::budget::table::Stated;
 use crate::budget::tables::{
     ClaimTable, ConfidenceWord, FileTable, InputClaimTable, MethodWord, ToleranceTable,
 };
-use crate::budget::values::Amount;
 use crate::budget::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 use crate::fault::{Fault, nearest};
 use crate::quantity::{Decimal, Unit};
+use gumption_format::toml::Amount;
+use gumption_format::toml::Stated;
 
 /// The keys of a claim that state a figure.
 const FIGURES: [&str; 14] = [

@@ -1,9 +1,8 @@
 //! Profile, conventions and the settings of the Monte Carlo method.
 
 use super::Checker;
-use crate::budget::faults::{CONVENTIONS, NOT_POSITIVE, PROBABILITY, TRIALS, UNKNOWN_WORD};
+use crate::budget::faults::{CONVENTIONS, NOT_POSITIVE, PROBABILITY, TRIALS};
 use crate::budget::profile::{PROFILES, profile_named};
-use crate::budget::table::Stated;
 use crate::budget::tables::{
     ConventionsTable, FactorWord, FileTable, FreedomWord, MonteCarloTable, PointsWord,
     ProcedureWord, ResolutionWord, RoundingWord, ShapeWord, TScaleWord,
@@ -15,6 +14,8 @@ use crate::budget::{
 };
 use crate::fault::{Fault, nearest};
 use crate::quantity::Rounding;
+use gumption_format::toml::Stated;
+use gumption_format::toml::faults::UNKNOWN_WORD;
 
 /// Trials when the file says nothing: 10⁶ gives two stable digits of a 95 % interval (JCGM 101 7.2.3).
 const DEFAULT_TRIALS: u64 = 1_000_000;

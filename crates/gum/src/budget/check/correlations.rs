@@ -11,12 +11,12 @@ use super::groups::connected;
 use super::register::Register;
 use crate::budget::faults::{
     CORRELATION_TWICE, MISSING_KEY, NOT_A_CORRELATION, PAIR_TWICE, SELF_PAIR, UNKNOWN_NAME,
-    WRONG_TYPE,
 };
-use crate::budget::table::Stated;
 use crate::budget::tables::{CorrelationTable, FileTable};
 use crate::budget::{Component, Group, Owner};
 use crate::fault::{Fault, nearest};
+use gumption_format::toml::Stated;
+use gumption_format::toml::faults::WRONG_TYPE;
 
 /// Eigenvalues down to this are zero within the rounding of the arithmetic.
 pub(super) const ROUNDING: f64 = 1e-9;

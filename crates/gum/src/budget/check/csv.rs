@@ -4,14 +4,15 @@ use std::io::ErrorKind;
 use std::ops::Range;
 
 use super::Checker;
-use crate::budget::faults::{CSV, MISSING_KEY, NOT_UTF8, UNREADABLE_FILE, VECTOR};
-use crate::budget::syntax::without_comma;
-use crate::budget::table::Stated;
+use crate::budget::faults::{CSV, MISSING_KEY, VECTOR};
 use crate::budget::tables::{ColumnTable, ComponentTable};
-use crate::budget::values::Amount;
 use crate::budget::variants::{Amounts, Numbers};
 use crate::fault::{Fault, nearest};
 use crate::statistics::Dd;
+use gumption_format::toml::Amount;
+use gumption_format::toml::Stated;
+use gumption_format::toml::faults::{NOT_UTF8, UNREADABLE_FILE};
+use gumption_format::toml::without_comma;
 
 impl Checker<'_> {
     /// The numbers themselves.

@@ -4,10 +4,10 @@ use super::register::Register;
 use super::{Checker, entries};
 use crate::budget::Detection;
 use crate::budget::faults::{DETECTION, MISSING_KEY, NOT_POSITIVE};
-use crate::budget::table::Stated;
 use crate::budget::tables::{DetectionTable, FileTable};
 use crate::fault::Fault;
 use crate::special::normal_sf;
+use gumption_format::toml::Stated;
 
 /// α and β where the file states none (ISO 11929).
 const USUAL: f64 = 0.05;

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use super::Checker;
 use crate::budget::faults::{DOF, NOT_POSITIVE};
-use crate::budget::table::Stated;
 use crate::budget::tables::ComponentTable;
 use crate::budget::{Certificate, Evaluation, Finding, Follows, TScale};
 use crate::distribution::Distribution;
 use crate::fault::Fault;
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// What a component is drafted for.
 #[derive(Debug, Clone)]

@@ -6,14 +6,14 @@ use std::sync::Arc;
 use super::register::Register;
 use super::{Checker, entries};
 use crate::budget::faults::{NO_MEASURAND, UNUSED};
-use crate::budget::strings::StringMap;
-use crate::budget::table::Stated;
 use crate::budget::tables::{FileTable, MeasurandTable};
 use crate::budget::{Constant, Measurand};
 use crate::fault::Fault;
 use crate::model::faults::{NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
 use crate::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
+use gumption_format::toml::StringMap;
 
 impl MeasurandTable {
     /// Whether its model or its unit was refused, or may be hidden behind an unknown key.

@@ -8,10 +8,10 @@ use super::ways::Way;
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::faults::{COUNT, DISTRIBUTION, MISSING_KEY, TOO_FEW_READINGS};
 use crate::budget::parametric::Parametric;
-use crate::budget::table::Stated;
 use crate::budget::tables::{ComponentTable, PriorWord};
 use crate::distribution::Distribution;
 use crate::fault::Fault;
+use gumption_format::toml::Stated;
 
 impl Checker<'_> {
     /// The component that a stated distribution, a sample or a count describes.

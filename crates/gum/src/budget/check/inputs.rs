@@ -8,12 +8,12 @@ use super::type_a::all_equal;
 use super::ways::{Way, expectation, locates};
 use super::{Checker, entries};
 use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS};
-use crate::budget::table::Stated;
 use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
 use crate::budget::{Follows, Input, Owner};
 use crate::fault::Fault;
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// A reason for doubt of one input.
 pub(super) enum Piece {
@@ -348,7 +348,7 @@ impl Checker<'_> {
         name: &str,
         draft: &Draft,
         value: Option<f64>,
-        stated: &Option<Stated<crate::budget::values::Amount>>,
+        stated: &Option<Stated<gumption_format::toml::Amount>>,
     ) -> Option<f64> {
         let place = stated
             .as_ref()

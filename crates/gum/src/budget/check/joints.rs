@@ -11,10 +11,10 @@ use super::groups::negative_eigenvalue;
 use super::register::{Register, no_such_input};
 use super::type_a::{mean_and_squares, student};
 use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS};
-use crate::budget::table::Stated;
 use crate::budget::tables::{FileTable, JointTable};
 use crate::budget::{Evaluation, Group, Owner, TScale};
 use crate::fault::Fault;
+use gumption_format::toml::Stated;
 
 pub(super) type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;
 

@@ -38,15 +38,15 @@ mod ways;
 use std::path::Path;
 
 use super::shelf::Shelf;
-use super::table::Stated;
 use super::tables::FileTable;
-use super::values::Named;
 use super::{
     Budget, Component, Conventions, Heading, MonteCarloSettings, NamedFigure, Owner, Remark, Row,
     TScale, Trials,
 };
 use crate::fault::Fault;
 use crate::quantity::{Unit, UnitTable};
+use gumption_format::toml::Named;
+use gumption_format::toml::Stated;
 
 /// Where a budget comes from, and with it the files that it names.
 #[derive(Debug, Clone, Copy)]

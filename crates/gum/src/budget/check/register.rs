@@ -6,11 +6,11 @@ use std::ops::Range;
 use super::draft::{Draft, Kind};
 use super::results::{Formula, Taken};
 use crate::budget::faults::UNKNOWN_NAME;
-use crate::budget::table::Stated;
 use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
 use crate::distribution::Distribution;
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// One `[input.X]`.
 #[derive(Debug, Clone)]

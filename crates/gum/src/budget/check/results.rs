@@ -10,15 +10,16 @@ use super::inputs::blank;
 use super::register::{InputEntry, Register};
 use crate::budget::Loaded;
 use crate::budget::faults::{
-    FROM, FROM_CIRCLE, FROM_MEASURAND, FROM_REFUSED, SAVED_RESULT, UNIT_CLASH, UNREADABLE_FILE,
+    FROM, FROM_CIRCLE, FROM_MEASURAND, FROM_REFUSED, SAVED_RESULT, UNIT_CLASH,
 };
 use crate::budget::saved::SavedResults;
 use crate::budget::shelf::Missing;
-use crate::budget::table::Stated;
 use crate::budget::tables::{FromTable, InputTable};
 use crate::fault::{Fault, nearest};
 use crate::model::Model;
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
+use gumption_format::toml::faults::UNREADABLE_FILE;
 
 /// What an input takes over.
 #[derive(Debug, Clone)]

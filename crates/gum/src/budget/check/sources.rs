@@ -6,11 +6,11 @@ use super::inputs::{Entry, Piece};
 use super::register::{Register, SourceEntry};
 use super::ways::Way;
 use crate::budget::faults::{TWO_ESTIMATES, UNIT_CLASH, UNKNOWN_NAME, UNUSED, VECTOR};
-use crate::budget::table::Stated;
 use crate::budget::tables::SourceTable;
 use crate::budget::{Follows, Owner};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 impl Checker<'_> {
     /// Reads `[source.S]`.

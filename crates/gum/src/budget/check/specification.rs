@@ -3,10 +3,10 @@
 use super::Checker;
 use super::draft::Context;
 use crate::budget::faults::{MISSING_KEY, NOT_POSITIVE, UNIT};
-use crate::budget::table::Stated;
 use crate::budget::tables::SpecificationTable;
-use crate::budget::values::Amount;
 use crate::fault::Fault;
+use gumption_format::toml::Amount;
+use gumption_format::toml::Stated;
 
 impl Checker<'_> {
     pub(super) fn specification(

@@ -8,13 +8,13 @@ use crate::budget::faults::{
     MISSING_KEY, MODIFIER, NO_SCATTER, OUTLIER_TEST, PROBABILITY, SERIAL, TOO_FEW_READINGS,
     TWO_WAYS,
 };
-use crate::budget::table::Stated;
 use crate::budget::tables::{ComponentTable, OutlierWord, PooledTable};
 use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
 use crate::distribution::Distribution;
 use crate::fault::Fault;
 use crate::statistics::{Dd, OutlierTest, Series, pooled};
+use gumption_format::toml::Stated;
 
 /// Mean and sum of squared deviations, by two passes.
 pub(super) fn mean_and_squares(readings: &[f64]) -> (f64, f64) {

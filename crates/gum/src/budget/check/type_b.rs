@@ -5,13 +5,14 @@ use super::draft::{Context, Core, Location, show};
 use super::shapes::{Width, default_shape};
 use super::ways::Way;
 use crate::budget::distributions::{DistributionEntry, Shape};
-use crate::budget::faults::{LIMITS, MISSING_KEY, NOT_POSITIVE, VECTOR, WRONG_TYPE};
-use crate::budget::table::Stated;
+use crate::budget::faults::{LIMITS, MISSING_KEY, NOT_POSITIVE, VECTOR};
 use crate::budget::tables::ComponentTable;
-use crate::budget::values::Amount;
 use crate::budget::variants::Amounts;
 use crate::distribution::Distribution;
 use crate::fault::Fault;
+use gumption_format::toml::Amount;
+use gumption_format::toml::Stated;
+use gumption_format::toml::faults::WRONG_TYPE;
 
 impl Checker<'_> {
     /// The component that limits, a certificate, a specification or a stated u describe.

@@ -7,12 +7,12 @@ use super::register::Register;
 use super::ways::{Way, locates};
 use crate::budget::Owner;
 use crate::budget::faults::VECTOR;
-use crate::budget::table::Stated;
 use crate::budget::tables::{ComponentTable, InputTable};
 use crate::budget::variants::{Amounts, Numbers};
 use crate::fault::Fault;
 use crate::quantity::Unit;
 use crate::statistics::Series;
+use gumption_format::toml::Stated;
 
 /// Elements of a vector. More of them would keep the Monte Carlo method busy for hours.
 const MOST_ELEMENTS: usize = 10_000;
@@ -358,7 +358,7 @@ impl Checker<'_> {
             .as_ref()
             .and_then(|certificate| certificate.value.U.as_ref());
         let stated_amount = table.u.as_ref().or(table.half_width.as_ref());
-        let first = stated_amount.and_then(|amounts| amounts.of_element(0));
+        let first = stated_amount.and_then(|amounts| Amounts::of_element(amounts, 0));
         let of_dimension_one = first
             .as_ref()
             .or(certificate)
@@ -391,7 +391,7 @@ fn one_estimate(name: &str, entry: &Entry<'_>) -> Fault {
 /// The component as it stands for one element, if it lists an amount for each.
 pub(super) fn of_element(table: &ComponentTable, element: usize) -> Option<ComponentTable> {
     let one = |stated: &Option<Stated<Amounts>>| {
-        let amount = stated.as_ref()?.of_element(element)?;
+        let amount = Amounts::of_element(stated.as_ref()?, element)?;
         Some(amount.map(|amount| Amounts::One(amount.clone())))
     };
     let listed = |stated: &Option<Stated<Amounts>>| {

@@ -458,10 +458,10 @@ impl Checker<'_> {
     }
 
     fn certificate(&mut self, table: &CertificateTable, context: &Context<'_>) -> Certificate {
-        let date = |date: &Option<crate::budget::table::Stated<crate::budget::values::Date>>| {
+        let date = |date: &Option<gumption_format::toml::Stated<gumption_format::toml::Date>>| {
             date.as_ref().map(|date| date.value.0.clone())
         };
-        let text = |text: &Option<crate::budget::table::Stated<String>>| {
+        let text = |text: &Option<gumption_format::toml::Stated<String>>| {
             text.as_ref().map(|text| text.value.clone())
         };
         let certificate = Certificate {

@@ -1,8 +1,8 @@
 //! What somebody's certificate says.
 
 use super::List;
-use crate::budget::table::{table, words};
-use crate::budget::values::{Amount, Named};
+use gumption_format::toml::{Amount, Named};
+use gumption_format::toml::{table, words};
 
 table! {
     /// What somebody's certificate says; compared, never used.

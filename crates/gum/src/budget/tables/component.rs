@@ -2,9 +2,9 @@
 
 use super::List;
 use crate::budget::distributions::DistributionEntry;
-use crate::budget::table::{table, words};
-use crate::budget::values::{Amount, Date, Dof, OneOrMany};
 use crate::budget::variants::{Amounts, Groups, Numbers, ReadingsOf};
+use gumption_format::toml::{Amount, Date, Dof, OneOrMany};
+use gumption_format::toml::{table, words};
 
 table! {
     /// One reason to doubt a quantity.

@@ -1,7 +1,7 @@
 //! Conventions of the evaluation, and how the Monte Carlo method is run.
 
-use crate::budget::table::{table, words};
 use crate::budget::variants::TrialsEntry;
+use gumption_format::toml::{table, words};
 
 table! {
     /// Changes to single conventions of the profile.

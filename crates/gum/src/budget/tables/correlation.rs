@@ -1,8 +1,8 @@
 //! What inputs have to do with one another.
 
 use super::List;
-use crate::budget::table::table;
-use crate::budget::values::Dof;
+use gumption_format::toml::Dof;
+use gumption_format::toml::table;
 
 table! {
     /// Correlation of two quantities.

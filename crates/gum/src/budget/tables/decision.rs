@@ -2,8 +2,8 @@
 
 use super::List;
 use crate::budget::distributions::DistributionEntry;
-use crate::budget::table::{table, words};
-use crate::budget::values::Amount;
+use gumption_format::toml::Amount;
+use gumption_format::toml::{table, words};
 
 table! {
     /// Whether a measurand conforms to a tolerance (JCGM 106).

@@ -2,9 +2,9 @@
 
 use super::List;
 use super::component::ComponentTable;
-use crate::budget::table::{table, words};
-use crate::budget::values::{Amount, Named};
 use crate::budget::variants::{FitParameters, Numbers};
+use gumption_format::toml::{Amount, Named};
+use gumption_format::toml::{table, words};
 
 table! {
     /// A curve fitted to data by least squares; its parameters are inputs under their own names.

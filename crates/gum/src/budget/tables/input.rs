@@ -2,9 +2,9 @@
 
 use super::List;
 use super::component::ComponentTable;
-use crate::budget::table::table;
-use crate::budget::values::Amount;
 use crate::budget::variants::RowLabel;
+use gumption_format::toml::Amount;
+use gumption_format::toml::table;
 
 table! {
     /// A quantity on which measurands depend: its estimate and its reasons for doubt.

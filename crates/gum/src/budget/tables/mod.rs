@@ -8,9 +8,9 @@ mod decision;
 mod fit;
 mod input;
 
-use crate::budget::table::{Stated, table};
-use crate::budget::values::{Amount, Cell, Date, Named, OneOrMany};
 use crate::budget::variants::{ConstantEntry, Sources};
+use gumption_format::toml::{Amount, Cell, Date, Named, OneOrMany};
+use gumption_format::toml::{Stated, table};
 
 pub use claim::*;
 pub use component::*;

@@ -4,11 +4,11 @@ use super::check::Checker;
 use super::rows::{Complete, Rows, continued};
 use super::tables::{ActionTable, CaseTable, OrderWord, RowsEntry};
 use super::{Action, Column, Data};
-use crate::budget::table::Stated;
-use crate::budget::values::{Cell, Named, OneOrMany};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};
 use crate::fault::Fault;
 use crate::recording::Labels;
+use gumption_format::toml::Stated;
+use gumption_format::toml::{Cell, Named, OneOrMany};
 
 impl Checker<'_> {
     /// The actions of a case with a recording of so many rows.

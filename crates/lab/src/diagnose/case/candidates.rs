@@ -4,12 +4,12 @@ use super::check::Checker;
 use super::declared::Declared;
 use super::tables::CaseTable;
 use super::{Column, UserCandidate};
-use crate::budget::table::Stated;
 use crate::diagnose::faults::{CANDIDATE, UNKNOWN_NAME};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::{Fault, nearest};
 use crate::model::{Role, Symbol, outline};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// The left side of a candidate: no user calls a column so.
 const LEFT: &str = "the_candidate";

@@ -6,16 +6,18 @@ use toml::de::DeTable;
 
 use super::tables::CaseTable;
 use super::{Case, Purpose, candidates, columns, declared};
-use crate::budget::faults::{NOT_UTF8, UNREADABLE_FILE};
-use crate::budget::strings::StringMap;
-use crate::budget::table::{Reader, Stated, read_table};
-use crate::budget::values::Amount;
-use crate::budget::{Files, Rejection, syntax_faults};
+use crate::budget::hints::HINTS;
+use crate::budget::{Files, Rejection};
 use crate::diagnose::faults::{MISSING, SETTING, UNIT_CLASH};
 use crate::fault::Fault;
 use crate::model::{Role as SymbolRole, Symbol};
 use crate::quantity::{Unit, UnitTable};
 use crate::recording::{Heading, Recording, Request, headings, text_of};
+use gumption_format::toml::Amount;
+use gumption_format::toml::StringMap;
+use gumption_format::toml::faults::{NOT_UTF8, UNREADABLE_FILE};
+use gumption_format::toml::syntax_faults;
+use gumption_format::toml::{Reader, Stated, read_table};
 
 /// Reads and checks a case.
 pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
@@ -38,10 +40,7 @@ pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Ca
     if !errors.is_empty() {
         return Err(reject(&text, syntax_faults(&errors, &text)));
     }
-    let mut reader = Reader {
-        file: &text,
-        faults: Vec::new(),
-    };
+    let mut reader = Reader::new(&text, &HINTS);
     let file = read_table::<CaseTable>(table.get_ref(), "a case", &mut reader);
     let mut checker = Checker {
         text: &text,

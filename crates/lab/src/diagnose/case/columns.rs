@@ -5,14 +5,14 @@ use std::ops::Range;
 use super::check::Checker;
 use super::tables::{CaseTable, ColumnTable, RoleWord};
 use super::{Column, Data, Purpose};
-use crate::budget::table::Stated;
-use crate::budget::values::{Amount, OneOrMany};
 use crate::budget::writing::key;
 use crate::diagnose::faults::{MISSING, TOO_FEW, UNKNOWN_NAME};
 use crate::fault::{Fault, nearest};
 use crate::model::Symbol;
 use crate::quantity::Unit;
 use crate::recording::{Content, Heading, Labels, Recording, Request};
+use gumption_format::toml::Stated;
+use gumption_format::toml::{Amount, OneOrMany};
 
 impl Checker<'_> {
     /// The columns that take part: the declared ones, and those that only the model names.

@@ -6,13 +6,13 @@ use super::check::Checker;
 use super::parameters::{Named, inferred_units, no_start, parameter, startable};
 use super::tables::{CaseTable, RoleWord};
 use super::{Column, Data, Observed, Parameter, Response};
-use crate::budget::table::Stated;
-use crate::budget::values::OneOrMany;
 use crate::diagnose::faults::{LEFT_SIDE, ROLE, UNKNOWN_NAME};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::{Fault, nearest};
 use crate::model::faults::{CLASH, EXPONENT, NOT_ONE, POINT, RESERVED, RESULT_UNIT};
 use crate::model::{Outline, Role as SymbolRole, Symbol, outline};
+use gumption_format::toml::OneOrMany;
+use gumption_format::toml::Stated;
 
 /// The declared model of a case.
 pub(super) struct Declared {

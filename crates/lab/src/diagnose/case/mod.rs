@@ -16,12 +16,12 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use crate::budget::table::KeyRow;
 use crate::budget::{Files, Rejection};
 use crate::equations::Equations;
 use crate::model::Symbol;
 use crate::quantity::{Unit, UnitTable};
 use crate::recording::Labels;
+use gumption_format::toml::KeyRow;
 
 pub(super) use actions::repeated;
 pub(super) use at_rest::hours;
@@ -378,7 +378,7 @@ pub fn kind_of(text: &str) -> Kind {
 
 /// JSON Schema (draft-07) of case files, for editors.
 pub fn schema() -> Value {
-    use crate::budget::table::FromToml;
+    use gumption_format::toml::FromToml;
     let mut schema = tables::CaseTable::schema();
     if let Value::Object(entries) = &mut schema {
         let draft = "http://json-schema.org/draft-07/schema#";
@@ -390,7 +390,7 @@ pub fn schema() -> Value {
 
 /// The reference of keys, table by table.
 pub fn keys() -> Vec<KeyRow> {
-    use crate::budget::table::Table;
+    use gumption_format::toml::Table;
     let mut rows = Vec::new();
     tables::CaseTable::rows("", &mut rows);
     rows

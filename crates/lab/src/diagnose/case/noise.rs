@@ -7,10 +7,10 @@ use super::check::Checker;
 use super::declared::Declared;
 use super::tables::{CaseTable, NoiseTable, RoleWord, StaticTable};
 use super::{Column, NoiseClaim, NoiseOrigin, Observed, Response};
-use crate::budget::table::Stated;
 use crate::diagnose::faults::{NOISE, SETTING};
 use crate::fault::Fault;
 use crate::propagate;
+use gumption_format::toml::Stated;
 
 impl Checker<'_> {
     pub fn noise(

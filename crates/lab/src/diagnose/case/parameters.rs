@@ -6,12 +6,12 @@ use super::check::Checker;
 use super::declared::Models;
 use super::tables::ParameterTable;
 use super::{Column, Data, Parameter, Purpose, Response};
-use crate::budget::table::Stated;
 use crate::diagnose::faults::{MISSING, PER, START};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::fault::Fault;
 use crate::model::{Outline, Role as SymbolRole, Symbol};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// A name of a parameter, its place in the model, and what the case states of it.
 pub(super) type Named = (String, Range<usize>, Option<Stated<ParameterTable>>);

@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use super::check::Checker;
 use super::tables::{CaseTable, RoleWord};
 use super::{Case, Column, Data, HeldOut};
-use crate::budget::table::Stated;
 use crate::diagnose::faults::{MISSING, ROWS};
 use crate::fault::Fault;
 use crate::recording::{Content, Labels, Recording, Request, headings, text_of};
+use gumption_format::toml::Stated;
 
 /// Rows with a value for each column of a case, in their order.
 #[derive(Debug, Clone)]

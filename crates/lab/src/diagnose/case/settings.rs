@@ -3,10 +3,10 @@
 use super::check::Checker;
 use super::tables::{AverageEntry, CaseTable, DiagnosisTable};
 use super::{Averaging, Blocks, Column, Settings};
-use crate::budget::table::Stated;
 use crate::diagnose::catalogue::effects;
 use crate::diagnose::faults::{ROLE, SETTING, UNKNOWN_NAME};
 use crate::fault::{Fault, nearest};
+use gumption_format::toml::Stated;
 
 impl Checker<'_> {
     pub fn averaging(&mut self, file: &CaseTable, columns: &[Column]) -> Averaging {

@@ -3,10 +3,10 @@
 use serde_json::{Value, json};
 use toml::de::DeValue;
 
-use crate::budget::faults::WRONG_TYPE;
-use crate::budget::table::{FromToml, KeyRow, Raw, Reader, Stated, table, words};
-use crate::budget::values::{Amount, Cell, Named, OneOrMany};
 use crate::budget::variants::ConstantEntry;
+use gumption_format::toml::faults::WRONG_TYPE;
+use gumption_format::toml::{Amount, Cell, Named, OneOrMany};
+use gumption_format::toml::{FromToml, KeyRow, Raw, Reader, Stated, table, words};
 
 type List<T> = Vec<Stated<T>>;
 

@@ -10,12 +10,12 @@ use crate::budget::check::draft::{Context, show};
 use crate::budget::check::register::{Register, no_such_input};
 use crate::budget::check::{Checker, entries};
 use crate::budget::faults::{CLAIM, NAME_TWICE, RELATIVE_UNCLEAR, TOLERANCE};
-use crate::budget::table::Stated;
 use crate::budget::tables::{ConformityTable, FileTable};
-use crate::budget::values::Amount;
 use crate::budget::{Conformity, Interval};
 use crate::fault::Fault;
 use crate::quantity::Unit;
+use gumption_format::toml::Amount;
+use gumption_format::toml::Stated;
 
 /// A name from the file and the unit in which amounts are understood.
 struct Subject<'a> {

@@ -4,11 +4,11 @@ use crate::budget::Interval;
 use crate::budget::check::Checker;
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::faults::{MISSING_KEY, PROCESS, TWO_WAYS};
-use crate::budget::table::Stated;
 use crate::budget::tables::ProcessTable;
 use crate::distribution::Distribution;
 use crate::fault::Fault;
 use crate::special::normal_two_sided_quantile;
+use gumption_format::toml::Stated;
 
 impl Checker<'_> {
     /// The distribution of the items.

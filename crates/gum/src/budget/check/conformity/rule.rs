@@ -5,11 +5,11 @@ use std::ops::Range;
 use super::Subject;
 use crate::budget::check::Checker;
 use crate::budget::faults::{DECISION_RULE, LIMITS, NOT_POSITIVE, TOLERANCE, TWO_WAYS};
-use crate::budget::table::Stated;
 use crate::budget::tables::{ConformityTable, RuleWord};
-use crate::budget::values::Amount;
 use crate::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY, Interval};
 use crate::fault::Fault;
+use gumption_format::toml::Amount;
+use gumption_format::toml::Stated;
 
 const BAND_AND_PROBABILITY: &str = "a guard band beside a probability";
 

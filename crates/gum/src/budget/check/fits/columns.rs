@@ -13,12 +13,12 @@ use crate::budget::Owner;
 use crate::budget::faults::{
     FIT, FIT_COLUMNS, FIT_ERRORS, MISSING_KEY, NOT_POSITIVE, TWO_WAYS, VECTOR,
 };
-use crate::budget::table::Stated;
 use crate::budget::tables::{FitColumnTable, FitTable};
 use crate::budget::variants::Numbers;
 use crate::fault::Fault;
 use crate::least_squares::Spread;
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// Points of a fit. More of them would need more memory than is good for a budget.
 const MOST_POINTS: usize = 10_000;

@@ -7,11 +7,11 @@ use super::columns::Column;
 use super::formula::Formula;
 use crate::budget::faults::{FIT_ERRORS, FIT_FAILED, FIT_INDISTINCT, FIT_POINTS, NOT_SEMIDEFINITE};
 use crate::budget::fit::column_of;
-use crate::budget::table::Stated;
 use crate::budget::tables::FitTable;
 use crate::budget::variants::Numbers;
 use crate::fault::Fault;
 use crate::least_squares::{Failure, Observed};
+use gumption_format::toml::Stated;
 
 /// A fit that has no solution.
 pub(super) struct Unsolved<'f> {

@@ -23,13 +23,13 @@ use super::register::{InputEntry, Register};
 use super::{Checker, entries, shared};
 use crate::budget::faults::{NAME_TWICE, UNUSED};
 use crate::budget::fit::Fit;
-use crate::budget::table::Stated;
 use crate::budget::tables::{FileTable, FitTable, MeasurandTable};
-use crate::budget::values::Named;
 use crate::budget::{Constant, Evaluation, Group, Input, Owner};
 use crate::fault::Fault;
 use crate::model::Model;
 use crate::quantity::Unit;
+use gumption_format::toml::Named;
+use gumption_format::toml::Stated;
 
 use columns::ColumnErrors;
 use formula::{Parameter, Scope};

@@ -4,11 +4,11 @@ use super::super::Checker;
 use super::super::draft::{Context, Core, show};
 use super::Fitted;
 use crate::budget::faults::{MODIFIER, RESIDUAL_OF, UNIT_CLASH, UNKNOWN_NAME};
-use crate::budget::table::Stated;
 use crate::budget::tables::ComponentTable;
 use crate::budget::variants::ReadingsOf;
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// What a fit says about the scatter of its response.
 #[derive(Debug, Clone)]

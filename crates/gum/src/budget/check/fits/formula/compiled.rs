@@ -5,11 +5,11 @@ use super::text::Written;
 use super::{Formula, Parameter, Shape};
 use crate::budget::Constant;
 use crate::budget::faults::FIT_START;
-use crate::budget::table::Stated;
 use crate::fault::Fault;
 use crate::least_squares::Gradient;
 use crate::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// A compiled formula: parameters first in its input vector, then the predictors.
 pub(in super::super) type Compiled = Gradient<Box<dyn Fn(&[f64], &mut [f64]) -> f64>>;

@@ -18,11 +18,11 @@ use super::super::Checker;
 use super::columns::Column;
 use crate::budget::Constant;
 use crate::budget::faults::{FIT, TWO_WAYS, UNKNOWN_NAME};
-use crate::budget::table::Stated;
 use crate::budget::tables::{FileTable, FitParameterTable, FitTable};
 use crate::fault::{Fault, nearest};
 use crate::least_squares::{Polynomial, Response};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 use compiled::Compiled;
 

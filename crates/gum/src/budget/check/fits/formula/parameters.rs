@@ -7,9 +7,9 @@ use super::super::columns::Column;
 use super::text::Written;
 use super::{Parameter, Scope};
 use crate::budget::faults::{FIT, NAME_TWICE, UNKNOWN_NAME, UNUSED};
-use crate::budget::table::Stated;
 use crate::budget::tables::FitParameterTable;
 use crate::fault::{Fault, nearest};
+use gumption_format::toml::Stated;
 
 /// What a name on the right side of a formula is.
 enum Meaning<'f> {

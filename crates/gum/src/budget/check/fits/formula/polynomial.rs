@@ -3,11 +3,11 @@
 use super::super::super::Checker;
 use super::{Formula, Parameter, Scope, Shape};
 use crate::budget::faults::{FIT, MISSING_KEY, MODIFIER, UNIT_CLASH, UNUSED};
-use crate::budget::table::Stated;
 use crate::budget::tables::FitParameterTable;
 use crate::fault::Fault;
 use crate::least_squares::{Polynomial, Response};
 use crate::quantity::Unit;
+use gumption_format::toml::Stated;
 
 /// The highest degree of a polynomial.
 const HIGHEST: u64 = 30;

@@ -6,10 +6,10 @@ use super::super::super::Checker;
 use super::super::columns::Column;
 use super::{Formula, Parameter, Scope};
 use crate::budget::faults::{FIT, MODIFIER};
-use crate::budget::table::Stated;
 use crate::fault::Fault;
 use crate::model::faults::LEFT_SIDE;
 use crate::model::{Outline, outline};
+use gumption_format::toml::Stated;
 
 /// A formula that was read, and whose left side is a column.
 pub(super) struct Written<'f> {

@@ -9,7 +9,7 @@ use super::faults::{AMOUNT, NOT_FINITE, NOT_WHOLE, QUOTED_NUMBER, WRONG_TYPE};
 use super::strings::StringMap;
 use super::syntax::without_comma;
 use super::table::{FromToml, KeyRow, Raw, Reader, Stated, in_order, inner};
-use crate::fault::Fault;
+use gumption_fault::Fault;
 
 fn integer(number: &DeInteger<'_>) -> Option<i64> {
     i64::from_str_radix(number.as_str(), number.radix()).ok()
@@ -299,9 +299,7 @@ fn refuse_amount(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Amount> {
     let before = reader.faults.len();
     let refused = reader.wrong_type(WRONG_TYPE, value, &Amount::expected());
     if let (DeValue::Array(_), Some(fault)) = (value.get_ref(), reader.faults.get_mut(before)) {
-        fault.help = Some(
-            "readings of one quantity are `readings = […]`, the elements of a vector `values = […]`".into(),
-        );
+        fault.help = Some(reader.hints.list_of_amounts.into());
     }
     refused
 }
@@ -502,7 +500,7 @@ impl<T: FromToml> FromToml for Named<T> {
     }
 }
 
-/// A text that is a label, or a number, in a cell of `[series]`.
+/// A cell of a table of values: a label or a number.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cell {
     /// A label.

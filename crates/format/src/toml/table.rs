@@ -1,4 +1,4 @@
-//! One definition per table of the budget file.
+//! One definition per table of a file.
 //!
 //! [`table!`] makes four things from one definition: the raw structure, its reader over spanned
 //! TOML that reports every fault at once, its JSON Schema and the rows of the reference of keys.
@@ -6,12 +6,12 @@
 
 use std::ops::Range;
 
+use gumption_fault::{Code, Fault, nearest};
 use serde_json::{Map, Value};
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
-use super::faults::UNKNOWN_KEY;
-use crate::fault::{Code, Fault, nearest};
+use super::faults::{UNKNOWN_KEY, UNKNOWN_WORD};
 
 /// A value of the file as the parser gives it.
 pub type Raw<'t> = Spanned<DeValue<'t>>;
@@ -38,16 +38,43 @@ impl<T> Stated<T> {
     }
 }
 
+/// A key as the parser gives it.
+pub type Key<'t> = Spanned<DeString<'t>>;
+
+/// What a kind of file knows about the mistakes of its writers.
+#[derive(Debug, Clone, Copy)]
+pub struct Hints {
+    /// Words that people try, and the key that they mean.
+    pub synonyms: &'static [(&'static str, &'static str)],
+    /// The keys at the top of the file.
+    pub top: fn() -> Vec<&'static str>,
+    /// What to say of a key of a table that is not among the known ones, before anything else is tried.
+    pub unknown_key: fn(key: &str, table: &str, known: &[&'static str]) -> Option<String>,
+    /// What to say of a list where an amount stands.
+    pub list_of_amounts: &'static str,
+}
+
 /// Collects faults while tables are read.
 #[derive(Debug)]
 pub struct Reader<'f> {
     /// The whole file.
     pub file: &'f str,
+    /// What this kind of file knows about mistakes.
+    pub hints: &'static Hints,
     /// What was found wrong, in the order of reading.
     pub faults: Vec<Fault>,
 }
 
-impl Reader<'_> {
+impl<'f> Reader<'f> {
+    /// A reader of a file of this kind.
+    pub fn new(file: &'f str, hints: &'static Hints) -> Self {
+        Reader {
+            file,
+            hints,
+            faults: Vec::new(),
+        }
+    }
+
     /// Reports a fault and yields nothing, for use as the last expression of a reader.
     pub fn refuse<T>(&mut self, fault: Fault) -> Option<T> {
         self.faults.push(fault);
@@ -113,12 +140,7 @@ pub struct KeyRow {
 /// A table of known keys.
 pub trait Table: Default {
     /// Takes the entry if the table has such a key.
-    fn accept(
-        &mut self,
-        key: &Spanned<DeString<'_>>,
-        value: &Raw<'_>,
-        reader: &mut Reader<'_>,
-    ) -> bool;
+    fn accept(&mut self, key: &Key<'_>, value: &Raw<'_>, reader: &mut Reader<'_>) -> bool;
 
     /// Notes that the table has a key that is not known.
     fn refuse(&mut self);
@@ -137,37 +159,12 @@ pub trait Table: Default {
     fn rows(path: &str, rows: &mut Vec<KeyRow>);
 }
 
-/// Words that people try, and the key that they mean.
-const SYNONYMS: [(&str, &str); 22] = [
-    ("a", "half_width"),
-    ("halfwidth", "half_width"),
-    ("tolerance", "half_width"),
-    ("std", "u"),
-    ("stdev", "u"),
-    ("sd", "u"),
-    ("sigma", "u"),
-    ("uncertainty", "u"),
-    ("standard_uncertainty", "u"),
-    ("resolution", "step"),
-    ("q", "step"),
-    ("data", "readings"),
-    ("observations", "readings"),
-    ("measurements", "readings"),
-    ("dist", "distribution"),
-    ("pdf", "distribution"),
-    ("nu", "dof"),
-    ("degrees_of_freedom", "dof"),
-    ("degf", "dof"),
-    ("estimate", "value"),
-    ("mean", "value"),
-    ("formula", "model"),
-];
-
 /// The known key that an unknown one most likely means.
-fn meant(name: &str, known: &[&'static str]) -> Option<&'static str> {
+fn meant(name: &str, known: &[&'static str], hints: &Hints) -> Option<&'static str> {
     let name = name.to_lowercase().replace(['-', ' '], "_");
     let name = name.as_str();
-    let synonym = SYNONYMS
+    let synonym = hints
+        .synonyms
         .iter()
         .find(|(word, key)| *word == name && known.contains(key));
     synonym
@@ -180,7 +177,8 @@ pub fn read_table<T: Table>(table: &DeTable<'_>, name: &str, reader: &mut Reader
     let mut result = T::default();
     for (key, value) in in_order(table) {
         if !result.accept(key, value, reader) {
-            reader.faults.push(unknown_key(key, name, &T::keys()));
+            let fault = unknown_key(key, name, &T::keys(), reader.hints);
+            reader.faults.push(fault);
             // What an unknown key was meant to state is not asked for a second time.
             result.refuse();
         }
@@ -189,13 +187,13 @@ pub fn read_table<T: Table>(table: &DeTable<'_>, name: &str, reader: &mut Reader
 }
 
 /// The entries of a table in the order of the file (the parser sorts them by name).
-pub fn in_order<'a, 't>(table: &'a DeTable<'t>) -> Vec<(&'a Spanned<DeString<'t>>, &'a Raw<'t>)> {
+pub fn in_order<'a, 't>(table: &'a DeTable<'t>) -> Vec<(&'a Key<'t>, &'a Raw<'t>)> {
     let mut entries: Vec<_> = table.iter().collect();
     entries.sort_by_key(|(key, _)| key.span().start);
     entries
 }
 
-fn unknown_key(key: &Spanned<DeString<'_>>, table: &str, known: &[&'static str]) -> Fault {
+fn unknown_key(key: &Key<'_>, table: &str, known: &[&'static str], hints: &Hints) -> Fault {
     let name = key.get_ref();
     let fault = Fault::new(
         UNKNOWN_KEY,
@@ -203,21 +201,14 @@ fn unknown_key(key: &Spanned<DeString<'_>>, table: &str, known: &[&'static str])
         format!("{table} has no key `{name}`"),
     )
     .label("unknown key");
-    // `U` must not be taken for a misspelt `u`: they differ by the coverage factor.
-    if matches!(name.as_ref(), "U" | "k" | "expanded") && known.contains(&"certificate") {
-        return fault
-            .help("an expanded uncertainty stands with its k: certificate = { U = …, k = 2 }");
+    if let Some(help) = (hints.unknown_key)(name, table, known) {
+        return fault.help(help);
     }
-    match meant(name, known) {
+    match meant(name, known, hints) {
         Some(near) => fault.help(format!("did you mean `{near}`?")),
-        None if super::tables::FileTable::keys().contains(&name.as_ref()) => fault.help(format!(
+        None if (hints.top)().contains(&name.as_ref()) => fault.help(format!(
             "`{name}` belongs to the top of the file, above the first [table]: a line belongs to the header above it"
         )),
-        None if ["specification", "certificate"].contains(&table)
-            && ["p", "k", "dof", "distribution", "name"].contains(&name.as_ref()) =>
-        {
-            fault.help(format!("`{name}` stands beside `{table}`, not in it"))
-        }
         None => fault.help(format!("known keys: {}", known.join(", "))),
     }
 }
@@ -231,7 +222,7 @@ pub fn doc_text(lines: &[&str]) -> String {
         .join(" ")
 }
 
-/// Defines one table of the budget file; see the module.
+/// Defines one table of a file; see the module.
 ///
 /// `key as "spelling"` gives a key a spelling that is no Rust name; `with rest: Other` adds all
 /// keys of another table.
@@ -248,7 +239,7 @@ macro_rules! table {
         #[derive(Debug, Clone, Default)]
         #[allow(non_snake_case)]
         pub struct $name {
-            $( $( #[doc = $key_doc] )+ pub $key: Option<$crate::budget::table::Stated<$kind>>, )*
+            $( $( #[doc = $key_doc] )+ pub $key: Option<$crate::toml::Stated<$kind>>, )*
             $( /// The keys that this table shares with another.
             pub $rest: $rest_kind, )?
             /// Every own key that the file states, also those whose value was refused.
@@ -259,19 +250,19 @@ macro_rules! table {
             pub unknown: bool,
         }
 
-        impl $crate::budget::table::Table for $name {
+        impl $crate::toml::Table for $name {
             fn accept(
                 &mut self,
-                key: &toml::Spanned<toml::de::DeString<'_>>,
-                value: &$crate::budget::table::Raw<'_>,
-                reader: &mut $crate::budget::table::Reader<'_>,
+                key: &$crate::toml::Key<'_>,
+                value: &$crate::toml::Raw<'_>,
+                reader: &mut $crate::toml::Reader<'_>,
             ) -> bool {
-                use $crate::budget::table::{FromToml, Stated};
+                use $crate::toml::{FromToml, Stated};
                 let name: &str = key.get_ref();
                 let before = reader.faults.len();
                 $(
-                    if name == table!(@spelling $key $( $spelling )?) {
-                        self.present.push((table!(@spelling $key $( $spelling )?), key.span()));
+                    if name == $crate::table!(@spelling $key $( $spelling )?) {
+                        self.present.push(($crate::table!(@spelling $key $( $spelling )?), key.span()));
                         self.$key = <$kind as FromToml>::read(value, reader)
                             .map(|read| Stated { value: read, span: value.span(), key: key.span() });
                         self.refused |= self.$key.is_none() || reader.faults.len() > before;
@@ -294,7 +285,7 @@ macro_rules! table {
             fn over(self, below: Self) -> Self {
                 $name {
                     $( $key: self.$key.or(below.$key), )*
-                    $( $rest: $crate::budget::table::Table::over(self.$rest, below.$rest), )?
+                    $( $rest: $crate::toml::Table::over(self.$rest, below.$rest), )?
                     present: self.present.into_iter().chain(below.present).collect(),
                     refused: self.refused || below.refused,
                     unknown: self.unknown || below.unknown,
@@ -303,74 +294,74 @@ macro_rules! table {
 
             fn keys() -> Vec<&'static str> {
                 #[allow(unused_mut)]
-                let mut keys = vec![ $( table!(@spelling $key $( $spelling )?) ),* ];
-                $( keys.extend(<$rest_kind as $crate::budget::table::Table>::keys()); )?
+                let mut keys = vec![ $( $crate::table!(@spelling $key $( $spelling )?) ),* ];
+                $( keys.extend(<$rest_kind as $crate::toml::Table>::keys()); )?
                 keys
             }
 
-            fn properties(into: &mut serde_json::Map<String, serde_json::Value>) {
+            fn properties(into: &mut $crate::toml::Map<String, $crate::toml::Value>) {
                 $(
-                    let doc = $crate::budget::table::doc_text(&[ $( $key_doc ),+ ]);
-                    let schema = $crate::budget::table::described(
-                        <$kind as $crate::budget::table::FromToml>::schema(), doc);
-                    into.insert(table!(@spelling $key $( $spelling )?).to_string(), schema);
+                    let doc = $crate::toml::doc_text(&[ $( $key_doc ),+ ]);
+                    let schema = $crate::toml::described(
+                        <$kind as $crate::toml::FromToml>::schema(), doc);
+                    into.insert($crate::table!(@spelling $key $( $spelling )?).to_string(), schema);
                 )*
-                $( <$rest_kind as $crate::budget::table::Table>::properties(into); )?
+                $( <$rest_kind as $crate::toml::Table>::properties(into); )?
             }
 
-            fn rows(path: &str, rows: &mut Vec<$crate::budget::table::KeyRow>) {
+            fn rows(path: &str, rows: &mut Vec<$crate::toml::KeyRow>) {
                 $(
-                    rows.push($crate::budget::table::KeyRow {
+                    rows.push($crate::toml::KeyRow {
                         table: path.to_string(),
-                        key: table!(@spelling $key $( $spelling )?),
-                        kind: <$kind as $crate::budget::table::FromToml>::expected(),
-                        doc: $crate::budget::table::doc_text(&[ $( $key_doc ),+ ]),
+                        key: $crate::table!(@spelling $key $( $spelling )?),
+                        kind: <$kind as $crate::toml::FromToml>::expected(),
+                        doc: $crate::toml::doc_text(&[ $( $key_doc ),+ ]),
                     });
                 )*
-                $( <$rest_kind as $crate::budget::table::Table>::rows(path, rows); )?
+                $( <$rest_kind as $crate::toml::Table>::rows(path, rows); )?
                 $(
-                    <$kind as $crate::budget::table::FromToml>::tables(
-                        &$crate::budget::table::inner(path, table!(@spelling $key $( $spelling )?)), rows);
+                    <$kind as $crate::toml::FromToml>::tables(
+                        &$crate::toml::inner(path, $crate::table!(@spelling $key $( $spelling )?)), rows);
                 )*
             }
         }
 
-        impl $crate::budget::table::FromToml for $name {
+        impl $crate::toml::FromToml for $name {
             fn expected() -> String {
                 "a table".into()
             }
 
             fn read(
-                value: &$crate::budget::table::Raw<'_>,
-                reader: &mut $crate::budget::table::Reader<'_>,
+                value: &$crate::toml::Raw<'_>,
+                reader: &mut $crate::toml::Reader<'_>,
             ) -> Option<Self> {
                 match value.get_ref() {
-                    toml::de::DeValue::Table(table) =>
-                        Some($crate::budget::table::read_table::<Self>(table, $title, reader)),
-                    _ => reader.wrong_type($crate::budget::faults::WRONG_TYPE, value, "a table"),
+                    $crate::toml::DeValue::Table(table) =>
+                        Some($crate::toml::read_table::<Self>(table, $title, reader)),
+                    _ => reader.wrong_type($crate::toml::faults::WRONG_TYPE, value, "a table"),
                 }
             }
 
-            fn schema() -> serde_json::Value {
-                let mut properties = serde_json::Map::new();
-                <Self as $crate::budget::table::Table>::properties(&mut properties);
-                serde_json::json!({
+            fn schema() -> $crate::toml::Value {
+                let mut properties = $crate::toml::Map::new();
+                <Self as $crate::toml::Table>::properties(&mut properties);
+                $crate::toml::json!({
                     "type": "object",
-                    "description": $crate::budget::table::doc_text(&[ $( $doc ),+ ]),
+                    "description": $crate::toml::doc_text(&[ $( $doc ),+ ]),
                     "properties": properties,
                     "additionalProperties": false,
                 })
             }
 
-            fn tables(path: &str, rows: &mut Vec<$crate::budget::table::KeyRow>) {
-                <Self as $crate::budget::table::Table>::rows(path, rows);
+            fn tables(path: &str, rows: &mut Vec<$crate::toml::KeyRow>) {
+                <Self as $crate::toml::Table>::rows(path, rows);
             }
         }
     };
     (@spelling $key:ident) => { stringify!($key) };
     (@spelling $key:ident $spelling:literal) => { $spelling };
 }
-pub use crate::table;
+pub use table;
 
 /// Defines a choice of words, each with its documentation; further spellings after `|`.
 #[macro_export]
@@ -406,42 +397,42 @@ macro_rules! words {
             }
         }
 
-        impl $crate::budget::table::FromToml for $name {
+        impl $crate::toml::FromToml for $name {
             fn expected() -> String {
                 let words: Vec<String> = [ $( $word ),+ ].iter().map(|word| format!("\"{word}\"")).collect();
                 format!("one of {}", words.join(", "))
             }
 
             fn read(
-                value: &$crate::budget::table::Raw<'_>,
-                reader: &mut $crate::budget::table::Reader<'_>,
+                value: &$crate::toml::Raw<'_>,
+                reader: &mut $crate::toml::Reader<'_>,
             ) -> Option<Self> {
-                let toml::de::DeValue::String(text) = value.get_ref() else {
+                let $crate::toml::DeValue::String(text) = value.get_ref() else {
                     return reader.wrong_type(
-                        $crate::budget::faults::WRONG_TYPE, value, &<Self as $crate::budget::table::FromToml>::expected());
+                        $crate::toml::faults::WRONG_TYPE, value, &<Self as $crate::toml::FromToml>::expected());
                 };
                 match text.as_ref() {
                     $( $word $( | $alias )* => Some(Self::$variant), )+
                     other => {
                         let known = [ $( $word, $( $alias, )* )+ ];
-                        reader.refuse($crate::budget::table::unknown_word(
-                            value, other, &known, &<Self as $crate::budget::table::FromToml>::expected()))
+                        reader.refuse($crate::toml::unknown_word(
+                            value, other, &known, &<Self as $crate::toml::FromToml>::expected()))
                     }
                 }
             }
 
-            fn schema() -> serde_json::Value {
-                serde_json::json!({ "enum": [ $( $word, $( $alias, )* )+ ] })
+            fn schema() -> $crate::toml::Value {
+                $crate::toml::json!({ "enum": [ $( $word, $( $alias, )* )+ ] })
             }
         }
     };
 }
-pub use crate::words;
+pub use words;
 
 /// The fault for a word that is none of the choice.
 pub fn unknown_word(value: &Raw<'_>, word: &str, known: &[&'static str], expected: &str) -> Fault {
     let fault = Fault::new(
-        super::faults::UNKNOWN_WORD,
+        UNKNOWN_WORD,
         value.span(),
         format!("`{word}` is not known here"),
     )

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
-use super::faults::{TOML_SYNTAX, UNUSED};
-use crate::fault::Fault;
+use gumption_fault::{Code, Fault};
 
-/// After so many syntax errors the rest of the file is hardly a budget.
+use super::faults::TOML_SYNTAX;
+
+/// After so many syntax errors the rest of the file is hardly what was meant.
 const MAX_SYNTAX_FAULTS: usize = 8;
 
 /// Syntax errors, the first of each line: what follows on the same line mostly follows from it.
@@ -50,7 +51,7 @@ fn in_repeated_table(error: &toml::de::Error, errors: &[toml::de::Error], text: 
 }
 
 /// Whether what stands on the other lines can be judged all the same.
-pub(super) fn leaves_the_rest(error: &toml::de::Error) -> bool {
+pub fn leaves_the_rest(error: &toml::de::Error) -> bool {
     let message = error.message();
     [
         "string values must be quoted",
@@ -62,18 +63,18 @@ pub(super) fn leaves_the_rest(error: &toml::de::Error) -> bool {
     .any(|words| message.contains(words))
 }
 
-/// The faults that no line with a syntax error has part in.
-pub(super) fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str) -> Vec<Fault> {
+/// The faults that no line with a syntax error has part in. What a broken line would have used seems
+/// `unused`; such faults are left out.
+pub fn elsewhere(faults: Vec<Fault>, syntax: &[Fault], text: &str, unused: Code) -> Vec<Fault> {
     let line = |at: usize| text[..text.floor_char_boundary(at)].matches('\n').count();
     let broken: Vec<usize> = syntax.iter().map(|fault| line(fault.span.start)).collect();
     let touches = |fault: &Fault| {
         let lines = line(fault.span.start)..=line(fault.span.end);
         broken.iter().any(|broken| lines.contains(broken))
     };
-    // What a broken line would have used seems unused.
     faults
         .into_iter()
-        .filter(|fault| fault.code != UNUSED && !touches(fault))
+        .filter(|fault| fault.code != unused && !touches(fault))
         .collect()
 }
 
@@ -238,7 +239,7 @@ fn decimal_comma(span: &Range<usize>, text: &str) -> Option<Fault> {
 
 /// What to write for a number with a comma, between `quotes`: a decimal point, or nothing where the comma
 /// may part thousands.
-pub(super) fn without_comma(number: &str, quotes: &str) -> String {
+pub fn without_comma(number: &str, quotes: &str) -> String {
     let point = number.replacen(',', ".", 1);
     let behind = number.split_once(',').map_or("", |(_, behind)| behind);
     let places = behind.bytes().take_while(u8::is_ascii_digit).count();

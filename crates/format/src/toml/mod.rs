@@ -1,0 +1,23 @@
+//! Files in TOML that people write: their tables, each defined once, and every fault at its place.
+
+pub mod faults;
+mod file;
+mod strings;
+mod syntax;
+mod table;
+mod values;
+
+pub use file::{decoded, tables_of};
+pub use strings::StringMap;
+pub use syntax::{elsewhere, leaves_the_rest, syntax_faults, without_comma};
+pub use table::{
+    FromToml, Hints, Key, KeyRow, Raw, Reader, Stated, Table, described, doc_text, in_order, inner,
+    read_table, table, unknown_word, words,
+};
+pub use values::{Amount, Cell, Date, Dof, Named, OneOrMany, amount_parts};
+
+// What the macros name.
+#[doc(hidden)]
+pub use serde_json::{Map, Value, json};
+#[doc(hidden)]
+pub use toml::de::DeValue;

@@ -26,7 +26,7 @@ use gumption::challenge::study::{
 use gumption::challenge::{Further, SealedCase};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Failure, Likeness, Opinion, Pick, diagnose, likenesses, opinions};
-use gumption::report::{Language, diagnosis_failure, diagnosis_json};
+use gumption::report::{self, Language, diagnosis_failure};
 
 struct Options {
     each: usize,
@@ -277,7 +277,7 @@ fn handed_out(trial: &Trial, sealed: &SealedCase, folder: &Path) -> Result<Case,
 fn said(case: &Case) -> Result<Said, String> {
     let failed = |failure| diagnosis_failure(case, &failure, Language::English);
     let diagnosis = diagnose(case, &|_| ControlFlow::Continue(())).map_err(failed)?;
-    let said = diagnosis_json(case, &diagnosis, Language::English);
+    let said = report::diagnosis(case, &diagnosis, Language::English).machine;
     let wrong = |error: serde_json::Error| error.to_string();
     Ok(Said {
         advice: serde_json::from_value(said.clone()).map_err(wrong)?,

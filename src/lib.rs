@@ -26,7 +26,9 @@
 //! | [`diagnose`] | which physics a measurement model left out of a recording |
 //! | [`challenge`] | sealed cases with something concealed, and the grading of a diagnosis |
 //! | [`verify`] | published examples held against their published figures |
-//! | [`report`] | text, Markdown, JSON, the certificate's sentence, saved results, the dossier |
+//! | [`document`] | what every command composes: blocks for people, a typed form for machines |
+//! | [`render`] | text, Markdown, JSON: the formats of a document |
+//! | [`report`] | documents of everything above, the certificate's sentence, saved results, the dossier |
 //!
 //! # A tour
 //!
@@ -77,7 +79,7 @@ pub use gumption_core::{
 };
 pub use gumption_fault as fault;
 pub use gumption_fault::language;
-pub use gumption_format::files;
+pub use gumption_format::{document, files, machine, render};
 pub use gumption_gum::{budget, propagate};
 pub use gumption_lab::{calibrate, diagnose, recording};
 pub use gumption_report as report;

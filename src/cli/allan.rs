@@ -59,11 +59,7 @@ fn analysed(args: &Args, recording: &Recording) -> Result<Outcome, String> {
         noises: noises.as_ref(),
         language: args.form.lang,
     };
-    Ok(args.form.write(
-        || report::allan_json(&shown),
-        || report::allan_markdown(&shown),
-        |page| report::allan_text(&shown, page),
-    ))
+    Ok(args.form.write(&report::allan(&shown)))
 }
 
 /// Time between readings, and its unit.

@@ -32,11 +32,9 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let lang = args.form.lang;
     let written = budgets(args, &experiment, &found);
-    let shown = args.form.write(
-        || report::calibration_json(&experiment, &found, lang),
-        || report::calibration_markdown(&experiment, &found, lang),
-        |page| report::calibration_text(&experiment, &found, lang, page),
-    );
+    let shown = args
+        .form
+        .write(&report::calibration(&experiment, &found, lang));
     shown.max(written)
 }
 
@@ -51,11 +49,7 @@ pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
         Ok(plan) => plan,
         Err(trouble) => return failed(file, &trouble, lang),
     };
-    form.write(
-        || report::plan_json(&experiment, &plan, lang),
-        || report::plan_markdown(&experiment, &plan, lang),
-        |page| report::plan_text(&experiment, &plan, lang, page),
-    )
+    form.write(&report::plan(&experiment, &plan, lang))
 }
 
 fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome {

@@ -54,11 +54,7 @@ pub(super) fn failed(path: &Path, case: &Case, failure: &Failure, lang: Language
 
 fn written(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
     let lang = args.form.lang;
-    args.form.write(
-        || report::diagnosis_json(case, diagnosis, lang),
-        || report::diagnosis_markdown(case, diagnosis, lang),
-        |page| report::diagnosis_text(case, diagnosis, lang, page),
-    )
+    args.form.write(&report::diagnosis(case, diagnosis, lang))
 }
 
 /// The improved case and the plots.

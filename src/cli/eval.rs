@@ -1,13 +1,13 @@
 //! `gumption eval`: budget files in, reports out.
 
-use std::io::stdout;
 use std::path::{Path, PathBuf};
 
 use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
+use gumption::document::Document;
 use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
-use gumption::report::{self, Language, Page, Report};
-use serde_json::Value;
+use gumption::report::{self, Language, Report};
 
+use super::form::Form;
 use super::progress::Progress;
 use super::{Outcome, output};
 
@@ -16,15 +16,6 @@ pub(super) struct Args {
     /// Budget files
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// Print JSON: exact numbers, stable names (`gumption schema evaluation`)
-    #[arg(long, conflicts_with = "markdown")]
-    json: bool,
-    /// Print Markdown
-    #[arg(long)]
-    markdown: bool,
-    /// Language of the report: en or zh
-    #[arg(long, value_name = "LANG", default_value = "en")]
-    lang: Language,
     /// Do not run Monte Carlo
     #[arg(long, conflicts_with_all = ["trials", "seed"])]
     no_mc: bool,
@@ -51,15 +42,11 @@ pub(super) struct Args {
     /// file's [conventions] change still holds
     #[arg(long, value_name = "NAME", value_parser = parse_profile)]
     profile: Option<&'static Profile>,
-    /// Columns of the text report [default: those of the terminal, else 100]
-    #[arg(long, value_name = "N", value_parser = parse_width)]
-    width: Option<usize>,
-    /// Write to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
     /// Save the results for other budgets, which name this file in `from = { result = … }`
     #[arg(long, value_name = "FILE")]
     save: Option<PathBuf>,
+    #[command(flatten)]
+    form: Form,
 }
 
 /// An evaluated row of a file.
@@ -87,35 +74,20 @@ pub(super) fn run(args: &Args) -> Outcome {
         );
     }
     let mut worst = Outcome::Done;
-    let mut texts: Vec<String> = Vec::new();
-    let mut values: Vec<Value> = Vec::new();
+    let mut documents = Vec::new();
     for file in &args.files {
         let rows = evaluate_file(args, file, &mut worst);
-        if rows.is_empty() {
-            continue;
+        if let (Some(path), false) = (&args.save, rows.is_empty()) {
+            worst = worst.max(save(&rows, path, args.form.lang));
         }
-        if let Some(path) = &args.save {
-            worst = worst.max(save(&rows, path, args.lang));
-        }
-        if args.json {
-            values.extend(rows.iter().map(|row| report::json(&row.report(args.lang))));
-        } else {
-            texts.push(render(args, &rows));
-        }
+        let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(args.form.lang)).collect();
+        let in_full = if args.full { reports.len() } else { 1 };
+        documents.extend(report::evaluations(&reports, in_full));
     }
-    let text = if args.json {
-        render_json(values)
-    } else {
-        texts.join(separator(args))
-    };
-    if text.is_empty() {
-        return worst;
+    match Document::together(documents) {
+        Some(document) => worst.max(args.form.write(&document)),
+        None => worst,
     }
-    let written = match &args.output {
-        Some(path) => output::replace(path, &text),
-        None => output::print(&text),
-    };
-    worst.max(written)
 }
 
 /// Writes the results for other budgets.
@@ -127,7 +99,7 @@ fn save(rows: &[Row], path: &Path, language: Language) -> Outcome {
     };
     let folder = budget::Files::Disk.identity(folder);
     match report::saved(&reports, &folder) {
-        Ok(text) => output::replace(path, &text),
+        Ok(text) => output::replace(path, text),
         Err(why) => output::complain(&format!("nothing is saved: {why}")),
     }
 }
@@ -137,7 +109,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
     let loaded = match budget::load_under(file, args.profile) {
         Ok(loaded) => loaded,
         Err(rejection) => {
-            *worst = output::refused(&rejection, args.lang);
+            *worst = output::refused(&rejection, args.form.lang);
             return Vec::new();
         }
     };
@@ -160,8 +132,8 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
             Err(error) => {
                 let row = label.map(|l| format!(", {l}")).unwrap_or_default();
                 let place = format!("{}{row}", file.display());
-                let why = report::failure(&error, args.lang);
-                output::no_result(place, None, &why, args.lang);
+                let why = report::failure(&error, args.form.lang);
+                output::no_result(place, None, &why, args.form.lang);
                 *worst = (*worst).max(Outcome::Negative);
             }
         }
@@ -207,45 +179,6 @@ const ADAPTIVE: Trials = Trials::Adaptive {
     max: 100_000_000,
 };
 
-/// One file as text or Markdown: a series as a table, then its first row, or all, in full.
-fn render(args: &Args, rows: &[Row]) -> String {
-    let page = Page {
-        width: args.width.unwrap_or_else(|| page_width(args)),
-        styled: args.output.is_none() && output::may_style(&stdout()),
-    };
-    let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(args.lang)).collect();
-    let mut parts = Vec::new();
-    if reports.len() > 1 {
-        parts.push(if args.markdown {
-            report::series_markdown(&reports)
-        } else {
-            report::series_text(&reports, page)
-        });
-    }
-    let in_full = if args.full { reports.len() } else { 1 };
-    for one in &reports[..in_full.min(reports.len())] {
-        parts.push(if args.markdown {
-            report::markdown(one)
-        } else {
-            report::text(one, page)
-        });
-    }
-    parts.join(separator(args))
-}
-
-fn separator(args: &Args) -> &'static str {
-    if args.markdown { "\n" } else { "\n\n" }
-}
-
-/// One evaluation as an object, several as an array.
-fn render_json(mut values: Vec<Value>) -> String {
-    match values.len() {
-        0 => String::new(),
-        1 => format!("{:#}\n", values.remove(0)),
-        _ => format!("{:#}\n", Value::Array(values)),
-    }
-}
-
 /// `1000000`, `1_000_000`, `1e6`, `adaptive`.
 fn parse_trials(text: &str) -> Result<Trials, String> {
     /// Fewer say nothing about an interval; more would run for days.
@@ -271,26 +204,11 @@ fn parse_points(text: &str) -> Result<Points, String> {
     }
 }
 
-/// Columns of the page: a file is as wide as pages usually are.
-fn page_width(args: &Args) -> usize {
-    match &args.output {
-        Some(_) => output::USUAL_WIDTH,
-        None => output::page_width(),
-    }
-}
-
 fn parse_profile(text: &str) -> Result<&'static Profile, String> {
     budget::profile_named(text).ok_or_else(|| {
         let names: Vec<&str> = budget::PROFILES.iter().map(|p| p.name).collect();
         format!("the profiles are {}", names.join(", "))
     })
-}
-
-fn parse_width(text: &str) -> Result<usize, String> {
-    let width: usize = text
-        .parse()
-        .map_err(|_| "write a number of columns, such as 100".to_string())?;
-    Ok(width.clamp(output::NARROWEST, 200))
 }
 
 #[cfg(test)]
@@ -310,12 +228,5 @@ mod tests {
                 .iter()
                 .all(|t| parse_trials(t).is_err())
         );
-    }
-
-    #[test]
-    fn one_evaluation_is_an_object_and_several_are_an_array() {
-        assert!(render_json(vec![]).is_empty());
-        assert!(render_json(vec![Value::from(1)]).starts_with('1'));
-        assert!(render_json(vec![Value::from(1), Value::from(2)]).starts_with('['));
     }
 }

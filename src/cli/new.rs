@@ -16,7 +16,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Outcome {
     let template = budget::template();
     if args.path.as_os_str() == "-" {
-        return output::print(template.as_ref());
+        return output::print(&*template);
     }
     let outcome = output::create(&args.path, template.as_ref());
     if outcome == Outcome::Done {

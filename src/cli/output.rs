@@ -11,9 +11,9 @@ use gumption::report::Language;
 use super::Outcome;
 
 /// Prints to standard output. A reader that has gone away (`gumption … | head`) is no error.
-pub(super) fn print(text: &str) -> Outcome {
+pub(super) fn print(text: impl AsRef<[u8]>) -> Outcome {
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(text.as_ref()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             complain(&format!("cannot write to standard output: {error}"))
         }
@@ -46,13 +46,13 @@ pub(super) fn warn(text: &str) {
 }
 
 /// Replaces a file as a whole: readers see the old content or the new one, never half of it.
-pub(super) fn replace(path: &Path, text: &str) -> Outcome {
-    replace_all(&[(path.to_path_buf(), text.to_string())])
+pub(super) fn replace(path: &Path, content: impl AsRef<[u8]>) -> Outcome {
+    replace_all(&[(path.to_path_buf(), content)])
 }
 
 /// Replaces several files, all of them or, where one cannot be written, none. What is there and is no
 /// file (a device, a pipe) cannot be replaced, and is written to after the files are safe.
-pub(super) fn replace_all(files: &[(PathBuf, String)]) -> Outcome {
+pub(super) fn replace_all<T: AsRef<[u8]>>(files: &[(PathBuf, T)]) -> Outcome {
     let (streams, files): (Vec<_>, Vec<_>) = files.iter().partition(|(path, _)| is_stream(path));
     let places: Vec<PathBuf> = files.iter().map(|(path, _)| place(path)).collect();
     let beside: Vec<PathBuf> = places.iter().map(|path| beside(path)).collect();

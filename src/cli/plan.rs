@@ -50,11 +50,7 @@ fn case(file: &Path, form: &Form) -> Outcome {
     drop(steps);
     let lang = form.lang;
     match found {
-        Ok(outlook) => form.write(
-            || report::outlook_json(&case, &outlook, lang),
-            || report::outlook_markdown(&case, &outlook, lang),
-            |page| report::outlook_text(&case, &outlook, lang, page),
-        ),
+        Ok(outlook) => form.write(&report::outlook(&case, &outlook, lang)),
         Err(failure) => failed(file, &case, &failure, lang),
     }
 }

@@ -23,6 +23,8 @@ enum Which {
     Calibration,
     /// Case files of `gumption diagnose`, `simulate` and `plan`
     Case,
+    /// The output of `gumption allan --json`
+    Allan,
     /// The output of `gumption verify --json`
     Verification,
 }
@@ -30,10 +32,11 @@ enum Which {
 pub(super) fn run(args: &Args) -> Outcome {
     let schema = match args.which {
         Which::Budget => budget::schema(),
-        Which::Evaluation => report::schema(),
+        Which::Evaluation => report::evaluation_schema(),
         Which::Result => budget::result_schema(),
         Which::Calibration => calibrate::schema(),
         Which::Case => diagnose::case::schema(),
+        Which::Allan => report::allan_schema(),
         Which::Verification => report::verification_schema(),
     };
     output::print(&format!("{schema:#}\n"))

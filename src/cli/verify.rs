@@ -1,13 +1,15 @@
 //! `gumption verify`: published examples held against their published figures.
 
-use std::io::{IsTerminal, stderr, stdout};
+use std::io::{IsTerminal, stderr};
 use std::path::{Path, PathBuf};
 
 use gumption::budget::Files;
 use gumption::propagate::Options;
-use gumption::report::{self, Detail, Language, Page};
+use gumption::render::{FORMATS, Page};
+use gumption::report::{self, Detail, Language};
 use gumption::verify::{Environment, Example, LIBRARY, Problem, Verification};
 
+use super::form::Form;
 use super::{Outcome, date, output};
 
 #[derive(Debug, clap::Args)]
@@ -18,21 +20,17 @@ pub(super) struct Args {
     /// Write the dossier for the file of the laboratory: verification.md and verification.json
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
-    /// Print JSON: exact numbers, stable names (`gumption schema verification`)
-    #[arg(long, conflicts_with = "quiet")]
-    json: bool,
     /// Print examples that failed and the closing lines only
     #[arg(long, short)]
     quiet: bool,
-    /// Language: en or zh
-    #[arg(long, value_name = "LANG", default_value = "en")]
-    lang: Language,
     /// Date of the dossier, as 2026-01-31 [default: SOURCE_DATE_EPOCH, else today (UTC)]
     #[arg(long, value_name = "DATE", value_parser = date::parse)]
     date: Option<String>,
     /// Worker threads; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    #[command(flatten)]
+    form: Form,
 }
 
 /// A file to verify: where it is, and how the report calls it.
@@ -52,27 +50,17 @@ pub(super) fn run(args: &Args) -> Outcome {
     };
     let verification = verify(files, &candidates, args, day);
     let written = match &args.report {
-        Some(folder) => write_dossier(folder, &verification, args.lang),
+        Some(folder) => write_dossier(folder, &verification, args.form.lang),
         None => Outcome::Done,
     };
-    let text = if args.json {
-        let value = report::verification_json(&verification, args.lang);
-        format!("{value:#}\n")
-    } else {
-        let detail = if args.quiet {
-            Detail::Failed
-        } else {
-            Detail::All
-        };
-        let page = Page {
-            width: output::page_width(),
-            styled: output::may_style(&stdout()),
-        };
-        report::verification_text(&verification, args.lang, detail, page)
+    let detail = match args.quiet {
+        true => Detail::Failed,
+        false => Detail::All,
     };
+    let document = report::verification(&verification, args.form.lang, detail);
     outcome(&verification)
         .max(written)
-        .max(output::print(&text))
+        .max(args.form.write(&document))
         .max(missing_claims(args, &verification))
 }
 
@@ -192,12 +180,16 @@ fn write_dossier(folder: &Path, verification: &Verification, language: Language)
             folder.display()
         ));
     }
-    let json = report::verification_json(verification, language);
-    output::replace_all(&[
-        (
-            folder.join("verification.md"),
-            report::verification_markdown(verification, language),
-        ),
-        (folder.join("verification.json"), format!("{json:#}\n")),
-    ])
+    let dossier = report::dossier(verification, language);
+    let formats = FORMATS.iter().filter(|format| format.name != "text");
+    let files: Vec<(PathBuf, Vec<u8>)> = formats
+        .map(|format| {
+            let name = format!("verification.{}", format.ending);
+            (
+                folder.join(name),
+                (format.render)(&dossier, &Page::default()),
+            )
+        })
+        .collect();
+    output::replace_all(&files)
 }

@@ -10,7 +10,7 @@ use gumption::challenge::study::{Ablation, Advice, Decision, Request, Trial, dec
 use gumption::challenge::{Further, NoiseKnowledge, Scenario, SealedCase};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::diagnose;
-use gumption::report::{Language, diagnosis_json};
+use gumption::report::{self, Language};
 
 /// A folder of its own for each test.
 fn folder(name: &str) -> PathBuf {
@@ -115,7 +115,7 @@ fn diagnosed(trial: &Trial, sealed: &SealedCase) -> (Answer, Advice) {
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
     let diagnosis = diagnose(&case, &|_| ControlFlow::Continue(())).unwrap();
     std::fs::remove_dir_all(&folder).unwrap();
-    let said = diagnosis_json(&case, &diagnosis, Language::English);
+    let said = report::diagnosis(&case, &diagnosis, Language::English).machine;
     let answer = serde_json::from_value(said.clone()).unwrap();
     (answer, serde_json::from_value(said).unwrap())
 }

@@ -1,7 +1,18 @@
 //! Files that people write, and documents that they read.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`files`] | where files are read from: a disk, or a library in memory |
+//! | [`document`] | what every command composes: blocks for people, a typed form for machines |
+//! | [`machine`] | structures of the machine form with their JSON Schema |
+//! | [`toml`] | files of keys and values that keep their places, and tables of what a key may be |
+//! | [`render`] | the formats in which a document is written |
 
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod document;
 pub mod files;
+pub mod machine;
+pub mod render;
 pub mod toml;

@@ -1,15 +1,15 @@
 //! The Allan deviation of a recording at rest, and the noises that it shows.
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
-use super::document::Block;
-use super::language::Language;
-use super::number::{TABLE_DIGITS, aligned, freedom, grouped, in_unit, probability, significant};
-use super::symbol;
-use super::table::{ColumnKind, Table};
-use super::text::{Page, draw};
+use crate::document::{Block, Document};
+use crate::document::{ColumnKind, Table};
+use crate::language::Language;
+use crate::machine::{self, Machine, Number, record};
+use crate::number::{TABLE_DIGITS, aligned, freedom, grouped, in_unit, probability, significant};
 use crate::quantity::Unit;
 use crate::recording::{Allan, Coefficient, Noises, PowerLaw};
+use crate::symbol;
 
 /// Below this probability of χ² the three noises do not explain the deviations.
 const DOUBTFUL: f64 = 0.01;
@@ -31,57 +31,128 @@ pub struct AllanReport<'a> {
     pub language: Language,
 }
 
-/// The report as lines for a terminal.
-pub fn allan_text(report: &AllanReport<'_>, page: Page) -> String {
-    draw(&blocks(report), page) + "\n"
+/// The document of an Allan deviation: numbers in the units that stand beside them.
+pub fn allan(report: &AllanReport<'_>) -> Document {
+    Document::new(&form(report), report.language, blocks(report))
 }
 
-/// The report as Markdown.
-pub fn allan_markdown(report: &AllanReport<'_>) -> String {
-    super::markdown::draw(&blocks(report))
+/// JSON Schema of the output of `gumption allan --json`.
+pub fn allan_schema() -> Value {
+    machine::schema::<AllanJson<'_>>("gumption allan --json")
 }
 
-/// The report for machines: numbers in the units that stand beside them.
-pub fn allan_json(report: &AllanReport<'_>) -> Value {
-    let points: Vec<Value> = report
-        .allan
-        .points
-        .iter()
-        .map(|point| {
-            json!({
-                "tau": point.tau,
-                "deviation": point.deviation,
-                "u": point.u,
-                "dof": point.dof,
-                "interval": point.interval,
-                "noise": name(point.noise, Language::English),
-            })
-        })
-        .collect();
-    json!({
-        "title": report.title,
-        "unit": report.unit.symbol,
-        "time_unit": report.time.symbol,
-        "readings": report.allan.readings,
-        "reading_interval": report.allan.interval,
-        "coverage_probability": report.allan.probability,
-        "points": points,
-        "noises": report.noises.map(|noises| json!({
-            "white": coefficient_json(noises.white, report, PowerLaw::White),
-            "bias_instability": coefficient_json(noises.bias_instability, report, PowerLaw::Flicker),
-            "rate_random_walk": coefficient_json(noises.rate_random_walk, report, PowerLaw::RandomWalk),
-            "chi_squared": noises.chi_squared,
-            "dof": noises.dof,
-            "p_value": noises.p_value,
-        })),
-    })
+record! {
+    /// The Allan deviation of a recording.
+    AllanJson<'a> {
+        /// The recording and the column.
+        title: &'a str,
+        /// Unit of the readings.
+        unit: &'a str,
+        /// Unit of the time.
+        time_unit: &'a str,
+        /// Number of readings.
+        readings: usize,
+        /// Time from one reading to the next.
+        reading_interval: Number,
+        /// Coverage probability of the intervals.
+        coverage_probability: Number,
+        /// The deviation at each averaging time.
+        points: Vec<PointJson>,
+        /// The noises that the deviations show; null where they are too few, or nothing varies.
+        noises: Option<NoisesJson>,
+    }
+
+    /// The deviation at one averaging time.
+    PointJson {
+        /// Averaging time.
+        tau: Number,
+        /// Allan deviation.
+        deviation: Number,
+        /// Its standard uncertainty.
+        u: Number,
+        /// Its degrees of freedom.
+        dof: Number,
+        /// Its confidence interval.
+        interval: [Number; 2],
+        /// The noise that prevails: white, flicker, random walk.
+        noise: &'static str,
+    }
+
+    /// White noise, bias instability and random walk of the rate, fitted to the deviations.
+    NoisesJson {
+        /// White noise.
+        white: CoefficientJson,
+        /// Bias instability.
+        bias_instability: CoefficientJson,
+        /// Random walk of the readings.
+        rate_random_walk: CoefficientJson,
+        /// χ² of the fit.
+        chi_squared: Number,
+        /// Its degrees of freedom.
+        dof: usize,
+        /// Probability of a larger χ².
+        p_value: Number,
+    }
+
+    /// A coefficient of a noise, or its limit where the recording does not show it.
+    CoefficientJson {
+        /// The coefficient.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        value: Option<Number>,
+        /// Its standard uncertainty.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        u: Option<Number>,
+        /// What the coefficient is below with about 95 % probability.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        limit_95: Option<Number>,
+        /// Unit of all three.
+        unit: String,
+    }
 }
 
-fn coefficient_json(found: Coefficient, report: &AllanReport<'_>, law: PowerLaw) -> Value {
-    let unit = unit_of(report, law);
-    match found {
-        Coefficient::Identified { value, u } => json!({ "value": value, "u": u, "unit": unit }),
-        Coefficient::Hidden { limit } => json!({ "limit_95": limit, "unit": unit }),
+impl Machine for AllanJson<'_> {
+    const KIND: &'static str = "allan";
+    const VERSION: u32 = 1;
+}
+
+fn form<'a>(report: &AllanReport<'a>) -> AllanJson<'a> {
+    let allan = report.allan;
+    let points = allan.points.iter().map(|point| PointJson {
+        tau: Number(point.tau),
+        deviation: Number(point.deviation),
+        u: Number(point.u),
+        dof: Number(point.dof),
+        interval: point.interval.map(Number),
+        noise: name(point.noise, Language::English),
+    });
+    let coefficient = |found, law| {
+        let (value, u, limit_95) = match found {
+            Coefficient::Identified { value, u } => (Some(value), Some(u), None),
+            Coefficient::Hidden { limit } => (None, None, Some(limit)),
+        };
+        CoefficientJson {
+            value: value.map(Number),
+            u: u.map(Number),
+            limit_95: limit_95.map(Number),
+            unit: unit_of(report, law),
+        }
+    };
+    AllanJson {
+        title: report.title,
+        unit: &report.unit.symbol,
+        time_unit: &report.time.symbol,
+        readings: allan.readings,
+        reading_interval: Number(allan.interval),
+        coverage_probability: Number(allan.probability),
+        points: points.collect(),
+        noises: report.noises.map(|noises| NoisesJson {
+            white: coefficient(noises.white, PowerLaw::White),
+            bias_instability: coefficient(noises.bias_instability, PowerLaw::Flicker),
+            rate_random_walk: coefficient(noises.rate_random_walk, PowerLaw::RandomWalk),
+            chi_squared: Number(noises.chi_squared),
+            dof: noises.dof,
+            p_value: Number(noises.p_value),
+        }),
     }
 }
 

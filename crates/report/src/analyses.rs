@@ -3,13 +3,13 @@
 use crate::budget::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 use crate::statistics::{Line, OutlierTest, Policy, Ratio, Verdict};
 
-use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{
     NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, print, significant,
 };
-use super::table::{Cell, ColumnKind, Row, Table};
 use super::{Report, difference_symbol, symbol};
+use crate::document::Block;
+use crate::document::{Cell, ColumnKind, Row, Table};
 
 /// Series of readings that are shown; more of them are in the JSON output.
 const MOST: usize = 40;

@@ -5,10 +5,10 @@ use crate::propagate::{Comparison, Method, compare_claims};
 use crate::quantity::Decimal;
 
 use super::Report;
-use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{NONE, at_place, exact, print, significant};
-use super::table::{Cell, ColumnKind, Row, Table};
+use crate::document::Block;
+use crate::document::{Cell, ColumnKind, Row, Table};
 
 /// Stable name of a figure for machines.
 pub(super) fn code(what: &Figure) -> &'static str {

@@ -5,7 +5,6 @@ use crate::propagate::{
 };
 use crate::quantity::Unit;
 
-use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{
     NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, grouped, in_unit, print, probability,
@@ -13,8 +12,9 @@ use super::number::{
 };
 use super::quasi;
 use super::remarks::tolerance;
-use super::table::{Cell, ColumnKind, Table};
 use super::{Report, difference_symbol, symbol};
+use crate::document::Block;
+use crate::document::{Cell, ColumnKind, Table};
 
 /// The table and the verdict for one measurand.
 pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {

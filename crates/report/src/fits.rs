@@ -3,12 +3,12 @@
 use crate::budget::{Fit, FitColumn, FitVerdict, LackOfFit, LackOfFitTest};
 use crate::quantity::Decimal;
 
-use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, significant};
 use super::statement::coefficient;
-use super::table::{Cell, Column, ColumnKind, Table};
 use super::{Report, difference_symbol, joint, symbol};
+use crate::document::Block;
+use crate::document::{Cell, Column, ColumnKind, Table};
 
 /// Points up to which the data stand in the report, beside the curve.
 const MOST_POINTS: usize = 25;

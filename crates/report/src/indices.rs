@@ -3,10 +3,10 @@
 use crate::propagate::{SensitivityIndices, SobolIndex};
 
 use super::Report;
-use super::document::Block;
 use super::language::Language;
 use super::number::{at_place, grouped, print};
-use super::table::{Cell, ColumnKind, Table};
+use crate::document::Block;
+use crate::document::{Cell, ColumnKind, Table};
 
 /// Indices with a standard error of less than half of 10⁻³ are printed with three decimals.
 const PLACE: i32 = -3;
@@ -100,8 +100,9 @@ fn sentences(report: &Report<'_>, indices: &SensitivityIndices, of: &[SobolIndex
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Language, Page, fixtures, json, markdown, text};
+    use super::super::{Language, evaluation, fixtures};
     use super::*;
+    use crate::render::{Page, markdown::markdown, text::text};
 
     fn case() -> fixtures::Case {
         let mut case = fixtures::resistor();
@@ -123,23 +124,20 @@ mod tests {
     #[test]
     fn the_largest_total_index_comes_first() {
         let case = case();
-        let page = Page {
-            width: 100,
-            styled: false,
-        };
-        let english = text(&case.report(Language::English), page);
+        let page = Page::default();
+        let english = text(&evaluation(&case.report(Language::English)), page);
         let (first, second) = (english.find("0.750"), english.find("0.300"));
         assert!(first.is_some() && first < second, "{english}");
         assert!(english.contains("sum to 0.950") && english.contains("indices together only"));
-        let chinese = text(&case.report(Language::Chinese), page);
+        let chinese = text(&evaluation(&case.report(Language::Chinese)), page);
         assert!(chinese.contains("灵敏度指数") && chinese.contains("仅给出其整体指数"));
-        assert!(markdown(&case.report(Language::English)).contains("| 0.750 |"));
+        assert!(markdown(&evaluation(&case.report(Language::English))).contains("| 0.750 |"));
     }
 
     #[test]
     fn machines_get_them_by_factor() {
         let case = case();
-        let value = json(&case.report(Language::English));
+        let value = evaluation(&case.report(Language::English)).machine;
         let indices = &value["sensitivity_indices"];
         assert_eq!(indices["measurands"][0][1]["total"], 0.75);
         assert_eq!(indices["factors"][0].as_array().map(Vec::len), Some(2));

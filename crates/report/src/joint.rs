@@ -2,12 +2,12 @@
 
 use nalgebra::DMatrix;
 
-use super::document::Block;
 use super::language::{Language, Word};
 use super::number::{TABLE_DIGITS, freedom, in_unit, probability, significant};
 use super::statement::coefficient;
-use super::table::{Cell, Column, ColumnKind, Table};
 use super::{Report, symbol};
+use crate::document::Block;
+use crate::document::{Cell, Column, ColumnKind, Table};
 
 /// Correlation matrices and the factors of the coverage regions.
 pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {

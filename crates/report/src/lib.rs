@@ -1,12 +1,15 @@
-//! Renderers of an evaluation: text, Markdown, JSON, and the sentence for the certificate.
+//! Documents about everything that is computed, and the sentence for the certificate.
 //!
-//! A [`Report`] joins a budget with its evaluation. [`text`] and [`markdown`] draw the same blocks,
-//! composed once; [`json`] is the machine form.
+//! A [`Report`] joins a budget with its evaluation. Each function composes one [`document::Document`]; the formats in
+//! which it is written are those of [`gumption_format::render`].
 
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
 use gumption_core::{distribution, quantity, special, statistics};
+#[cfg(test)]
+use gumption_format::render;
+use gumption_format::{document, machine};
 use gumption_gum::{budget, propagate};
 use gumption_lab::{calibrate, diagnose, recording};
 use gumption_verify as verify;
@@ -17,27 +20,20 @@ mod budget_table;
 mod calibration;
 mod claim;
 mod comparison;
-mod compose;
 mod decisions;
 mod diagnosis;
-mod document;
+mod evaluation;
 mod fits;
 mod how;
 mod indices;
 mod joint;
-mod json;
 mod language;
-mod markdown;
 mod moments;
 mod number;
 mod quasi;
 mod remarks;
 mod save;
-mod schema;
-mod series;
 mod statement;
-mod table;
-mod text;
 mod verification;
 
 #[cfg(test)]
@@ -45,29 +41,17 @@ mod fixtures;
 #[cfg(test)]
 mod tests;
 
-pub use allan::{AllanReport, allan_json, allan_markdown, allan_text};
-pub use calibration::{
-    calibration_json, calibration_markdown, calibration_text, calibration_trouble, plan_json,
-    plan_markdown, plan_text,
-};
+pub use allan::{AllanReport, allan, allan_schema};
+pub use calibration::{calibration, calibration_trouble, plan};
 pub use diagnosis::{
-    FORMAT as DIAGNOSIS_FORMAT, OUTLOOK_FORMAT, assumed_noise, failure as diagnosis_failure,
-    json as diagnosis_json, markdown as diagnosis_markdown, outlook_json, outlook_markdown,
-    outlook_text, plots as diagnosis_plots, text as diagnosis_text,
+    assumed_noise, diagnosis, failure as diagnosis_failure, outlook, plots as diagnosis_plots,
 };
-pub use json::{FORMAT, json};
+pub use evaluation::{evaluation, evaluation_schema, evaluations};
 pub use language::Language;
-pub use markdown::markdown;
 pub use remarks::failure;
 pub use save::saved;
-pub use schema::schema;
-pub use series::{series_markdown, series_text};
 pub use statement::statement;
-pub use text::{Page, text};
-pub use verification::{
-    Detail, FORMAT as VERIFICATION_FORMAT, json as verification_json,
-    markdown as verification_markdown, schema as verification_schema, text as verification_text,
-};
+pub use verification::{Detail, dossier, verification, verification_schema};
 
 use crate::budget::Budget;
 use crate::propagate::{Evaluation, FindingKind};

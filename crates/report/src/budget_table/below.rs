@@ -2,10 +2,10 @@
 
 use super::SMALL;
 use crate::comparison;
+use crate::document::{Cell, ColumnKind, Table};
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, aligned, freedom, percent, probability, significant};
 use crate::propagate::{CoverageBasis, Freedom, Gum};
-use crate::table::{Cell, ColumnKind, Table};
 use crate::{Report, difference_symbol, symbol};
 
 pub(super) fn elision(language: Language, gum: &Gum, elided: &[usize]) -> String {

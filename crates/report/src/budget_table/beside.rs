@@ -3,11 +3,11 @@
 use super::{LONG, SMALL, kind};
 use crate::budget::Component;
 use crate::document::Block;
+use crate::document::{ColumnKind, Row, Table};
 use crate::how;
 use crate::language::{Language, Word};
 use crate::number::exact;
 use crate::statement::coefficient;
-use crate::table::{ColumnKind, Row, Table};
 use crate::{Report, symbol};
 
 /// How each u was found, and from which certificate.

@@ -6,10 +6,10 @@ mod beside;
 
 use crate::budget::{Component, Evaluation as Kind, Input, Owner, Term};
 use crate::document::Block;
+use crate::document::{Cell, ColumnKind, Row, Table};
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, aligned, freedom, percent, significant};
 use crate::propagate::{Contribution, FindingKind, Gum, is_residue};
-use crate::table::{Cell, ColumnKind, Row, Table};
 use crate::{Report, difference_symbol, symbol};
 
 use below::{elision, footer, subtotals};

@@ -1,12 +1,12 @@
 //! What the uncertainty of each coefficient comes from.
 
-use super::super::document::Block;
 use super::super::language::{Language, Word};
 use super::super::number::{freedom, in_unit, percent, significant};
 use super::super::symbol;
-use super::super::table::{Cell, ColumnKind, Row, Table};
 use super::sections::{DIGITS, column, head_of, shown_u};
 use crate::calibrate::{Cause, Coefficient, Figures, Origin, Scope};
+use crate::document::Block;
+use crate::document::{Cell, ColumnKind, Row, Table};
 
 /// More coefficients than these share one table of causes.
 const SINGLE_BUDGETS: usize = 6;

@@ -1,12 +1,12 @@
 //! What an experiment tells apart, and what hides in its coefficients.
 
-use super::super::document::Block;
 use super::super::language::Language;
 use super::super::number::{percent, significant};
 use super::super::symbol;
 use super::sections::said;
 use super::trouble::{changes, in_words};
 use crate::calibrate::{Alias, Combination, Experiment, Figures, Identifiability, Omitted, Plan};
+use crate::document::Block;
 use crate::quantity::Unit;
 
 pub(super) fn schedule(plan: &Plan, l: Language) -> Vec<Block> {

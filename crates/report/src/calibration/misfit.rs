@@ -1,14 +1,14 @@
 //! What the equations leave of the readings, and what a reader must know.
 
-use super::super::document::Block;
 use super::super::language::{Language, Word};
 use super::super::number::{NONE, aligned, freedom, significant};
 use super::super::symbol;
-use super::super::table::{ColumnKind, Table};
 use super::sections::{DIGITS, said, shown_u};
 use crate::calibrate::{
     Apart, Calibration, Experiment, Limit, Residual, ResponseScatter, Scatter, ScatterTest, Words,
 };
+use crate::document::Block;
+use crate::document::{ColumnKind, Table};
 
 /// More residuals than these are not listed.
 const RESIDUALS: usize = 12;

@@ -7,41 +7,39 @@ mod misfit;
 mod sections;
 mod trouble;
 
+use serde_json::Value;
+
 use crate::calibrate::{Calibration, Experiment, Plan, Trouble};
 
-use super::document::Block;
-use super::language::Language;
-use super::text::{Page, draw};
+use crate::document::{Block, Document};
+use crate::language::Language;
 
-pub use json::{calibration_json, plan_json};
-
-/// A calibration as lines for a terminal.
-pub fn calibration_text(
-    experiment: &Experiment,
-    found: &Calibration,
-    language: Language,
-    page: Page,
-) -> String {
-    draw(&calibration(experiment, found, language), page)
+/// The document of a calibration.
+pub fn calibration(experiment: &Experiment, found: &Calibration, language: Language) -> Document {
+    document(
+        language,
+        found_blocks(experiment, found, language),
+        json::calibration_json(experiment, found, language),
+    )
 }
 
-/// A calibration as Markdown.
-pub fn calibration_markdown(
-    experiment: &Experiment,
-    found: &Calibration,
-    language: Language,
-) -> String {
-    super::markdown::draw(&calibration(experiment, found, language))
+/// The document of a plan.
+pub fn plan(experiment: &Experiment, plan: &Plan, language: Language) -> Document {
+    document(
+        language,
+        planned(experiment, plan, language),
+        json::plan_json(experiment, plan, language),
+    )
 }
 
-/// A plan as lines for a terminal.
-pub fn plan_text(experiment: &Experiment, plan: &Plan, language: Language, page: Page) -> String {
-    draw(&planned(experiment, plan, language), page)
-}
-
-/// A plan as Markdown.
-pub fn plan_markdown(experiment: &Experiment, plan: &Plan, language: Language) -> String {
-    super::markdown::draw(&planned(experiment, plan, language))
+fn document(language: Language, blocks: Vec<Block>, machine: Value) -> Document {
+    Document {
+        kind: "calibration",
+        version: 1,
+        language,
+        blocks,
+        machine,
+    }
 }
 
 /// Why there are no coefficients, in sentences.
@@ -49,7 +47,7 @@ pub fn calibration_trouble(trouble: &Trouble, language: Language) -> String {
     trouble::sentences(trouble, language)
 }
 
-fn calibration(experiment: &Experiment, found: &Calibration, l: Language) -> Vec<Block> {
+fn found_blocks(experiment: &Experiment, found: &Calibration, l: Language) -> Vec<Block> {
     let mut blocks = sections::heading(experiment, l);
     blocks.extend(sections::equations(experiment, l));
     blocks.extend(sections::coefficients(experiment, &found.figures, l));

@@ -2,13 +2,13 @@
 
 use nalgebra::DMatrix;
 
-use super::super::document::Block;
 use super::super::joint::matrix;
 use super::super::language::{Language, Word};
 use super::super::number::{NONE, aligned, freedom, in_unit, probability, significant};
 use super::super::symbol;
-use super::super::table::{Cell, Column, ColumnKind, Row, Table};
 use crate::calibrate::{Calibration, Coefficient, Experiment, Figures, Words};
+use crate::document::Block;
+use crate::document::{Cell, Column, ColumnKind, Row, Table};
 
 /// Digits of standard uncertainties.
 pub(super) const DIGITS: u8 = 3;

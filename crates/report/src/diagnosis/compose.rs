@@ -5,9 +5,9 @@ use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State};
 
 use crate::document::Block;
+use crate::document::{ColumnKind, Table};
 use crate::language::Language;
 use crate::number::{NONE, aligned, significant};
-use crate::table::{ColumnKind, Table};
 
 use super::labels::spoken;
 use super::statement::{tentative, verdict, weighs};

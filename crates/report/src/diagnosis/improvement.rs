@@ -4,11 +4,11 @@
 use crate::diagnose::case::Case;
 use crate::diagnose::{Adopted, Diagnosis, Estimated, HeldOutQuality, Quality};
 use crate::document::Block;
+use crate::document::{ColumnKind, Table};
 use crate::language::Language;
 use crate::number::{aligned, freedom, in_unit, significant};
 use crate::special::chi_squared_sf;
 use crate::symbol;
-use crate::table::{ColumnKind, Table};
 
 use super::labels::spoken;
 use super::words::{self, p_is};

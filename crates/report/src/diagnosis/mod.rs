@@ -13,31 +13,31 @@ mod words;
 use crate::diagnose::case::Case;
 use crate::diagnose::{Diagnosis, Outlook};
 
-use super::language::Language;
-use super::text::{Page, draw};
+use crate::document::Document;
+use crate::language::Language;
 
-pub use json::{FORMAT, json};
-pub use outlook::{FORMAT as OUTLOOK_FORMAT, json as outlook_json};
 pub use plots::plots;
 
-/// The report for a terminal.
-pub fn text(case: &Case, diagnosis: &Diagnosis, language: Language, page: Page) -> String {
-    draw(&compose::blocks(case, diagnosis, language), page)
+/// The document of a diagnosis.
+pub fn diagnosis(case: &Case, diagnosis: &Diagnosis, language: Language) -> Document {
+    Document {
+        kind: "diagnosis",
+        version: 1,
+        language,
+        blocks: compose::blocks(case, diagnosis, language),
+        machine: json::json(case, diagnosis, language),
+    }
 }
 
-/// The report as Markdown.
-pub fn markdown(case: &Case, diagnosis: &Diagnosis, language: Language) -> String {
-    super::markdown::draw(&compose::blocks(case, diagnosis, language))
-}
-
-/// A plan for a terminal.
-pub fn outlook_text(case: &Case, outlook: &Outlook, language: Language, page: Page) -> String {
-    draw(&outlook::blocks(case, outlook, language), page)
-}
-
-/// A plan as Markdown.
-pub fn outlook_markdown(case: &Case, outlook: &Outlook, language: Language) -> String {
-    super::markdown::draw(&outlook::blocks(case, outlook, language))
+/// The document of a plan.
+pub fn outlook(case: &Case, outlook: &Outlook, language: Language) -> Document {
+    Document {
+        kind: "plan",
+        version: 1,
+        language,
+        blocks: outlook::blocks(case, outlook, language),
+        machine: outlook::json(case, outlook, language),
+    }
 }
 
 pub use words::{assumed_noise, failure};

@@ -7,9 +7,9 @@ use crate::diagnose::catalogue::Cell;
 use crate::diagnose::evidence::State;
 use crate::diagnose::{Diagnosis, Estimated, Omitted, Separating};
 use crate::document::Block;
+use crate::document::{ColumnKind, Table};
 use crate::language::Language;
 use crate::number::{percent, significant};
-use crate::table::{ColumnKind, Table};
 
 use super::json::finite;
 use super::statement::slot_names;

@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 use crate::diagnose::case::Case;
 use crate::diagnose::{Outlook, Promise, Prospect};
 use crate::document::Block;
+use crate::document::{ColumnKind, Table};
 use crate::language::Language;
 use crate::number::{NONE, percent, significant};
-use crate::table::{ColumnKind, Table};
 
 use super::json::{estimates, finite, measure_json};
 use super::open;

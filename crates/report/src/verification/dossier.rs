@@ -1,8 +1,8 @@
 //! The dossier: what was verified, with what, how, the result; then every example.
 
 use crate::document::Block;
+use crate::document::{Cell, ColumnKind, Table};
 use crate::language::Language;
-use crate::table::{Cell, ColumnKind, Table};
 use crate::verify::{Verdict, Verification};
 
 use super::{example, words};

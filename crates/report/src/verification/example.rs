@@ -8,9 +8,9 @@ use crate::verify::{Example, Problem, Row};
 use super::words;
 use crate::claim::{self, last_place};
 use crate::document::Block;
+use crate::document::{Cell, ColumnKind, Table};
 use crate::language::{Language, Word};
 use crate::number::{NONE, at_place, exact, grouped, print, significant};
-use crate::table::{Cell, ColumnKind, Table};
 use crate::{Report, difference_symbol, remarks, symbol};
 
 /// Heading, origin, figures and verdict of an example.

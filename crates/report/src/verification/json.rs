@@ -1,26 +1,18 @@
 //! The machine form of a verification.
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::claim;
-use crate::json::{Number, number};
 use crate::language::Language;
+use crate::machine::{Machine, Number, record};
 use crate::propagate::{Comparison, Method};
-use crate::schema::{Describe, record};
 use crate::verify::{Example, Row, Verdict, Verification};
 
 use super::{dossier, example, words};
 
-/// Name and version of the format; the number changes when a field changes its meaning or goes.
-pub const FORMAT: &str = "gumption-verification/1";
-
 record! {
     /// A verification.
-    Document<'a> {
-        /// Name and version of this format.
-        format: &'a str,
-        /// Program that was verified, with its version.
-        generator: String,
+    VerificationJson<'a> {
         /// Day, ISO 8601.
         date: &'a str,
         /// The computer.
@@ -40,9 +32,7 @@ record! {
         /// Files without claims, which do not count.
         without_claims: Vec<&'a str>,
     }
-}
 
-record! {
     /// The computer.
     Platform<'a> {
         /// Operating system.
@@ -52,9 +42,7 @@ record! {
         /// Instruction set that was used.
         instruction_set: &'a str,
     }
-}
 
-record! {
     /// Numbers of examples and figures.
     CountsJson {
         /// Examples that passed.
@@ -70,9 +58,7 @@ record! {
         /// Figures that were shown only.
         figures_not_gating: u64,
     }
-}
 
-record! {
     /// One file with claims.
     ExampleJson<'a> {
         /// File.
@@ -88,9 +74,7 @@ record! {
         /// The file itself, or the rows of its series.
         rows: Vec<RowJson<'a>>,
     }
-}
 
-record! {
     /// One evaluation.
     RowJson<'a> {
         /// Row of a series.
@@ -102,9 +86,7 @@ record! {
         /// Every claimed figure.
         figures: Vec<FigureJson<'a>>,
     }
-}
 
-record! {
     /// A published figure and the one obtained.
     FigureJson<'a> {
         /// The measurand that the claim is about.
@@ -144,31 +126,21 @@ record! {
     }
 }
 
-/// The verification as a JSON value.
-pub fn json(verification: &Verification, language: Language) -> Value {
-    serde_json::to_value(document(verification, language))
-        .expect("the records hold nothing that JSON cannot")
+impl Machine for VerificationJson<'_> {
+    const KIND: &'static str = "verification";
+    const VERSION: u32 = 1;
 }
 
 /// JSON Schema of `verification.json` and of the output of `gumption verify --json`.
-pub fn schema() -> Value {
-    let mut schema = Document::describe();
-    if let Value::Object(entries) = &mut schema {
-        entries.insert(
-            "$schema".into(),
-            json!("http://json-schema.org/draft-07/schema#"),
-        );
-        entries.insert("title".into(), json!("gumption verification"));
-    }
-    schema
+pub fn verification_schema() -> Value {
+    crate::machine::schema::<VerificationJson<'_>>("gumption verify --json")
 }
 
-fn document(verification: &Verification, l: Language) -> Document<'_> {
+/// The machine form of a verification.
+pub(super) fn form(verification: &Verification, l: Language) -> VerificationJson<'_> {
     let environment = &verification.environment;
     let counts = verification.counts();
-    Document {
-        format: FORMAT,
-        generator: format!("gumption {}", environment.version),
+    VerificationJson {
         date: &environment.date,
         platform: Platform {
             os: environment.os,
@@ -254,16 +226,16 @@ fn figure_json<'a>(row: &'a Row, comparison: &'a Comparison, l: Language) -> Fig
             Method::Analysis => "analysis",
         },
         unit: example::unit(&report, comparison),
-        published: number(comparison.claimed.value),
-        obtained: comparison.obtained.map(number),
-        difference: example::difference(comparison).map(number),
-        tolerance: number(comparison.claimed.tolerance),
+        published: Number(comparison.claimed.value),
+        obtained: comparison.obtained.map(Number),
+        difference: example::difference(comparison).map(Number),
+        tolerance: Number(comparison.claimed.tolerance),
         digits: row
             .digits_wanted(comparison)
             .filter(|digits| example::is_by_digits(comparison, *digits))
             .map(u64::from),
-        log_relative_error: comparison.log_relative_error().map(number),
-        rounded: comparison.rounded.map(number),
+        log_relative_error: comparison.log_relative_error().map(Number),
+        rounded: comparison.rounded.map(Number),
         agrees: comparison.agrees(),
         gating: row.gates(comparison),
         reference: claim.and_then(|claim| claim.reference.as_deref()),

@@ -5,12 +5,11 @@ mod example;
 mod json;
 mod words;
 
+use crate::document::{Block, Document};
+use crate::language::Language;
 use crate::verify::{Verdict, Verification};
 
-use super::language::Language;
-use super::text::{Page, draw};
-
-pub use json::{FORMAT, json, schema};
+pub use json::verification_schema;
 
 /// Which examples are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,28 +21,21 @@ pub enum Detail {
 }
 
 /// Every example with its figures, then how many there were; the last line is `N passed, M failed`.
-pub fn text(verification: &Verification, language: Language, detail: Detail, page: Page) -> String {
+pub fn verification(verification: &Verification, language: Language, detail: Detail) -> Document {
     let mut blocks = Vec::new();
     for (index, one) in verification.examples.iter().enumerate() {
         if detail == Detail::All || one.verdict() == Verdict::Failed {
             blocks.extend(example::blocks(index + 1, one, language));
         }
     }
-    let mut text = if blocks.is_empty() {
-        String::new()
-    } else {
-        format!("{}\n", draw(&blocks, page))
-    };
-    for line in words::closing(verification, language) {
-        text += &line;
-        text.push('\n');
-    }
-    text
+    blocks.push(Block::Closing(words::closing(verification, language)));
+    Document::new(&json::form(verification, language), language, blocks)
 }
 
-/// The dossier that goes into the file of a laboratory, as Markdown.
-pub fn markdown(verification: &Verification, language: Language) -> String {
-    super::markdown::draw(&dossier::blocks(verification, language))
+/// The dossier that goes into the file of a laboratory.
+pub fn dossier(verification: &Verification, language: Language) -> Document {
+    let blocks = dossier::blocks(verification, language);
+    Document::new(&json::form(verification, language), language, blocks)
 }
 
 #[cfg(test)]
@@ -53,6 +45,7 @@ mod tests {
     use super::*;
     use crate::budget::Files;
     use crate::propagate::{MonteCarloChoice, Options};
+    use crate::render::{Page, markdown::markdown, text::text};
     use crate::verify::{Environment, Example};
 
     const FILE: &str = r#"
@@ -82,7 +75,7 @@ columns = ["label", "V", "claim.value"]
 rows = [["one volt", 1, 10.0], ["two volt", 2, 20.1]]
 "#;
 
-    fn verification() -> Verification {
+    fn verified() -> Verification {
         let text = FILE.replace("\"claim.value\"", "\"claim.1.value\"");
         let files = [
             ("electrical/current.toml", text.as_bytes()),
@@ -110,8 +103,8 @@ rows = [["one volt", 1, 10.0], ["two volt", 2, 20.1]]
 
     #[test]
     fn the_last_line_counts_examples() {
-        let page = Page::default();
-        let text = text(&verification(), Language::English, Detail::All, page);
+        let document = super::verification(&verified(), Language::English, Detail::All);
+        let text = text(&document, Page::default());
         let lines: Vec<&str> = text.lines().rev().take(2).collect();
         assert_eq!(lines[0], "0 passed, 2 failed");
         assert!(
@@ -123,7 +116,7 @@ rows = [["one volt", 1, 10.0], ["two volt", 2, 20.1]]
 
     #[test]
     fn the_dossier_names_what_a_reader_must_know() {
-        let dossier = markdown(&verification(), Language::English);
+        let dossier = markdown(&super::dossier(&verified(), Language::English));
         for needed in [
             "gumption 1.2.3",
             "2026-01-31",
@@ -137,14 +130,14 @@ rows = [["one volt", 1, 10.0], ["two volt", 2, 20.1]]
         ] {
             assert!(dossier.contains(needed), "{needed}\n{dossier}");
         }
-        let chinese = markdown(&verification(), Language::Chinese);
+        let chinese = markdown(&super::dossier(&verified(), Language::Chinese));
         assert!(chinese.contains("不作判据") && chinese.contains("(#示例-1)"));
     }
 
     #[test]
     fn machines_get_every_figure() {
-        let value = json(&verification(), Language::English);
-        assert_eq!(value["format"], FORMAT);
+        let value = super::dossier(&verified(), Language::English).machine;
+        assert_eq!(value["format"], "gumption-verification/1");
         assert_eq!(value["counts"]["failed"], 2);
         let figure = &value["examples"][0]["rows"][1]["figures"][0];
         assert_eq!(figure["figure"], "value");

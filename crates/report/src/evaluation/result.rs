@@ -1,11 +1,11 @@
 //! The result of one measurand by each method.
 
-use super::{Number, number, numbers};
+use crate::machine::{Number, numbers};
 use crate::propagate::{
     Basis, Clause8, Contribution, Coverage, CoverageBasis, Freedom, Gum, MeasurandResult,
     MonteCarlo, Validation,
 };
-use crate::{Report, schema::record};
+use crate::{Report, machine::record};
 
 record! {
     /// Both methods for one measurand.
@@ -29,9 +29,7 @@ record! {
         /// Clause 8 of JCGM 101 for two and for one digit of u.
         validation: Option<Vec<ValidationJson>>,
     }
-}
 
-record! {
     /// GUM result.
     GumJson<'a> {
         /// Estimate y.
@@ -63,9 +61,7 @@ record! {
         /// Contribution of each component.
         components: Vec<ContributionJson>,
     }
-}
 
-record! {
     /// A line of the budget table.
     ContributionJson {
         /// Sensitivity coefficient.
@@ -79,9 +75,7 @@ record! {
         /// Degrees of freedom.
         degrees_of_freedom: Number,
     }
-}
 
-record! {
     /// Second-order terms (JCGM 100, note to 5.1.2).
     SecondOrderJson {
         /// To be added to the estimate.
@@ -91,9 +85,7 @@ record! {
         /// Whether they matter at the digits reported.
         matters: bool,
     }
-}
 
-record! {
     /// Monte Carlo result.
     MonteCarloJson {
         /// Mean; null when it does not exist.
@@ -117,9 +109,7 @@ record! {
         /// Counts over the central range.
         histogram: HistogramJson,
     }
-}
 
-record! {
     /// Counts in equal bins.
     HistogramJson {
         /// Left edge of the first bin.
@@ -129,9 +119,7 @@ record! {
         /// Counts.
         counts: Vec<u64>,
     }
-}
 
-record! {
     /// JCGM 101 clause 8.
     ValidationJson {
         /// Significant digits of u regarded as meaningful.
@@ -172,8 +160,8 @@ pub(super) fn measurand<'a>(
         },
         gum: gum(&result.gum),
         second_order: result.second_order.as_ref().map(|s| SecondOrderJson {
-            shift: number(s.shift),
-            standard_uncertainty: number(s.u),
+            shift: Number(s.shift),
+            standard_uncertainty: Number(s.u),
             matters: s.matters,
         }),
         monte_carlo: result.monte_carlo.as_ref().map(monte_carlo),
@@ -194,30 +182,30 @@ fn gum(gum: &Gum) -> GumJson<'_> {
     } = &gum.coverage;
     let (from, dof, shape, dominant) = match basis {
         CoverageBasis::Normal => ("normal", None, None, &[][..]),
-        CoverageBasis::StudentT { dof } => ("t", Some(number(*dof)), None, &[][..]),
+        CoverageBasis::StudentT { dof } => ("t", Some(Number(*dof)), None, &[][..]),
         CoverageBasis::Output { dominant, shape } => {
             ("output", None, Some(*shape), dominant.as_slice())
         }
         CoverageBasis::Fixed => ("fixed", None, None, &[][..]),
     };
     GumJson {
-        estimate: number(gum.estimate),
-        standard_uncertainty: number(gum.u),
-        effective_degrees_of_freedom: number(gum.freedom.value()),
+        estimate: Number(gum.estimate),
+        standard_uncertainty: Number(gum.u),
+        effective_degrees_of_freedom: Number(gum.freedom.value()),
         degrees_of_freedom_from: match gum.freedom {
             Freedom::Infinite => "infinite",
             Freedom::WelchSatterthwaite(_) => "welch-satterthwaite",
             Freedom::Ensembles(_) => "ensembles",
             Freedom::Refused { .. } => "refused",
         },
-        coverage_factor: number(*k),
+        coverage_factor: Number(*k),
         coverage_factor_from: from,
         coverage_factor_degrees_of_freedom: dof,
         output_shape: shape,
         dominant: dominant.iter().map(String::as_str).collect(),
-        coverage_probability: number(*probability),
-        expanded_uncertainty: number(*expanded),
-        half_width_for_p: number(*half_width_for_p),
+        coverage_probability: Number(*probability),
+        expanded_uncertainty: Number(*expanded),
+        half_width_for_p: Number(*half_width_for_p),
         inputs: gum.inputs.iter().map(contribution).collect(),
         components: gum.components.iter().map(contribution).collect(),
     }
@@ -225,11 +213,11 @@ fn gum(gum: &Gum) -> GumJson<'_> {
 
 fn contribution(c: &Contribution) -> ContributionJson {
     ContributionJson {
-        sensitivity: number(c.sensitivity),
-        standard_uncertainty: number(c.u),
-        contribution: number(c.contribution),
-        share: number(c.share),
-        degrees_of_freedom: number(c.dof),
+        sensitivity: Number(c.sensitivity),
+        standard_uncertainty: Number(c.u),
+        contribution: Number(c.contribution),
+        share: Number(c.share),
+        degrees_of_freedom: Number(c.dof),
     }
 }
 
@@ -237,7 +225,7 @@ fn monte_carlo(mc: &MonteCarlo) -> MonteCarloJson {
     MonteCarloJson {
         estimate: mc.estimate.map(Number),
         standard_uncertainty: mc.u.map(Number),
-        median: number(mc.median),
+        median: Number(mc.median),
         symmetric_interval: numbers(&mc.symmetric),
         shortest_interval: numbers(&mc.shortest),
         skewness: mc.skewness.map(Number),
@@ -245,8 +233,8 @@ fn monte_carlo(mc: &MonteCarlo) -> MonteCarloJson {
         standard_errors: numbers(&mc.standard_errors),
         failed_trials: mc.failed,
         histogram: HistogramJson {
-            start: number(mc.histogram.start),
-            width: number(mc.histogram.width),
+            start: Number(mc.histogram.start),
+            width: Number(mc.histogram.width),
             counts: mc.histogram.counts.clone(),
         },
     }
@@ -255,10 +243,10 @@ fn monte_carlo(mc: &MonteCarlo) -> MonteCarloJson {
 fn validation(v: &Validation) -> ValidationJson {
     ValidationJson {
         digits: u64::from(v.digits),
-        delta: number(v.delta),
-        d_low: number(v.d_low),
-        d_high: number(v.d_high),
-        standard_error: number(v.error),
+        delta: Number(v.delta),
+        d_low: Number(v.d_low),
+        d_high: Number(v.d_high),
+        standard_error: Number(v.error),
         verdict: match v.verdict {
             Clause8::Validated => "validated",
             Clause8::NotValidated => "not-validated",

@@ -1,28 +1,30 @@
-//! The report for a terminal.
+//! A document as lines for a terminal.
+
+mod fit;
+mod lines;
+mod plot;
+mod table;
 
 use unicode_width::UnicodeWidthStr;
 
-use super::Report;
-use super::compose::compose;
-use super::document::Block;
-use super::table::wrapped;
+use super::format::{Format, Page};
+use crate::document::{Block, Document};
 
-/// What the text is drawn on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Page {
-    /// Columns; lines are at most this wide wherever words allow it.
-    pub width: usize,
-    /// Whether headings may be bold and small print dim (ANSI escapes).
-    pub styled: bool,
-}
+use lines::wrapped;
+pub(super) use plot::lines as plot_lines;
+pub(super) use table::bar;
 
-impl Default for Page {
-    fn default() -> Self {
-        Page {
-            width: 100,
-            styled: false,
-        }
-    }
+pub(super) const FORMAT: Format = Format {
+    name: "text",
+    about: "Print text",
+    ending: "txt",
+    media_type: "text/plain; charset=utf-8",
+    render: |document, page| text(document, *page).into_bytes(),
+};
+
+/// A document as text.
+pub fn text(document: &Document, page: Page) -> String {
+    draw(&document.blocks, page)
 }
 
 impl Page {
@@ -43,17 +45,15 @@ impl Page {
     }
 }
 
-/// The report as lines for a terminal.
-pub fn text(report: &Report<'_>, page: Page) -> String {
-    draw(&compose(report), page)
-}
-
-/// Blocks as lines, a blank line between them.
-pub(super) fn draw(blocks: &[Block], page: Page) -> String {
+/// Blocks as lines: a blank line between them, two before a further title, none below a head.
+pub fn draw(blocks: &[Block], page: Page) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut below_section = false;
     for block in blocks {
         if !lines.is_empty() && !below_section {
+            lines.push(String::new());
+        }
+        if !lines.is_empty() && matches!(block, Block::Title(_)) {
             lines.push(String::new());
         }
         below_section = matches!(block, Block::Section(_));
@@ -72,39 +72,60 @@ fn draw_block(block: &Block, page: Page, lines: &mut Vec<String>) {
             lines.extend(title.iter().map(|line| page.bold(line)));
             lines.push(page.dim(&"━".repeat(width)));
         }
-        Block::Section(title) => lines.push(page.bold(title)),
+        Block::Section(title) => {
+            lines.extend(wrapped(title, page.width).iter().map(|l| page.bold(l)));
+        }
         Block::Fields(fields) => {
-            let label = fields
+            let fields = fields
                 .iter()
-                .map(|(label, _)| label.width())
-                .max()
-                .unwrap_or(0);
-            for (name, text) in fields {
-                let space = " ".repeat(label - name.width());
-                hanging(&format!("  {name}{space}  "), text, page, lines);
-            }
+                .map(|(name, text)| (name.as_str(), text.clone()));
+            labelled(&fields.collect::<Vec<_>>(), page, lines);
+        }
+        Block::Figures(figures) => {
+            let figures = figures.iter().map(|f| (f.name.as_str(), f.text()));
+            labelled(&figures.collect::<Vec<_>>(), page, lines);
         }
         Block::Paragraph(text) => hanging("  ", text, page, lines),
         Block::Formula(formulas) => formulas
             .iter()
             .for_each(|formula| equation(formula, page, lines)),
-        Block::Table(table) => lines.extend(
-            table
-                .lines(page.width.saturating_sub(2))
-                .into_iter()
-                .map(|l| format!("  {l}").trim_end().to_string()),
-        ),
+        Block::Table(table) => {
+            let drawn = table::lines(table, page.width.saturating_sub(2));
+            lines.extend(
+                drawn
+                    .iter()
+                    .map(|l| format!("  {l}").trim_end().to_string()),
+            );
+        }
+        Block::Plot(plot) => lines.extend(plot::lines(plot, page.width)),
         Block::List(items) => items
             .iter()
             .for_each(|item| hanging("  • ", item, page, lines)),
+        Block::Findings(findings) => findings
+            .iter()
+            .for_each(|finding| hanging("  • ", &finding.text, page, lines)),
         Block::Statement(sentences) => sentences
             .iter()
             .for_each(|s| hanging("  ┃ ", s, page, lines)),
+        Block::Closing(all) => lines.extend(all.iter().flat_map(|s| wrapped(s, page.width))),
         Block::Footer(small) => {
             for line in small.iter().flat_map(|s| wrapped(s, page.width)) {
                 lines.push(page.dim(&line));
             }
         }
+    }
+}
+
+/// Texts behind their names, which are as wide as the longest.
+fn labelled(fields: &[(&str, String)], page: Page, lines: &mut Vec<String>) {
+    let label = fields
+        .iter()
+        .map(|(name, _)| name.width())
+        .max()
+        .unwrap_or(0);
+    for (name, text) in fields {
+        let space = " ".repeat(label - name.width());
+        hanging(&format!("  {name}{space}  "), text, page, lines);
     }
 }
 

@@ -2,8 +2,9 @@
 
 use crate::budget::{Fit, FitVerdict, LackOfFitTest};
 
-use super::{Number, matrix, number, numbers};
-use crate::schema::record;
+use super::matrix::matrix;
+use crate::machine::record;
+use crate::machine::{Number, numbers};
 
 record! {
     /// A least-squares fit whose parameters are inputs.
@@ -53,9 +54,7 @@ record! {
         /// Condition number of the scaled design.
         condition: Number,
     }
-}
 
-record! {
     /// A column of observed data.
     FitColumnJson<'a> {
         /// Name.
@@ -71,9 +70,7 @@ record! {
         /// Components that act on all points together.
         common_components: Vec<&'a str>,
     }
-}
 
-record! {
     /// A parameter of a fit.
     FitParameterJson<'a> {
         /// Name.
@@ -91,9 +88,7 @@ record! {
         /// Index into inputs.
         input: u64,
     }
-}
 
-record! {
     /// A test of the curve.
     LackOfFitJson {
         /// Which test: chi-squared, replicates.
@@ -139,28 +134,28 @@ pub(super) fn fit(fit: &Fit) -> FitJson<'_> {
                 name: &parameter.name,
                 description: parameter.description.as_deref(),
                 unit: &parameter.unit.symbol,
-                estimate: number(parameter.estimate),
-                standard_uncertainty: number(parameter.u),
-                combined_standard_uncertainty: number(parameter.combined_u),
+                estimate: Number(parameter.estimate),
+                standard_uncertainty: Number(parameter.u),
+                combined_standard_uncertainty: Number(parameter.combined_u),
                 input: parameter.input as u64,
             })
             .collect(),
         covariance: matrix(&fit.covariance),
         correlation: matrix(&fit.correlation),
         degrees_of_freedom: fit.dof as u64,
-        chi_squared: number(fit.chi_squared),
-        residual_sum_of_squares: number(fit.rss()),
-        residual_standard_deviation: fit.residual_sd.map(number),
-        r_squared: number(fit.r_squared),
+        chi_squared: Number(fit.chi_squared),
+        residual_sum_of_squares: Number(fit.rss()),
+        residual_standard_deviation: fit.residual_sd.map(Number),
+        r_squared: Number(fit.r_squared),
         lack_of_fit: fit.lack_of_fit.as_ref().map(|test| LackOfFitJson {
             test: match test.test {
                 LackOfFitTest::ChiSquared => "chi-squared",
                 LackOfFitTest::Replicates => "replicates",
             },
-            statistic: number(test.statistic),
-            degrees_of_freedom: number(test.dof),
-            denominator_degrees_of_freedom: test.denominator.map(number),
-            p: number(test.p),
+            statistic: Number(test.statistic),
+            degrees_of_freedom: Number(test.dof),
+            denominator_degrees_of_freedom: test.denominator.map(Number),
+            p: Number(test.p),
             verdict: match test.verdict() {
                 FitVerdict::Accepted => "accepted",
                 FitVerdict::Rejected => "rejected",
@@ -172,6 +167,6 @@ pub(super) fn fit(fit: &Fit) -> FitJson<'_> {
         normalised_residuals: fit.normalised.as_deref().map(numbers),
         adjusted_predictors: matrix(&fit.adjusted),
         iterations: fit.iterations as u64,
-        condition: number(fit.condition),
+        condition: Number(fit.condition),
     }
 }

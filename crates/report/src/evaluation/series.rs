@@ -3,26 +3,16 @@
 use crate::budget::Figure;
 use crate::propagate::{Clause8, Comparison};
 
-use super::document::Block;
-use super::language::Word;
-use super::number::{
+use crate::document::Block;
+use crate::document::{Cell, ColumnKind, Table};
+use crate::language::Word;
+use crate::number::{
     NONE, STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, print, probability, significant,
 };
-use super::table::{Cell, ColumnKind, Table};
-use super::text::{Page, draw};
-use super::{Report, claim, markdown, remarks, symbol};
+use crate::{Report, claim, remarks, symbol};
 
-/// The rows of a series for a terminal.
-pub fn series_text(rows: &[Report<'_>], page: Page) -> String {
-    draw(&blocks(rows), page)
-}
-
-/// The rows of a series as Markdown.
-pub fn series_markdown(rows: &[Report<'_>]) -> String {
-    markdown::draw(&blocks(rows))
-}
-
-fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
+/// The rows of a series.
+pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
     let Some(first) = rows.first() else {
         return Vec::new();
     };

@@ -1,17 +1,24 @@
-//! The report as Markdown (GitHub's tables).
+//! A document as Markdown (GitHub's tables).
 
-use super::Report;
-use super::compose::compose;
-use super::document::Block;
-use super::table::{Cell, ColumnKind, Row, Table, bar};
+use super::format::{Format, Page};
+use super::text::{bar, plot_lines};
+use crate::document::{Block, Cell, ColumnKind, Document, Row, Table};
 
-/// The report as Markdown.
-pub fn markdown(report: &Report<'_>) -> String {
-    draw(&compose(report))
+pub(super) const FORMAT: Format = Format {
+    name: "markdown",
+    about: "Print Markdown",
+    ending: "md",
+    media_type: "text/markdown; charset=utf-8",
+    render: |document, _| markdown(document).into_bytes(),
+};
+
+/// A document as Markdown.
+pub fn markdown(document: &Document) -> String {
+    draw(&document.blocks)
 }
 
 /// Blocks as Markdown, a blank line between them.
-pub(super) fn draw(blocks: &[Block]) -> String {
+pub fn draw(blocks: &[Block]) -> String {
     let parts: Vec<String> = blocks.iter().map(draw_block).collect();
     format!("{}\n", parts.join("\n\n"))
 }
@@ -20,34 +27,43 @@ fn draw_block(block: &Block) -> String {
     match block {
         Block::Title(title) => format!("# {}", escaped(title)),
         Block::Section(title) => format!("## {}", escaped(title)),
-        Block::Fields(fields) => {
-            let line = |(name, text): &(String, String)| {
-                format!("- **{}**: {}", escaped(name), escaped(text))
-            };
-            fields.iter().map(line).collect::<Vec<_>>().join("\n")
-        }
+        Block::Fields(fields) => lined(fields, |(name, text)| labelled(name, text)),
+        Block::Figures(figures) => lined(figures, |f| labelled(&f.name, &f.text())),
         Block::Paragraph(text) => escaped(text),
-        Block::Formula(lines) => format!("```text\n{}\n```", lines.join("\n")),
+        Block::Formula(lines) => fenced(lines),
         Block::Table(table) => draw_table(table),
-        Block::List(items) => items
-            .iter()
-            .map(|i| format!("- {}", escaped(i)))
-            .collect::<Vec<_>>()
-            .join("\n"),
+        Block::Plot(plot) => fenced(&plot_lines(plot, Page::default().width)),
+        Block::List(items) => lined(items, |item| format!("- {}", escaped(item))),
+        Block::Findings(findings) => lined(findings, |f| format!("- {}", escaped(&f.text))),
         Block::Statement(sentences) => sentences
             .iter()
             .map(|s| format!("> {}", escaped(s)))
             .collect::<Vec<_>>()
             .join("\n>\n"),
-        Block::Footer(lines) => format!(
-            "---\n\n{}",
-            lines
-                .iter()
-                .map(|l| escaped(l))
-                .collect::<Vec<_>>()
-                .join("  \n")
-        ),
+        Block::Closing(lines) => on_lines(lines),
+        Block::Footer(lines) => format!("---\n\n{}", on_lines(lines)),
     }
+}
+
+/// Text whose lines stay lines.
+fn on_lines(lines: &[String]) -> String {
+    lines
+        .iter()
+        .map(|l| escaped(l))
+        .collect::<Vec<_>>()
+        .join("  \n")
+}
+
+fn lined<T>(items: &[T], line: impl Fn(&T) -> String) -> String {
+    items.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+fn labelled(name: &str, text: &str) -> String {
+    format!("- **{}**: {}", escaped(name), escaped(text))
+}
+
+fn fenced(lines: &[String]) -> String {
+    format!("```text\n{}\n```", lines.join("\n"))
 }
 
 fn draw_table(table: &Table) -> String {

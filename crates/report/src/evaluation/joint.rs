@@ -1,8 +1,9 @@
 //! The joint result of several measurands.
 
-use super::{Number, matrix, number};
+use super::matrix::matrix;
+use crate::machine::Number;
+use crate::machine::record;
 use crate::propagate::JointResult;
-use crate::schema::record;
 
 record! {
     /// Joint result (JCGM 102).
@@ -26,9 +27,7 @@ record! {
         /// Whether a measurand is a linear function of the others.
         degenerate: bool,
     }
-}
 
-record! {
     /// Coverage regions from Monte Carlo.
     RegionsJson {
         /// Factor of the ellipsoid.
@@ -50,13 +49,13 @@ pub(super) fn joint(joint: &JointResult) -> JointJson {
         correlation: matrix(&joint.correlation),
         monte_carlo_covariance: joint.monte_carlo_covariance.as_ref().map(matrix),
         monte_carlo_correlation: joint.monte_carlo_correlation.as_ref().map(matrix),
-        degrees_of_freedom: number(joint.dof.value()),
-        ellipsoid_factor: number(joint.k_ellipsoid),
-        rectangle_factor: number(joint.k_rectangle),
+        degrees_of_freedom: Number(joint.dof.value()),
+        ellipsoid_factor: Number(joint.k_ellipsoid),
+        rectangle_factor: Number(joint.k_rectangle),
         regions: joint.regions.as_ref().map(|r| RegionsJson {
-            ellipsoid_factor: number(r.k_ellipsoid),
-            rectangle_factor: number(r.k_rectangle),
-            ellipsoid_volume: number(r.ellipsoid_volume),
+            ellipsoid_factor: Number(r.k_ellipsoid),
+            rectangle_factor: Number(r.k_rectangle),
+            ellipsoid_volume: Number(r.ellipsoid_volume),
             smallest_volume: r.smallest_volume.map(Number),
             smallest_cells: r.smallest_cells.map(|n| n as u64),
         }),

@@ -2,15 +2,16 @@
 
 use serde_json::Value;
 
-use super::{Number, matrix, number, numbers};
+use super::matrix::matrix;
 use crate::analyses;
 use crate::budget::chain::TakenResult;
 use crate::budget::{
     Analysis, Component, Constant, CoverageRule, DofRule, Evaluation as Kind, Group, Input, Law,
     OutputShape, Owner, TScale,
 };
+use crate::machine::record;
+use crate::machine::{Number, numbers};
 use crate::quantity::Rounding;
-use crate::schema::record;
 
 record! {
     /// Heading of the file.
@@ -30,9 +31,7 @@ record! {
         /// Further words.
         note: Option<&'a str>,
     }
-}
 
-record! {
     /// Conventions after profile and overrides.
     Conventions<'a> {
         /// Profile.
@@ -56,9 +55,7 @@ record! {
         /// Meaning of u for a t-distributed input in Monte Carlo: scale, standard-deviation.
         t_scale: &'a str,
     }
-}
 
-record! {
     /// An input quantity.
     InputJson<'a> {
         /// Name.
@@ -74,9 +71,7 @@ record! {
         /// Components that act on it.
         terms: Vec<TermJson>,
     }
-}
 
-record! {
     /// How a component enters an input.
     TermJson {
         /// Index into components.
@@ -84,9 +79,7 @@ record! {
         /// Change of the input per unit of the component.
         coefficient: Number,
     }
-}
 
-record! {
     /// A zero-mean elementary component.
     ComponentJson<'a> {
         /// Unique name.
@@ -114,9 +107,7 @@ record! {
         /// Other source.
         reference: Option<&'a str>,
     }
-}
 
-record! {
     /// A distribution.
     DistributionJson {
         /// Kind, as in budget files.
@@ -124,9 +115,7 @@ record! {
         /// Its parameters.
         parameters: Value,
     }
-}
 
-record! {
     /// A calibration certificate.
     CertificateJson<'a> {
         /// Number.
@@ -138,9 +127,7 @@ record! {
         /// Due date.
         due: Option<&'a str>,
     }
-}
 
-record! {
     /// Correlated components.
     GroupJson {
         /// Indices into components.
@@ -152,9 +139,7 @@ record! {
         /// Common degrees of freedom.
         degrees_of_freedom: Option<Number>,
     }
-}
 
-record! {
     /// An analysis of the readings behind a component.
     AnalysisJson<'a> {
         /// Name of the component, with which the names of its figures begin.
@@ -164,9 +149,7 @@ record! {
         /// What was done with the differences between groups, and between subgroups (included, negative, not-significant, ignored), or whether an outlier was found (outlier, none).
         verdicts: Vec<&'a str>,
     }
-}
 
-record! {
     /// A result of another file.
     TakenJson<'a> {
         /// Name that the model uses for it.
@@ -182,9 +165,7 @@ record! {
         /// Defining statements there; null for a saved result, which is taken over in linear form.
         equation: Option<&'a str>,
     }
-}
 
-record! {
     /// An exactly known quantity.
     ConstantJson<'a> {
         /// Name.
@@ -216,7 +197,7 @@ pub(super) fn conventions(c: &crate::budget::Conventions) -> Conventions<'_> {
     Conventions {
         profile: &c.profile,
         overrides: c.overrides.iter().map(String::as_str).collect(),
-        coverage_probability: number(c.coverage_probability),
+        coverage_probability: Number(c.coverage_probability),
         coverage_factor_from: match c.coverage_factor {
             CoverageRule::Output => "output",
             CoverageRule::StudentT => "t",
@@ -254,13 +235,13 @@ pub(super) fn input(input: &Input) -> InputJson<'_> {
         description: input.description.as_deref(),
         group: input.group.as_deref(),
         unit: &input.unit.symbol,
-        estimate: number(input.estimate),
+        estimate: Number(input.estimate),
         terms: input
             .terms
             .iter()
             .map(|t| TermJson {
                 component: t.component as u64,
-                coefficient: number(t.coefficient),
+                coefficient: Number(t.coefficient),
             })
             .collect(),
     }
@@ -283,8 +264,8 @@ pub(super) fn component<'a>(c: &'a Component, inputs: &'a [Input]) -> ComponentJ
             name: c.distribution.kind().key.to_string(),
             parameters: parameters(&c.distribution),
         },
-        standard_uncertainty: number(c.u),
-        degrees_of_freedom: number(c.dof),
+        standard_uncertainty: Number(c.u),
+        degrees_of_freedom: Number(c.dof),
         evaluation: match c.evaluation {
             Kind::TypeA => "A",
             Kind::TypeB => "B",

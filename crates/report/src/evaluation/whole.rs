@@ -12,17 +12,14 @@ use super::understood::{
 use crate::budget::{Adaptive, NamedFigure, Remark};
 use crate::indices::names;
 use crate::propagate::{Finding, Quasi, Run, SobolIndex};
-use crate::{Report, language::Language, remarks, schema::record, statement};
+use crate::{Report, language::Language, machine::record, remarks, statement};
 
-use super::{FORMAT, Number, claims, decisions, fits, joint, number, numbers, result, understood};
+use super::{claims, decisions, fits, joint, result, understood};
+use crate::machine::{Machine, Number, numbers};
 
 record! {
     /// One evaluated budget.
-    Document<'a> {
-        /// Name and version of this format.
-        format: &'a str,
-        /// Program that wrote it, with its version.
-        generator: String,
+    EvaluationJson<'a> {
         /// Row of a series.
         label: Option<&'a str>,
         /// What the file says about the measurement besides numbers.
@@ -66,9 +63,7 @@ record! {
         /// The sentences for the certificate.
         statement: StatementJson,
     }
-}
 
-record! {
     /// A Monte Carlo run.
     RunJson {
         /// Trials.
@@ -82,9 +77,7 @@ record! {
         /// Where quasi-random points were asked for: what became of it.
         quasi: Option<QuasiJson>,
     }
-}
 
-record! {
     /// Sobol' sensitivity indices.
     SensitivityJson<'a> {
         /// Trials of each of the two independent samples.
@@ -94,9 +87,7 @@ record! {
         /// Per measurand: one per factor, or null where it has no standard deviation.
         measurands: Vec<Option<Vec<IndexJson>>>,
     }
-}
 
-record! {
     /// Indices of one factor.
     IndexJson {
         /// First-order index.
@@ -108,9 +99,7 @@ record! {
         /// Its standard error.
         total_error: Number,
     }
-}
 
-record! {
     /// Quasi-random points.
     QuasiJson {
         /// Whether they were used; `trials` is their number then. Otherwise random trials were run.
@@ -132,9 +121,7 @@ record! {
         /// Standard errors of both ends of the shortest interval.
         shortest_standard_errors: Option<Vec<Number>>,
     }
-}
 
-record! {
     /// An adaptive run.
     AdaptiveJson {
         /// Procedure: stein, jcgm101.
@@ -146,9 +133,7 @@ record! {
         /// Whether the results are stable to it.
         reached: bool,
     }
-}
 
-record! {
     /// A figure of an analysis.
     FigureJson<'a> {
         /// Its name, as claims write it.
@@ -158,9 +143,7 @@ record! {
         /// Its unit.
         unit: &'a str,
     }
-}
 
-record! {
     /// A finding.
     FindingJson {
         /// Measurand; null for the whole budget.
@@ -170,9 +153,7 @@ record! {
         /// Sentence in the language of the report.
         message: String,
     }
-}
 
-record! {
     /// A remark in both languages.
     RemarkJson<'a> {
         /// English.
@@ -180,9 +161,7 @@ record! {
         /// Chinese.
         zh: &'a str,
     }
-}
 
-record! {
     /// Sentences for the certificate.
     StatementJson {
         /// English.
@@ -192,13 +171,17 @@ record! {
     }
 }
 
-impl<'a> Document<'a> {
+impl Machine for EvaluationJson<'_> {
+    const KIND: &'static str = "evaluation";
+    const VERSION: u32 = 1;
+    const SEVERAL: bool = true;
+}
+
+impl<'a> EvaluationJson<'a> {
     pub(super) fn new(report: &Report<'a>) -> Self {
         let budget = report.budget;
         let evaluation = report.evaluation;
-        Document {
-            format: FORMAT,
-            generator: format!("gumption {}", env!("CARGO_PKG_VERSION")),
+        EvaluationJson {
             label: report.label,
             heading: understood::heading(&budget.heading),
             conventions: understood::conventions(&budget.conventions),
@@ -245,7 +228,7 @@ impl<'a> Document<'a> {
 fn figure(figure: &NamedFigure) -> FigureJson<'_> {
     FigureJson {
         name: &figure.name,
-        value: number(figure.value),
+        value: Number(figure.value),
         unit: &figure.unit.symbol,
     }
 }
@@ -283,7 +266,7 @@ fn run(run: &Run) -> RunJson {
     RunJson {
         trials: run.trials,
         seed: run.seed,
-        coverage_probability: number(run.coverage_probability),
+        coverage_probability: Number(run.coverage_probability),
         adaptive: run.adaptive.as_ref().map(|a| AdaptiveJson {
             procedure: match a.procedure {
                 Adaptive::Stein => "stein",
@@ -301,10 +284,10 @@ fn run(run: &Run) -> RunJson {
 fn sensitivity<'a>(report: &Report<'a>) -> Option<SensitivityJson<'a>> {
     let indices = report.evaluation.indices.as_ref()?;
     let index = |index: &SobolIndex| IndexJson {
-        first_order: number(index.first),
-        first_order_error: number(index.first_error),
-        total: number(index.total),
-        total_error: number(index.total_error),
+        first_order: Number(index.first),
+        first_order_error: Number(index.first_error),
+        total: Number(index.total),
+        total_error: Number(index.total_error),
     };
     let of = |found: &Option<Vec<SobolIndex>>| {
         found
@@ -333,9 +316,9 @@ fn quasi(of: &Quasi) -> QuasiJson {
         replicates: run.map(|run| run.replicates as u64),
         averaged: run.map_or(Vec::new(), |run| run.averaged.clone()),
         digits: run.map(|run| u64::from(run.digits)),
-        delta: run.map(|run| number(run.delta)),
+        delta: run.map(|run| Number(run.delta)),
         reached: run.map(|run| run.reached),
-        equivalent_trials: run.map(|run| number(run.equivalent_trials)),
+        equivalent_trials: run.map(|run| Number(run.equivalent_trials)),
         shortest_standard_errors: run.map(|run| numbers(&run.shortest_errors)),
     }
 }

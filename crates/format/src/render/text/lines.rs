@@ -1,50 +1,12 @@
-//! Words and names on lines of a width.
+//! Text on lines of a width.
 
 use std::ops::Range;
 
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
-/// The text cut to a width, with an ellipsis where something is missing.
-pub(super) fn cut(text: &str, width: usize) -> String {
-    if text.width() <= width {
-        return text.to_string();
-    }
-    let mut kept = String::new();
-    for c in text.chars() {
-        if kept.width() + c.width().unwrap_or(0) + 1 > width {
-            break;
-        }
-        kept.push(c);
-    }
-    kept.push('…');
-    kept
-}
-
-/// A name on lines of at most `width`, broken behind `_`, `.`, `-` or a space where there is one; further
-/// lines are set in a little.
-pub(super) fn broken(text: &str, width: usize) -> Vec<String> {
-    const INDENT: &str = "    ";
-    let mut lines = Vec::new();
-    let mut line = String::new();
-    let mut seam = None;
-    for c in text.chars() {
-        if line.width() + c.width().unwrap_or(0) > width && line.trim_start() != "" {
-            let rest = line.split_off(seam.unwrap_or(line.len()));
-            lines.push(std::mem::replace(&mut line, format!("{INDENT}{rest}")));
-            seam = None;
-        }
-        line.push(c);
-        if matches!(c, '_' | '.' | '-' | ' ') && !line.trim_start().is_empty() {
-            seam = Some(line.len());
-        }
-    }
-    lines.push(line);
-    lines
-}
-
 /// The text on lines of at most `width`, broken at spaces and between Chinese characters; a single
 /// word that is longer stands alone on its line.
-pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
+pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     let mut line = String::new();
     for piece in pieces(text) {
@@ -56,6 +18,12 @@ pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     }
     lines.push(line.trim_end().to_string());
     lines
+}
+
+/// Width of the longest part that stays on one line.
+pub(super) fn longest_piece(text: &str) -> usize {
+    let pieces = pieces(text).into_iter();
+    pieces.map(|p| p.trim_end().width()).max().unwrap_or(0)
 }
 
 /// Smallest parts that stay on one line: words with the space after them, short names of wide characters, other
@@ -133,16 +101,6 @@ fn is_wide(c: char) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn names_are_whole_on_any_page() {
-        assert_eq!(broken("short", 10), ["short"]);
-        assert_eq!(
-            broken("  conductivity_of_rod", 16),
-            ["  conductivity_", "    of_rod"]
-        );
-        assert_eq!(broken("abcdefghijklmno", 10), ["abcdefghij", "    klmno"]);
-    }
 
     #[test]
     fn chinese_breaks_between_characters_but_not_before_a_stop() {

@@ -1,9 +1,9 @@
 //! Verdicts: conformity with a tolerance, decision threshold and detection limit.
 
-use super::{Number, number, numbers};
 use crate::budget::{Conformity, Detection, Interval};
+use crate::machine::{Number, numbers};
 use crate::propagate::{ConformityResult, DetectionResult};
-use crate::{Report, decisions, schema::record};
+use crate::{Report, decisions, machine::record};
 
 record! {
     /// A conformity assessment (JCGM 106).
@@ -35,9 +35,7 @@ record! {
         /// Risks over all items of the process.
         global: Option<GlobalJson>,
     }
-}
 
-record! {
     /// Risks over all items of a process.
     GlobalJson {
         /// Probability that an item conforms.
@@ -53,9 +51,7 @@ record! {
         /// Probability that a rejected item conforms.
         false_rejection: Number,
     }
-}
 
-record! {
     /// Characteristic limits (ISO 11929).
     DetectionJson<'a> {
         /// Measurand.
@@ -107,12 +103,12 @@ pub(super) fn conformity<'a>(report: &Report<'a>) -> Vec<ConformityJson<'a>> {
         capability: found.capability.map(Number),
         test_uncertainty_ratio: found.test_uncertainty_ratio.map(Number),
         global: found.global.map(|risk| GlobalJson {
-            in_tolerance: number(risk.in_tolerance),
-            accepted: number(risk.accepted),
-            consumer: number(risk.consumer),
-            producer: number(risk.producer),
-            false_acceptance: number(risk.false_acceptance),
-            false_rejection: number(risk.false_rejection),
+            in_tolerance: Number(risk.in_tolerance),
+            accepted: Number(risk.accepted),
+            consumer: Number(risk.consumer),
+            producer: Number(risk.producer),
+            false_acceptance: Number(risk.false_acceptance),
+            false_rejection: Number(risk.false_rejection),
         }),
     };
     pairs.map(one).collect()
@@ -123,8 +119,8 @@ pub(super) fn detection<'a>(report: &Report<'a>) -> Vec<DetectionJson<'a>> {
     let pairs = pairs.zip(&report.evaluation.detection);
     let one = |(stated, found): (&Detection, &DetectionResult)| DetectionJson {
         measurand: report.measurand(stated.measurand).0,
-        alpha: number(stated.alpha),
-        beta: number(stated.beta),
+        alpha: Number(stated.alpha),
+        beta: Number(stated.beta),
         decision_threshold: found.limits.map(|l| Number(l.decision_threshold)),
         detection_limit: found
             .limits
@@ -137,11 +133,11 @@ pub(super) fn detection<'a>(report: &Report<'a>) -> Vec<DetectionJson<'a>> {
             .map(Number),
         recognised: found.recognised(),
         suitable: found.suitable(stated),
-        best_estimate: number(found.best.value),
-        best_standard_uncertainty: number(found.best.u),
+        best_estimate: Number(found.best.value),
+        best_standard_uncertainty: Number(found.best.u),
         symmetric_interval: numbers(&found.best.symmetric),
         shortest_interval: numbers(&found.best.shortest),
-        coverage_probability: number(found.best.coverage_probability),
+        coverage_probability: Number(found.best.coverage_probability),
     };
     pairs.map(one).collect()
 }

@@ -1,9 +1,9 @@
 //! Claimed beside obtained figures.
 
-use super::{Number, number};
 use crate::budget::{Claim, Confidence};
+use crate::machine::Number;
 use crate::propagate::{Method, compare_claims};
-use crate::{Report, claim, schema::record};
+use crate::{Report, claim, machine::record};
 
 record! {
     /// A claim with its comparison.
@@ -19,9 +19,7 @@ record! {
         /// Claimed figures beside those obtained.
         comparison: Vec<ComparisonJson<'a>>,
     }
-}
 
-record! {
     /// A claimed figure beside the obtained one.
     ComparisonJson<'a> {
         /// What is compared.
@@ -76,8 +74,8 @@ pub(super) fn claim<'a>(report: &Report<'a>, index: usize, claim: &'a Claim) -> 
                     Method::MonteCarlo => "monte_carlo",
                     Method::Analysis => "analysis",
                 },
-                claimed: number(c.claimed.value),
-                tolerance: number(c.claimed.tolerance),
+                claimed: Number(c.claimed.value),
+                tolerance: Number(c.claimed.tolerance),
                 obtained: c.obtained.map(Number),
                 rounded: c.rounded.map(Number),
                 ratio: c.ratio().map(Number),

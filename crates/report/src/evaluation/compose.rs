@@ -3,10 +3,10 @@
 use crate::budget::{CoverageRule, TScale};
 use crate::quantity::Rounding;
 
-use super::document::Block;
-use super::language::{Language, Word};
-use super::number::{exact, probability};
-use super::{
+use crate::document::Block;
+use crate::language::{Language, Word};
+use crate::number::{exact, probability};
+use crate::{
     Report, analyses, budget_table, claim, comparison, decisions, fits, indices, joint, remarks,
     statement,
 };

@@ -1,0 +1,150 @@
+//! What every command composes, and every format is written from.
+//!
+//! A [`Document`] holds the same thing twice: as [`Block`]s in the order in which a person reads them, and as one
+//! typed structure for machines. Whoever composes it has decided everything; a renderer only draws.
+
+mod plot;
+mod table;
+
+use gumption_fault::language::Language;
+use serde_json::Value;
+
+pub use plot::{Axis, Layer, Marks, Panel, Plot, Scale, Tone};
+pub use table::{Cell, Column, ColumnKind, Row, Table};
+
+use crate::machine::{self, Machine};
+
+/// A document of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Document {
+    /// What is documented (`evaluation`), as in the name of the machine form.
+    pub kind: &'static str,
+    /// Version of the machine form.
+    pub version: u32,
+    /// Language of the blocks.
+    pub language: Language,
+    /// What a person reads.
+    pub blocks: Vec<Block>,
+    /// What a machine reads; exact numbers.
+    pub machine: Value,
+}
+
+impl Document {
+    /// A document of blocks and of the structure that says the same to machines.
+    pub fn new<M: Machine>(machine: &M, language: Language, blocks: Vec<Block>) -> Self {
+        Document {
+            kind: M::KIND,
+            version: M::VERSION,
+            language,
+            blocks,
+            machine: machine::value(machine),
+        }
+    }
+
+    /// One document of several of one kind: their blocks one after the other; for machines one value, or an array
+    /// where there are more. `None` of none.
+    pub fn together(documents: Vec<Document>) -> Option<Document> {
+        let mut documents = documents.into_iter();
+        let mut whole = documents.next()?;
+        let mut values = values(whole.machine.take());
+        for one in documents {
+            whole.blocks.extend(one.blocks);
+            values.extend(self::values(one.machine));
+        }
+        whole.machine = match values.len() {
+            1 => values.remove(0),
+            _ => Value::Array(values),
+        };
+        Some(whole)
+    }
+
+    /// The plots, in the order of the blocks.
+    pub fn plots(&self) -> impl Iterator<Item = &Plot> {
+        self.blocks.iter().filter_map(|block| match block {
+            Block::Plot(plot) => Some(plot),
+            _ => None,
+        })
+    }
+}
+
+/// The machine forms of a document that may be several together.
+fn values(machine: Value) -> Vec<Value> {
+    match machine {
+        Value::Array(values) => values,
+        one => vec![one],
+    }
+}
+
+/// One block of a document.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Block {
+    /// The name of the whole.
+    Title(String),
+    /// The head of a section.
+    Section(String),
+    /// Short labelled lines (`Method  In-house procedure 12`).
+    Fields(Vec<(String, String)>),
+    /// The figures that matter most.
+    Figures(Vec<KeyFigure>),
+    /// Running text.
+    Paragraph(String),
+    /// Lines to be kept as they are.
+    Formula(Vec<String>),
+    /// Rows and columns.
+    Table(Table),
+    /// A plot as data.
+    Plot(Plot),
+    /// Independent sentences.
+    List(Vec<String>),
+    /// What must be known before the figures are used.
+    Findings(Vec<Finding>),
+    /// Sentences for the certificate.
+    Statement(Vec<String>),
+    /// The lines that all comes down to.
+    Closing(Vec<String>),
+    /// Small print.
+    Footer(Vec<String>),
+}
+
+/// A figure with its name and unit, as it is to be printed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct KeyFigure {
+    /// What it is.
+    pub name: String,
+    /// The number, rounded, or words where there is none.
+    pub value: String,
+    /// Its unit; empty for one.
+    pub unit: String,
+}
+
+impl KeyFigure {
+    /// The number with its unit.
+    pub fn text(&self) -> String {
+        match self.unit.as_str() {
+            "" => self.value.clone(),
+            unit => format!("{} {unit}", self.value),
+        }
+    }
+}
+
+/// A sentence about the figures, with the name under which machines know it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// Kind of finding (`k_from_t`).
+    pub id: String,
+    /// How much it weighs.
+    pub severity: Severity,
+    /// The sentence.
+    pub text: String,
+}
+
+/// What a finding means for the figures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Severity {
+    /// Good to know.
+    Note,
+    /// The figures are to be used with care.
+    Warning,
+    /// A figure is not to be used.
+    Failure,
+}

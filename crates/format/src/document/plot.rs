@@ -1,0 +1,155 @@
+//! Plots as data: what is drawn over what, with quantities and units. How they look is the renderer's.
+
+/// A figure of one or several panels, one below the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plot {
+    /// Name by which the plot is known, fit for a file.
+    pub id: String,
+    /// What it shows.
+    pub panels: Vec<Panel>,
+}
+
+/// One pair of axes with what is drawn in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// What it shows.
+    pub title: String,
+    /// Across.
+    pub x: Axis,
+    /// Upwards.
+    pub y: Axis,
+    /// What is drawn, the first below the others.
+    pub layers: Vec<Layer>,
+}
+
+/// A quantity along an edge.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Axis {
+    /// The quantity.
+    pub quantity: String,
+    /// Its unit as printed; empty for one.
+    pub unit: String,
+    /// How values become places.
+    pub scale: Scale,
+}
+
+/// How values become places along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal differences are equal lengths.
+    Linear,
+    /// Equal ratios are equal lengths.
+    Logarithmic,
+}
+
+/// Marks of one kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Layer {
+    /// What they stand for.
+    pub name: String,
+    /// How much they stand out.
+    pub tone: Tone,
+    /// The data.
+    pub marks: Marks,
+}
+
+/// How much a layer stands out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tone {
+    /// What the plot is about.
+    Main,
+    /// What it is to be told apart from.
+    Contrast,
+    /// Help for the eye.
+    Quiet,
+}
+
+/// Data of a layer, in the units of the axes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Marks {
+    /// Single points x, y.
+    Points(Vec<[f64; 2]>),
+    /// A line through points x, y.
+    Line(Vec<[f64; 2]>),
+    /// A band: x, lower y, upper y.
+    Band(Vec<[f64; 3]>),
+    /// A line across at one y.
+    Level(f64),
+}
+
+impl Axis {
+    /// A linear axis.
+    pub fn linear(quantity: impl Into<String>, unit: impl Into<String>) -> Self {
+        Axis::scaled(quantity, unit, Scale::Linear)
+    }
+
+    /// A logarithmic axis.
+    pub fn logarithmic(quantity: impl Into<String>, unit: impl Into<String>) -> Self {
+        Axis::scaled(quantity, unit, Scale::Logarithmic)
+    }
+
+    fn scaled(quantity: impl Into<String>, unit: impl Into<String>, scale: Scale) -> Self {
+        Axis {
+            quantity: quantity.into(),
+            unit: unit.into(),
+            scale,
+        }
+    }
+
+    /// `quantity / unit`; a compound unit in parentheses (ISO 80000-1, 7.1.4), nothing for dimension one.
+    pub fn label(&self) -> String {
+        match self.unit.as_str() {
+            "" => self.quantity.clone(),
+            unit if unit.contains(['/', '·', ' ']) => format!("{} / ({unit})", self.quantity),
+            unit => format!("{} / {unit}", self.quantity),
+        }
+    }
+
+    /// Place of a value, where it has one on this axis.
+    pub fn place(&self, value: f64) -> Option<f64> {
+        let place = match self.scale {
+            Scale::Linear => value,
+            Scale::Logarithmic => libm::log10(value),
+        };
+        place.is_finite().then_some(place)
+    }
+}
+
+impl Marks {
+    /// Every point x, y that must be inside the panel; x is absent where the marks have none of their own.
+    pub fn extent(&self) -> Vec<(Option<f64>, f64)> {
+        match self {
+            Marks::Points(points) | Marks::Line(points) => {
+                points.iter().map(|[x, y]| (Some(*x), *y)).collect()
+            }
+            Marks::Band(band) => band
+                .iter()
+                .flat_map(|[x, low, high]| [(Some(*x), *low), (Some(*x), *high)])
+                .collect(),
+            Marks::Level(y) => vec![(None, *y)],
+        }
+    }
+}
+
+impl Panel {
+    /// Ends of both axes in places (logarithms on a logarithmic axis), a little more than the data take up.
+    pub fn limits(&self) -> [[f64; 2]; 2] {
+        let extent = || self.layers.iter().flat_map(|layer| layer.marks.extent());
+        [
+            limits(extent().filter_map(|(x, _)| self.x.place(x?))),
+            limits(extent().filter_map(|(_, y)| self.y.place(y))),
+        ]
+    }
+}
+
+fn limits(places: impl Iterator<Item = f64>) -> [f64; 2] {
+    let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+        [low.min(x), high.max(x)]
+    });
+    let margin = match (low.is_finite(), high > low) {
+        (false, _) => return [0.0, 1.0],
+        (true, true) => 0.05 * (high - low),
+        (true, false) => 0.5 * high.abs().max(1.0),
+    };
+    [low - margin, high + margin]
+}

@@ -1,0 +1,220 @@
+//! The machine form: structures that know their JSON and its schema.
+//!
+//! A number is written as the shortest decimal that reads back as the same double. Infinity (degrees of freedom) is
+//! the string `"inf"`; `null` means that there is no such figure.
+
+use std::collections::BTreeMap;
+
+use serde::{Serialize, Serializer};
+use serde_json::{Map, Value, json};
+
+/// A type that describes its JSON form.
+pub trait Describe {
+    /// Its schema.
+    fn describe() -> Value;
+}
+
+/// The whole of a document for machines. Its name and version, and the program that wrote it, are put in front of
+/// its fields: `"format": "gumption-evaluation/1"`, `"generator": "gumption 0.1.0"`.
+pub trait Machine: Serialize + Describe {
+    /// What it documents.
+    const KIND: &'static str;
+    /// Changes when a field changes its meaning or goes.
+    const VERSION: u32;
+    /// Whether a command may print several of them, as an array.
+    const SEVERAL: bool = false;
+
+    /// Name and version of the form.
+    fn format() -> String {
+        format!("gumption-{}/{}", Self::KIND, Self::VERSION)
+    }
+}
+
+/// Declares structures of a machine form: serialisation and schema from one text, the description of each field being
+/// its documentation. A field is always present, unless `#[serde(skip_serializing_if = …)]` stands over it.
+#[macro_export]
+macro_rules! record {
+    ($($(#[doc = $about:literal])* $name:ident $(<$life:lifetime>)? {
+        $($(#[doc = $doc:literal])* $(#[serde($($serde:tt)*)])? $field:ident: $type:ty,)*
+    })*) => {$(
+        $(#[doc = $about])*
+        #[derive(Debug, Clone, serde::Serialize)]
+        pub(super) struct $name $(<$life>)? {
+            $($(#[doc = $doc])* $(#[serde($($serde)*)])? pub(super) $field: $type,)*
+        }
+
+        impl $(<$life>)? $crate::machine::Describe for $name $(<$life>)? {
+            fn describe() -> serde_json::Value {
+                $crate::machine::object(
+                    concat!($($about),*),
+                    vec![$($crate::machine::Field {
+                        name: stringify!($field),
+                        about: concat!($($doc),*),
+                        always: !concat!($(stringify!($($serde)*))?).contains("skip_serializing_if"),
+                        schema: <$type as $crate::machine::Describe>::describe(),
+                    }),*],
+                )
+            }
+        }
+    )*};
+}
+pub use record;
+
+/// A field of a [`record!`].
+pub struct Field {
+    /// Its name.
+    pub name: &'static str,
+    /// Its documentation.
+    pub about: &'static str,
+    /// Whether it is always present.
+    pub always: bool,
+    /// Schema of its value.
+    pub schema: Value,
+}
+
+/// The schema of an object.
+pub fn object(about: &str, fields: Vec<Field>) -> Value {
+    let name = |field: &Field| field.name.trim_start_matches("r#").to_string();
+    let required: Vec<String> = fields.iter().filter(|f| f.always).map(name).collect();
+    let mut properties = Map::new();
+    for mut field in fields {
+        if let Value::Object(map) = &mut field.schema {
+            map.insert("description".to_string(), Value::from(field.about.trim()));
+        }
+        properties.insert(name(&field), field.schema);
+    }
+    json!({
+        "type": "object",
+        "description": about.trim(),
+        "properties": properties,
+        "required": required,
+        "additionalProperties": false,
+    })
+}
+
+/// The machine form of a document as JSON.
+pub(crate) fn value<M: Machine>(machine: &M) -> Value {
+    let mut whole = Map::new();
+    whole.insert("format".to_string(), Value::from(M::format()));
+    let generator = concat!("gumption ", env!("CARGO_PKG_VERSION"));
+    whole.insert("generator".to_string(), Value::from(generator));
+    // A record has string keys and no number that JSON cannot write: this does not fail.
+    if let Ok(Value::Object(fields)) = serde_json::to_value(machine) {
+        whole.extend(fields);
+    }
+    Value::Object(whole)
+}
+
+/// JSON Schema of the machine form of a document, for `command`'s output.
+pub fn schema<M: Machine>(command: &str) -> Value {
+    let mut form = M::describe();
+    if let Some(Value::Array(required)) = form.get_mut("required") {
+        required.splice(0..0, [Value::from("format"), Value::from("generator")]);
+    }
+    if let Some(Value::Object(properties)) = form.get_mut("properties") {
+        let fields = std::mem::take(properties);
+        properties.insert(
+            "format".into(),
+            json!({ "const": M::format(), "description": "Name and version of this format." }),
+        );
+        properties.insert(
+            "generator".into(),
+            json!({ "type": "string", "description": "Program that wrote it, with its version." }),
+        );
+        properties.extend(fields);
+    }
+    let mut whole = json!({
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": format!("gumption {}", M::KIND),
+        "description": format!("Output of `{command}`. A number is written with the fewest digits that read back as the same double; infinity is the string \"inf\" or \"-inf\"; null means that there is no such figure."),
+    });
+    let (Value::Object(entries), Value::Object(fields)) = (&mut whole, form) else {
+        return whole;
+    };
+    if M::SEVERAL {
+        let reference = json!({ "$ref": format!("#/definitions/{}", M::KIND) });
+        entries.insert("definitions".into(), json!({ M::KIND: fields }));
+        let array = json!({ "type": "array", "items": reference });
+        entries.insert("anyOf".into(), json!([reference, array]));
+    } else {
+        entries.extend(fields.into_iter().filter(|(key, _)| key != "description"));
+    }
+    whole
+}
+
+/// A double; infinities as `"inf"` and `"-inf"`, not-a-number as null.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Number(pub f64);
+
+impl From<f64> for Number {
+    fn from(x: f64) -> Self {
+        Number(x)
+    }
+}
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.0 {
+            f64::INFINITY => serializer.serialize_str("inf"),
+            f64::NEG_INFINITY => serializer.serialize_str("-inf"),
+            x if x.is_nan() => serializer.serialize_none(),
+            x => serializer.serialize_f64(x),
+        }
+    }
+}
+
+/// Numbers of a list.
+pub fn numbers(xs: &[f64]) -> Vec<Number> {
+    xs.iter().copied().map(Number).collect()
+}
+
+macro_rules! describe {
+    ($($type:ty: $schema:tt)*) => {$(
+        impl Describe for $type {
+            fn describe() -> Value {
+                json!($schema)
+            }
+        }
+    )*};
+}
+
+describe! {
+    &str: { "type": "string" }
+    String: { "type": "string" }
+    bool: { "type": "boolean" }
+    u32: { "type": "integer", "minimum": 0 }
+    u64: { "type": "integer", "minimum": 0 }
+    usize: { "type": "integer", "minimum": 0 }
+    Number: { "anyOf": [{ "type": "number" }, { "enum": ["inf", "-inf", null] }] }
+    Value: {}
+}
+
+impl<T: Describe> Describe for Option<T> {
+    fn describe() -> Value {
+        json!({ "anyOf": [T::describe(), { "type": "null" }] })
+    }
+}
+
+impl<T: Describe> Describe for Vec<T> {
+    fn describe() -> Value {
+        json!({ "type": "array", "items": T::describe() })
+    }
+}
+
+impl<T: Describe, const N: usize> Describe for [T; N] {
+    fn describe() -> Value {
+        json!({ "type": "array", "items": T::describe(), "minItems": N, "maxItems": N })
+    }
+}
+
+impl<T: Describe> Describe for Box<T> {
+    fn describe() -> Value {
+        T::describe()
+    }
+}
+
+impl<K, T: Describe> Describe for BTreeMap<K, T> {
+    fn describe() -> Value {
+        json!({ "type": "object", "additionalProperties": T::describe() })
+    }
+}

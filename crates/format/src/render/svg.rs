@@ -1,0 +1,221 @@
+//! A plot as SVG: its panels one below the other.
+
+use std::fmt::Write;
+
+use crate::document::{Layer, Marks, Panel, Plot, Scale, Tone};
+
+const WIDTH: f64 = 760.0;
+const HEIGHT: f64 = 260.0;
+const LEFT: f64 = 84.0;
+const RIGHT: f64 = 16.0;
+const TOP: f64 = 34.0;
+const BOTTOM: f64 = 44.0;
+
+/// A plot as the text of an SVG file.
+pub fn svg(plot: &Plot) -> String {
+    let height = HEIGHT * plot.panels.len() as f64;
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+    );
+    for (at, panel) in plot.panels.iter().enumerate() {
+        let drawn = Frame::new(panel).drawn();
+        let _ = writeln!(
+            svg,
+            "<g transform=\"translate(0 {})\">\n{drawn}</g>",
+            HEIGHT * at as f64
+        );
+    }
+    svg + "</svg>\n"
+}
+
+/// A panel with the limits of its axes, in places.
+struct Frame<'a> {
+    panel: &'a Panel,
+    x: [f64; 2],
+    y: [f64; 2],
+    out: String,
+}
+
+impl<'a> Frame<'a> {
+    fn new(panel: &'a Panel) -> Self {
+        let [x, y] = panel.limits();
+        Frame {
+            panel,
+            x,
+            y,
+            out: String::new(),
+        }
+    }
+
+    fn drawn(mut self) -> String {
+        self.axes();
+        for layer in &self.panel.layers {
+            self.layer(layer);
+        }
+        let label = escaped(&self.panel.x.label());
+        self.line(format_args!(
+            "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>",
+            (LEFT + WIDTH - RIGHT) / 2.0,
+            HEIGHT - 8.0
+        ));
+        self.out
+    }
+
+    fn line(&mut self, line: std::fmt::Arguments<'_>) {
+        let _ = writeln!(self.out, "{line}");
+    }
+
+    fn axes(&mut self) {
+        let title = format!("{}: {}", self.panel.title, self.panel.y.label());
+        self.line(format_args!(
+            "<text x=\"{LEFT}\" y=\"20\" font-weight=\"bold\">{}</text>",
+            escaped(&title)
+        ));
+        self.line(format_args!(
+            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>",
+            WIDTH - LEFT - RIGHT,
+            HEIGHT - TOP - BOTTOM
+        ));
+        for (tick, written) in ticks(self.x, self.panel.x.scale) {
+            let at = self.across(tick);
+            self.line(format_args!(
+                "<line x1=\"{at:.1}\" x2=\"{at:.1}\" y1=\"{0:.1}\" y2=\"{1:.1}\" stroke=\"#888\"/><text x=\"{at:.1}\" y=\"{2:.1}\" text-anchor=\"middle\">{written}</text>",
+                HEIGHT - BOTTOM,
+                HEIGHT - BOTTOM + 4.0,
+                HEIGHT - BOTTOM + 17.0,
+            ));
+        }
+        for (tick, written) in ticks(self.y, self.panel.y.scale) {
+            let at = self.up(tick);
+            self.line(format_args!(
+                "<line x1=\"{LEFT}\" x2=\"{0}\" y1=\"{at:.1}\" y2=\"{at:.1}\" stroke=\"#ddd\"/><text x=\"{1}\" y=\"{2:.1}\" text-anchor=\"end\">{written}</text>",
+                WIDTH - RIGHT,
+                LEFT - 6.0,
+                at + 4.0,
+            ));
+        }
+    }
+
+    fn layer(&mut self, layer: &Layer) {
+        let colour = match layer.tone {
+            Tone::Main => "#1f618d",
+            Tone::Contrast => "#c0392b",
+            Tone::Quiet => "#444",
+        };
+        match &layer.marks {
+            Marks::Points(points) => {
+                for (x, y) in self.points(points) {
+                    self.line(format_args!(
+                        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.4\" fill=\"{colour}\" fill-opacity=\"0.7\"/>"
+                    ));
+                }
+            }
+            Marks::Line(points) => {
+                let path = self.path(points);
+                self.line(format_args!(
+                    "<polyline points=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.5\"/>"
+                ));
+            }
+            Marks::Band(band) => {
+                let low = band.iter().map(|[x, low, _]| [*x, *low]);
+                let high = band.iter().rev().map(|[x, _, high]| [*x, *high]);
+                let path = self.path(&low.chain(high).collect::<Vec<_>>());
+                self.line(format_args!(
+                    "<polygon points=\"{path}\" fill=\"{colour}\" fill-opacity=\"0.2\"/>"
+                ));
+            }
+            Marks::Level(y) => {
+                let Some(y) = self.panel.y.place(*y).map(|y| self.up(y)) else {
+                    return;
+                };
+                self.line(format_args!(
+                    "<line x1=\"{LEFT}\" x2=\"{}\" y1=\"{y:.1}\" y2=\"{y:.1}\" stroke=\"{colour}\" stroke-dasharray=\"4 3\"/>",
+                    WIDTH - RIGHT
+                ));
+            }
+        }
+    }
+
+    fn path(&self, points: &[[f64; 2]]) -> String {
+        let points = self.points(points).into_iter();
+        let points = points.map(|(x, y)| format!("{x:.1},{y:.1}"));
+        points.collect::<Vec<_>>().join(" ")
+    }
+
+    /// The points that have a place.
+    fn points(&self, points: &[[f64; 2]]) -> Vec<(f64, f64)> {
+        let axes = self.panel;
+        let places = points
+            .iter()
+            .filter_map(|[x, y]| axes.x.place(*x).zip(axes.y.place(*y)));
+        places.map(|(x, y)| (self.across(x), self.up(y))).collect()
+    }
+
+    fn across(&self, place: f64) -> f64 {
+        LEFT + (place - self.x[0]) / (self.x[1] - self.x[0]) * (WIDTH - LEFT - RIGHT)
+    }
+
+    fn up(&self, place: f64) -> f64 {
+        let share = (place - self.y[0]) / (self.y[1] - self.y[0]);
+        HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM)
+    }
+}
+
+/// Places inside the limits with their labels: four to eight round numbers, or powers of ten.
+fn ticks([low, high]: [f64; 2], scale: Scale) -> Vec<(f64, String)> {
+    /// Fewer powers of ten need numbers between them, which a linear scale of places would not give.
+    const POWERS: f64 = 8.0;
+    let rough = (high - low) / 5.0;
+    let decade = libm::pow(10.0, libm::log10(rough).floor());
+    let step = match scale {
+        Scale::Logarithmic => ((high - low) / POWERS).ceil(),
+        Scale::Linear => [1.0, 2.0, 5.0, 10.0]
+            .map(|m| m * decade)
+            .into_iter()
+            .find(|step| *step >= rough)
+            .unwrap_or(rough),
+    };
+    let first = (low / step).ceil() as i64;
+    let last = (high / step).floor() as i64;
+    let places = (first..=last).map(|k| k as f64 * step);
+    places
+        .map(|tick| match scale {
+            Scale::Linear => (tick, tick_label(tick, step)),
+            Scale::Logarithmic => (tick, raised("10", tick as i32)),
+        })
+        .collect()
+}
+
+/// A multiple of the step with no more digits than the step needs.
+fn tick_label(tick: f64, step: f64) -> String {
+    let exponent = |x: f64| libm::log10(x.abs() * (1.0 + 1e-9)).floor() as i32;
+    let last_place = exponent(step);
+    if tick == 0.0 {
+        "0".to_owned()
+    } else if tick.abs() < 1e5 && last_place >= -5 {
+        let decimals = usize::try_from(-last_place).unwrap_or(0);
+        format!("{tick:.decimals$}")
+    } else {
+        let power = exponent(tick);
+        let digits = usize::try_from(power - last_place).unwrap_or(0);
+        let mantissa = tick / libm::pow(10.0, f64::from(power));
+        raised(&format!("{mantissa:.digits$}×10"), power)
+    }
+}
+
+/// A power as it is printed in a figure: `1×10⁶`.
+fn raised(base: &str, exponent: i32) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let exponent = exponent.to_string();
+    let raised = exponent.chars().map(|c| match c.to_digit(10) {
+        Some(digit) => RAISED[digit as usize],
+        None => '⁻',
+    });
+    base.chars().chain(raised).collect()
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+}

@@ -1,0 +1,158 @@
+//! A plot as lines of characters: enough to see where things lie.
+
+use unicode_width::UnicodeWidthStr;
+
+use crate::document::{Axis, Layer, Marks, Panel, Plot, Scale, Tone};
+
+/// Lines of a panel between its axes.
+const HEIGHT: usize = 12;
+const NARROWEST: usize = 20;
+const WIDEST: usize = 72;
+
+/// Panels one below the other, a blank line between.
+pub(in crate::render) fn lines(plot: &Plot, width: usize) -> Vec<String> {
+    let panels = plot.panels.iter().map(|panel| drawn(panel, width));
+    panels.collect::<Vec<_>>().join(&[String::new()][..])
+}
+
+/// Characters in a rectangle, the top line first.
+struct Grid {
+    cells: Vec<Vec<char>>,
+    width: usize,
+    limits: [[f64; 2]; 2],
+}
+
+fn drawn(panel: &Panel, page: usize) -> Vec<String> {
+    let limits = panel.limits();
+    let [low, high] = limits[1].map(|place| label(&panel.y, place));
+    let margin = low.width().max(high.width());
+    let width = page.saturating_sub(margin + 6).clamp(NARROWEST, WIDEST);
+    let mut grid = Grid {
+        cells: vec![vec![' '; width]; HEIGHT],
+        width,
+        limits,
+    };
+    for layer in &panel.layers {
+        grid.draw(panel, layer);
+    }
+    let mut lines = vec![format!("  {}", panel.title)];
+    lines.push(format!("  {}", panel.y.label()));
+    for (h, row) in grid.cells.iter().enumerate() {
+        let label = match h {
+            0 => high.as_str(),
+            _ if h + 1 == HEIGHT => low.as_str(),
+            _ => "",
+        };
+        let row: String = row.iter().collect();
+        lines.push(format!("  {label:>margin$} |{row}").trim_end().to_string());
+    }
+    let blank = " ".repeat(margin + 3);
+    lines.push(format!("{blank}+{}", "-".repeat(width)));
+    let [left, right] = limits[0].map(|place| label(&panel.x, place));
+    let name = panel.x.label();
+    let space = width.saturating_sub(left.width() + name.width() + right.width());
+    let (before, after) = (
+        " ".repeat((space / 2).max(1)),
+        " ".repeat((space - space / 2).max(1)),
+    );
+    lines.push(format!("{blank} {left}{before}{name}{after}{right}"));
+    for layer in &panel.layers {
+        lines.push(format!("{blank} {} {}", sign(layer), layer.name));
+    }
+    lines
+}
+
+/// The character of a layer.
+fn sign(layer: &Layer) -> char {
+    match (&layer.marks, layer.tone) {
+        (Marks::Band(_), _) => ':',
+        (Marks::Level(_), _) => '-',
+        (Marks::Line(_), Tone::Quiet) => '.',
+        (Marks::Line(_), _) => '*',
+        (Marks::Points(_), Tone::Contrast) => 'x',
+        (Marks::Points(_), _) => 'o',
+    }
+}
+
+impl Grid {
+    fn draw(&mut self, panel: &Panel, layer: &Layer) {
+        let sign = sign(layer);
+        match &layer.marks {
+            Marks::Points(points) => {
+                for [x, y] in points {
+                    if let Some((x, y)) = panel.x.place(*x).zip(panel.y.place(*y)) {
+                        self.set(self.column(x), self.row(y), sign);
+                    }
+                }
+            }
+            Marks::Line(points) => {
+                let path = points.iter().map(|[x, y]| [*x, *y, *y]).collect::<Vec<_>>();
+                self.fill(panel, &path, sign);
+            }
+            Marks::Band(band) => self.fill(panel, band, sign),
+            Marks::Level(y) => {
+                if let Some(y) = panel.y.place(*y) {
+                    (0..self.width).for_each(|column| self.set(column, self.row(y), sign));
+                }
+            }
+        }
+    }
+
+    /// Fills what lies between the lower and the upper curve, column by column.
+    fn fill(&mut self, panel: &Panel, band: &[[f64; 3]], sign: char) {
+        let place = |[x, low, high]: &[f64; 3]| {
+            Some([
+                panel.x.place(*x)?,
+                panel.y.place(*low)?,
+                panel.y.place(*high)?,
+            ])
+        };
+        let places: Vec<[f64; 3]> = band.iter().filter_map(place).collect();
+        for pair in places.windows(2) {
+            let [from, to] = [self.column(pair[0][0]), self.column(pair[1][0])];
+            for column in from.min(to)..=from.max(to) {
+                let part = match to.abs_diff(from) {
+                    0 => 0.0,
+                    all => column.abs_diff(from) as f64 / all as f64,
+                };
+                let between = |i: usize| pair[0][i] + part * (pair[1][i] - pair[0][i]);
+                let (top, bottom) = (self.row(between(2)), self.row(between(1)));
+                (top..=bottom).for_each(|row| self.set(column, row, sign));
+            }
+        }
+    }
+
+    fn set(&mut self, column: usize, row: usize, sign: char) {
+        if let Some(cell) = self.cells.get_mut(row).and_then(|row| row.get_mut(column)) {
+            *cell = sign;
+        }
+    }
+
+    fn column(&self, x: f64) -> usize {
+        nearest(x, self.limits[0], self.width)
+    }
+
+    fn row(&self, y: f64) -> usize {
+        HEIGHT - 1 - nearest(y, self.limits[1], HEIGHT).min(HEIGHT - 1)
+    }
+}
+
+/// The nearest of `count` places between the limits.
+fn nearest(place: f64, [low, high]: [f64; 2], count: usize) -> usize {
+    ((place - low) / (high - low) * (count - 1) as f64).round() as usize
+}
+
+/// A value at an edge with the digits that matter.
+fn label(axis: &Axis, place: f64) -> String {
+    let value = match axis.scale {
+        Scale::Linear => place,
+        Scale::Logarithmic => libm::pow(10.0, place),
+    };
+    match value.abs() {
+        0.0 => "0".to_string(),
+        size if !(1e-3..1e5).contains(&size) => format!("{value:.1e}"),
+        size if size >= 100.0 => format!("{value:.0}"),
+        size if size >= 1.0 => format!("{value:.2}"),
+        _ => format!("{value:.4}"),
+    }
+}

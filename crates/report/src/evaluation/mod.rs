@@ -1,0 +1,48 @@
+//! The document of an evaluation: its blocks in the order in which they are read, and its machine form.
+//!
+//! Every field of the machine form is always present; `null` means that there is no such figure.
+
+mod claims;
+mod compose;
+mod decisions;
+mod fits;
+mod joint;
+mod matrix;
+mod result;
+mod series;
+mod understood;
+mod whole;
+
+use serde_json::Value;
+
+use self::whole::EvaluationJson;
+use crate::Report;
+use crate::document::Document;
+
+/// One evaluated budget.
+pub fn evaluation(report: &Report<'_>) -> Document {
+    of(report, true)
+}
+
+/// The rows of one file: a series as a table, then its first `in_full` rows in full. Machines get every row.
+pub fn evaluations(rows: &[Report<'_>], in_full: usize) -> Option<Document> {
+    let documents = rows.iter().enumerate().map(|(i, row)| of(row, i < in_full));
+    let mut whole = Document::together(documents.collect())?;
+    if rows.len() > 1 {
+        whole.blocks.splice(0..0, series::blocks(rows));
+    }
+    Some(whole)
+}
+
+fn of(report: &Report<'_>, in_full: bool) -> Document {
+    let blocks = match in_full {
+        true => compose::compose(report),
+        false => Vec::new(),
+    };
+    Document::new(&EvaluationJson::new(report), report.language, blocks)
+}
+
+/// JSON Schema of the output of `gumption eval --json`: one evaluation, or an array of them.
+pub fn evaluation_schema() -> Value {
+    crate::machine::schema::<EvaluationJson<'_>>("gumption eval --json")
+}

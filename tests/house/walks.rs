@@ -1,0 +1,1 @@
+//! Additions touch one place.

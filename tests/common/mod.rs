@@ -1,6 +1,10 @@
 //! What the integration tests share: finding files, and keeping generated files fresh.
 
-#![allow(dead_code, reason = "every test file uses its own part")]
+#![allow(
+    dead_code,
+    unused_imports,
+    reason = "every test uses its own part"
+)]
 
 pub mod cases;
 pub mod evaluation;

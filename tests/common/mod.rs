@@ -1,10 +1,6 @@
 //! What the integration tests share: finding files, and keeping generated files fresh.
 
-#![allow(
-    dead_code,
-    unused_imports,
-    reason = "every test uses its own part"
-)]
+#![allow(dead_code, unused_imports, reason = "every test uses its own part")]
 
 pub mod cases;
 pub mod evaluation;

@@ -2,7 +2,7 @@
 
 use crate::budget::{Budget, Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 
-use super::{Clause8, Evaluation, MeasurandResult};
+use super::result::{Clause8, Evaluation, MeasurandResult};
 
 /// One claimed figure against one obtained figure.
 #[derive(Debug, Clone, PartialEq)]

@@ -19,8 +19,8 @@
 use super::covariance::Covariance;
 use super::freedom::Effective;
 use super::gum::MeasurandForm;
+use super::result::{Coverage, CoverageBasis};
 use super::shape::Shape;
-use super::{Coverage, CoverageBasis};
 use crate::budget::{Component, Conventions, CoverageRule, DofRule, OutputShape};
 use crate::distribution::Distribution;
 

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{Coverage, CoverageBasis, Freedom, Gum};
+use super::result::{Coverage, CoverageBasis, Freedom, Gum};
 use crate::budget::{
     Budget, Component, Conventions, CoverageRule, DofRule, Evaluation, Group, Heading, Input, Law,
     Measurand, MonteCarloSettings, OutputShape, Owner, Points, TScale, Term, Trials,

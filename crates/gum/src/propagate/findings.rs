@@ -1,13 +1,13 @@
 //! What the reader must know before using the numbers, and which method the statement uses.
 
 use super::gum::Linear;
-use super::monte_carlo::McOutcome;
-use super::second_order::{self, Outcome, Terms};
-use super::validation::{self, numerical_tolerance};
-use super::{
+use super::monte_carlo::Outcome;
+use super::result::{
     Basis, Clause8, Finding, FindingKind, Freedom, Gum, MeasurandResult, MissingMoments,
     MonteCarlo, Validation,
 };
+use super::second_order::{self, SecondOrderOutcome, Terms};
+use super::validation::{self, numerical_tolerance};
 use crate::budget::{Budget, CoverageRule, FitVerdict, Group, Law, Owner};
 use crate::model::Notice;
 
@@ -100,8 +100,8 @@ pub(super) struct Evidence<'a> {
     pub budget: &'a Budget,
     pub linear: &'a Linear,
     pub results: &'a [MeasurandResult],
-    pub second_order: &'a [Outcome],
-    pub monte_carlo: Option<&'a McOutcome>,
+    pub second_order: &'a [SecondOrderOutcome],
+    pub monte_carlo: Option<&'a Outcome>,
 }
 
 impl Evidence<'_> {
@@ -411,7 +411,8 @@ fn is_asymmetric(mc: &MonteCarlo) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::propagate::{Histogram, draft};
+    use crate::propagate::draft;
+    use crate::propagate::result::Histogram;
 
     fn gum(estimate: f64, u: f64) -> Gum {
         draft::gum(estimate, u, 1.96 * u)

@@ -8,8 +8,8 @@
 
 use std::collections::BTreeMap;
 
-use super::Freedom;
 use super::covariance::{Covariance, Form, norm};
+use super::result::Freedom;
 
 /// ν of a combination of components.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,9 @@
 use nalgebra::DMatrix;
 
 use super::covariance::{Covariance, Form, norm};
-use super::{Contribution, EvaluationError, freedom};
+use super::error::EvaluationError;
+use super::freedom;
+use super::result::Contribution;
 use crate::budget::{Budget, Input};
 use crate::model::Model;
 

@@ -12,8 +12,8 @@ use super::covariance::Form;
 use super::elimination::pivoted_cholesky;
 use super::freedom;
 use super::gum::Linear;
-use super::monte_carlo::McOutcome;
-use super::{Freedom, JointResult};
+use super::monte_carlo::Outcome;
+use super::result::{Freedom, JointResult};
 use crate::budget::Budget;
 use crate::model::Output;
 use crate::special::{
@@ -27,7 +27,7 @@ const DEPENDENT: f64 = 1e-10;
 pub(super) fn evaluate(
     budget: &Budget,
     linear: &Linear,
-    monte_carlo: Option<&McOutcome>,
+    monte_carlo: Option<&Outcome>,
 ) -> Option<JointResult> {
     let count = linear.measurands.len();
     if count < 2 {

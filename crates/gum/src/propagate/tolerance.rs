@@ -2,7 +2,8 @@
 //! adaptive run.
 
 use super::monte_carlo::{batch_size, least_batch};
-use super::{MeasurandResult, Run, validation};
+use super::result::{MeasurandResult, Run};
+use super::validation;
 use crate::budget::{Budget, NamedFigure};
 use crate::quantity::Unit;
 

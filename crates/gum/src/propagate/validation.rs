@@ -1,7 +1,7 @@
 //! Validation of the GUM result by Monte Carlo (JCGM 101:2008, clause 8), and the numerical
 //! tolerance that it and the adaptive procedures use (7.9.2).
 
-use super::{Clause8, Gum, MonteCarlo, Validation};
+use super::result::{Clause8, Gum, MonteCarlo, Validation};
 
 /// A difference is known to so many standard errors of the Monte Carlo ends.
 const ERRORS: f64 = 2.0;
@@ -86,13 +86,6 @@ pub fn trials_needed(of: &Validation, trials: u64) -> u64 {
     // Rounded up to one digit: an order of magnitude is all that is meant.
     let scale = libm::pow(10.0, libm::log10(needed).floor());
     ((needed / scale).ceil() * scale) as u64
-}
-
-impl Validation {
-    /// Whether Monte Carlo validates the GUM result beyond doubt.
-    pub fn is_validated(&self) -> bool {
-        self.verdict == Clause8::Validated
-    }
 }
 
 /// The verdict at the digits that are reported.

@@ -2,42 +2,26 @@
 //!
 //! | chapter | holds |
 //! |---|---|
+//! | [`evidence`] | what decisions are made from |
 //! | [`response`] | u of a measurand as a function of its value |
 //! | [`kernel`] | probabilities of measured values, given the value |
 //! | [`mixture`] | expectations over the distribution of a process |
 //! | [`limits`] | acceptance limits from a decision rule |
 //! | [`conformity`] | verdict, conformance probability, risks |
 //! | [`detection`] | decision threshold, detection limit, best estimate |
-//! | [`figures`] | all of them by name |
+//! | [`decisions`] | all of them, also by name |
 
 mod conformity;
+mod decisions;
 mod detection;
-mod figures;
+mod evidence;
 mod kernel;
 mod limits;
 mod mixture;
 mod response;
 
-pub use conformity::{Conformance, ConformityResult, GlobalRisk, Verdict};
-pub use detection::{BestEstimate, CharacteristicLimits, DetectionLimit, DetectionResult};
-
-use super::{MeasurandResult, Run};
-use crate::budget::Budget;
-
-/// What decisions are made from.
-pub(super) struct Evidence<'a> {
-    pub budget: &'a Budget,
-    pub results: &'a [MeasurandResult],
-    /// The Monte Carlo run, where there was one.
-    pub run: Option<&'a Run>,
-    pub threads: usize,
-}
-
-/// What was decided.
-pub(super) struct Decisions {
-    pub conformity: Vec<ConformityResult>,
-    pub detection: Vec<DetectionResult>,
-}
+pub(super) use decisions::Decisions;
+pub(super) use evidence::Evidence;
 
 /// Every decision that a budget asks for, in its order.
 pub(super) fn decisions(evidence: &Evidence<'_>) -> Decisions {

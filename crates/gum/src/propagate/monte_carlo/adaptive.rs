@@ -26,7 +26,7 @@ use super::engine::{Layout, Source};
 use super::interval::symmetric_ends;
 use super::moments::{Moments, Pivot};
 use crate::budget::Adaptive;
-use crate::propagate::AdaptiveRun;
+use crate::propagate::result::AdaptiveRun;
 use crate::propagate::validation::numerical_tolerance;
 use crate::special::student_t_upper_quantile;
 
@@ -290,16 +290,16 @@ impl Scatter {
 #[cfg(test)]
 mod tests {
     use super::super::samples::Sampled;
-    use super::super::{McOutcome, Question};
+    use super::super::{Outcome, Question};
     use super::*;
     use crate::budget::{MonteCarloSettings, Points, Trials};
-    use crate::propagate::MonteCarlo;
+    use crate::propagate::result::MonteCarlo;
 
     fn adapt(
         source: &Sampled,
         (procedure, digits, max): (Adaptive, u8, u64),
         threads: usize,
-    ) -> (McOutcome, AdaptiveRun) {
+    ) -> (Outcome, AdaptiveRun) {
         let settings = MonteCarloSettings {
             points: Points::Random,
             indices: false,
@@ -358,7 +358,7 @@ mod tests {
     fn the_number_of_trials_does_not_depend_on_threads() {
         let source = Sampled::normal(4, 2);
         for procedure in [Adaptive::Stein, Adaptive::Jcgm101] {
-            let results = |outcome: &McOutcome| -> Vec<_> {
+            let results = |outcome: &Outcome| -> Vec<_> {
                 let figures = |y: &MonteCarlo| (y.estimate, y.u, y.symmetric, y.shortest);
                 outcome.outputs.iter().map(figures).collect()
             };

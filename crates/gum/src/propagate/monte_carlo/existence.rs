@@ -13,6 +13,7 @@ use gumption_lanes::{Block, LANES, level, ops};
 
 use super::heavy::HeavyComponent;
 use super::interval::Ranked;
+use crate::propagate::result::{Consequence, MissingMoments, Side};
 
 /// A moment of order r is called unsettled when ten times the trials would not even halve its error:
 /// 1 − r/α < lg 2, that is α < r/(1 − lg 2).
@@ -21,66 +22,9 @@ const SETTLING: f64 = 1.430_676_6;
 /// Fewest extreme values from which a tail is judged.
 const FEWEST: usize = 20;
 
-/// Which end of the distribution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// The one with the smallest values.
-    Lower,
-    /// The one with the largest values.
-    Upper,
-}
-
-/// Why the mean or the standard deviation of an output is not given.
-#[derive(Debug, Clone, PartialEq)]
-pub enum MissingMoments {
-    /// The output depends linearly on a component with a t distribution that has no standard
-    /// deviation (ν ≤ 2) or not even a mean (ν ≤ 1).
-    HeavyComponent {
-        /// Its name.
-        name: String,
-        /// Its ν.
-        dof: f64,
-    },
-    /// Simultaneous readings: the means are multivariate t with ν = n − N ≤ 2 (JCGM 102 5.3.2).
-    JointReadings {
-        /// Names of the N inputs.
-        inputs: Vec<String>,
-        /// n, how often all of them were read.
-        readings: usize,
-    },
-    /// The extreme trials fall off like a power of the distance from the median.
-    Tail {
-        /// Which end.
-        side: Side,
-        /// Exponent of that power.
-        index: f64,
-        /// What follows for the moments.
-        consequence: Consequence,
-    },
-    /// A handful of far trials decides the standard deviation.
-    FewTrials {
-        /// Standard error of u by the fourth moment of the trials, as a fraction of u.
-        relative_error: f64,
-    },
-}
-
 /// A standard deviation that is uncertain by more than this fraction is no result. It is about
 /// 0.0007 for 10⁶ normal trials, and tends to ½ when one trial outweighs all the others.
 const MOST_RELATIVE_ERROR: f64 = 0.1;
-
-/// What a heavy tail does to the first two moments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Consequence {
-    /// Neither mean nor standard deviation exists.
-    NoMean,
-    /// The mean exists but does not settle; the standard deviation does not exist.
-    SlowMean,
-    /// The standard deviation does not exist.
-    NoDeviation,
-    /// The standard deviation exists but does not settle: ten times the trials would not halve its
-    /// error.
-    SlowDeviation,
-}
 
 /// The heavier tail of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]

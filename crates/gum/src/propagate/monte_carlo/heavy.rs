@@ -5,9 +5,9 @@
 //! moments than E, however small c·E is. Trials would not show it as long as it is small. Where the
 //! component takes part in a nonlinear operation (an arctangent bounds it) only the trials can tell.
 
-use super::existence::MissingMoments;
 use crate::budget::{Budget, Component, Group, Input, Law};
 use crate::distribution::Distribution;
+use crate::propagate::result::MissingMoments;
 
 /// A t-distributed component with ν ≤ 2 that enters an output linearly.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,7 @@
 use gumption_lanes::bins::Grid;
 
 use super::crew::parallel_map;
-use crate::propagate::Histogram;
+use crate::propagate::result::Histogram;
 
 /// Bins of the picture.
 const BINS: usize = 64;

@@ -17,9 +17,10 @@ use gumption_lanes::{Block, LANES};
 use super::crew::parallel_map;
 use super::engine::CHUNK;
 use super::joint_draw::JointDraw;
-use super::{GumForMc, McOutcome};
+use super::outcome::{FirstOrder, Outcome};
 use crate::budget::Budget;
 use crate::model::BlockRunner;
+use crate::propagate::result::{SensitivityIndices, SobolIndex};
 
 /// Trials of A and of B, where the model is quick.
 const TRIALS: u64 = 1 << 20;
@@ -36,37 +37,12 @@ const PIECES: u64 = 64;
 /// Streams of A and B are those of chunks that no run reaches.
 const FIRST_CHUNK: u64 = 1 << 50;
 
-/// Sensitivity indices of a budget.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SensitivityIndices {
-    /// Trials of A and of B.
-    pub trials: u64,
-    /// What is independent of everything else: inputs, or several of them that are not independent of one another.
-    /// Indices of the inputs in the budget.
-    pub factors: Vec<Vec<usize>>,
-    /// Per measurand: one per factor, or nothing where it has no standard deviation.
-    pub measurands: Vec<Option<Vec<SobolIndex>>>,
-}
-
-/// The indices of one factor, with their standard errors.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SobolIndex {
-    /// S.
-    pub first: f64,
-    /// Its standard error.
-    pub first_error: f64,
-    /// S_T.
-    pub total: f64,
-    /// Its standard error.
-    pub total_error: f64,
-}
-
 /// The indices of all measurands, on `threads` threads; the result does not depend on their number.
 pub fn indices(
     budget: &Budget,
     seed: u64,
-    gum: &[GumForMc],
-    outcome: Option<&McOutcome>,
+    gum: &[FirstOrder],
+    outcome: Option<&Outcome>,
     threads: usize,
 ) -> SensitivityIndices {
     let factors = factors(budget);
@@ -291,7 +267,8 @@ mod tests {
 
     use super::*;
     use crate::budget;
-    use crate::propagate::{MonteCarloChoice, Options, evaluate};
+    use crate::propagate::evaluate;
+    use crate::propagate::options::{MonteCarloChoice, Options};
 
     fn of(text: &str, threads: usize) -> SensitivityIndices {
         let loaded = budget::read(text, "budget", Path::new(""))
@@ -302,9 +279,9 @@ mod tests {
             threads,
         };
         let gum = &evaluate(budget, &options).unwrap().results;
-        let gum: Vec<GumForMc> = gum
+        let gum: Vec<FirstOrder> = gum
             .iter()
-            .map(|r| GumForMc {
+            .map(|r| FirstOrder {
                 estimate: r.gum.estimate,
                 u: r.gum.u,
             })

@@ -39,6 +39,7 @@ mod indices;
 mod interval;
 mod joint_draw;
 mod moments;
+mod outcome;
 mod quasi;
 mod region;
 mod resolve;
@@ -49,9 +50,8 @@ mod sieve;
 mod strainer;
 mod ways;
 
-use nalgebra::DMatrix;
-
-use super::{AdaptiveRun, EvaluationError, Histogram, MonteCarlo, Regions, Run};
+use super::error::EvaluationError;
+use super::result::{AdaptiveRun, Histogram, MonteCarlo, Quasi, Run};
 use crate::budget::{Budget, MonteCarloSettings, Points, Trials};
 use adaptive::Target;
 pub use adaptive::{batch_size, least_batch};
@@ -59,37 +59,14 @@ use cells::Wanted;
 use collect::{Collector, Held, Plan};
 use crew::Crew;
 use engine::{Layout, Source};
-pub use existence::{Consequence, MissingMoments, Side};
 use existence::{Tail, Verdict};
 pub use fractions::fractions;
 use heavy::HeavyComponent;
 pub use indices::indices;
-pub use indices::{SensitivityIndices, SobolIndex};
 use interval::{Around, Ordered, Ranked, Ranks};
 use moments::{Moments, Pivot};
-pub use quasi::{Quasi, QuasiRun, WhyRandom};
+pub use outcome::{FirstOrder, Outcome};
 use resolve::{Redraw, Resolved};
-
-/// What the GUM found for one output; moments are formed about it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GumForMc {
-    pub estimate: f64,
-    pub u: f64,
-}
-
-/// What Monte Carlo found for a budget.
-#[derive(Debug, Clone)]
-pub struct McOutcome {
-    pub run: Run,
-    /// One per output.
-    pub outputs: Vec<MonteCarlo>,
-    /// Of several outputs whose standard deviations exist.
-    pub covariance: Option<DMatrix<f64>>,
-    pub correlation: Option<DMatrix<f64>>,
-    pub regions: Option<Regions>,
-    /// For every output why mean or standard deviation are not given.
-    pub moments_missing: Vec<Option<MissingMoments>>,
-}
 
 /// Runs the Monte Carlo method on `threads` threads; the result does not depend on their number.
 ///
@@ -98,9 +75,9 @@ pub struct McOutcome {
 pub fn run(
     budget: &Budget,
     settings: &MonteCarloSettings,
-    gum: &[GumForMc],
+    gum: &[FirstOrder],
     threads: usize,
-) -> Result<McOutcome, EvaluationError> {
+) -> Result<Outcome, EvaluationError> {
     let refused = match settings.points {
         Points::Random => None,
         Points::QuasiRandom => match quasi::run(budget, settings, gum, threads) {
@@ -138,7 +115,7 @@ struct Question<'a> {
 
 impl Question<'_> {
     /// Draws the trials and summarises them; the error is the output that has no values.
-    fn ask<S: Source>(&self, source: &S) -> Result<McOutcome, usize> {
+    fn ask<S: Source>(&self, source: &S) -> Result<Outcome, usize> {
         let layout = self.layout();
         let batches = match self.settings.trials {
             Trials::Fixed(_) | Trials::Decisive { .. } => 1,
@@ -152,7 +129,7 @@ impl Question<'_> {
         &self,
         crew: &Crew<'env>,
         source: &'env S,
-    ) -> Result<McOutcome, usize> {
+    ) -> Result<Outcome, usize> {
         let layout = self.layout();
         let ask = |count| self.wanted(count);
         let mut collector = Collector::new(Plan {
@@ -193,7 +170,7 @@ impl Question<'_> {
             .map(|j| (Some(j.covariance), Some(j.correlation), j.regions))
             .unwrap_or_default();
         let moments_missing = verdicts.into_iter().map(Verdict::reason).collect();
-        Ok(McOutcome {
+        Ok(Outcome {
             run,
             outputs,
             covariance,

@@ -13,7 +13,7 @@ use super::factor::lower_factor;
 use super::interval::{Ordered, Ranked, Ranks};
 use super::moments::Pivot;
 use super::resolve::{Redraw, Resolved};
-use crate::propagate::Regions;
+use crate::propagate::result::Regions;
 
 /// Joint results of several outputs.
 #[derive(Debug, Clone)]

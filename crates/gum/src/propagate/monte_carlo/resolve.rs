@@ -15,7 +15,8 @@ use super::cells::{Cell, Slack, Wanted, cell_of, for_each_pair};
 use super::crew::Crew;
 use super::engine::{Layout, Sink, Source, simulate};
 use super::interval::{Ranked, Ranks};
-use super::sieve::{MOST_KEPT, Sieve};
+use super::sieve::Sieve;
+use super::strainer::MOST_KEPT;
 
 /// Values that are sorted without a look at finer counts.
 const SORTED: u64 = 1 << 12;

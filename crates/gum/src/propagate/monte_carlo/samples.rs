@@ -134,3 +134,63 @@ pub(super) fn input(estimate: f64, terms: &[(usize, f64)]) -> Input {
             .collect(),
     }
 }
+
+/// A distribution of every kind that has a quantile function.
+pub(super) fn kinds() -> Vec<Distribution> {
+    vec![
+        Distribution::Normal { mean: 0.0, sd: 2.0 },
+        Distribution::StudentT {
+            location: 0.0,
+            scale: 0.5,
+            dof: 3.0,
+        },
+        Distribution::StudentT {
+            location: 0.0,
+            scale: 0.5,
+            dof: 50.0,
+        },
+        Distribution::Uniform {
+            lower: -1.0,
+            upper: 1.0,
+        },
+        Distribution::Triangular {
+            lower: -1.0,
+            mode: 0.5,
+            upper: 2.0,
+        },
+        Distribution::Trapezoidal {
+            lower: -1.0,
+            upper: 1.0,
+            beta: 0.3,
+        },
+        Distribution::CurvilinearTrapezoid {
+            lower: -1.0,
+            upper: 1.0,
+            d: 0.4,
+        },
+        Distribution::Arcsine {
+            lower: -1.0,
+            upper: 1.0,
+        },
+        Distribution::Exponential {
+            origin: -2.0,
+            mean: 2.0,
+        },
+        Distribution::Gamma {
+            origin: 0.0,
+            shape: 2.5,
+            scale: 0.4,
+        },
+        Distribution::LogNormal {
+            origin: 0.0,
+            mu: 0.0,
+            sigma: 0.3,
+        },
+        Distribution::Beta {
+            alpha: 2.0,
+            beta: 3.0,
+            lower: 0.0,
+            upper: 1.0,
+        },
+    ]
+}

@@ -14,11 +14,8 @@ use gumption_lanes::sift::to_front;
 use super::cells::{Cell, ERRORS, Slack, Wanted};
 use super::histogram;
 use super::interval::{Ordered, Ranked};
-use super::strainer::{Gap, Strained, Strainer};
-use crate::propagate::Histogram;
-
-/// Most values kept.
-pub(super) const MOST_KEPT: usize = 1 << 22;
+use super::strainer::{Gap, MOST_KEPT, Strained, Strainer};
+use crate::propagate::result::Histogram;
 
 /// Values that make the picture of the distribution; bins are counted one by one until then.
 const PICTURED: u64 = 1 << 18;

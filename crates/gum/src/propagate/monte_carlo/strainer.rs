@@ -7,7 +7,8 @@ use gumption_lanes::moments::min_max;
 use gumption_lanes::sift::{EMPTY, Sifted, Stretch};
 use gumption_lanes::{Block, Level, level};
 
-use super::sieve::MOST_KEPT;
+/// Most values kept.
+pub(super) const MOST_KEPT: usize = 1 << 22;
 
 /// A row of bins that are not told apart.
 #[derive(Debug, Clone)]

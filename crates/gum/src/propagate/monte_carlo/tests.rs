@@ -13,7 +13,7 @@ fn fixed(trials: u64) -> MonteCarloSettings {
     }
 }
 
-fn ask(source: &Sampled, settings: &MonteCarloSettings, p: f64, scale: f64) -> McOutcome {
+fn ask(source: &Sampled, settings: &MonteCarloSettings, p: f64, scale: f64) -> Outcome {
     let question = Question {
         settings,
         p,

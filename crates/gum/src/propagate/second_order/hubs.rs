@@ -22,7 +22,7 @@ use super::bordered::{Bordered, Lifted, add_scaled, dot};
 use super::hessian::Hessian;
 use super::sparse::sweeps;
 use super::spread::Spread;
-use super::{Outcome, Sums, unit};
+use super::sums::{SecondOrderOutcome, Sums, unit};
 use crate::budget::Budget;
 use crate::model::{Cut, Neighbours};
 use crate::propagate::gum::Linear;
@@ -36,7 +36,7 @@ pub(super) fn outcomes(
     budget: &Budget,
     linear: &Linear,
     changing: &[bool],
-) -> Option<Vec<Outcome>> {
+) -> Option<Vec<SecondOrderOutcome>> {
     let spread = Spread::new(budget, linear, changing)?;
     let outcome = |output: usize| {
         let measurand = linear.measurands.get(output)?;
@@ -49,7 +49,7 @@ pub(super) fn outcomes(
         // One input at which a derivative does not exist spoils what the others do.
         let usable = outcome.shift.is_finite() && outcome.curvature.is_finite();
         let small = at_hubs.hessian.numbers() <= MOST_NUMBERS / linear.measurands.len();
-        Some(Outcome {
+        Some(SecondOrderOutcome {
             hessian: (usable && small).then_some(at_hubs.hessian),
             ..outcome
         })

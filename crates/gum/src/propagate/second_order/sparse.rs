@@ -5,7 +5,8 @@
 //! Hessians: Coleman and Moré, *Estimation of sparse Hessian matrices and graph coloring problems*,
 //! Mathematical Programming 28, 1984).
 
-use super::{Direction, Outcome, Sums, movers, unit};
+use super::direction::{Direction, movers};
+use super::sums::{SecondOrderOutcome, Sums, unit};
 use crate::budget::Budget;
 use crate::model::Neighbours;
 use crate::propagate::gum::Linear;
@@ -15,7 +16,7 @@ pub(super) fn outcomes(
     budget: &Budget,
     linear: &Linear,
     directions: &[Direction],
-) -> Option<Vec<Outcome>> {
+) -> Option<Vec<SecondOrderOutcome>> {
     let movers = movers(directions, linear.x.len())?;
     let neighbours = budget.model.neighbours()?;
     let units: Vec<f64> = linear.measurands.iter().map(|m| unit(m.u)).collect();

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{Moments, NORMAL, moments};
+use super::direction::{Moments, NORMAL, moments};
 use crate::budget::Budget;
 use crate::model::Neighbours;
 use crate::propagate::gum::Linear;

@@ -1,7 +1,12 @@
-use super::*;
-use crate::budget::{Group, Law, Term};
-use crate::quantity::Unit;
 use nalgebra::DMatrix;
+
+use super::direction::{Moments, NORMAL, moments};
+use super::*;
+use crate::budget::{Group, Input, Law, Term};
+use crate::distribution::Distribution;
+use crate::propagate::covariance::Covariance;
+use crate::propagate::result::SecondOrder;
+use crate::quantity::Unit;
 
 const INF: f64 = f64::INFINITY;
 
@@ -70,7 +75,12 @@ struct Cubic {
 }
 
 impl Cubic {
-    fn outcome(&self, u: &[f64], groups: &[Group], of: impl Fn(usize) -> Moments) -> Outcome {
+    fn outcome(
+        &self,
+        u: &[f64],
+        groups: &[Group],
+        of: impl Fn(usize) -> Moments,
+    ) -> SecondOrderOutcome {
         self.outcome_in(u, groups, of, &vec![Some(0); self.g.len()])
             .0
     }
@@ -82,7 +92,7 @@ impl Cubic {
         groups: &[Group],
         of: impl Fn(usize) -> Moments,
         blocks: &[Option<usize>],
-    ) -> (Outcome, usize) {
+    ) -> (SecondOrderOutcome, usize) {
         let n = self.g.len();
         let covariance = Covariance::from_parts(u.to_vec(), vec![INF; n], groups);
         let inputs: Vec<Input> = (0..n).map(input).collect();

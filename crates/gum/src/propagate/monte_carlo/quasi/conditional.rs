@@ -15,10 +15,10 @@ use super::super::crew::parallel_map;
 use super::super::moments::{Moments, Pivot};
 use super::averaging::{Averaged, LEAST_PART};
 use super::points::{Points, Scratch};
+use super::pooled::{Figures, Pooled, REPLICATES, Trouble, threads_for};
 use super::tails::Tails;
-use super::{Figures, Pooled, REPLICATES, Trouble, threads_for};
 use crate::budget::Budget;
-use crate::propagate::Histogram;
+use crate::propagate::result::Histogram;
 
 /// Places where the distribution function is found: in either tail, and about the median.
 const TAIL: usize = 10;

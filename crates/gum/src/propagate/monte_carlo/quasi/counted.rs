@@ -8,8 +8,8 @@ use super::super::histogram::histogram;
 use super::super::interval::{Ordered, Ranked, Ranks, symmetric_ends};
 use super::super::moments::{Moments, Pivot};
 use super::points::Points;
-use super::{Figures, Pooled, REPLICATES, Trouble, threads_for};
-use crate::propagate::Histogram;
+use super::pooled::{Figures, Pooled, REPLICATES, Trouble, threads_for};
+use crate::propagate::result::Histogram;
 
 /// Values at the points of every scramble.
 pub(super) struct Counted<'p, 'b> {

@@ -300,7 +300,7 @@ mod tests {
     use gumption_lanes::kernel::Paths;
     use gumption_lanes::{Block, LANES, level};
 
-    use super::super::shapes::tests::kinds;
+    use super::super::super::samples::kinds;
     use super::*;
 
     /// Probability below each place, and the density there.

@@ -17,6 +17,7 @@
 //! | [`averaging`] | what can be averaged over in place of being drawn |
 //! | [`laws`] | distribution functions of that |
 //! | [`conditional`] | results from averages |
+//! | [`pooled`] | results of single scrambles, and of all together |
 //! | [`counted`] | results from the values at the points |
 //! | [`tails`] | quantiles and the shortest interval of a distribution function known at some places |
 
@@ -25,6 +26,7 @@ mod conditional;
 mod counted;
 mod laws;
 mod points;
+mod pooled;
 mod shapes;
 mod tails;
 mod trial;
@@ -36,19 +38,17 @@ use std::ops::Range;
 
 use gumption_lanes::LANES;
 
-use super::moments::{Moments, Pivot};
-use super::{GumForMc, McOutcome};
+use super::moments::Pivot;
+use super::outcome::{FirstOrder, Outcome};
 use crate::budget::{Budget, MonteCarloSettings, Trials};
 use crate::distribution::Distribution;
+use crate::propagate::result::{Histogram, MonteCarlo, Quasi, QuasiRun, Run, WhyRandom};
 use crate::propagate::validation::numerical_tolerance;
-use crate::propagate::{Histogram, MonteCarlo, Run};
 use crate::special::student_t_upper_quantile;
 use conditional::Conditional;
 use counted::Counted;
 use points::Points;
-
-/// Independent scrambles.
-const REPLICATES: usize = 16;
+use pooled::{Figures, Pooled, REPLICATES, Trouble};
 
 /// Most points, which are kept in memory where values are counted.
 const MOST_POINTS: u64 = 1 << 22;
@@ -66,98 +66,13 @@ const RISK: f64 = 0.05;
 /// Standard uncertainties within which the model must have no pole.
 const REACH: f64 = 8.0;
 
-/// Whether quasi-random points gave the results.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Quasi {
-    /// They did.
-    Used(QuasiRun),
-    /// Random trials did.
-    Refused(WhyRandom),
-}
-
-/// What a run with quasi-random points reached.
-#[derive(Debug, Clone, PartialEq)]
-pub struct QuasiRun {
-    /// Independent scrambles; their points together are the run's trials.
-    pub replicates: usize,
-    /// Names of the components that were averaged over in place of being drawn.
-    pub averaged: Vec<String>,
-    /// Significant digits of u(y) that were to be stable.
-    pub digits: u8,
-    /// Numerical tolerance (JCGM 101 7.9.2).
-    pub delta: f64,
-    /// Whether all results are within δ with a probability of 95 %.
-    pub reached: bool,
-    /// Random trials that would have errors as small.
-    pub equivalent_trials: f64,
-    /// Standard errors of both ends of the shortest interval.
-    pub shortest_errors: [f64; 2],
-}
-
-/// Why random trials were run although quasi-random points were asked for.
-#[derive(Debug, Clone, PartialEq)]
-pub enum WhyRandom {
-    /// There is more than one measurand.
-    SeveralMeasurands,
-    /// Something else in the budget counts trials: conformity, characteristic limits.
-    TrialsAreCounted,
-    /// A component has single values, not an interval of them.
-    Discrete {
-        /// Its name.
-        component: String,
-    },
-    /// A component has no standard deviation.
-    HeavyTail {
-        /// Its name.
-        component: String,
-    },
-    /// The model may have a pole or the end of its domain within reach.
-    NearSingular,
-    /// Some points have no finite value.
-    NotFinite,
-    /// The output's tails are too heavy for a standard deviation.
-    OutputTail,
-    /// Errors are not far enough below those of random trials.
-    NoGain {
-        /// Random trials that a point replaces.
-        gain: f64,
-    },
-}
-
-/// What keeps an estimator from going on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Trouble {
-    NotFinite,
-    /// What is averaged over hardly matters at some points, or more in relation to the rest than elsewhere.
-    Flat,
-    HeavyTail,
-}
-
-/// Results of one scramble.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Figures {
-    mean: f64,
-    u: f64,
-    symmetric: [f64; 2],
-}
-
-/// Results of all points together.
-struct Pooled {
-    moments: Moments,
-    median: f64,
-    symmetric: [f64; 2],
-    shortest: [f64; 2],
-    /// Errors that random trials of the same number would have: estimate, u, both ends.
-    plain_errors: [f64; 4],
-}
-
 /// Runs quasi-random points for a budget, or tells why random trials should be run.
 pub(super) fn run(
     budget: &Budget,
     settings: &MonteCarloSettings,
-    gum: &[GumForMc],
+    gum: &[FirstOrder],
     threads: usize,
-) -> Result<McOutcome, WhyRandom> {
+) -> Result<Outcome, WhyRandom> {
     suitable(budget)?;
     let pivot = gum
         .first()
@@ -221,17 +136,6 @@ fn suitable(budget: &Budget) -> Result<(), WhyRandom> {
         Ok(())
     } else {
         Err(WhyRandom::NearSingular)
-    }
-}
-
-/// Threads that some blocks of every scramble are worth.
-fn threads_for(blocks: &Range<u64>, threads: usize) -> usize {
-    /// Fewer blocks are done before another thread has begun.
-    const LEAST: u64 = 256;
-    if (blocks.end - blocks.start) * REPLICATES as u64 >= LEAST {
-        threads
-    } else {
-        1
     }
 }
 
@@ -462,7 +366,7 @@ impl Found {
         budget: &Budget,
         settings: &MonteCarloSettings,
         averaged: Vec<String>,
-    ) -> McOutcome {
+    ) -> Outcome {
         let Pooled {
             moments,
             median,
@@ -490,7 +394,7 @@ impl Found {
             failed: 0,
             histogram: self.picture,
         };
-        McOutcome {
+        Outcome {
             run: Run {
                 trials: self.points,
                 seed: settings.seed,

@@ -133,69 +133,11 @@ fn student_t(dof: f64) -> Curve {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+mod tests {
     use gumption_lanes::{Block, LANES, level};
 
+    use super::super::super::samples::kinds;
     use super::*;
-
-    pub(in crate::propagate::monte_carlo::quasi) fn kinds() -> Vec<Distribution> {
-        vec![
-            Distribution::Normal { mean: 0.0, sd: 2.0 },
-            Distribution::StudentT {
-                location: 0.0,
-                scale: 0.5,
-                dof: 3.0,
-            },
-            Distribution::StudentT {
-                location: 0.0,
-                scale: 0.5,
-                dof: 50.0,
-            },
-            Distribution::Uniform {
-                lower: -1.0,
-                upper: 1.0,
-            },
-            Distribution::Triangular {
-                lower: -1.0,
-                mode: 0.5,
-                upper: 2.0,
-            },
-            Distribution::Trapezoidal {
-                lower: -1.0,
-                upper: 1.0,
-                beta: 0.3,
-            },
-            Distribution::CurvilinearTrapezoid {
-                lower: -1.0,
-                upper: 1.0,
-                d: 0.4,
-            },
-            Distribution::Arcsine {
-                lower: -1.0,
-                upper: 1.0,
-            },
-            Distribution::Exponential {
-                origin: -2.0,
-                mean: 2.0,
-            },
-            Distribution::Gamma {
-                origin: 0.0,
-                shape: 2.5,
-                scale: 0.4,
-            },
-            Distribution::LogNormal {
-                origin: 0.0,
-                mu: 0.0,
-                sigma: 0.3,
-            },
-            Distribution::Beta {
-                alpha: 2.0,
-                beta: 3.0,
-                lower: 0.0,
-                upper: 1.0,
-            },
-        ]
-    }
 
     #[test]
     fn quantile_functions_are_those_of_the_distributions() {

@@ -1,8 +1,14 @@
-//! Decisions as figures with names, for claims and machines ([`Conformity::FIGURES`], [`Detection::FIGURES`]).
+//! All decisions, also as figures with names, for claims and machines ([`Conformity::FIGURES`], [`Detection::FIGURES`]).
 
-use super::{ConformityResult, Decisions, DetectionResult};
 use crate::budget::{Budget, Conformity, Detection, NamedFigure};
+use crate::propagate::result::{ConformityResult, DetectionResult};
 use crate::quantity::Unit;
+
+/// What was decided.
+pub(in crate::propagate) struct Decisions {
+    pub conformity: Vec<ConformityResult>,
+    pub detection: Vec<DetectionResult>,
+}
 
 impl Decisions {
     /// The figures that were found.

@@ -1,0 +1,13 @@
+//! What decisions are made from.
+
+use crate::budget::Budget;
+use crate::propagate::result::{MeasurandResult, Run};
+
+/// What decisions are made from.
+pub(in crate::propagate) struct Evidence<'a> {
+    pub budget: &'a Budget,
+    pub results: &'a [MeasurandResult],
+    /// The Monte Carlo run, where there was one.
+    pub run: Option<&'a Run>,
+    pub threads: usize,
+}

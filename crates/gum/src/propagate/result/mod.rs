@@ -1,0 +1,70 @@
+//! What both methods find: the types from which every report draws.
+
+mod conformity;
+mod detection;
+mod finding;
+mod gum;
+mod indices;
+mod joint;
+mod monte_carlo;
+mod quasi;
+mod validation;
+
+pub use conformity::{Conformance, ConformityResult, GlobalRisk, Verdict};
+pub use detection::{BestEstimate, CharacteristicLimits, DetectionLimit, DetectionResult};
+pub use finding::{Finding, FindingKind};
+pub use gum::{Contribution, Coverage, CoverageBasis, Freedom, Gum, SecondOrder};
+pub use indices::{SensitivityIndices, SobolIndex};
+pub use joint::{JointResult, Regions};
+pub use monte_carlo::{AdaptiveRun, Consequence, Histogram, MissingMoments, MonteCarlo, Run, Side};
+pub use quasi::{Quasi, QuasiRun, WhyRandom};
+pub use validation::{Clause8, Validation};
+
+use crate::budget::NamedFigure;
+
+/// What both methods found for one budget.
+#[derive(Debug, Clone)]
+pub struct Evaluation {
+    /// One per measurand, in the order of the model's outputs.
+    pub results: Vec<MeasurandResult>,
+    /// Joint results when there are several measurands.
+    pub joint: Option<JointResult>,
+    /// How Monte Carlo was run; `None` when it was not.
+    pub run: Option<Run>,
+    /// Where they were asked for.
+    pub indices: Option<SensitivityIndices>,
+    /// What the reader must know before using the numbers.
+    pub findings: Vec<Finding>,
+    /// Conformity assessments, in the order of the budget.
+    pub conformity: Vec<ConformityResult>,
+    /// Characteristic limits, in the order of the budget.
+    pub detection: Vec<DetectionResult>,
+    /// Figures of all analyses by name: those of the budget's data, then those of the evaluation.
+    pub figures: Vec<NamedFigure>,
+}
+
+/// Both methods for one measurand.
+#[derive(Debug, Clone)]
+pub struct MeasurandResult {
+    /// First order.
+    pub gum: Gum,
+    /// `None` when the model is linear in all uncertain inputs, and when the second-order terms are
+    /// no correction (not finite, or larger than the variance they are to correct).
+    pub second_order: Option<SecondOrder>,
+    /// `None` when Monte Carlo was not run.
+    pub monte_carlo: Option<MonteCarlo>,
+    /// GUM-S1 clause 8 for two and for one significant digit of u(y); `None` without Monte Carlo.
+    pub validation: Option<[Validation; 2]>,
+    /// Which method the statement on the certificate uses.
+    pub basis: Basis,
+}
+
+/// Which method the statement uses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// GUM first order: validated, or Monte Carlo not run; also where k is fixed and Monte Carlo
+    /// confirms y and u, which is all that the statement then claims.
+    Gum,
+    /// Monte Carlo, because GUM was not validated.
+    MonteCarlo,
+}

@@ -34,6 +34,7 @@ fn line(name: &str, model: &str, inputs: usize) {
     let options = Options {
         monte_carlo: MonteCarloChoice::Off,
         threads: 1,
+        ..Options::default()
     };
     let both = milliseconds(|| evaluate(&budget, &options));
     let n = inputs as f64;

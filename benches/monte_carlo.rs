@@ -80,6 +80,7 @@ fn whole(name: &str, text: &str, trial: impl Fn(&mut Xoshiro256PlusPlus) -> f64)
     let options = |threads| Options {
         monte_carlo: MonteCarloChoice::With(settings.clone()),
         threads,
+        ..Options::default()
     };
     let rate = |threads| {
         let options = options(threads);

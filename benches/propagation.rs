@@ -73,6 +73,7 @@ fn line(name: &str, inputs: usize, text: &str) {
     let options = Options {
         monte_carlo: MonteCarloChoice::Off,
         threads: 1,
+        ..Options::default()
     };
     let evaluated = best_of(RUNS, || evaluate(&budget, &options));
     println!(

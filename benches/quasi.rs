@@ -74,6 +74,7 @@ fn line(name: &str, text: &str) {
     let options = |monte_carlo| Options {
         monte_carlo,
         threads: 1,
+        ..Options::default()
     };
     let with = |points| {
         options(MonteCarloChoice::With(MonteCarloSettings {

@@ -36,6 +36,7 @@ fn main() {
             trials: Trials::Fixed(trials),
         }),
         threads,
+        ..Options::default()
     };
     let run = |threads| {
         let found = evaluate(&budget, &options(threads)).expect("the budget has a result");

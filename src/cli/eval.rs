@@ -114,9 +114,10 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
         }
     };
     let mut rows = Vec::with_capacity(loaded.rows.len());
-    let progress = Progress::shown();
+    let trials = propagate::Progress::default();
+    let progress = Progress::shown(&trials);
     for budget::Row { label, budget } in loaded.rows {
-        match propagate::evaluate(&budget, &options(args, &budget)) {
+        match propagate::evaluate(&budget, &options(args, &budget, &trials)) {
             Ok(evaluation) => {
                 let rejected =
                     |found: &ConformityResult| found.verdict == Some(Verdict::NotConforming);
@@ -143,7 +144,7 @@ fn evaluate_file(args: &Args, file: &Path, worst: &mut Outcome) -> Vec<Row> {
 }
 
 /// What the arguments change in the budget's own settings.
-fn options(args: &Args, budget: &Budget) -> Options {
+fn options(args: &Args, budget: &Budget, progress: &propagate::Progress) -> Options {
     let monte_carlo = if args.no_mc {
         MonteCarloChoice::Off
     } else {
@@ -153,6 +154,7 @@ fn options(args: &Args, budget: &Budget) -> Options {
     Options {
         monte_carlo,
         threads: args.threads.map_or(cores, usize::from),
+        progress: progress.clone(),
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use gumption::propagate::trials_drawn;
+use gumption::propagate;
 
 /// Nobody waits for an evaluation that is quicker.
 const PATIENCE: Duration = Duration::from_millis(1500);
@@ -21,8 +21,8 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// Begins to watch, if standard error is a terminal.
-    pub(super) fn shown() -> Progress {
+    /// Begins to watch these trials, if standard error is a terminal.
+    pub(super) fn shown(trials: &propagate::Progress) -> Progress {
         if !stderr().is_terminal() {
             return Progress {
                 done: None,
@@ -30,13 +30,14 @@ impl Progress {
             };
         }
         let (done, finished) = channel();
+        let trials = trials.clone();
         let watcher = std::thread::spawn(move || {
-            let (start, before) = (Instant::now(), trials_drawn());
+            let start = Instant::now();
             let mut wait = PATIENCE;
             let mut shown = false;
             while finished.recv_timeout(wait) == Err(RecvTimeoutError::Timeout) {
                 wait = BETWEEN;
-                let drawn = trials_drawn() - before;
+                let drawn = trials.trials_drawn();
                 if drawn > 0 {
                     shown = true;
                     let line = line(drawn, start.elapsed());
@@ -136,7 +137,7 @@ mod tests {
 
     #[test]
     fn nothing_is_shown_where_nobody_looks() {
-        let progress = Progress::shown();
+        let progress = Progress::shown(&propagate::Progress::default());
         drop(progress);
     }
 }

@@ -3,7 +3,7 @@
 use super::error::EvaluationError;
 use super::gum::Linear;
 use super::monte_carlo::{FirstOrder, Outcome};
-use super::options::Options;
+use super::options::{Options, Workers};
 use super::result::{Clause8, Evaluation, Gum, MeasurandResult, MissingMoments, MonteCarlo, Quasi};
 use super::second_order::{SecondOrderOutcome, Terms};
 use super::{
@@ -29,7 +29,7 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         .map(|measurand| first_order(budget, &linear, measurand))
         .collect();
     let monte_carlo = settings
-        .map(|settings| draw(budget, settings, &gums, options.threads))
+        .map(|settings| draw(budget, settings, &gums, options.workers()))
         .transpose()?;
     let indices = settings
         .filter(|settings| settings.indices)
@@ -63,7 +63,7 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         budget,
         results: &results,
         run: run.as_ref(),
-        threads: options.threads,
+        workers: options.workers(),
     });
     let mut figures = budget.figures.clone();
     figures.extend(decisions.figures(budget));
@@ -98,10 +98,10 @@ fn draw(
     budget: &Budget,
     settings: &MonteCarloSettings,
     gums: &[Gum],
-    threads: usize,
+    workers: Workers<'_>,
 ) -> Result<Outcome, EvaluationError> {
     let scales = scales(gums);
-    let outcome = monte_carlo::run(budget, settings, &scales, threads)?;
+    let outcome = monte_carlo::run(budget, settings, &scales, workers)?;
     let Trials::Decisive { most, .. } = settings.trials else {
         return Ok(outcome);
     };
@@ -119,7 +119,7 @@ fn draw(
         trials: Trials::Fixed(most),
         ..settings.clone()
     };
-    monte_carlo::run(budget, &settings, &scales, threads)
+    monte_carlo::run(budget, &settings, &scales, workers)
 }
 
 fn scales(gums: &[Gum]) -> Vec<FirstOrder> {

@@ -31,7 +31,7 @@ pub use error::EvaluationError;
 pub use evaluate::evaluate;
 pub use findings::is_residue;
 pub use options::{MonteCarloChoice, Options};
-pub use progress::trials_drawn;
+pub use progress::Progress;
 pub use result::{
     AdaptiveRun, Basis, BestEstimate, CharacteristicLimits, Clause8, Conformance, ConformityResult,
     Consequence, Contribution, Coverage, CoverageBasis, DetectionLimit, DetectionResult,

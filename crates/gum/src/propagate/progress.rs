@@ -1,16 +1,21 @@
 //! How far the Monte Carlo method has come, for whoever waits for it.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-static DRAWN: AtomicU64 = AtomicU64::new(0);
+/// Counts the trials of evaluations while they are drawn; its clones count together, on any thread.
+#[derive(Debug, Clone, Default)]
+pub struct Progress(Arc<AtomicU64>);
 
-/// Trials that this process has drawn so far, in all evaluations; trials that are drawn again to find exact
-/// order statistics count again.
-pub fn trials_drawn() -> u64 {
-    DRAWN.load(Ordering::Relaxed)
-}
+impl Progress {
+    /// Trials that have been drawn so far; those that are drawn again to find exact order statistics count
+    /// again.
+    pub fn trials_drawn(&self) -> u64 {
+        self.0.load(Ordering::Relaxed)
+    }
 
-/// Counts further trials.
-pub(super) fn count(trials: u64) {
-    DRAWN.fetch_add(trials, Ordering::Relaxed);
+    /// Counts further trials.
+    pub(super) fn count(&self, trials: u64) {
+        self.0.fetch_add(trials, Ordering::Relaxed);
+    }
 }

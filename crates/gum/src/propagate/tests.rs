@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::*;
-use crate::budget::CoverageRule;
+use crate::budget::{Budget, CoverageRule};
 use crate::distribution::Distribution;
 
 const INF: f64 = f64::INFINITY;
@@ -13,6 +13,7 @@ fn run(budget: &Budget, monte_carlo: MonteCarloChoice) -> Evaluation {
         &Options {
             monte_carlo,
             threads: 2,
+            ..Options::default()
         },
     )
     .unwrap()
@@ -397,6 +398,7 @@ fn no_value_and_no_derivative() {
     let off = Options {
         monte_carlo: MonteCarloChoice::Off,
         threads: 1,
+        ..Options::default()
     };
     let error = evaluate(&draft("1/a"), &off).unwrap_err();
     assert_eq!(

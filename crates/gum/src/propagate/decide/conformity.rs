@@ -27,7 +27,7 @@ pub(super) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityResult> {
         .filter(|_| !asked.is_empty())
         .map(|run| {
             let run = (run.seed, run.trials);
-            monte_carlo::fractions(evidence.budget, run, &asked, evidence.threads)
+            monte_carlo::fractions(evidence.budget, run, &asked, evidence.workers)
         })
         .unwrap_or_default()
         .into_iter();

@@ -5,6 +5,7 @@ use super::evidence::Evidence;
 use super::response::Response;
 use crate::budget::{Budget, Detection, MonteCarloSettings, Points, Trials};
 use crate::propagate::monte_carlo::{self, FirstOrder};
+use crate::propagate::options::Workers;
 use crate::propagate::result::{
     BestEstimate, CharacteristicLimits, DetectionLimit, DetectionResult,
 };
@@ -31,7 +32,7 @@ pub(super) fn characteristic_limits(evidence: &Evidence<'_>) -> Vec<DetectionRes
                     seed: run.seed,
                     trials: Trials::Fixed(run.trials),
                 },
-                threads: evidence.threads,
+                workers: evidence.workers,
             };
             trials.limits(&limits)
         });
@@ -132,7 +133,7 @@ struct Sampling<'a> {
     response: Response<'a>,
     detection: &'a Detection,
     settings: MonteCarloSettings,
-    threads: usize,
+    workers: Workers<'a>,
 }
 
 impl Sampling<'_> {
@@ -184,7 +185,7 @@ impl Sampling<'_> {
             .zip(&linear.measurands)
             .map(|(&estimate, of)| FirstOrder { estimate, u: of.u })
             .collect();
-        let run = monte_carlo::run(&budget, &self.settings, &scales, self.threads).ok()?;
+        let run = monte_carlo::run(&budget, &self.settings, &scales, self.workers).ok()?;
         let output = run.outputs.get(self.response.measurand)?;
         let u = output.u.unwrap_or(f64::NAN);
         Some((output.symmetric[side], u))

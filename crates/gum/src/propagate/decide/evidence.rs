@@ -1,6 +1,7 @@
 //! What decisions are made from.
 
 use crate::budget::Budget;
+use crate::propagate::options::Workers;
 use crate::propagate::result::{MeasurandResult, Run};
 
 /// What decisions are made from.
@@ -9,5 +10,6 @@ pub(in crate::propagate) struct Evidence<'a> {
     pub results: &'a [MeasurandResult],
     /// The Monte Carlo run, where there was one.
     pub run: Option<&'a Run>,
-    pub threads: usize,
+    /// Who draws further trials.
+    pub workers: Workers<'a>,
 }

@@ -6,20 +6,23 @@ use super::engine::Source;
 use super::joint_draw::{JointDraw, Scratch};
 use crate::budget::Budget;
 use crate::model::{BlockRunner, Model};
+use crate::propagate::progress::Progress;
 
 /// Draws the inputs of a budget and evaluates its model, block by block.
 pub(super) struct BudgetSource<'b> {
     model: &'b Model,
     draw: JointDraw<'b>,
+    progress: &'b Progress,
 }
 
 impl<'b> BudgetSource<'b> {
     /// Prepares the samplers of a budget.
-    pub(super) fn new(budget: &'b Budget, seed: u64) -> Self {
+    pub(super) fn new(budget: &'b Budget, seed: u64, progress: &'b Progress) -> Self {
         let draw = JointDraw::new(&budget.inputs, &budget.components, &budget.groups, seed);
         BudgetSource {
             model: &budget.model,
             draw,
+            progress,
         }
     }
 }
@@ -53,5 +56,9 @@ impl<'b> Source for BudgetSource<'b> {
     fn next(&self, worker: &mut Worker<'b>, outputs: &mut [Block]) {
         self.draw.next(&mut worker.scratch, &mut worker.inputs);
         worker.runner.run(&worker.inputs, outputs);
+    }
+
+    fn drawn(&self, trials: u64) {
+        self.progress.count(trials);
     }
 }

@@ -7,16 +7,16 @@ use std::ops::Range;
 use gumption_lanes::moments::{PowerSums, all_finite};
 use gumption_lanes::{Block, LANES, Level, level};
 
-use super::cells::Wanted;
 use super::comoments::CoMoments;
-use super::crew::Crew;
+use super::decisive_cells::Wanted;
 use super::engine::{CHUNK, Drawing, Layout, Sink, Source, simulate, start};
 use super::interval::{Ordered, Ranked};
 use super::moments::{Moments, Pivot};
-use super::sieve::Sieve;
-use super::strainer::Strainer;
+use super::order_counts::OrderCounts;
+use super::thread_counts::ThreadCounts;
+use super::thread_pool::ThreadPool;
 
-/// Trials that are kept before the others are sieved.
+/// Trials that are kept before the others are only counted and summed.
 pub(super) const PILOT: u64 = CHUNK;
 
 /// Fewest values that tell which ones will matter.
@@ -37,7 +37,7 @@ pub(super) type Ask<'a> = dyn Fn(u64) -> Wanted + 'a;
 
 /// How trials are drawn and what is wanted of them.
 pub(super) struct Plan<'a, 'env, S> {
-    pub(super) crew: &'a Crew<'env>,
+    pub(super) pool: &'a ThreadPool<'env>,
     pub(super) source: &'env S,
     pub(super) layout: Layout,
     /// Per output.
@@ -52,23 +52,23 @@ pub(super) enum Held {
     /// All of them, one column per output.
     Columns(Vec<Vec<f64>>),
     /// Their counts and sums.
-    Sieved(Box<Sieved>),
+    Summed(Box<Summed>),
 }
 
 impl Held {
     /// Means and covariances of several outputs.
     pub(super) fn joint_moments(&self) -> Option<CoMoments> {
         match self {
-            Held::Sieved(sieved) => sieved.joint.clone(),
+            Held::Summed(summed) => summed.joint.clone(),
             Held::Columns(columns) => (columns.len() > 1).then(|| CoMoments::of(columns)),
         }
     }
 }
 
 /// Counts and sums of trials.
-pub(super) struct Sieved {
+pub(super) struct Summed {
     /// Per output.
-    pub(super) sieves: Vec<Sieve>,
+    pub(super) order_counts: Vec<OrderCounts>,
     /// Per output.
     pub(super) moments: Vec<Moments>,
     /// Of several outputs.
@@ -119,7 +119,7 @@ impl<'a, 'env, S: Source> Collector<'a, 'env, S> {
                 .zip(self.plan.pivots)
                 .map(|(column, pivot)| Moments::of(column, *pivot))
                 .collect(),
-            Held::Sieved(sieved) => sieved.moments.clone(),
+            Held::Summed(summed) => summed.moments.clone(),
         }
     }
 
@@ -130,11 +130,11 @@ impl<'a, 'env, S: Source> Collector<'a, 'env, S> {
             let values = self.draw(next.clone());
             self.commit(next, values);
         }
-        if let Held::Sieved(sieved) = &mut self.held
+        if let Held::Summed(summed) = &mut self.held
             && self.chunks < chunks
         {
             let new = self.chunks..chunks;
-            sieved.extend(&self.plan, new.clone());
+            summed.extend(&self.plan, new.clone());
             self.drawn(new);
         }
     }
@@ -142,7 +142,7 @@ impl<'a, 'env, S: Source> Collector<'a, 'env, S> {
     /// Draws chunks without taking them over: per chunk and output the values.
     pub(super) fn draw(&self, chunks: Range<u64>) -> Vec<Vec<Vec<f64>>> {
         let Plan {
-            crew,
+            pool,
             source,
             layout,
             ..
@@ -151,7 +151,7 @@ impl<'a, 'env, S: Source> Collector<'a, 'env, S> {
             columns: vec![Vec::new(); source.outputs()],
             room: layout.batch().min(CHUNK) as usize,
         };
-        simulate(crew, source, layout, chunks, keep).0
+        simulate(pool, source, layout, chunks, keep).0
     }
 
     /// Takes over the next chunks, whose values are at hand.
@@ -167,11 +167,11 @@ impl<'a, 'env, S: Source> Collector<'a, 'env, S> {
                     }
                 }
                 self.drawn(chunks);
-                self.sieve_if_many();
+                self.count_if_many();
             }
-            Held::Sieved(sieved) => {
+            Held::Summed(summed) => {
                 for chunk in values {
-                    sieved.take(&chunk, self.plan.ask);
+                    summed.take(&chunk, self.plan.ask);
                 }
                 self.drawn(chunks);
             }
@@ -184,40 +184,40 @@ impl<'a, 'env, S: Source> Collector<'a, 'env, S> {
         self.chunks = chunks.end;
     }
 
-    /// From keeping to sieving, when there are enough values to tell how.
-    fn sieve_if_many(&mut self) {
+    /// From keeping to counting, when there are enough values to tell how.
+    fn count_if_many(&mut self) {
         if let Held::Columns(columns) = &mut self.held
             && self.trials >= PILOT
         {
             let columns = std::mem::take(columns);
-            let sieved = Sieved::holding(columns, self.plan.pivots, self.plan.p);
-            self.held = Held::Sieved(Box::new(sieved));
+            let summed = Summed::holding(columns, self.plan.pivots, self.plan.p);
+            self.held = Held::Summed(Box::new(summed));
         }
     }
 }
 
-impl Sieved {
-    /// Takes over values, which tell how to sieve further ones.
+impl Summed {
+    /// Takes over values, which tell how to count further ones.
     fn holding(mut columns: Vec<Vec<f64>>, pivots: &[Pivot], p: f64) -> Self {
         let (pivots, orders): (Vec<Pivot>, Vec<Ordered>) = columns
             .iter()
             .zip(pivots)
             .map(|(column, pivot)| pilot(column, *pivot, p))
             .unzip();
-        let mut sieved = Sieved {
+        let mut summed = Summed {
             moments: pivots.iter().map(|pivot| Moments::empty(*pivot)).collect(),
             joint: (pivots.len() > 1).then(|| CoMoments::new(&pivots)),
-            sieves: Vec::new(),
+            order_counts: Vec::new(),
             pivots,
         };
-        let sums = Sums::new(&sieved).of_columns(&columns);
+        let sums = Sums::new(&summed).of_columns(&columns);
         columns.iter_mut().for_each(only_finite);
-        let sieves = columns.into_iter().zip(&orders);
-        sieved.sieves = sieves
-            .map(|(column, order)| Sieve::holding(column, order, p))
+        let order_counts = columns.into_iter().zip(&orders);
+        summed.order_counts = order_counts
+            .map(|(column, order)| OrderCounts::holding(column, order, p))
             .collect();
-        sieved.absorb(sums, Vec::new());
-        sieved
+        summed.absorb(sums, Vec::new());
+        summed
     }
 
     /// Draws some chunks.
@@ -226,7 +226,7 @@ impl Sieved {
     /// plan before. More is kept of them than need be; what becomes known is the same.
     fn extend<S: Source>(&mut self, plan: &Plan<S>, chunks: Range<u64>) {
         let last = chunks.end;
-        let helpers = plan.crew.threads() as u64 - 1;
+        let helpers = plan.pool.threads() as u64 - 1;
         let mut drawn = chunks.start;
         let mut begun = drawn..drawn;
         let mut ahead = self.start(plan, begun.clone(), 0);
@@ -254,7 +254,7 @@ impl Sieved {
         helpers: u64,
     ) -> Drawing<'env, Tally> {
         let tallies = repeat_with(|| Tally::new(self)).take(helpers as usize);
-        start(plan.crew, plan.source, plan.layout, chunks, tallies)
+        start(plan.pool, plan.source, plan.layout, chunks, tallies)
     }
 
     /// Takes values that are at hand.
@@ -268,8 +268,8 @@ impl Sieved {
     /// Before further values come: decides which of them to keep.
     fn plan(&mut self, ask: &Ask) {
         // From fewer values nothing can be planned; they are few enough to be kept.
-        for sieve in self.sieves.iter_mut().filter(|s| s.count() >= FEWEST) {
-            sieve.plan(&ask(sieve.count()));
+        for order_counts in self.order_counts.iter_mut().filter(|s| s.count() >= FEWEST) {
+            order_counts.plan(&ask(order_counts.count()));
         }
     }
 
@@ -284,8 +284,10 @@ impl Sieved {
             }
         }
         for tally in tallies {
-            for (sieve, strainer) in self.sieves.iter_mut().zip(tally.strainers) {
-                sieve.absorb(strainer.finish());
+            for (order_counts, thread_counts) in
+                self.order_counts.iter_mut().zip(tally.thread_counts)
+            {
+                order_counts.absorb(thread_counts.finish());
             }
         }
     }
@@ -315,7 +317,7 @@ fn pilot(column: &[f64], pivot: Pivot, p: f64) -> (Pivot, Ordered) {
         }
         finite = &failed;
     }
-    let order = Sieve::order(finite, p);
+    let order = OrderCounts::order(finite, p);
     // The moments' own origin need not be the mean; a constant's has to be exact.
     let pivot = pivot.moved(order.median());
     (Pivot::new(order.median(), sd(finite, pivot)), order)
@@ -362,11 +364,11 @@ struct Sums {
 }
 
 impl Sums {
-    fn new(sieved: &Sieved) -> Self {
+    fn new(summed: &Summed) -> Self {
         Sums {
             level: level(),
-            outputs: sieved.pivots.iter().map(OutputSums::new).collect(),
-            joint: sieved.joint.as_ref().map(CoMoments::emptied),
+            outputs: summed.pivots.iter().map(OutputSums::new).collect(),
+            joint: summed.joint.as_ref().map(CoMoments::emptied),
         }
     }
 
@@ -450,14 +452,18 @@ impl OutputSums {
 struct Tally {
     sums: Sums,
     /// Per output.
-    strainers: Vec<Strainer>,
+    thread_counts: Vec<ThreadCounts>,
 }
 
 impl Tally {
-    fn new(sieved: &mut Sieved) -> Self {
+    fn new(summed: &mut Summed) -> Self {
         Tally {
-            sums: Sums::new(sieved),
-            strainers: sieved.sieves.iter_mut().map(Sieve::strainer).collect(),
+            sums: Sums::new(summed),
+            thread_counts: summed
+                .order_counts
+                .iter_mut()
+                .map(OrderCounts::thread_counts)
+                .collect(),
         }
     }
 }
@@ -471,11 +477,13 @@ impl Sink for Tally {
             outputs: sums,
             ..
         } = &mut self.sums;
-        for ((sums, strainer), block) in sums.iter_mut().zip(&mut self.strainers).zip(outputs) {
-            if lanes == LANES && strainer.take(block) {
+        for ((sums, thread_counts), block) in
+            sums.iter_mut().zip(&mut self.thread_counts).zip(outputs)
+        {
+            if lanes == LANES && thread_counts.take(block) {
                 sums.add(*level, block);
             } else {
-                strainer.take_each(&block.0[..lanes]);
+                thread_counts.take_each(&block.0[..lanes]);
                 sums.add_each(&block.0[..lanes]);
             }
         }
@@ -487,7 +495,7 @@ impl Sink for Tally {
     }
 
     fn end(&mut self) {
-        self.strainers.iter_mut().for_each(Strainer::settle);
+        self.thread_counts.iter_mut().for_each(ThreadCounts::settle);
     }
 }
 

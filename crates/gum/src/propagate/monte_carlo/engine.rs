@@ -10,8 +10,7 @@ use std::ops::Range;
 
 use gumption_lanes::{Block, LANES};
 
-use super::crew::{Crew, Started};
-use crate::propagate::progress;
+use super::thread_pool::{Started, ThreadPool};
 
 /// Most trials in a chunk: 64 blocks of 256.
 pub(super) const CHUNK: u64 = 1 << 14;
@@ -32,6 +31,9 @@ pub(super) trait Source: Sync {
 
     /// The next trials of the chunk, one block per output.
     fn next(&self, worker: &mut Self::Worker, outputs: &mut [Block]);
+
+    /// Hears how many trials a thread has drawn.
+    fn drawn(&self, _trials: u64) {}
 }
 
 /// Takes trials in; every thread has one of its own.
@@ -89,7 +91,7 @@ impl Layout {
 /// Draws some chunks. Returns what every chunk left behind, in their order, and the sinks, in no order: what these
 /// hold must not depend on which of them took which chunk.
 pub(super) fn simulate<'env, S: Source, K: Sink + 'env>(
-    crew: &Crew<'env>,
+    pool: &ThreadPool<'env>,
     source: &'env S,
     layout: Layout,
     chunks: Range<u64>,
@@ -97,7 +99,7 @@ pub(super) fn simulate<'env, S: Source, K: Sink + 'env>(
 ) -> (Vec<K::Chunk>, Vec<K>) {
     let others = (chunks.end - chunks.start).saturating_sub(1) as usize;
     let sinks = repeat_with(&mut sink).take(others);
-    let drawing = start(crew, source, layout, chunks, sinks);
+    let drawing = start(pool, source, layout, chunks, sinks);
     drawing.join(sink())
 }
 
@@ -106,13 +108,13 @@ pub(super) type Drawing<'env, K> = Started<'env, K, <K as Sink>::Chunk, K>;
 
 /// Lets helpers begin to draw some chunks, each with one of the sinks. Results as of [`simulate`].
 pub(super) fn start<'env, S: Source, K: Sink + 'env>(
-    crew: &Crew<'env>,
+    pool: &ThreadPool<'env>,
     source: &'env S,
     layout: Layout,
     chunks: Range<u64>,
     sinks: impl Iterator<Item = K>,
 ) -> Drawing<'env, K> {
-    crew.start(
+    pool.start(
         chunks.collect(),
         sinks,
         |sink| {
@@ -126,7 +128,7 @@ pub(super) fn start<'env, S: Source, K: Sink + 'env>(
                 source.next(worker, outputs);
                 sink.take(outputs, LANES.min(trials - start));
             }
-            progress::count(trials as u64);
+            source.drawn(trials as u64);
             sink.close()
         },
         |(_, _, mut sink)| {

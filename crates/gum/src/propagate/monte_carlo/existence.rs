@@ -6,12 +6,12 @@
 //! M^−(1 − r/α). Printing an average of such trials would be printing a random number; quantiles
 //! remain meaningful (JCGM 101 uses no moments for them).
 //!
-//! Two kinds of evidence: what is known of the budget ([`super::heavy`]), and Hill's estimate of α
+//! Two kinds of evidence: what is known of the budget ([`super::heavy_components`]), and Hill's estimate of α
 //! from the largest deviations on either side.
 
 use gumption_lanes::{Block, LANES, level, ops};
 
-use super::heavy::HeavyComponent;
+use super::heavy_components::HeavyComponent;
 use super::interval::Ranked;
 use crate::propagate::result::{Consequence, MissingMoments, Side};
 

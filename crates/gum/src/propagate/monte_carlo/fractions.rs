@@ -3,9 +3,10 @@
 use gumption_lanes::Block;
 
 use super::budget_source::BudgetSource;
-use super::crew::Crew;
 use super::engine::{Layout, Sink, simulate};
+use super::thread_pool::ThreadPool;
 use crate::budget::{Budget, Interval};
+use crate::propagate::options::Workers;
 
 /// For every output and interval the fraction of its finite trials inside, with the limits; `None` where no
 /// trial is finite. The trials are those of a run with this seed, drawn again.
@@ -13,17 +14,17 @@ pub fn fractions(
     budget: &Budget,
     (seed, trials): (u64, u64),
     asked: &[(usize, Interval)],
-    threads: usize,
+    workers: Workers<'_>,
 ) -> Vec<Option<f64>> {
-    let source = BudgetSource::new(budget, seed);
+    let source = BudgetSource::new(budget, seed, workers.progress);
     let layout = Layout::new(trials);
     let sink = || Counter {
         asked,
         counts: vec![Count::default(); asked.len()],
     };
     let chunks = layout.chunks(0..1);
-    let (chunks, _) = Crew::with(threads, chunks.end, |crew| {
-        simulate(crew, &source, layout, chunks, sink)
+    let (chunks, _) = ThreadPool::with(workers.threads, chunks.end, |pool| {
+        simulate(pool, &source, layout, chunks, sink)
     });
     let sum = |index: usize| {
         let counts = chunks.iter().filter_map(|chunk| chunk.get(index));

@@ -2,7 +2,7 @@
 
 use gumption_lanes::bins::Grid;
 
-use super::crew::parallel_map;
+use super::thread_pool::parallel_map;
 use crate::propagate::result::Histogram;
 
 /// Bins of the picture.

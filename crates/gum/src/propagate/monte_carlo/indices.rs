@@ -14,10 +14,10 @@
 
 use gumption_lanes::{Block, LANES};
 
-use super::crew::parallel_map;
 use super::engine::CHUNK;
 use super::joint_draw::JointDraw;
 use super::outcome::{FirstOrder, Outcome};
+use super::thread_pool::parallel_map;
 use crate::budget::Budget;
 use crate::model::BlockRunner;
 use crate::propagate::result::{SensitivityIndices, SobolIndex};
@@ -277,6 +277,7 @@ mod tests {
         let options = Options {
             monte_carlo: MonteCarloChoice::Off,
             threads,
+            ..Options::default()
         };
         let gum = &evaluate(budget, &options).unwrap().results;
         let gum: Vec<FirstOrder> = gum

@@ -14,9 +14,9 @@ use gumption_lanes::sampler::{gamma_block, normal_block};
 use gumption_lanes::{Block, Generator, Level, Sampler, level, ops};
 use nalgebra::DMatrix;
 
+use super::assembly::{self, Assembly, Straight};
 use super::factor::lower_factor;
 use super::sampler::sampler;
-use super::ways::{self, Straight, Way};
 use crate::budget::{Component, Group, Input, Law};
 use crate::distribution::Distribution;
 use crate::special::{normal_cdf, normal_sf};
@@ -29,7 +29,7 @@ pub(super) struct JointDraw<'b> {
     /// How each component is drawn; `None` for members of groups and for what no input uses.
     alone: Vec<Option<Sampler>>,
     /// Per input.
-    ways: Vec<Way>,
+    assemblies: Vec<Assembly>,
     /// Whether a component is drawn only where it becomes the value of an input.
     with_input: Vec<bool>,
     groups: Vec<JointSampler>,
@@ -59,14 +59,14 @@ impl<'b> JointDraw<'b> {
             })
             .collect();
         let drawn_alone: Vec<bool> = alone.iter().map(Option::is_some).collect();
-        let ways = ways::ways(inputs, &drawn_alone, groups);
+        let assemblies = assembly::assemblies(inputs, &drawn_alone, groups);
         let mut with_input = vec![false; components.len()];
-        for way in &ways {
-            if let Way::Alone(component) = way {
+        for assembly in &assemblies {
+            if let Assembly::Alone(component) = assembly {
                 with_input[*component] = true;
             }
         }
-        let straight = ways::straight(inputs, &ways, components.len());
+        let straight = assembly::straight(inputs, &assemblies, components.len());
         let joint = groups
             .iter()
             .zip(components.len()..)
@@ -78,7 +78,7 @@ impl<'b> JointDraw<'b> {
             seed,
             level: level(),
             alone,
-            ways,
+            assemblies,
             with_input,
             groups: joint,
             streams: (components.len() + groups.len()) as u64,
@@ -119,10 +119,10 @@ impl<'b> JointDraw<'b> {
         for group in &self.groups {
             group.draw(self.level, scratch, inputs);
         }
-        for ((input, way), block) in self.inputs.iter().zip(&self.ways).zip(inputs) {
-            match (way, input.terms.as_slice()) {
-                (Way::WithGroup, _) => {}
-                (Way::Alone(component), [term]) => {
+        for ((input, assembly), block) in self.inputs.iter().zip(&self.assemblies).zip(inputs) {
+            match (assembly, input.terms.as_slice()) {
+                (Assembly::WithGroup, _) => {}
+                (Assembly::Alone(component), [term]) => {
                     let scale = [term.coefficient, input.estimate];
                     let generator = &mut scratch.generators[*component];
                     if let Some(sampler) = &self.alone[*component] {

@@ -3,19 +3,19 @@
 //! | chapter | holds |
 //! |---|---|
 //! | [`joint_draw`] | trials of the input quantities, correlated as the budget says |
-//! | [`ways`] | how the values of an input come about |
+//! | [`assembly`] | how the values of an input come about |
 //! | [`budget_source`] | trials of the model |
-//! | [`crew`] | threads that share the work of a run |
+//! | [`thread_pool`] | threads that share the work of a run |
 //! | [`engine`] | chunks of trials shared among threads, handed on in order |
 //! | [`collect`] | the first trials kept, the others counted and summed |
-//! | [`sieve`] | counts of all values, and the values that matter for their order |
-//! | [`strainer`] | how one thread takes values into a sieve |
-//! | [`cells`] | which values matter |
+//! | [`order_counts`] | counts of all values, and the values that matter for their order |
+//! | [`thread_counts`] | how one thread takes values into them |
+//! | [`decisive_cells`] | which values matter |
 //! | [`resolve`] | exact order statistics, where needed from trials drawn again |
 //! | [`moments`] | mean, standard deviation, skewness, kurtosis |
 //! | [`interval`] | median, symmetric and shortest coverage interval |
 //! | [`existence`] | whether the moments exist at all, judged from the trials |
-//! | [`heavy`] | components that are known to leave the output without moments |
+//! | [`heavy_components`] | components that are known to leave the output without moments |
 //! | [`fractions`] | fractions of the trials between given limits |
 //! | [`adaptive`] | how many trials |
 //! | [`indices`] | Sobol' sensitivity indices |
@@ -24,21 +24,22 @@
 //! | [`region`] | coverage regions of several outputs |
 
 mod adaptive;
+mod assembly;
 mod budget_source;
-mod cells;
 mod collect;
 mod comoments;
-mod crew;
+mod decisive_cells;
 mod engine;
 mod existence;
 mod factor;
 mod fractions;
-mod heavy;
+mod heavy_components;
 mod histogram;
 mod indices;
 mod interval;
 mod joint_draw;
 mod moments;
+mod order_counts;
 mod outcome;
 mod quasi;
 mod region;
@@ -46,29 +47,29 @@ mod resolve;
 mod sampler;
 #[cfg(test)]
 mod samples;
-mod sieve;
-mod strainer;
-mod ways;
+mod thread_counts;
+mod thread_pool;
 
 use super::error::EvaluationError;
+use super::options::Workers;
 use super::result::{AdaptiveRun, Histogram, MonteCarlo, Quasi, Run};
 use crate::budget::{Budget, MonteCarloSettings, Points, Trials};
 use adaptive::Target;
 pub use adaptive::{batch_size, least_batch};
-use cells::Wanted;
 use collect::{Collector, Held, Plan};
-use crew::Crew;
+use decisive_cells::Wanted;
 use engine::{Layout, Source};
 use existence::{Tail, Verdict};
 pub use fractions::fractions;
-use heavy::HeavyComponent;
+use heavy_components::HeavyComponent;
 pub use indices::indices;
 use interval::{Around, Ordered, Ranked, Ranks};
 use moments::{Moments, Pivot};
 pub use outcome::{FirstOrder, Outcome};
 use resolve::{Redraw, Resolved};
+use thread_pool::ThreadPool;
 
-/// Runs the Monte Carlo method on `threads` threads; the result does not depend on their number.
+/// Runs the Monte Carlo method; the result does not depend on the number of threads.
 ///
 /// # Errors
 /// [`EvaluationError::AllTrialsFailed`] when an output has fewer than two finite values.
@@ -76,22 +77,22 @@ pub fn run(
     budget: &Budget,
     settings: &MonteCarloSettings,
     gum: &[FirstOrder],
-    threads: usize,
+    workers: Workers<'_>,
 ) -> Result<Outcome, EvaluationError> {
     let refused = match settings.points {
         Points::Random => None,
-        Points::QuasiRandom => match quasi::run(budget, settings, gum, threads) {
+        Points::QuasiRandom => match quasi::run(budget, settings, gum, workers.threads) {
             Ok(outcome) => return Ok(outcome),
             Err(why) => Some(Quasi::Refused(why)),
         },
     };
-    let source = budget_source::BudgetSource::new(budget, settings.seed);
+    let source = budget_source::BudgetSource::new(budget, settings.seed, workers.progress);
     let question = Question {
         settings,
         p: budget.conventions.coverage_probability,
         pivots: gum.iter().map(|g| Pivot::new(g.estimate, g.u)).collect(),
-        heavy: heavy::heavy_components(budget),
-        threads,
+        heavy: heavy_components::heavy_components(budget),
+        threads: workers.threads,
     };
     let mut outcome = question
         .ask(&source)
@@ -122,18 +123,18 @@ impl Question<'_> {
             Trials::Adaptive { max, .. } => max.div_ceil(layout.batch()),
         };
         let chunks = layout.chunks(0..batches).end;
-        Crew::with(self.threads, chunks, |crew| self.ask_with(crew, source))
+        ThreadPool::with(self.threads, chunks, |pool| self.ask_with(pool, source))
     }
 
     fn ask_with<'env, S: Source>(
         &self,
-        crew: &Crew<'env>,
+        pool: &ThreadPool<'env>,
         source: &'env S,
     ) -> Result<Outcome, usize> {
         let layout = self.layout();
         let ask = |count| self.wanted(count);
         let mut collector = Collector::new(Plan {
-            crew,
+            pool,
             source,
             layout,
             pivots: &self.pivots,
@@ -149,7 +150,7 @@ impl Question<'_> {
             quasi: None,
         };
         let redraw = Redraw {
-            crew,
+            pool,
             source,
             layout,
             chunks: collector.chunks(),
@@ -258,16 +259,17 @@ impl Question<'_> {
                 };
                 self.results(moments, &ordered, picture, self.heavy[output].as_ref())
             }
-            Held::Sieved(sieved) => {
-                let sieve = &mut sieved.sieves[output];
-                let count = sieve.count();
+            Held::Summed(summed) => {
+                let order_counts = &mut summed.order_counts[output];
+                let count = order_counts.count();
                 let depth = self.depth(count as usize);
-                let resolved = Resolved::new(sieve, &self.wanted(count), depth, output, redraw);
+                let resolved =
+                    Resolved::new(order_counts, &self.wanted(count), depth, output, redraw);
                 if self.pivots.len() == 1 {
                     // Nothing is left to share; other outputs, and coverage regions, would need helpers again.
-                    redraw.crew.dismiss();
+                    redraw.pool.dismiss();
                 }
-                let picture = |interval| sieve.histogram(interval);
+                let picture = |interval| order_counts.histogram(interval);
                 self.results(moments, &resolved, picture, self.heavy[output].as_ref())
             }
         }

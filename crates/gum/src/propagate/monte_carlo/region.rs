@@ -4,15 +4,15 @@ use nalgebra::DMatrix;
 
 use gumption_lanes::Block;
 
-use super::cells::Wanted;
 use super::collect::{Collector, Held, Plan};
 use super::comoments::CoMoments;
-use super::crew::Crew;
+use super::decisive_cells::Wanted;
 use super::engine::{Sink, Source, simulate};
 use super::factor::lower_factor;
 use super::interval::{Ordered, Ranked, Ranks};
 use super::moments::Pivot;
 use super::resolve::{Redraw, Resolved};
+use super::thread_pool::ThreadPool;
 use crate::propagate::result::Regions;
 
 /// Joint results of several outputs.
@@ -119,6 +119,10 @@ impl<S: Source> Source for Distances<'_, S> {
             };
         }
     }
+
+    fn drawn(&self, trials: u64) {
+        self.source.drawn(trials);
+    }
 }
 
 fn regions<S: Source>(redraw: &Redraw<S>, whitening: &Whitening, count: u64, p: f64) -> Regions {
@@ -128,10 +132,10 @@ fn regions<S: Source>(redraw: &Redraw<S>, whitening: &Whitening, count: u64, p: 
         whitening,
     };
     let cells = Cells::new(m, count);
-    let threads = redraw.crew.threads();
-    let ([square, largest], smallest) = Crew::with(threads, redraw.chunks, |crew| {
+    let threads = redraw.pool.threads();
+    let ([square, largest], smallest) = ThreadPool::with(threads, redraw.chunks, |pool| {
         let distances = Redraw {
-            crew,
+            pool,
             source: &distances,
             layout: redraw.layout,
             chunks: redraw.chunks,
@@ -139,7 +143,7 @@ fn regions<S: Source>(redraw: &Redraw<S>, whitening: &Whitening, count: u64, p: 
         let fullest = cells.as_ref().and_then(|cells| {
             let count = || Count::new(whitening, cells);
             let chunks = 0..redraw.chunks;
-            let (_, parts) = simulate(crew, redraw.source, redraw.layout, chunks, count);
+            let (_, parts) = simulate(pool, redraw.source, redraw.layout, chunks, count);
             cells.smallest(parts, p)
         });
         (values_of_rank(&distances, p), fullest)
@@ -168,7 +172,7 @@ fn values_of_rank<S: Source>(redraw: &Redraw<S>, p: f64) -> [f64; 2] {
     };
     let pivots = [Pivot::new(0.0, 1.0); 2];
     let mut collector = Collector::new(Plan {
-        crew: redraw.crew,
+        pool: redraw.pool,
         source: redraw.source,
         layout: redraw.layout,
         pivots: &pivots,
@@ -183,11 +187,11 @@ fn values_of_rank<S: Source>(redraw: &Redraw<S>, p: f64) -> [f64; 2] {
             let q = rank(values.len() as u64);
             Ordered::new(&values, values.len()).at(q)
         }),
-        Held::Sieved(mut sieved) => [0, 1].map(|output| {
-            let sieve = &mut sieved.sieves[output];
-            let wanted = ask(sieve.count());
-            let q = rank(sieve.count());
-            Resolved::new(sieve, &wanted, 1, output, redraw).at(q)
+        Held::Summed(mut summed) => [0, 1].map(|output| {
+            let order_counts = &mut summed.order_counts[output];
+            let wanted = ask(order_counts.count());
+            let q = rank(order_counts.count());
+            Resolved::new(order_counts, &wanted, 1, output, redraw).at(q)
         }),
     }
 }
@@ -312,9 +316,9 @@ mod tests {
         let layout = Layout::new(trials);
         let pivots = vec![Pivot::new(0.0, 1.0); source.outputs()];
         let chunks = layout.chunks(0..1).end;
-        Crew::with(2, chunks, |crew| {
+        ThreadPool::with(2, chunks, |pool| {
             let mut collector = Collector::new(Plan {
-                crew,
+                pool,
                 source,
                 layout,
                 pivots: &pivots,
@@ -327,7 +331,7 @@ mod tests {
             });
             collector.extend(chunks);
             let redraw = Redraw {
-                crew,
+                pool,
                 source,
                 layout,
                 chunks,

@@ -1,6 +1,6 @@
 //! From counts to exact order statistics.
 //!
-//! [`super::cells`] says which values decide. They are among those that were kept, or they are drawn
+//! [`super::decisive_cells`] says which values decide. They are among those that were kept, or they are drawn
 //! again; where they are too many to be kept at once, they are first counted in a finer grid. The
 //! results are those of a full sort of all values, to the last bit.
 
@@ -11,12 +11,12 @@ use gumption_lanes::bins::{BINS, Grid, Grids};
 use gumption_lanes::sift::{self, Stretch};
 use gumption_lanes::{Block, LANES, level};
 
-use super::cells::{Cell, Slack, Wanted, cell_of, for_each_pair};
-use super::crew::Crew;
+use super::decisive_cells::{Cell, Slack, Wanted, cell_of, for_each_pair};
 use super::engine::{Layout, Sink, Source, simulate};
 use super::interval::{Ranked, Ranks};
-use super::sieve::Sieve;
-use super::strainer::MOST_KEPT;
+use super::order_counts::OrderCounts;
+use super::thread_counts::MOST_KEPT;
+use super::thread_pool::ThreadPool;
 
 /// Values that are sorted without a look at finer counts.
 const SORTED: u64 = 1 << 12;
@@ -45,12 +45,12 @@ pub(super) trait Again<'env> {
     fn show<K: Sink + 'env>(&self, sink: impl Fn() -> K) -> Vec<K>;
 
     /// Who works on them.
-    fn crew(&self) -> &Crew<'env>;
+    fn pool(&self) -> &ThreadPool<'env>;
 }
 
 /// Trials that are drawn again.
 pub(super) struct Redraw<'a, 'env, S> {
-    pub(super) crew: &'a Crew<'env>,
+    pub(super) pool: &'a ThreadPool<'env>,
     pub(super) source: &'env S,
     pub(super) layout: Layout,
     pub(super) chunks: u64,
@@ -58,11 +58,11 @@ pub(super) struct Redraw<'a, 'env, S> {
 
 impl<'env, S: Source> Again<'env> for Redraw<'_, 'env, S> {
     fn show<K: Sink + 'env>(&self, sink: impl Fn() -> K) -> Vec<K> {
-        simulate(self.crew, self.source, self.layout, 0..self.chunks, sink).1
+        simulate(self.pool, self.source, self.layout, 0..self.chunks, sink).1
     }
 
-    fn crew(&self) -> &Crew<'env> {
-        self.crew
+    fn pool(&self) -> &ThreadPool<'env> {
+        self.pool
     }
 }
 
@@ -83,23 +83,23 @@ impl Resolved {
     /// Finds what is wanted of one output's values; `depth` extreme ranks at either end are counted
     /// as a tail.
     ///
-    /// What the sieve has kept is used up.
+    /// What the counts have kept is used up.
     pub(super) fn new<'env>(
-        sieve: &mut Sieve,
+        order_counts: &mut OrderCounts,
         wanted: &Wanted,
         depth: usize,
         output: usize,
         again: &impl Again<'env>,
     ) -> Self {
-        let (mut cells, rows) = sieve.cells();
+        let (mut cells, rows) = order_counts.cells();
         let needed = wanted.cells(&cells, Slack::NONE);
         let chosen = rows.iter().zip(&needed).filter(|(_, needed)| **needed);
-        let kept = sieve.take_kept(chosen.flat_map(|(row, _)| row.clone()));
+        let kept = order_counts.take_kept(chosen.flat_map(|(row, _)| row.clone()));
         let mut runs = runs(&cells, &needed);
         for run in &mut runs {
             let at = |rank| &rows[cell_of(&cells, rank)];
             let (first, last) = (at(run.below + 1), at(run.below + run.count));
-            [run.low, run.high] = sieve.span(*first.start()..=*last.end());
+            [run.low, run.high] = order_counts.span(*first.start()..=*last.end());
         }
         let mut known = Vec::new();
         let mut held = kept.map(Kept::Fresh);
@@ -117,11 +117,11 @@ impl Resolved {
             }
             cells = match held.take() {
                 Some(kept) if sorts => {
-                    let values = kept.in_order(&runs, again.crew());
+                    let values = kept.in_order(&runs, again.pool());
                     return Resolved::holding(values, &runs, known, wanted.count, depth);
                 }
                 Some(kept) => {
-                    let counted = kept.counted(&runs, again.crew());
+                    let counted = kept.counted(&runs, again.pool());
                     let cells = counted.finer.cells();
                     held = Some(Kept::Counted(counted));
                     cells
@@ -271,7 +271,7 @@ struct Part {
 impl Kept {
     /// Leaves those values that lie in runs, which may be rows of cells of the finer counts so far, and counts them
     /// anew.
-    fn counted(self, runs: &[Run], crew: &Crew) -> Counted {
+    fn counted(self, runs: &[Run], pool: &ThreadPool) -> Counted {
         let own = runs.to_vec();
         let begin = {
             let own = own.clone();
@@ -279,7 +279,7 @@ impl Kept {
         };
         let (parts, counts) = match self {
             Kept::Fresh(parts) => {
-                of_each(parts, Vec::len, crew, begin, move |finer, mut values| {
+                of_each(parts, Vec::len, pool, begin, move |finer, mut values| {
                     keep_inside(&mut values, &own);
                     let places = Vec::new();
                     Part { values, places }.counted(finer)
@@ -287,7 +287,7 @@ impl Kept {
             }
             Kept::Counted(Counted { parts, finer }) => {
                 let chosen = finer.chosen(runs);
-                of_each(parts, Part::len, crew, begin, move |finer, mut part| {
+                of_each(parts, Part::len, pool, begin, move |finer, mut part| {
                     part.keep(&chosen);
                     part.counted(finer)
                 })
@@ -300,7 +300,7 @@ impl Kept {
     }
 
     /// The values that lie in runs, ascending.
-    fn in_order(self, runs: &[Run], crew: &Crew) -> Vec<f64> {
+    fn in_order(self, runs: &[Run], pool: &ThreadPool) -> Vec<f64> {
         match self {
             Kept::Fresh(mut parts) => {
                 parts
@@ -317,7 +317,7 @@ impl Kept {
                     part.keep(&own);
                     part
                 };
-                let (parts, _) = of_each(parts, Part::len, crew, || (), keep);
+                let (parts, _) = of_each(parts, Part::len, pool, || (), keep);
                 finer.in_order(&parts, &chosen)
             }
         }
@@ -358,7 +358,7 @@ impl Part {
 fn of_each<'env, I: Send + 'env, W: Send + 'env, T: Send + 'env>(
     mut parts: Vec<I>,
     values: impl Fn(&I) -> usize,
-    crew: &Crew<'env>,
+    pool: &ThreadPool<'env>,
     begin: impl Fn() -> W + Send + Sync + 'env,
     task: impl Fn(&mut W, I) -> T + Send + Sync + 'env,
 ) -> (Vec<T>, Vec<W>) {
@@ -371,7 +371,7 @@ fn of_each<'env, I: Send + 'env, W: Send + 'env, T: Send + 'env>(
     }
     // The small ones last, so that no thread waits long for another.
     parts.sort_by_key(|part| Reverse(values(part)));
-    crew.map(parts, || (), move |()| begin(), task, |scratch| scratch)
+    pool.map(parts, || (), move |()| begin(), task, |scratch| scratch)
 }
 
 /// Rows of neighbouring cells that are all chosen.

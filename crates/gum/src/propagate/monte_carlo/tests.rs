@@ -322,14 +322,14 @@ fn passing_trials_give_the_results_of_a_full_sort() {
         let source = Sampled::new(41, 1, move |s, y| y[0] = draw(s));
         let layout = Layout::new(TRIALS);
         let chunks = layout.chunks(0..1);
-        let all = Crew::with(1, 1, |crew| {
+        let all = ThreadPool::with(1, 1, |pool| {
             let plan = Plan {
-                crew,
+                pool,
                 source: &source,
                 layout,
                 pivots: &[],
                 p: 0.95,
-                ask: &|_| unreachable!("nothing is sieved"),
+                ask: &|_| unreachable!("nothing is summed"),
             };
             let parts = Collector::new(plan).draw(chunks);
             parts.into_iter().flatten().flatten().collect()
@@ -376,10 +376,10 @@ fn trials_drawn_again_give_the_same_results() {
         };
         let layout = question.layout();
         let chunks = layout.chunks(0..1).end;
-        Crew::with(2, chunks, |crew| {
+        ThreadPool::with(2, chunks, |pool| {
             let ask = |count| question.wanted(count);
             let mut collector = Collector::new(Plan {
-                crew,
+                pool,
                 source: &source,
                 layout,
                 pivots: &question.pivots,
@@ -387,29 +387,29 @@ fn trials_drawn_again_give_the_same_results() {
                 ask: &ask,
             });
             collector.extend(chunks);
-            let Held::Sieved(mut sieved) = collector.into_held() else {
-                panic!("{TRIALS} trials are sieved");
+            let Held::Summed(mut summed) = collector.into_held() else {
+                panic!("{TRIALS} trials are summed");
             };
             let redraw = Redraw {
-                crew,
+                pool,
                 source: &source,
                 layout,
                 chunks,
             };
-            let sieve = &mut sieved.sieves[0];
-            let wanted = question.wanted(sieve.count());
-            let ranks = Ranks::new(sieve.count() as usize, 0.9);
-            let results = |sieve: &mut sieve::Sieve| {
-                let order = Resolved::new(sieve, &wanted, ranks.last, 0, &redraw);
+            let order_counts = &mut summed.order_counts[0];
+            let wanted = question.wanted(order_counts.count());
+            let ranks = Ranks::new(order_counts.count() as usize, 0.9);
+            let results = |order_counts: &mut order_counts::OrderCounts| {
+                let order = Resolved::new(order_counts, &wanted, ranks.last, 0, &redraw);
                 (
                     order.symmetric(ranks),
                     order.shortest(ranks),
                     order.median(),
                 )
             };
-            let kept = results(sieve);
+            let kept = results(order_counts);
             // What was kept is used up: the same from trials that are drawn again.
-            assert_eq!(results(sieve), kept, "{name}");
+            assert_eq!(results(order_counts), kept, "{name}");
         });
     }
 }

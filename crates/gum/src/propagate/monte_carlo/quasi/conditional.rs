@@ -11,8 +11,8 @@ use gumption_lanes::kernel::{Paths, power_sums};
 use gumption_lanes::moments::all_finite;
 use gumption_lanes::{Block, LANES, Level, ops};
 
-use super::super::crew::parallel_map;
 use super::super::moments::{Moments, Pivot};
+use super::super::thread_pool::parallel_map;
 use super::averaging::{Averaged, LEAST_PART};
 use super::points::{Points, Scratch};
 use super::pooled::{Figures, Pooled, REPLICATES, Trouble, threads_for};

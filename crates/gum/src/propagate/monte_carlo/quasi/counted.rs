@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use super::super::crew::parallel_map;
 use super::super::existence::{Tail, Verdict};
 use super::super::histogram::histogram;
 use super::super::interval::{Ordered, Ranked, Ranks, symmetric_ends};
 use super::super::moments::{Moments, Pivot};
+use super::super::thread_pool::parallel_map;
 use super::points::Points;
 use super::pooled::{Figures, Pooled, REPLICATES, Trouble, threads_for};
 use crate::propagate::result::Histogram;

@@ -27,6 +27,7 @@ fn evaluate_with(text: &str, settings: MonteCarloSettings, threads: usize) -> Ev
     let options = Options {
         monte_carlo: MonteCarloChoice::With(settings),
         threads,
+        ..Options::default()
     };
     propagate::evaluate(&loaded.rows[0].budget, &options).unwrap()
 }

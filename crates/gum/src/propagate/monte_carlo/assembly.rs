@@ -4,7 +4,7 @@ use crate::budget::{Group, Input, Law};
 
 /// How the values of an input come about.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Way {
+pub(super) enum Assembly {
     /// One component makes it up that is drawn alone and belongs to no other input.
     Alone(usize),
     /// Likewise, but the component is drawn with others, which are normal.
@@ -14,7 +14,7 @@ pub(super) enum Way {
 }
 
 /// Of all inputs, where it is known which components are drawn alone.
-pub(super) fn ways(inputs: &[Input], alone: &[bool], groups: &[Group]) -> Vec<Way> {
+pub(super) fn assemblies(inputs: &[Input], alone: &[bool], groups: &[Group]) -> Vec<Assembly> {
     let mut uses = vec![0; alone.len()];
     for term in inputs.iter().flat_map(|input| &input.terms) {
         uses[term.component] += 1;
@@ -27,19 +27,19 @@ pub(super) fn ways(inputs: &[Input], alone: &[bool], groups: &[Group]) -> Vec<Wa
         let mut groups = normal.iter();
         groups.any(|group| group.members.contains(&component))
     };
-    let way = |input: &Input| match input.terms.as_slice() {
+    let assembly = |input: &Input| match input.terms.as_slice() {
         [term] if uses[term.component] == 1 => {
             if alone[term.component] {
-                Way::Alone(term.component)
+                Assembly::Alone(term.component)
             } else if term.coefficient != 0.0 && in_group(term.component) {
-                Way::WithGroup
+                Assembly::WithGroup
             } else {
-                Way::Summed
+                Assembly::Summed
             }
         }
-        _ => Way::Summed,
+        _ => Assembly::Summed,
     };
-    inputs.iter().map(way).collect()
+    inputs.iter().map(assembly).collect()
 }
 
 /// An input that a component makes up alone.
@@ -51,10 +51,14 @@ pub(super) struct Straight {
 }
 
 /// Per component, of which there are `components`, the input that it makes up, if it is drawn with others.
-pub(super) fn straight(inputs: &[Input], ways: &[Way], components: usize) -> Vec<Option<Straight>> {
+pub(super) fn straight(
+    inputs: &[Input],
+    assemblies: &[Assembly],
+    components: usize,
+) -> Vec<Option<Straight>> {
     let mut straight = vec![None; components];
-    for ((way, input), place) in ways.iter().zip(inputs).zip(0..) {
-        if let (Way::WithGroup, [term]) = (way, input.terms.as_slice()) {
+    for ((assembly, input), place) in assemblies.iter().zip(inputs).zip(0..) {
+        if let (Assembly::WithGroup, [term]) = (assembly, input.terms.as_slice()) {
             let scale = [term.coefficient, input.estimate];
             straight[term.component] = Some(Straight { place, scale });
         }

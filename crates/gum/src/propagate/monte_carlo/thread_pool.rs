@@ -19,14 +19,18 @@ const PATIENCE: Duration = Duration::from_micros(300);
 type Job<'env> = Box<dyn FnOnce() + Send + 'env>;
 
 /// The thread that calls, and helpers that work on things that outlive them all.
-pub(super) struct Crew<'env> {
+pub(super) struct ThreadPool<'env> {
     helpers: RefCell<Vec<Sender<Job<'env>>>>,
 }
 
-impl<'env> Crew<'env> {
-    /// Does something with a crew of so many threads, that of the caller included; of fewer where there are fewer
+impl<'env> ThreadPool<'env> {
+    /// Does something with a pool of so many threads, that of the caller included; of fewer where there are fewer
     /// tasks at a time, or where the system gives no more.
-    pub(super) fn with<R>(threads: usize, tasks: u64, run: impl FnOnce(&Crew<'env>) -> R) -> R {
+    pub(super) fn with<R>(
+        threads: usize,
+        tasks: u64,
+        run: impl FnOnce(&ThreadPool<'env>) -> R,
+    ) -> R {
         let threads = usize::try_from(tasks).map_or(threads, |tasks| threads.min(tasks));
         std::thread::scope(|scope| {
             let helper = |_| {
@@ -40,7 +44,7 @@ impl<'env> Crew<'env> {
                 started.ok().map(|_| sender)
             };
             let helpers = (1..threads).map_while(helper).collect();
-            run(&Crew {
+            run(&ThreadPool {
                 helpers: RefCell::new(helpers),
             })
         })
@@ -92,7 +96,7 @@ impl<'env> Crew<'env> {
                 // Nobody waits for it where the caller has panicked.
                 let _ = sender.send(result);
             };
-            // A helper is there as long as its crew.
+            // A helper is there as long as its pool.
             let _ = helper.send(Box::new(job));
         }
         Started { work, results }
@@ -135,14 +139,14 @@ pub(super) struct Started<'env, D, T, R> {
 }
 
 impl<D, T, R> Started<'_, D, T, R> {
-    /// Takes part, with a seed, and waits for the others. Results as of [`Crew::map`].
+    /// Takes part, with a seed, and waits for the others. Results as of [`ThreadPool::map`].
     pub(super) fn join(self, seed: D) -> (Vec<T>, Vec<R>) {
         let own = (self.work)(seed);
         self.wait_with(Some(own))
     }
 
     /// Waits for the helpers, of which at least one must have been asked if there were items. Results as of
-    /// [`Crew::map`].
+    /// [`ThreadPool::map`].
     pub(super) fn wait(self) -> (Vec<T>, Vec<R>) {
         self.wait_with(None)
     }
@@ -168,22 +172,25 @@ pub(super) fn parallel_map<I: Send, W, T: Send, R: Send>(
     task: impl Fn(&mut W, I) -> T + Send + Sync,
     finish: impl Fn(W) -> R + Send + Sync,
 ) -> (Vec<T>, Vec<R>) {
-    Crew::with(threads, items.len() as u64, |crew| {
-        crew.map(items, || (), |()| scratch(), task, finish)
+    ThreadPool::with(threads, items.len() as u64, |pool| {
+        pool.map(items, || (), |()| scratch(), task, finish)
     })
 }
 
 /// What comes next; an error where nothing will.
 fn soon<T>(receiver: &Receiver<T>) -> Result<T, RecvError> {
-    let start = Instant::now();
-    while start.elapsed() < PATIENCE {
+    // Where there are no threads there may be no clock either, and nobody to wait for.
+    let mut start = None;
+    loop {
         match receiver.try_recv() {
             Ok(next) => return Ok(next),
             Err(TryRecvError::Disconnected) => return Err(RecvError),
             Err(TryRecvError::Empty) => yield_now(),
         }
+        if start.get_or_insert_with(Instant::now).elapsed() >= PATIENCE {
+            return receiver.recv();
+        }
     }
-    receiver.recv()
 }
 
 #[cfg(test)]
@@ -209,16 +216,16 @@ mod tests {
     }
 
     #[test]
-    fn a_crew_takes_on_one_task_after_another() {
+    fn a_pool_takes_on_one_task_after_another() {
         let offset = 3_usize;
-        let sums: Vec<usize> = Crew::with(3, 20, |crew| {
+        let sums: Vec<usize> = ThreadPool::with(3, 20, |pool| {
             let sum = |round: usize| {
                 // Now and then the helpers have gone to sleep.
                 if round.is_multiple_of(8) {
                     std::thread::sleep(2 * PATIENCE);
                 }
                 let items = (0..round).collect();
-                let (done, rest) = crew.map(
+                let (done, rest) = pool.map(
                     items,
                     || 10_usize,
                     |seed| seed,
@@ -239,10 +246,10 @@ mod tests {
     #[test]
     fn helpers_work_while_the_caller_does_something_else() {
         let caller = std::thread::current().id();
-        let (done, seeds) = Crew::with(3, 20, |crew| {
+        let (done, seeds) = ThreadPool::with(3, 20, |pool| {
             let thread = |_: &mut u8, ()| std::thread::current().id();
-            let begun = crew.start(vec![(); 20], [4, 5].into_iter(), |seed| seed, thread, |s| s);
-            let more = crew.start(vec![(); 5], [6].into_iter(), |seed| seed, thread, |s| s);
+            let begun = pool.start(vec![(); 20], [4, 5].into_iter(), |seed| seed, thread, |s| s);
+            let more = pool.start(vec![(); 5], [6].into_iter(), |seed| seed, thread, |s| s);
             assert_eq!(more.join(7).1.len(), 2);
             begun.wait()
         });
@@ -254,10 +261,10 @@ mod tests {
     #[test]
     fn a_panic_of_a_helper_reaches_the_caller() {
         let work = || {
-            Crew::with(2, 2, |crew| {
+            ThreadPool::with(2, 2, |pool| {
                 let own = std::thread::current().id();
                 let begin = move |()| assert_eq!(std::thread::current().id(), own, "no helper");
-                crew.map(vec![(); 20], || (), begin, |(), ()| (), |()| ())
+                pool.map(vec![(); 20], || (), begin, |(), ()| (), |()| ())
             })
         };
         let panic = catch_unwind(AssertUnwindSafe(work)).expect_err("the helper panics");
@@ -267,19 +274,19 @@ mod tests {
 
     #[test]
     fn without_helpers_the_caller_does_the_work() {
-        let threads = Crew::with(3, 20, |crew| {
+        let threads = ThreadPool::with(3, 20, |pool| {
             let thread = |(): &mut (), ()| std::thread::current().id();
-            crew.dismiss();
-            assert_eq!(crew.threads(), 1);
-            crew.map(vec![(); 20], || (), |()| (), thread, |()| ()).0
+            pool.dismiss();
+            assert_eq!(pool.threads(), 1);
+            pool.map(vec![(); 20], || (), |()| (), thread, |()| ()).0
         });
         assert_eq!(threads, [std::thread::current().id(); 20]);
     }
 
     #[test]
     fn there_are_no_more_threads_than_tasks() {
-        assert_eq!(Crew::with(8, 3, |crew| crew.threads()), 3);
-        assert_eq!(Crew::with(0, 3, |crew| crew.threads()), 1);
+        assert_eq!(ThreadPool::with(8, 3, |pool| pool.threads()), 3);
+        assert_eq!(ThreadPool::with(0, 3, |pool| pool.threads()), 1);
         let (done, rest) = parallel_map(Vec::<u8>::new(), 4, || (), |(), i| i, |()| ());
         assert_eq!((done.len(), rest.len()), (0, 1));
     }

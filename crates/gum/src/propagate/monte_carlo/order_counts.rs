@@ -11,10 +11,10 @@ use std::ops::RangeInclusive;
 use gumption_lanes::bins::{BINS, Grid};
 use gumption_lanes::sift::to_front;
 
-use super::cells::{Cell, ERRORS, Slack, Wanted};
+use super::decisive_cells::{Cell, ERRORS, Slack, Wanted};
 use super::histogram;
 use super::interval::{Ordered, Ranked};
-use super::strainer::{Gap, MOST_KEPT, Strained, Strainer};
+use super::thread_counts::{CountedByThread, Gap, MOST_KEPT, ThreadCounts};
 use crate::propagate::result::Histogram;
 
 /// Values that make the picture of the distribution; bins are counted one by one until then.
@@ -22,12 +22,12 @@ const PICTURED: u64 = 1 << 18;
 
 /// Counts of all values, and the values where they matter.
 #[derive(Debug)]
-pub(super) struct Sieve {
+pub(super) struct OrderCounts {
     grid: Grid,
     counts: Vec<u64>,
     /// Whether the values of a bin have been kept from the first one on.
     keeps: Vec<bool>,
-    /// In parts, each of which a strainer has while values are strained. They may hold values of bins that are kept
+    /// In parts, each of which a thread has while it takes values in. They may hold values of bins that are kept
     /// no longer.
     kept: Vec<Vec<f64>>,
     /// Bins whose counts have a meaning only together with those of their neighbours of this kind.
@@ -40,16 +40,16 @@ pub(super) struct Sieve {
     range: [f64; 2],
 }
 
-impl Sieve {
-    /// Orders values, of which there is at least one, as [`Sieve::new`] needs it; intervals are to hold a share
+impl OrderCounts {
+    /// Orders values, of which there is at least one, as [`OrderCounts::new`] needs it; intervals are to hold a share
     /// p of them.
     pub(super) fn order(sample: &[f64], p: f64) -> Ordered {
         Ordered::new(sample, depth(sample.len(), p))
     }
 
-    /// An empty sieve for values like these.
+    /// Nothing counted yet, for values like these.
     pub(super) fn new(sample: &Ordered, p: f64) -> Self {
-        Sieve {
+        OrderCounts {
             grid: grid(sample, depth(sample.count(), p)),
             counts: vec![0; BINS],
             keeps: vec![true; BINS],
@@ -61,36 +61,36 @@ impl Sieve {
         }
     }
 
-    /// A sieve that has taken in these finite values and keeps them all.
+    /// Counts that have taken in these finite values and keeps them all.
     pub(super) fn holding(values: Vec<f64>, sample: &Ordered, p: f64) -> Self {
-        let mut sieve = Sieve::new(sample, p);
-        let mut counting = Strainer::new(sieve.grid, |_| false, &[], Vec::new());
+        let mut order_counts = OrderCounts::new(sample, p);
+        let mut counting = ThreadCounts::new(order_counts.grid, |_| false, &[], Vec::new());
         counting.count_all(&values);
-        sieve.absorb(counting.finish());
-        sieve.kept = vec![values];
-        sieve
+        order_counts.absorb(counting.finish());
+        order_counts.kept = vec![values];
+        order_counts
     }
 
     /// Takes further values in, on one thread. Goes on with a part of what has been kept, so that it need not be
     /// copied.
-    pub(super) fn strainer(&mut self) -> Strainer {
+    pub(super) fn thread_counts(&mut self) -> ThreadCounts {
         let part = self.kept.pop().unwrap_or_default();
-        Strainer::new(self.grid, |bin| self.keeps[bin], &self.gaps, part)
+        ThreadCounts::new(self.grid, |bin| self.keeps[bin], &self.gaps, part)
     }
 
     /// Takes over what was counted, by the last plan or one before.
-    pub(super) fn absorb(&mut self, strained: Strained) {
-        for (all, count) in self.counts.iter_mut().zip(strained.counts()) {
+    pub(super) fn absorb(&mut self, by_thread: CountedByThread) {
+        for (all, count) in self.counts.iter_mut().zip(by_thread.counts()) {
             *all += count;
         }
-        for (bin, taken) in strained.taken {
+        for (bin, taken) in by_thread.taken {
             self.counts[bin] += taken;
         }
-        let [low, high] = strained.range;
+        let [low, high] = by_thread.range;
         // Zero has no sign: which of two came first depends on the threads.
         self.range = [self.range[0].min(low) + 0.0, self.range[1].max(high) + 0.0];
         let already: usize = self.kept.iter().map(Vec::len).sum();
-        match strained.picked {
+        match by_thread.picked {
             Some(picked) if already + picked.len() <= MOST_KEPT => self.kept.push(picked),
             Some(_) | None => self.keep_nothing(),
         }
@@ -353,19 +353,22 @@ mod tests {
     #[test]
     fn spans_hold_exactly_the_numbers_of_their_bins() {
         let sample: Vec<f64> = (0..1000).map(|i| f64::from(i).sin()).collect();
-        let mut sieve = Sieve::new(&Sieve::order(&sample, 0.95), 0.95);
-        let mut strainer = sieve.strainer();
-        strainer.take_each(&sample);
-        sieve.absorb(strainer.finish());
-        assert_eq!((sieve.count(), sieve.kept.concat().len()), (1000, 1000));
-        let [low, high] = sieve.span(100..=200);
-        assert_eq!(sieve.grid.bin(low), 100);
-        assert_eq!(sieve.grid.bin(low.next_down()), 99);
-        assert_eq!(sieve.grid.bin(high), 200);
-        assert_eq!(sieve.grid.bin(high.next_up()), 201);
-        let (cells, rows) = sieve.cells();
+        let mut order_counts = OrderCounts::new(&OrderCounts::order(&sample, 0.95), 0.95);
+        let mut thread_counts = order_counts.thread_counts();
+        thread_counts.take_each(&sample);
+        order_counts.absorb(thread_counts.finish());
+        assert_eq!(
+            (order_counts.count(), order_counts.kept.concat().len()),
+            (1000, 1000)
+        );
+        let [low, high] = order_counts.span(100..=200);
+        assert_eq!(order_counts.grid.bin(low), 100);
+        assert_eq!(order_counts.grid.bin(low.next_down()), 99);
+        assert_eq!(order_counts.grid.bin(high), 200);
+        assert_eq!(order_counts.grid.bin(high.next_up()), 201);
+        let (cells, rows) = order_counts.cells();
         for (cell, row) in cells.iter().zip(rows) {
-            let inside = |x: &&f64| row.contains(&sieve.grid.bin(**x));
+            let inside = |x: &&f64| row.contains(&order_counts.grid.bin(**x));
             assert_eq!(sample.iter().filter(inside).count() as u64, cell.count);
             assert!(
                 sample

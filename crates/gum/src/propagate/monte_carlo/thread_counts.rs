@@ -1,4 +1,4 @@
-//! How one thread takes values into a [`super::sieve`].
+//! How one thread takes values into [`super::order_counts`].
 
 use std::ops::RangeInclusive;
 
@@ -20,7 +20,7 @@ pub(super) struct Gap {
 
 /// Counts values, and picks out those of some bins.
 #[derive(Debug)]
-pub(super) struct Strainer {
+pub(super) struct ThreadCounts {
     level: Level,
     grid: Grid,
     counter: Counter,
@@ -40,8 +40,8 @@ pub(super) struct Strainer {
     picks_ends: bool,
 }
 
-/// What a strainer has found.
-pub(super) struct Strained {
+/// What a thread has found.
+pub(super) struct CountedByThread {
     counter: Counter,
     /// The first bin of each gap, and how many values lay in it.
     pub(super) taken: [(usize, u64); 2],
@@ -51,7 +51,7 @@ pub(super) struct Strained {
     pub(super) range: [f64; 2],
 }
 
-impl Strainer {
+impl ThreadCounts {
     /// Picks out the values of the bins that are kept; the first two gaps are counted as a whole. Where the
     /// first bin or the last one is kept, so are all up to the smallest or the largest value so far. Goes on
     /// with what has been `picked` before.
@@ -63,7 +63,7 @@ impl Strainer {
     ) -> Self {
         let span = |index: usize| gaps.get(index).map_or(EMPTY, |gap| gap.span);
         let first = |index: usize| gaps.get(index).map_or(0, |gap| *gap.bins.start());
-        Strainer {
+        ThreadCounts {
             picks_ends: keeps(0) && keeps(BINS - 1),
             level: level(),
             grid,
@@ -142,11 +142,11 @@ impl Strainer {
         self.known = self.picked.len();
     }
 
-    /// Ends the straining.
-    pub(super) fn finish(mut self) -> Strained {
+    /// Ends the counting.
+    pub(super) fn finish(mut self) -> CountedByThread {
         self.settle();
         let [first, second] = self.sifted.taken();
-        Strained {
+        CountedByThread {
             range: self.range,
             counter: self.counter,
             taken: [(self.firsts[0], first), (self.firsts[1], second)],
@@ -161,7 +161,7 @@ fn widened(level: Level, [low, high]: [f64; 2], values: &[f64]) -> [f64; 2] {
     [low.min(least), high.max(most)]
 }
 
-impl Strained {
+impl CountedByThread {
     /// Counts of the bins, without those of the gaps.
     pub(super) fn counts(&self) -> impl Iterator<Item = u64> + '_ {
         self.counter.counts()

@@ -401,27 +401,17 @@ fn amount(report: &Report<'_>, measurand: Option<usize>, number: String) -> Stri
 
 /// Why a budget could not be evaluated, and what to do.
 pub fn failure(error: &EvaluationError, language: Language) -> String {
-    match (error, language) {
-        (EvaluationError::NoValue { measurand }, Language::English) => format!(
-            "The model of {measurand} has no finite value at the estimates of its inputs (for example a division by zero or the root of a negative number). Check the estimates and the formula."
+    if language == Language::English {
+        return error.to_string();
+    }
+    match error {
+        EvaluationError::NoValue { measurand } => format!(
+            "在输入量的估计值处，{measurand} 的测量模型没有有限值（例如除以零或对负数开方）。请核对估计值和公式。"
         ),
-        (EvaluationError::NoValue { measurand }, Language::Chinese) => {
-            format!(
-                "在输入量的估计值处，{measurand} 的测量模型没有有限值（例如除以零或对负数开方）。请核对估计值和公式。"
-            )
-        }
-        (EvaluationError::NoDerivative { measurand, input }, Language::English) => format!(
-            "The model of {measurand} has no finite derivative with respect to {input} at the estimates, so the GUM method cannot be used, and Monte Carlo was switched off. Run the evaluation with Monte Carlo."
+        EvaluationError::NoDerivative { measurand, input } => format!(
+            "在估计值处，{measurand} 的测量模型对 {input} 的导数不是有限值，GUM 法不适用，而蒙特卡洛法被关闭。请运行蒙特卡洛法。"
         ),
-        (EvaluationError::NoDerivative { measurand, input }, Language::Chinese) => {
-            format!(
-                "在估计值处，{measurand} 的测量模型对 {input} 的导数不是有限值，GUM 法不适用，而蒙特卡洛法被关闭。请运行蒙特卡洛法。"
-            )
-        }
-        (EvaluationError::AllTrialsFailed { measurand }, Language::English) => format!(
-            "Not one Monte Carlo trial gave a finite value of {measurand}. Check the distributions of the inputs and the formula."
-        ),
-        (EvaluationError::AllTrialsFailed { measurand }, Language::Chinese) => {
+        EvaluationError::AllTrialsFailed { measurand } => {
             format!("所有蒙特卡洛试验都没有得到 {measurand} 的有限值。请核对输入量的分布和公式。")
         }
     }

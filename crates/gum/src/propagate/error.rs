@@ -4,7 +4,6 @@ use std::fmt;
 
 /// Why a budget cannot be evaluated at all.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum EvaluationError {
     /// f(x) is not finite at the estimates.
     NoValue {
@@ -28,19 +27,18 @@ pub enum EvaluationError {
 impl fmt::Display for EvaluationError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            EvaluationError::NoValue { measurand } => {
-                write!(
-                    f,
-                    "the model of {measurand} has no finite value at the estimates"
-                )
-            }
+            EvaluationError::NoValue { measurand } => write!(
+                f,
+                "The model of {measurand} has no finite value at the estimates of its inputs (for example a division by zero or the root of a negative number). Check the estimates and the formula."
+            ),
             EvaluationError::NoDerivative { measurand, input } => write!(
                 f,
-                "{measurand} has no finite derivative with respect to {input} at the estimates"
+                "The model of {measurand} has no finite derivative with respect to {input} at the estimates, so the GUM method cannot be used, and Monte Carlo was switched off. Run the evaluation with Monte Carlo."
             ),
-            EvaluationError::AllTrialsFailed { measurand } => {
-                write!(f, "no trial gives {measurand} a finite value")
-            }
+            EvaluationError::AllTrialsFailed { measurand } => write!(
+                f,
+                "Not one Monte Carlo trial gave a finite value of {measurand}. Check the distributions of the inputs and the formula."
+            ),
         }
     }
 }

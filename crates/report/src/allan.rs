@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::document::{Block, Document};
+use crate::document::{Axis, Block, Document, Layer, Marks, Panel, Plot, Tone};
 use crate::document::{ColumnKind, Table};
 use crate::language::Language;
 use crate::machine::{self, Machine, Number, record};
@@ -10,9 +10,6 @@ use crate::number::{TABLE_DIGITS, aligned, freedom, grouped, in_unit, probabilit
 use crate::quantity::Unit;
 use crate::recording::{Allan, Coefficient, Noises, PowerLaw};
 use crate::symbol;
-
-/// Below this probability of χ² the three noises do not explain the deviations.
-const DOUBTFUL: f64 = 0.01;
 
 /// An Allan deviation, ready to be shown.
 #[derive(Debug, Clone, Copy)]
@@ -186,7 +183,48 @@ fn blocks(report: &AllanReport<'_>) -> Vec<Block> {
         l.pick("Deviations", "各平均时间的偏差").into(),
     ));
     blocks.push(Block::Table(points(report)));
+    blocks.push(Block::Plot(plot(report)));
     blocks
+}
+
+/// The deviations with their intervals, the noises drawn over them.
+fn plot(report: &AllanReport<'_>) -> Plot {
+    let l = report.language;
+    let points = &report.allan.points;
+    let layer = |name: &str, tone, marks| Layer {
+        name: name.into(),
+        tone,
+        marks,
+    };
+    let intervals = points.iter().map(|p| [p.tau, p.interval[0], p.interval[1]]);
+    let deviations = points.iter().map(|p| [p.tau, p.deviation]);
+    let mut layers = vec![layer(
+        &format!(
+            "{} {}",
+            l.pick("confidence interval", "置信区间"),
+            probability(report.allan.probability)
+        ),
+        Tone::Quiet,
+        Marks::Band(intervals.collect()),
+    )];
+    if let Some(noises) = report.noises {
+        let curve = points.iter().map(|p| [p.tau, noises.deviation(p.tau)]);
+        let name = l.pick("the noises together", "各噪声之和");
+        layers.push(layer(name, Tone::Contrast, Marks::Line(curve.collect())));
+    }
+    let name = l.pick("Allan deviation", "阿伦偏差");
+    layers.push(layer(name, Tone::Main, Marks::Points(deviations.collect())));
+    Plot {
+        id: "allan".into(),
+        panels: vec![Panel {
+            title: l
+                .pick("Allan deviation over averaging time", "阿伦偏差与平均时间")
+                .into(),
+            x: Axis::logarithmic("τ", symbol(report.time)),
+            y: Axis::logarithmic("σ(τ)", symbol(report.unit)),
+            layers,
+        }],
+    }
 }
 
 fn data(report: &AllanReport<'_>) -> String {
@@ -275,12 +313,12 @@ fn quality(l: Language, noises: &Noises) -> String {
         "记录中不显示的噪声以“<”给出约 95 % 概率的上限；自由度小的阿伦方差不服从正态分布，该上限为近似值。",
     );
     let p = significant(noises.p_value, 2);
-    match noises.p_value < DOUBTFUL {
-        true => l.pick(
+    match noises.explain() {
+        false => l.pick(
             format!("{limits} These noises do not explain the deviations (p = {p}): something else is in the recording, such as a drift, a period or quantisation."),
             format!("{limits} 上述噪声不足以解释各偏差（p = {p}）：记录中可能还有漂移、周期成分或量化。"),
         ),
-        false => l.pick(
+        true => l.pick(
             format!("{limits} They explain the deviations (p = {p})."),
             format!("{limits} 上述噪声可以解释各偏差（p = {p}）。"),
         ),

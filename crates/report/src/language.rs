@@ -76,7 +76,7 @@ impl Word {
             Word::Correlation => ("Correlation coefficients", "相关系数"),
             Word::CoverageFactor => ("coverage factor k", "包含因子 k"),
             Word::Date => ("Date", "日期"),
-            Word::Distribution => ("distribution", "概率分布"),
+            Word::Distribution => ("distri\u{AD}bution", "概率分布"),
             Word::Ellipsoid => ("ellipsoid", "椭球区域"),
             Word::Estimate => ("estimate", "估计值"),
             Word::Exact => ("Exactly known", "精确已知的量"),

@@ -12,7 +12,7 @@ pub struct Table {
 /// A column: its head and how it behaves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Words above it.
+    /// Words above it; a soft hyphen (U+00AD) says where a long one may part.
     pub head: String,
     /// How it is set.
     pub kind: ColumnKind,

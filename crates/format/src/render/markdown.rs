@@ -12,14 +12,9 @@ pub(super) const FORMAT: Format = Format {
     render: |document, _| markdown(document).into_bytes(),
 };
 
-/// A document as Markdown.
+/// A document as Markdown, a blank line between its blocks.
 pub fn markdown(document: &Document) -> String {
-    draw(&document.blocks)
-}
-
-/// Blocks as Markdown, a blank line between them.
-pub fn draw(blocks: &[Block]) -> String {
-    let parts: Vec<String> = blocks.iter().map(draw_block).collect();
+    let parts: Vec<String> = document.blocks.iter().map(draw_block).collect();
     format!("{}\n", parts.join("\n\n"))
 }
 
@@ -124,6 +119,8 @@ fn escaped(text: &str) -> String {
         match c {
             // Text between backquotes is set as code by Markdown too.
             '`' => code = !code,
+            // A soft hyphen belongs to the narrow columns of a terminal.
+            '\u{AD}' => continue,
             '|' => out.push('\\'),
             '\\' | '*' | '<' | '~' if !code => out.push('\\'),
             '_' if !code && (!inside_word || !next_is_word) => out.push('\\'),

@@ -27,6 +27,26 @@ pub struct Noises {
     pub p_value: f64,
 }
 
+impl Noises {
+    /// Whether they explain the deviations: a χ² as great comes about in more than one of a hundred recordings.
+    pub fn explain(&self) -> bool {
+        /// Usual level of a test whose distribution is known approximately.
+        const LEVEL: f64 = 0.01;
+        self.p_value >= LEVEL
+    }
+
+    /// The Allan deviation of the noises that the recording shows, at an averaging time.
+    pub fn deviation(&self, tau: f64) -> f64 {
+        let shares = [self.white, self.bias_instability, self.rate_random_walk];
+        let shares = shares.into_iter().zip(PowerLaw::ALL);
+        let variance = shares.filter_map(|(found, law)| {
+            let value = found.value()?;
+            Some(value * value * law.allan_variance(tau))
+        });
+        variance.sum::<f64>().sqrt()
+    }
+}
+
 /// A coefficient of noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Coefficient {

@@ -1,6 +1,6 @@
 //! What stands below the table: elided rows, the combined u, subtotals.
 
-use super::SMALL;
+use super::common::SMALL;
 use crate::comparison;
 use crate::document::{Cell, ColumnKind, Table};
 use crate::language::{Language, Word};

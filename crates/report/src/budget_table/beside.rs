@@ -1,6 +1,6 @@
 //! What stands beside the table: origins of components, correlations, constants.
 
-use super::{LONG, SMALL, kind};
+use super::common::{LONG, SMALL, kind};
 use crate::budget::Component;
 use crate::document::Block;
 use crate::document::{ColumnKind, Row, Table};

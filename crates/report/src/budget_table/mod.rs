@@ -3,8 +3,9 @@
 
 mod below;
 mod beside;
+mod common;
 
-use crate::budget::{Component, Evaluation as Kind, Input, Owner, Term};
+use crate::budget::{Component, Input, Owner, Term};
 use crate::document::Block;
 use crate::document::{Cell, ColumnKind, Row, Table};
 use crate::language::{Language, Word};
@@ -12,15 +13,11 @@ use crate::number::{NONE, TABLE_DIGITS, aligned, freedom, percent, significant};
 use crate::propagate::{Contribution, FindingKind, Gum, is_residue};
 use crate::{Report, difference_symbol, symbol};
 
+use common::{LONG, SMALL, kind};
+
 use below::{elision, footer, subtotals};
 
 pub(super) use beside::{constants, correlated, origins};
-
-/// Rows that a reader takes in; a longer budget is sorted and its small rows are summed up.
-const LONG: usize = 40;
-
-/// Share of variance below which a row of a long budget is not shown.
-const SMALL: f64 = 0.001;
 
 /// The inputs of one measurand in the order of display.
 struct Selection {
@@ -277,11 +274,4 @@ fn distribution(component: &Component, language: Language) -> String {
         language.pick(named.key, short),
         kind(component.evaluation)
     )
-}
-
-fn kind(evaluation: Kind) -> &'static str {
-    match evaluation {
-        Kind::TypeA => "A",
-        Kind::TypeB => "B",
-    }
 }

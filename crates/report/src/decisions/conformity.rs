@@ -1,6 +1,6 @@
 //! One conformity assessment: its section and its sentence.
 
-use super::{Rows, chance, with_unit};
+use super::words::{Rows, chance, with_unit};
 use crate::budget::{Conformity, DecisionRule, Interval};
 use crate::document::Block;
 use crate::language::Language;

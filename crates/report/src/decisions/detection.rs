@@ -1,6 +1,6 @@
 //! Characteristic limits of one measurand: their section and their sentence.
 
-use super::{Rows, with_unit};
+use super::words::{Rows, with_unit};
 use crate::budget::Detection;
 use crate::document::Block;
 use crate::language::Language;

@@ -1,7 +1,7 @@
 //! Probabilities and risks: of the item that was measured, and of all items.
 
 use super::conformity::Assessment;
-use super::{Rows, chance, related};
+use super::words::{Rows, chance, related};
 use crate::language::Language;
 use crate::number::{NONE, significant};
 use crate::propagate::Verdict;

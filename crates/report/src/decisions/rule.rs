@@ -1,7 +1,7 @@
 //! The decision rule in words.
 
 use super::conformity::Assessment;
-use super::with_unit;
+use super::words::with_unit;
 use crate::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY};
 use crate::number::{exact, probability};
 

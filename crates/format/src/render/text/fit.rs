@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use unicode_width::UnicodeWidthStr;
 
-use super::lines::longest_piece;
+use super::lines::{longest_piece, shown_width};
 use crate::document::{Cell, ColumnKind, Row, Table};
 
 /// Spaces between columns, and what is left of them on a narrow page.
@@ -69,7 +69,7 @@ fn fitted(table: &Table, page: usize) -> Fitted {
     let mut columns = Columns {
         table,
         floor: floor(table, &body),
-        widths: heads(table, UnicodeWidthStr::width)
+        widths: heads(table, shown_width)
             .zip(&body)
             .map(|(head, body)| head.max(*body))
             .collect(),

@@ -10,20 +10,43 @@ pub(super) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     let mut line = String::new();
     for piece in pieces(text) {
-        if !line.is_empty() && line.width() + piece.trim_end().width() > width {
-            lines.push(line.trim_end().to_string());
+        if !line.is_empty() && shown_width(&line) + piece_width(piece) > width {
+            lines.push(shown(&line));
             line.clear();
         }
         line.push_str(piece);
     }
-    lines.push(line.trim_end().to_string());
+    lines.push(shown(&line));
     lines
+}
+
+/// Where a long word may part; seen only at the end of a line.
+const SOFT_HYPHEN: char = '\u{AD}';
+
+/// Width of a text on one line.
+pub(super) fn shown_width(text: &str) -> usize {
+    let soft = text.chars().filter(|c| *c == SOFT_HYPHEN).count();
+    text.width() - soft * SOFT_HYPHEN.width().unwrap_or(0)
+}
+
+/// Width of a piece at the end of a line.
+fn piece_width(piece: &str) -> usize {
+    shown_width(piece.trim_end()) + usize::from(piece.ends_with(SOFT_HYPHEN))
+}
+
+/// A line as it is printed.
+fn shown(line: &str) -> String {
+    let line = line.trim_end();
+    match line.strip_suffix(SOFT_HYPHEN) {
+        Some(front) => front.replace(SOFT_HYPHEN, "") + "-",
+        None => line.replace(SOFT_HYPHEN, ""),
+    }
 }
 
 /// Width of the longest part that stays on one line.
 pub(super) fn longest_piece(text: &str) -> usize {
     let pieces = pieces(text).into_iter();
-    pieces.map(|p| p.trim_end().width()).max().unwrap_or(0)
+    pieces.map(piece_width).max().unwrap_or(0)
 }
 
 /// Smallest parts that stay on one line: words with the space after them, short names of wide characters, other
@@ -79,6 +102,9 @@ fn may_break([second, last]: [char; 2], rest: &str) -> bool {
     };
     const ENDS: &str = "，。；：、）”！？)";
     const BINDS: &str = "=±≈<≤/−";
+    if last == SOFT_HYPHEN {
+        return true;
+    }
     if last == ' ' {
         let word = rest
             .split([' ', ',', ';', ':', '.'])
@@ -109,6 +135,8 @@ mod tests {
             ["扩展不确定", "度。包含因子"]
         );
         assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrapped("distri\u{AD}bution", 8), ["distri-", "bution"]);
+        assert_eq!(wrapped("distri\u{AD}bution", 12), ["distribution"]);
     }
 
     #[test]

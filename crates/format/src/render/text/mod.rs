@@ -46,7 +46,7 @@ impl Page {
 }
 
 /// Blocks as lines: a blank line between them, two before a further title, none below a head.
-pub fn draw(blocks: &[Block], page: Page) -> String {
+fn draw(blocks: &[Block], page: Page) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut below_section = false;
     for block in blocks {

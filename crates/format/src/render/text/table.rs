@@ -206,3 +206,72 @@ mod tests {
         );
     }
 }
+
+#[cfg(test)]
+mod properties {
+    use proptest::prelude::*;
+
+    use super::lines;
+    use crate::document::{Cell, ColumnKind, Row, Table};
+
+    const KINDS: [ColumnKind; 5] = [
+        ColumnKind::Names,
+        ColumnKind::Words,
+        ColumnKind::Numbers,
+        ColumnKind::Wrapped,
+        ColumnKind::Bar,
+    ];
+
+    /// What a reader must find whole.
+    const WHOLE: [&str; 10] = [
+        "p < 0.0001",
+        "-1.2345×10^-6",
+        "1 000 000",
+        "[0.12345, 0.67890]",
+        "95.45 %",
+        "thermal_expansion_of_the_rod",
+        "U = 0.12",
+        "0.000123",
+        "k=2",
+        "12-34.5",
+    ];
+
+    fn table() -> impl Strategy<Value = (Table, Vec<&'static str>)> {
+        let column = (0..KINDS.len(), prop::collection::vec(0..WHOLE.len(), 3));
+        prop::collection::vec(column, 1..9).prop_map(|columns| {
+            let mut table = Table::default();
+            let mut expected = Vec::new();
+            table.rows = vec![Row::Cells(Vec::new()); 3];
+            for (kind, words) in columns {
+                let mut widened = Table::new([("a head", KINDS[kind])]);
+                table.columns.append(&mut widened.columns);
+                for (row, word) in table.rows.iter_mut().zip(words) {
+                    let Row::Cells(cells) = row else { continue };
+                    cells.push(match KINDS[kind] {
+                        ColumnKind::Bar => Cell::Share(0.5),
+                        ColumnKind::Numbers => WHOLE[word].into(),
+                        _ => format!("some words, {} and more", WHOLE[word]).into(),
+                    });
+                    if KINDS[kind] != ColumnKind::Bar {
+                        expected.push(WHOLE[word]);
+                    }
+                }
+            }
+            (table, expected)
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn no_number_and_no_name_is_broken((table, expected) in table(), width in 40_usize..=120) {
+            let text = lines(&table, width).join("\n");
+            for word in expected {
+                // A list of two numbers may be parted between them, as words are.
+                let parts = word.split_inclusive(", ").map(str::trim_end);
+                for part in parts {
+                    prop_assert!(text.contains(part), "{part} at {width}:\n{text}");
+                }
+            }
+        }
+    }
+}

@@ -4,7 +4,7 @@
 //! result that rests on Monte Carlo states half the width of its coverage interval as U where that
 //! interval is symmetric about y, and the interval itself where it is not.
 
-use crate::budget::{Conventions, CoverageRule};
+use crate::budget::{Conventions, CoverageRule, StatementForm};
 use crate::distribution::KINDS;
 use crate::propagate::{Basis, Coverage, CoverageBasis, FindingKind, Freedom, MonteCarlo};
 use crate::quantity::{Decimal, Rounded, Unit, space_before};
@@ -49,15 +49,6 @@ struct Subject<'a> {
     language: Language,
 }
 
-/// How a profile writes result and uncertainty.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Form {
-    /// `y = (… ± …) unit`.
-    PlusMinus,
-    /// `y = … unit, U = … unit, k = …` (JJF 1059.1 5.3; a lone uncertainty carries no sign).
-    Apart,
-}
-
 impl<'a> Subject<'a> {
     fn new(report: &'a Report<'a>, measurand: usize) -> Self {
         let (name, unit) = report.measurand(measurand);
@@ -71,14 +62,11 @@ impl<'a> Subject<'a> {
         }
     }
 
-    fn form(&self) -> Form {
-        let apart = ["JJF", "CNAS"]
-            .iter()
-            .any(|p| self.conventions.profile.starts_with(p));
-        if apart || !self.conventions.state_probability {
-            Form::Apart
-        } else {
-            Form::PlusMinus
+    /// Without a probability, the coverage factor has to be beside U.
+    fn form(&self) -> StatementForm {
+        match self.conventions.state_probability {
+            true => self.conventions.statement,
+            false => StatementForm::Apart,
         }
     }
 
@@ -91,7 +79,7 @@ impl<'a> Subject<'a> {
         let u = self.small(u);
         let k = self.factor(coverage);
         match self.form() {
-            Form::PlusMinus => {
+            StatementForm::PlusMinus => {
                 let space = self.language.pick(" ", "");
                 format!(
                     "{}{space}{}",
@@ -99,7 +87,7 @@ impl<'a> Subject<'a> {
                     self.explained(&self.amount(&pair.uncertainty), &u, &k, coverage, dof)
                 )
             }
-            Form::Apart => self.apart(&pair, &u, &k, coverage, dof),
+            StatementForm::Apart => self.apart(&pair, &u, &k, coverage, dof),
         }
     }
 
@@ -298,11 +286,11 @@ impl<'a> Subject<'a> {
         match self.language {
             Language::English => {
                 let head = match self.form() {
-                    Form::PlusMinus => format!(
+                    StatementForm::PlusMinus => format!(
                         "{} The number after ± is the expanded uncertainty U = {expanded},",
                         self.equation(&pair)
                     ),
-                    Form::Apart => {
+                    StatementForm::Apart => {
                         format!("{name} = {y}; U_{index} = {expanded}. The expanded uncertainty is")
                     }
                 };
@@ -312,11 +300,11 @@ impl<'a> Subject<'a> {
             }
             Language::Chinese => {
                 let head = match self.form() {
-                    Form::PlusMinus => format!(
+                    StatementForm::PlusMinus => format!(
                         "{}其中 ± 号后的数为扩展不确定度 U = {expanded}，即",
                         self.equation(&pair)
                     ),
-                    Form::Apart => {
+                    StatementForm::Apart => {
                         format!("{name} = {y}；U_{index} = {expanded}。扩展不确定度为")
                     }
                 };
@@ -351,15 +339,15 @@ impl<'a> Subject<'a> {
         let (expanded, u) = (self.amount(&pair.uncertainty), self.small(u));
         let trials = self.trials();
         match (self.form(), self.language) {
-            (Form::PlusMinus, Language::English) => format!(
+            (StatementForm::PlusMinus, Language::English) => format!(
                 "{} The number after ± is the expanded uncertainty U = {expanded}, half the width of the {p} coverage interval found by the Monte Carlo method (JCGM 101, {trials} trials); with the standard uncertainty u = {u} this is a coverage factor k = U/u = {k}. The result of the GUM method was not validated against it.",
                 self.equation(&pair)
             ),
-            (Form::PlusMinus, Language::Chinese) => format!(
+            (StatementForm::PlusMinus, Language::Chinese) => format!(
                 "{}其中 ± 号后的数为扩展不确定度 U = {expanded}，即蒙特卡洛法（JJF 1059.2，{trials} 次试验）所得 {p} 包含区间的半宽；标准不确定度 u = {u}，相应的包含因子 k = U/u = {k}。GUM 法的结果未通过其验证。",
                 self.equation(&pair)
             ),
-            (Form::Apart, language) => {
+            (StatementForm::Apart, language) => {
                 let (name, y) = (self.name, self.value(&pair.estimate));
                 let index = p.trim_end_matches(" %");
                 match language {

@@ -5,7 +5,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::fixtures::{self, Case};
 use super::{Language, Report, evaluation, evaluation_schema, evaluations, statement};
-use crate::budget::CoverageRule;
+use crate::budget::{CoverageRule, StatementForm};
 use crate::render::{self, Page};
 
 fn text(report: &Report<'_>, page: Page) -> String {
@@ -131,6 +131,7 @@ fn a_fixed_factor_without_probability_stays_with_monte_carlo() {
         .find(|(_, case)| is_half_interval(case))
         .expect("a fixture");
     case.budget.conventions.profile = "JJF".into();
+    case.budget.conventions.statement = StatementForm::Apart;
     case.budget.conventions.coverage_factor = CoverageRule::Fixed(2.0);
     case.budget.conventions.state_probability = false;
     let sentence = &statement(&case.report(Language::Chinese))[0];

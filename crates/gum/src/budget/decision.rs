@@ -2,7 +2,6 @@
 //! recognition of a small effect (ISO 11929). For both, u is needed at other values of the measurand than
 //! the one that was found: [`Budget::at`].
 
-use super::Budget;
 use crate::distribution::Distribution;
 
 /// Values between two limits; a missing limit is infinite.
@@ -172,49 +171,9 @@ impl Follows {
     }
 }
 
-impl Budget {
-    /// How the effect of a component on an input follows the input's estimate; nothing where it does not.
-    pub fn follows(&self, input: usize, component: usize) -> Option<Follows> {
-        let mut found = self.following.iter();
-        let found = found.find(|f| f.input == input && f.component == component);
-        found.map(|f| f.rule)
-    }
-
-    /// The budget as it would be had the input this estimate: what is stated relative to the input, or
-    /// follows from a number of counts, follows it; everything else stays as it is.
-    #[must_use]
-    pub fn at(&self, input: usize, value: f64) -> Budget {
-        let mut moved = self.clone();
-        let Some(place) = moved.inputs.get_mut(input) else {
-            return moved;
-        };
-        let from = std::mem::replace(&mut place.estimate, value);
-        for following in self.following.iter().filter(|f| f.input == input) {
-            let factor = following.rule.factor(from, value);
-            let Some(component) = moved.components.get_mut(following.component) else {
-                continue;
-            };
-            match (&mut component.distribution, following.rule) {
-                // What so many counts would say of the expected number (JCGM 101 6.4.11).
-                (Distribution::Gamma { origin, shape, .. }, Follows::Root) if value > 0.0 => {
-                    (*origin, *shape) = (-value, value);
-                    component.u *= factor;
-                }
-                _ => {
-                    let terms = place.terms.iter_mut();
-                    for term in terms.filter(|term| term.component == following.component) {
-                        term.coefficient *= factor;
-                    }
-                }
-            }
-        }
-        moved
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::budget::Budget;
     use crate::budget::read;
 
     fn budget(inputs: &str) -> Budget {

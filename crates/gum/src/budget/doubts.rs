@@ -5,7 +5,6 @@ use std::path::Path;
 
 use super::Budget;
 use super::check::{self, Origin, Variant};
-use super::shelf::Shelf;
 use super::tables::FileTable;
 use crate::fault::{Fault, Rejection};
 use crate::files::Files;
@@ -15,9 +14,9 @@ use crate::files::Files;
 /// # Errors
 /// All faults.
 pub fn checked(file: FileTable, text: &str, directory: &Path) -> Result<Budget, Vec<Fault>> {
-    let shelf = Shelf::new(Files::Disk);
+    let files = super::reader::open_files(Files::Disk);
     let origin = Origin {
-        shelf: &shelf,
+        files: &files,
         directory,
         file: directory,
     };

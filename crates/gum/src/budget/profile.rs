@@ -1,6 +1,6 @@
 //! Profiles: the conventions on which guides differ.
 
-use super::{Conventions, CoverageRule, DofRule, OutputShape, TScale};
+use super::conventions::{Conventions, CoverageRule, DofRule, OutputShape, StatementForm, TScale};
 use crate::quantity::Rounding;
 
 /// A named set of conventions.
@@ -24,6 +24,8 @@ pub struct Profile {
     pub t_scale: TScale,
     /// Whether the statement names the coverage probability.
     pub state_probability: bool,
+    /// How the statement writes result and uncertainty.
+    pub statement: StatementForm,
     /// What it is, in English.
     pub en: &'static str,
     /// What it is, in Chinese.
@@ -47,6 +49,7 @@ impl Profile {
             up_if_lowered_by_5_percent: self.up_if_lowered_by_5_percent,
             t_scale: self.t_scale,
             state_probability: self.state_probability,
+            statement: self.statement,
         }
     }
 }
@@ -62,6 +65,7 @@ const GUM: Profile = Profile {
     up_if_lowered_by_5_percent: false,
     t_scale: TScale::Scale,
     state_probability: true,
+    statement: StatementForm::PlusMinus,
     en: "Coverage probability 95 %; k from the t distribution at the effective degrees of freedom, or from the \
          output distribution when a non-normal component dominates; two digits, rounded half to even.",
     zh: "包含概率 95 %；k 由有效自由度按 t 分布确定，非正态分量占优时由输出量分布确定；不确定度取两位有效数字，四舍六入五成双。",
@@ -87,6 +91,7 @@ pub const PROFILES: &[Profile] = &[
         name: "JJF",
         coverage_factor: CoverageRule::Fixed(2.0),
         state_probability: false,
+        statement: StatementForm::Apart,
         en: "k = 2, stated without a probability; two digits, rounded half to even (GB/T 8170).",
         zh: "取 k = 2，不注明包含概率；不确定度取两位有效数字，按 GB/T 8170 修约。",
         source: "JJF 1059.1-2012, 5.3.8; GB/T 8170-2008",
@@ -97,6 +102,7 @@ pub const PROFILES: &[Profile] = &[
         coverage_factor: CoverageRule::Fixed(2.0),
         rounding: Rounding::Up,
         state_probability: false,
+        statement: StatementForm::Apart,
         en: "As JJF, but digits beyond the last kept one are always carried up.",
         zh: "同 JJF，但末位以后的数字一律进位（只进不舍）。",
         source: "JJF 1059.1-2012, 5.3.8.2; as printed in JJF 2003-2022, annex A",

@@ -6,27 +6,19 @@ use std::path::Path;
 use serde_json::{Value, json};
 use toml::de::DeTable;
 
+use super::Profile;
 use super::check::{self, Origin, Variant};
+use super::checked::Loaded;
 use super::faults::UNUSED;
 use super::hints::HINTS;
+use super::open_files::OpenFiles;
 use super::series;
-use super::shelf::Shelf;
 use super::tables::FileTable;
-use super::{Heading, Profile, Row};
 use crate::fault::{Fault, Rejection};
 use crate::files::Files;
 use gumption_format::toml::faults::UNREADABLE_FILE;
 use gumption_format::toml::{FromToml, KeyRow, Reader, Stated, Table, read_table};
 use gumption_format::toml::{decoded, elsewhere, leaves_the_rest, syntax_faults};
-
-/// A file that was accepted.
-#[derive(Debug, Clone)]
-pub struct Loaded {
-    /// What the file says besides numbers.
-    pub heading: Heading,
-    /// One budget, or one for each row of the file's `[series]`.
-    pub rows: Vec<Row>,
-}
 
 /// Reads and checks a budget file.
 ///
@@ -55,13 +47,20 @@ pub fn load_from(
     profile: Option<&Profile>,
 ) -> Result<Loaded, Rejection> {
     let bytes = bytes_of(files, path)?;
-    load_bytes(&Shelf::new(files), path, bytes, profile)
+    load_bytes(&open_files(files), path, bytes, profile)
 }
 
 fn bytes_of(files: Files<'_>, path: &Path) -> Result<Vec<u8>, Rejection> {
     files.read(path).map_err(|error| {
         let fault = unreadable(files, path, &error);
         Rejection::new(&path.display().to_string(), "", vec![fault])
+    })
+}
+
+/// Nothing is open yet.
+pub(super) fn open_files(files: Files<'_>) -> OpenFiles<'_> {
+    OpenFiles::new(files, |files, path, bytes| {
+        load_bytes(files, path, bytes, None)
     })
 }
 
@@ -74,8 +73,8 @@ pub(super) fn text_of(files: Files<'_>, path: &Path) -> Result<String, Rejection
 }
 
 /// Reads and checks a budget file of this content.
-pub(super) fn load_bytes(
-    shelf: &Shelf<'_>,
+fn load_bytes(
+    files: &OpenFiles<'_>,
     path: &Path,
     bytes: Vec<u8>,
     profile: Option<&Profile>,
@@ -90,9 +89,9 @@ pub(super) fn load_bytes(
     }
     let text = decoded(bytes, path)?;
     let origin = Origin {
-        shelf,
+        files,
         directory: path.parent().unwrap_or_else(|| Path::new("")),
-        file: &shelf.files.identity(path),
+        file: &files.files.identity(path),
     };
     read_under(&text, &name, origin, profile)
 }
@@ -132,11 +131,11 @@ fn not_a_budget(name: &str) -> Fault {
 /// # Errors
 /// The text has faults: all of them.
 pub fn read(text: &str, name: &str, directory: &Path) -> Result<Loaded, Rejection> {
-    let shelf = Shelf::new(Files::Disk);
+    let files = open_files(Files::Disk);
     let origin = Origin {
-        shelf: &shelf,
+        files: &files,
         directory,
-        file: &shelf.files.identity(&directory.join(name)),
+        file: &files.files.identity(&directory.join(name)),
     };
     read_under(text, name, origin, None)
 }
@@ -156,7 +155,7 @@ fn read_under(
     }
     let (variants, mut faults) = variants(table.get_ref(), text, profile);
     let checked = origin
-        .shelf
+        .files
         .within(origin.file, || check::rows(variants, text, origin));
     match checked {
         Ok((heading, rows)) if faults.is_empty() && syntax.is_empty() => {
@@ -171,8 +170,8 @@ fn read_under(
         faults = syntax;
     }
     let mut rejection = Rejection::new(name, text, faults);
-    if origin.shelf.is_outermost() {
-        rejection.others = origin.shelf.take_rejections();
+    if origin.files.is_outermost() {
+        rejection.others = origin.files.take_rejections();
     }
     Err(rejection)
 }

@@ -3,39 +3,10 @@
 use serde_json::{Value, json};
 use toml::de::DeValue;
 
-use super::tables::{ColumnTable, ConstantTable, FitParameterTable, GroupColumnTable, SourceTable};
-use crate::fault::Fault;
+use super::tables::{ColumnTable, GroupColumnTable};
+use gumption_format::toml::Amount;
 use gumption_format::toml::faults::WRONG_TYPE;
-use gumption_format::toml::{Amount, Named};
 use gumption_format::toml::{FromToml, KeyRow, Raw, Reader, Stated, unknown_word};
-
-/// `[source.NAME]`: causes of uncertainty that several inputs share.
-#[derive(Debug, Clone)]
-pub struct Sources(pub Named<SourceTable>);
-
-impl FromToml for Sources {
-    fn expected() -> String {
-        "tables [source.NAME]".into()
-    }
-
-    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
-        if matches!(value.get_ref(), DeValue::String(_)) {
-            let fault = Fault::new(WRONG_TYPE, value.span(), "`source` is not a text here")
-                .label("expected tables [source.NAME], the causes that several inputs share")
-                .help("to say where the figures come from, write reference = \"…\"");
-            return reader.refuse(fault);
-        }
-        Named::read(value, reader).map(Sources)
-    }
-
-    fn schema() -> Value {
-        Named::<SourceTable>::schema()
-    }
-
-    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
-        Named::<SourceTable>::tables(path, rows);
-    }
-}
 
 /// A row of a series, by its label or its number.
 #[derive(Debug, Clone)]
@@ -60,46 +31,6 @@ impl FromToml for RowLabel {
 
     fn schema() -> Value {
         json!({ "type": ["string", "number"] })
-    }
-}
-
-/// A constant: `c = 9.8`, `c = "299792458 m/s"`, or a table.
-#[derive(Debug, Clone)]
-pub struct ConstantEntry(pub ConstantTable);
-
-impl FromToml for ConstantEntry {
-    fn expected() -> String {
-        "a number, an amount or a table".into()
-    }
-
-    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
-        if matches!(value.get_ref(), DeValue::Table(_)) {
-            return ConstantTable::read(value, reader).map(ConstantEntry);
-        }
-        let amount = Amount::read(value, reader)?;
-        let unit = amount.unit.clone().map(|(text, span)| Stated {
-            value: text,
-            key: span.clone(),
-            span,
-        });
-        let value = Some(Stated {
-            value: amount,
-            span: value.span(),
-            key: value.span(),
-        });
-        Some(ConstantEntry(ConstantTable {
-            value,
-            unit,
-            ..ConstantTable::default()
-        }))
-    }
-
-    fn schema() -> Value {
-        json!({ "oneOf": [Amount::schema(), ConstantTable::schema()] })
-    }
-
-    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
-        ConstantTable::tables(path, rows);
     }
 }
 
@@ -306,41 +237,5 @@ impl FromToml for TrialsEntry {
 
     fn schema() -> Value {
         json!({ "oneOf": [{ "enum": ["adaptive"] }, { "type": "integer", "minimum": 1000 }] })
-    }
-}
-
-/// Parameters of a fit: tables with unit and start value, or a list of names.
-#[derive(Debug, Clone)]
-pub struct FitParameters(pub Named<FitParameterTable>);
-
-impl FromToml for FitParameters {
-    fn expected() -> String {
-        "tables of parameters, or a list of their names".into()
-    }
-
-    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
-        match value.get_ref() {
-            DeValue::Table(_) => Named::read(value, reader).map(FitParameters),
-            DeValue::Array(_) => {
-                let names: Vec<Stated<String>> = Vec::read(value, reader)?;
-                let entries = names.into_iter().map(|name| {
-                    let table = name.map(|_| FitParameterTable::default());
-                    (name.value, table)
-                });
-                Some(FitParameters(Named {
-                    entries: entries.collect(),
-                    refused: false,
-                }))
-            }
-            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
-        }
-    }
-
-    fn schema() -> Value {
-        json!({ "oneOf": [Named::<FitParameterTable>::schema(), Vec::<Stated<String>>::schema()] })
-    }
-
-    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
-        Named::<FitParameterTable>::tables(path, rows);
     }
 }

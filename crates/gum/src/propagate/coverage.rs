@@ -270,6 +270,7 @@ mod tests {
             up_if_lowered_by_5_percent: false,
             t_scale: TScale::Scale,
             state_probability: true,
+            statement: crate::budget::StatementForm::PlusMinus,
         }
     }
 

@@ -173,6 +173,7 @@ impl Draft {
                 up_if_lowered_by_5_percent: false,
                 t_scale: TScale::Scale,
                 state_probability: true,
+                statement: crate::budget::StatementForm::PlusMinus,
             },
             monte_carlo: MonteCarloSettings {
                 points: Points::Random,

@@ -13,10 +13,10 @@ use super::faults::{KEY, STATE_INPUT};
 use super::names::{Kind, Names};
 use super::tables::{KnownTable, SharedTable};
 use crate::budget::doubts::checked;
+use crate::budget::tables::{ConstantEntry, Sources};
 use crate::budget::tables::{
     ConstantTable, CorrelationTable, FileTable, InputTable, MeasurandTable, SourceTable,
 };
-use crate::budget::variants::{ConstantEntry, Sources};
 use crate::budget::{Budget, Remark};
 use crate::equations::Quantity;
 use crate::fault::Fault;

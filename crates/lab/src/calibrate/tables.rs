@@ -3,10 +3,10 @@
 use serde_json::{Value, json};
 
 use super::procedure::PROCEDURES;
+use crate::budget::tables::ConstantEntry;
 use crate::budget::tables::{
     ConventionsTable, CorrelationTable, InputTable, MonteCarloTable, SourceTable,
 };
-use crate::budget::variants::ConstantEntry;
 use gumption_format::toml::{Amount, Cell, Date, Named, OneOrMany};
 use gumption_format::toml::{FromToml, Stated, table, words};
 

@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use super::checker::Checker;
 use super::draft::{Context, show};
-use super::{Checker, entries};
+use super::entries::entries;
 use crate::budget::faults::{NOT_POSITIVE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, UNIT_CLASH};
 use crate::budget::tables::FileTable;
 use crate::fault::Fault;
@@ -30,7 +31,7 @@ impl Checker<'_> {
             .iter()
             .map(|(name, definition)| (name.as_str(), definition.value.as_str()));
         let mut circle: Option<Fault> = None;
-        for (index, error) in self.units.define_all(pairs) {
+        for (index, error) in self.names.units.define_all(pairs) {
             let Some((name, definition)) = stated.get(index) else {
                 continue;
             };
@@ -45,7 +46,7 @@ impl Checker<'_> {
             };
             // The units of one circle are one mistake.
             match &mut circle {
-                _ if !in_circle => self.faults.push(fault),
+                _ if !in_circle => self.report(fault),
                 None => circle = Some(fault),
                 Some(first) => {
                     let label = format!("`{name}` waits for another one, too");
@@ -53,7 +54,7 @@ impl Checker<'_> {
                 }
             }
         }
-        self.faults.extend(circle);
+        self.messages.faults.extend(circle);
     }
 
     /// A stated unit; dimension one when none is stated, nothing when it was refused.
@@ -61,7 +62,7 @@ impl Checker<'_> {
         let Some(stated) = stated else {
             return Some(Unit::one());
         };
-        match self.units.parse(&stated.value) {
+        match self.names.units.parse(&stated.value) {
             Ok(unit) => Some(unit),
             Err(error) => {
                 let fault = self.in_string(Fault::from(error), stated);
@@ -72,10 +73,10 @@ impl Checker<'_> {
 
     /// Moves a fault inside a text of the file to its place in the file.
     fn in_string(&self, fault: Fault, stated: &Stated<String>) -> Fault {
-        match StringMap::new(self.text, stated.span.clone()) {
+        match StringMap::new(self.source.text, stated.span.clone()) {
             Some(map) if map.text() == stated.value => fault.moved(|range| map.place(range)),
             // The unit of an amount: `span` is the place of the unit itself, without quotes.
-            _ if self.text.get(stated.span.clone()) == Some(stated.value.as_str()) => {
+            _ if self.source.text.get(stated.span.clone()) == Some(stated.value.as_str()) => {
                 fault.moved(|range| stated.span.start + range.start..stated.span.start + range.end)
             }
             _ => fault.moved(|_| stated.span.clone()),

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Checker;
+use super::checker::Checker;
 use super::csv::lacks;
 use super::draft::{Context, Core, show};
 use super::type_a::Evaluated;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::{Context, Core, show};
 use super::shapes::Width;
 use crate::budget::distributions::Shape;

@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use super::Checker;
+use super::checker::Checker;
 use super::register::Register;
-use super::results::{Formula, Result, Taken};
+use super::taken::{Formula, OtherResult, Taken};
 use crate::budget::chain::{Chain, Ensemble, Identity, Member, Part, TakenResult, prefixes};
 use crate::budget::faults::SAVED_STALE;
 use crate::budget::saved::SavedResults;
@@ -38,7 +38,7 @@ impl Checker<'_> {
         groups: &mut Vec<Group>,
     ) -> Chain {
         let part = Part {
-            file: self.origin.file.into(),
+            file: self.source.origin.file.into(),
             row: row.map(Into::into),
         };
         let taken = std::mem::take(&mut register.taken);
@@ -46,7 +46,7 @@ impl Checker<'_> {
         let mut merge = Merge::new(&part, file, register, groups);
         for one in &taken {
             if let Err(stale) = merge.take(one) {
-                self.faults.push(*stale);
+                self.report(*stale);
             }
         }
         let Merge {
@@ -72,7 +72,7 @@ impl Checker<'_> {
             let name = register.entries[one.entry].name.clone();
             let file = &one.file;
             match &one.result {
-                Result::Saved { saved, result } => {
+                OtherResult::Saved { saved, result } => {
                     let saved = &saved.results[*result];
                     let y = &saved.measurand;
                     if !saved.trusted && saved.judged {
@@ -87,7 +87,7 @@ impl Checker<'_> {
                         );
                     }
                 }
-                Result::Budget { loaded, row, .. } => {
+                OtherResult::Budget { loaded, row, .. } => {
                     let budget = &loaded.rows[*row].budget;
                     self.other_t_scale(budget, file);
                 }
@@ -95,7 +95,7 @@ impl Checker<'_> {
         }
         let others = std::mem::take(&mut chain.remarks);
         let parts: Vec<Part> = others.iter().map(|(part, _)| part.clone()).collect();
-        let own = self.remarks.iter().cloned();
+        let own = self.messages.remarks.iter().cloned();
         chain.remarks = own.map(|remark| (part.clone(), remark)).collect();
         for ((from, remark), prefix) in others.into_iter().zip(prefixes(&parts)) {
             self.remark(
@@ -155,7 +155,7 @@ impl<'a> Merge<'a> {
             ensembles: ensembles.collect(),
             ..Chain::default()
         };
-        let units: Vec<(String, String)> = super::entries(&file.unit)
+        let units: Vec<(String, String)> = super::entries::entries(&file.unit)
             .iter()
             .map(|(name, definition)| (name.clone(), definition.value.clone()))
             .collect();
@@ -179,12 +179,12 @@ impl<'a> Merge<'a> {
 
     fn take(&mut self, taken: &Taken) -> std::result::Result<(), Box<Fault>> {
         match &taken.result {
-            Result::Budget {
+            OtherResult::Budget {
                 loaded,
                 row,
                 output,
             } => self.take_budget(taken, loaded, *row, *output),
-            Result::Saved { saved, result } => self.take_saved(taken, saved, *result),
+            OtherResult::Saved { saved, result } => self.take_saved(taken, saved, *result),
         }
     }
 

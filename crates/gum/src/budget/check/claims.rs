@@ -1,7 +1,8 @@
 //! Claims: what somebody's certificate says, each figure with the tolerance of its digits.
 
+use super::checker::Checker;
+use super::entries::entries;
 use super::register::Register;
-use super::{Checker, entries};
 use crate::budget::faults::{CLAIM, LIMITS, NOT_POSITIVE, UNKNOWN_NAME};
 use crate::budget::tables::{
     ClaimTable, ConfidenceWord, FileTable, InputClaimTable, MethodWord, ToleranceTable,
@@ -107,7 +108,7 @@ impl Checker<'_> {
         } else {
             self.claimed(&table.measurand, &stated.span)?
         };
-        let (name, source) = self.results.get(measurand).cloned()?;
+        let (name, source) = self.names.results.get(measurand).cloned()?;
         let (_, entry) = entries(&file.measurand).get(source)?;
         let unit = self.measurand_unit(&name, &entry.value.unit)?;
         let mut reading = Reading {
@@ -169,7 +170,7 @@ impl Checker<'_> {
         for (amount, what, tolerance) in deviations {
             let Some(amount) = amount else { continue };
             if amount.value.number < 0.0 && what != Figure::Shift {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         NOT_POSITIVE,
                         amount.span.clone(),
@@ -259,7 +260,7 @@ impl Checker<'_> {
                 continue;
             }
             if !matches!(limits.as_slice(), [Some(lower), Some(upper)] if lower < upper) {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         LIMITS,
                         stated.span.clone(),
@@ -305,7 +306,7 @@ impl Checker<'_> {
                 // An undecided validation, one half, agrees with neither verdict.
                 reading.push(what, f64::from(u8::from(verdict.value)), 0.25, None);
             }
-            _ => self.faults.push(
+            _ => self.report(
                 Fault::new(
                     CLAIM,
                     stated.span.clone(),
@@ -396,8 +397,8 @@ impl Checker<'_> {
     fn named_figures(&mut self, reading: &mut Reading<'_>) {
         for (name, stated) in entries(&reading.table.figures) {
             let known = || {
-                let found = self.figures.iter().map(|figure| figure.name.as_str());
-                found.chain(self.awaited_figures.iter().map(String::as_str))
+                let found = self.figures.found.iter().map(|figure| figure.name.as_str());
+                found.chain(self.figures.awaited.iter().map(String::as_str))
             };
             if known().any(|figure| figure == name) {
                 let tolerance = reading.tolerance(|t| &t.figures);
@@ -416,7 +417,7 @@ impl Checker<'_> {
                 }
                 None => format!("figures: {}", known().collect::<Vec<_>>().join(", ")),
             };
-            self.faults.push(
+            self.report(
                 Fault::new(
                     UNKNOWN_NAME,
                     stated.key.clone(),
@@ -445,7 +446,7 @@ impl Checker<'_> {
             format!("there is no input or component \"{name}\""),
         )
         .label("not declared");
-        self.faults.push(match nearest(name, known) {
+        self.report(match nearest(name, known) {
             Some(near) => fault.help(format!("did you mean \"{near}\"?")),
             None => fault.help("name an input (V) or a component (\"V.calibration\")"),
         });
@@ -453,7 +454,11 @@ impl Checker<'_> {
 
     /// Half a unit of the last digit as the file writes the number: 0.5e-4 for `0.0710`.
     fn half_digit<T>(&self, stated: &Stated<T>) -> f64 {
-        let text = self.text.get(stated.span.clone()).unwrap_or_default();
+        let text = self
+            .source
+            .text
+            .get(stated.span.clone())
+            .unwrap_or_default();
         let number: String = text
             .trim_start_matches(['"', '\'', ' '])
             .chars()
@@ -482,7 +487,12 @@ impl Checker<'_> {
         stated: &Option<Stated<String>>,
         place: &std::ops::Range<usize>,
     ) -> Option<usize> {
-        let names: Vec<String> = self.results.iter().map(|(name, _)| name.clone()).collect();
+        let names: Vec<String> = self
+            .names
+            .results
+            .iter()
+            .map(|(name, _)| name.clone())
+            .collect();
         let names: Vec<&str> = names.iter().map(String::as_str).collect();
         match stated {
             None if names.len() == 1 => Some(0),

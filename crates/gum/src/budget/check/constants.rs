@@ -1,6 +1,7 @@
 //! `[constant]`: exactly known quantities.
 
-use super::{Checker, entries};
+use super::checker::Checker;
+use super::entries::entries;
 use crate::budget::Constant;
 use crate::budget::faults::NO_ESTIMATE;
 use crate::budget::tables::FileTable;

@@ -1,6 +1,6 @@
 //! Profile, conventions and the settings of the Monte Carlo method.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::budget::faults::{CONVENTIONS, NOT_POSITIVE, PROBABILITY, TRIALS};
 use crate::budget::profile::{PROFILES, profile_named};
 use crate::budget::tables::{
@@ -245,12 +245,13 @@ impl Checker<'_> {
                     Some(trials) => fault.related(trials.span.clone(), "a fixed number of trials"),
                     None => fault,
                 };
-                self.faults
+                self.messages
+                    .faults
                     .push(fault.help("add trials = \"adaptive\", or remove it"));
             }
         }
         if let Some(trials) = trials.filter(|trials| fixed(trials) < FEWEST_TRIALS) {
-            self.faults.push(
+            self.report(
                 Fault::new(
                     TRIALS,
                     trials.span.clone(),
@@ -275,7 +276,7 @@ impl Checker<'_> {
                     .digits
                     .as_ref()
                     .map_or(0..0, |digits| digits.span.clone());
-                self.faults.push(
+                self.report(
                     Fault::new(TRIALS, span, format!("{other} significant digits"))
                         .label("expected 1 or 2"),
                 );
@@ -287,7 +288,7 @@ impl Checker<'_> {
             .as_ref()
             .filter(|max| max.value < FEWEST_TRIALS)
         {
-            self.faults.push(
+            self.report(
                 Fault::new(
                     TRIALS,
                     max.span.clone(),

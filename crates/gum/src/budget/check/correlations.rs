@@ -4,11 +4,12 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::show;
 use super::fits::Fitted;
 use super::groups::connected;
 use super::register::Register;
+use super::statement::{ROUNDING, Statement};
 use crate::budget::faults::{
     CORRELATION_TWICE, MISSING_KEY, NOT_A_CORRELATION, PAIR_TWICE, SELF_PAIR, UNKNOWN_NAME,
 };
@@ -17,24 +18,6 @@ use crate::budget::{Component, Group, Owner};
 use crate::fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::WRONG_TYPE;
-
-/// Eigenvalues down to this are zero within the rounding of the arithmetic.
-pub(super) const ROUNDING: f64 = 1e-9;
-
-/// A stated correlation, spread over the components of its two sides.
-#[derive(Debug, Clone)]
-pub(super) struct Statement {
-    pub names: [Arc<str>; 2],
-    pub r: f64,
-    pub place: Range<usize>,
-    /// Correlation of the sides' own parts = `scale`·r + `offset`.
-    pub scale: f64,
-    pub offset: f64,
-    /// Component pairs, and the part of the correlation that falls on them.
-    pub pairs: Vec<(usize, usize, f64)>,
-    /// Of how many quantities, all correlated alike, this is one pair.
-    pub whole: usize,
-}
 
 /// One side of a correlation: components with their shares of the side's standard uncertainty.
 pub(super) struct Side {
@@ -60,7 +43,7 @@ impl Checker<'_> {
         let mut statements = Vec::new();
         let mut groups = self.joint_groups(file, register, &mut statements);
         groups.extend(self.fit_groups(fitted, register));
-        let before = self.faults.len();
+        let before = self.messages.faults.len();
         for stated in file
             .correlation
             .as_ref()
@@ -71,7 +54,7 @@ impl Checker<'_> {
         }
         self.twice(&statements);
         self.outside_groups(&statements, &groups, register);
-        if self.faults.len() > before {
+        if self.messages.faults.len() > before {
             return groups;
         }
         for members in connected(&statements, &register.families, register.components.len()) {
@@ -147,7 +130,7 @@ impl Checker<'_> {
         if (-1.0..=1.0).contains(&r.value) {
             return true;
         }
-        self.faults.push(
+        self.report(
             Fault::new(
                 NOT_A_CORRELATION,
                 r.span.clone(),
@@ -315,7 +298,7 @@ impl Checker<'_> {
             }
             if let Some(earlier) = earlier {
                 let [a, b] = &later.names;
-                self.faults.push(
+                self.report(
                     Fault::new(
                         PAIR_TWICE,
                         later.place.clone(),
@@ -342,7 +325,7 @@ impl Checker<'_> {
                 .flat_map(|(a, b, _)| [*a, *b])
                 .find(|index| joint.contains(index));
             if let Some(component) = taken.and_then(|index| register.components.get(index)) {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         CORRELATION_TWICE,
                         statement.place.clone(),

@@ -3,7 +3,7 @@
 use std::io::ErrorKind;
 use std::ops::Range;
 
-use super::Checker;
+use super::checker::Checker;
 use crate::budget::faults::{CSV, MISSING_KEY, VECTOR};
 use crate::budget::tables::{ColumnTable, ComponentTable};
 use crate::budget::variants::{Amounts, Numbers};
@@ -77,7 +77,11 @@ impl Checker<'_> {
     }
 
     fn decimal(&self, number: &Stated<f64>) -> Dd {
-        let text = self.text.get(number.span.clone()).unwrap_or_default();
+        let text = self
+            .source
+            .text
+            .get(number.span.clone())
+            .unwrap_or_default();
         Dd::parse(&text.replace('_', ""))
             .filter(|decimal| decimal.value() == number.value)
             .unwrap_or(Dd::from(number.value))
@@ -199,13 +203,13 @@ impl Checker<'_> {
     }
 
     fn csv_text(&mut self, file: &Stated<String>) -> Option<String> {
-        let path = self.origin.directory.join(&file.value);
-        let folder = self.origin.folder();
-        let bytes = match self.origin.shelf.files.read(&path) {
+        let path = self.source.origin.directory.join(&file.value);
+        let folder = self.source.origin.folder();
+        let bytes = match self.source.origin.files.files.read(&path) {
             Ok(bytes) => bytes,
             Err(error) => {
                 let message = match error.kind() {
-                    _ if self.origin.shelf.files.is_folder(&path) => {
+                    _ if self.source.origin.files.files.is_folder(&path) => {
                         format!("{} is a folder, not a file", file.value)
                     }
                     ErrorKind::NotFound => format!("there is no file {} in {folder}", file.value),

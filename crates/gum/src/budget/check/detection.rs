@@ -1,7 +1,8 @@
 //! `[detection]`: what decision threshold and detection limit need to know.
 
+use super::checker::Checker;
+use super::entries::entries;
 use super::register::Register;
-use super::{Checker, entries};
 use crate::budget::Detection;
 use crate::budget::faults::{DETECTION, MISSING_KEY, NOT_POSITIVE};
 use crate::budget::tables::{DetectionTable, FileTable};
@@ -22,7 +23,7 @@ impl Checker<'_> {
                 continue;
             };
             if found.iter().any(|d| d.measurand == detection.measurand) {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         DETECTION,
                         one.span.clone(),
@@ -34,7 +35,7 @@ impl Checker<'_> {
             }
             if let Some((name, _)) = entries(&file.measurand).get(detection.measurand) {
                 let names = Detection::FIGURES.map(|figure| format!("{name}.{figure}"));
-                self.awaited_figures.extend(names);
+                self.figures.awaited.extend(names);
             }
             found.push(detection);
         }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Checker;
+use super::checker::Checker;
 use crate::budget::faults::{DOF, NOT_POSITIVE};
 use crate::budget::tables::ComponentTable;
 use crate::budget::{Certificate, Evaluation, Finding, Follows, TScale};

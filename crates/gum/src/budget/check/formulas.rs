@@ -3,8 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::checker::Checker;
+use super::entries::entries;
 use super::register::Register;
-use super::{Checker, entries};
 use crate::budget::faults::{NO_MEASURAND, UNUSED};
 use crate::budget::tables::{FileTable, MeasurandTable};
 use crate::budget::{Constant, Measurand};
@@ -93,7 +94,7 @@ impl Checker<'_> {
             .map(|((name, entry), unit)| self.measurand_source(name, &entry.value, unit))
             .collect();
         let symbols = symbols(constants, register);
-        let units = self.units.clone();
+        let units = self.names.units.clone();
         let request = Request {
             symbols: &symbols,
             shared: file.model.as_ref().map(|text| text.value.as_str()),
@@ -102,7 +103,7 @@ impl Checker<'_> {
         };
         match compile(&request) {
             Ok(model) => {
-                if !self.hidden_names {
+                if !self.names.hidden {
                     self.unused(file, &model, constants.len(), register);
                     self.unused_fits(file, &model, constants.len(), register);
                 }
@@ -113,13 +114,13 @@ impl Checker<'_> {
             }
             Err(faults) => {
                 // A name may be declared in the part of the file that was refused.
-                let hidden = self.hidden_names;
+                let hidden = self.names.hidden;
                 for fault in faults
                     .into_iter()
                     .filter(|f| !(hidden && is_missing(&f.fault)))
                 {
                     let placed = self.placed(fault, file, constants.len(), register);
-                    self.faults.push(placed);
+                    self.report(placed);
                 }
                 None
             }
@@ -132,7 +133,7 @@ impl Checker<'_> {
         if refused || file.unknown || file.present.iter().any(|(key, _)| *key == "fit") {
             return None;
         }
-        let end = self.text.trim_end().len();
+        let end = self.source.text.trim_end().len();
         self.refuse(
             Fault::new(NO_MEASURAND, end..end, "the file has no measurand")
                 .label("expected a [measurand.NAME]")
@@ -197,7 +198,9 @@ impl Checker<'_> {
         let Some(text) = text else {
             return fault.moved(|_| 0..0);
         };
-        match StringMap::new(self.text, text.span.clone()).filter(|map| map.text() == text.value) {
+        match StringMap::new(self.source.text, text.span.clone())
+            .filter(|map| map.text() == text.value)
+        {
             Some(map) => fault.moved(|range| map.place(range)),
             None => fault.moved(|_| text.span.clone()),
         }
@@ -234,7 +237,7 @@ impl Checker<'_> {
 
     /// Reports a budget in which nothing is uncertain.
     fn no_inputs(&mut self, model: &Model, register: &Register) {
-        if !register.entries.is_empty() || self.hidden_names {
+        if !register.entries.is_empty() || self.names.hidden {
             return;
         }
         let names: Vec<&str> = model
@@ -242,8 +245,8 @@ impl Checker<'_> {
             .iter()
             .map(|output| output.name.as_str())
             .collect();
-        let end = self.text.trim_end().len();
-        self.faults.push(
+        let end = self.source.text.trim_end().len();
+        self.report(
             Fault::new(
                 NO_MEASURAND,
                 end..end,
@@ -271,19 +274,19 @@ impl Checker<'_> {
         }
         for fault in model.undefined(&estimates) {
             let placed = self.placed(fault, file, constants, register);
-            self.faults.push(placed);
+            self.report(placed);
         }
     }
 
     fn unused(&mut self, file: &FileTable, model: &Model, constants: usize, register: &Register) {
-        let parameters = constants..constants + self.parameters.len();
+        let parameters = constants..constants + self.names.parameters.len();
         for index in model.unused_symbols() {
             // Of a fit, all parameters come together.
             if parameters.contains(&index) {
                 continue;
             }
             let constant = entries(&file.constant).get(index);
-            if constant.is_some_and(|(name, _)| self.used_by_fits.contains(name)) {
+            if constant.is_some_and(|(name, _)| self.names.used_by_fits.contains(name)) {
                 continue;
             }
             let place = self.symbol_place(index, file, constants, register);
@@ -304,7 +307,7 @@ impl Checker<'_> {
                 )
             };
             let name = name.unwrap_or_default();
-            self.faults.push(
+            self.report(
                 Fault::new(
                     UNUSED,
                     place,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::{Context, Core, Location};
 use super::ways::Way;
 use crate::budget::distributions::DistributionEntry;

@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
-use super::Checker;
-use super::correlations::{ROUNDING, Statement};
+use super::checker::Checker;
 use super::draft::show;
 use super::register::{Register, t_dof};
+use super::statement::{ROUNDING, Statement};
 use crate::budget::faults::{NOT_SEMIDEFINITE, UNATTAINABLE};
 use crate::budget::{Component, Group, Law};
 use crate::distribution::{Distribution, latent_correlation};

@@ -2,15 +2,16 @@
 
 use std::ops::Range;
 
+use super::checker::Checker;
 use super::draft::{Context, Draft, Location, show};
-use super::register::{InputEntry, Register};
+use super::entries::entries;
+use super::register::{InputEntry, Register, blank};
 use super::type_a::all_equal;
 use super::ways::{Way, expectation, locates};
-use super::{Checker, entries};
 use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS};
 use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
-use crate::budget::{Follows, Input, Owner};
+use crate::budget::{Follows, Owner};
 use crate::fault::Fault;
 use crate::quantity::Unit;
 use gumption_format::toml::Stated;
@@ -461,7 +462,7 @@ impl Checker<'_> {
                 continue;
             };
             if let (Some(name), Some(earlier)) = (&draft.named, &first.named) {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         NAME_TWICE,
                         name.clone(),
@@ -487,26 +488,4 @@ pub(super) fn single(table: &ComponentTable) -> bool {
         .of
         .as_ref()
         .is_some_and(|of| of.value != ReadingsOf::Mean)
-}
-
-/// `U[3]`, counted from 1.
-pub(super) fn element_name(name: &str, element: usize) -> String {
-    format!("{name}[{}]", element + 1)
-}
-
-/// An input of which nothing is known yet but its words.
-pub(super) fn blank(
-    name: &str,
-    table: &InputTable,
-    unit: Option<&Unit>,
-    element: Option<usize>,
-) -> Input {
-    Input {
-        name: element.map_or_else(|| name.to_string(), |element| element_name(name, element)),
-        description: table.description.as_ref().map(|text| text.value.clone()),
-        group: table.group.as_ref().map(|text| text.value.clone()),
-        unit: unit.cloned().unwrap_or_else(Unit::one),
-        estimate: f64::NAN,
-        terms: Vec::new(),
-    }
 }

@@ -4,11 +4,12 @@ use std::collections::HashSet;
 
 use nalgebra::DMatrix;
 
-use super::Checker;
-use super::correlations::{Side, Statement};
+use super::checker::Checker;
+use super::correlations::Side;
 use super::draft::{Draft, Kind, Location, show};
 use super::groups::negative_eigenvalue;
 use super::register::{Register, no_such_input};
+use super::statement::Statement;
 use super::type_a::{mean_and_squares, student};
 use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS};
 use crate::budget::tables::{FileTable, JointTable};
@@ -76,7 +77,7 @@ impl Checker<'_> {
                     .iter()
                     .any(|member| group.members.contains(member))
             }) {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         CORRELATION_TWICE,
                         stated.span.clone(),
@@ -122,7 +123,7 @@ impl Checker<'_> {
                     complete = false;
                     let entries = register.entries.iter();
                     let known: Vec<&str> = entries.map(|entry| entry.name.as_str()).collect();
-                    self.faults.push(no_such_input(name, &known));
+                    self.report(no_such_input(name, &known));
                 }
             }
         }
@@ -282,7 +283,7 @@ impl Checker<'_> {
         statements: &mut Vec<Statement>,
     ) {
         if let Some(dof) = &stated.value.dof {
-            self.faults.push(
+            self.report(
                 Fault::new(MODIFIER, dof.key.clone(), "`dof` does not go with a correlation matrix")
                     .label("no meaning here")
                     .help("state the degrees of freedom with the uncertainties of the inputs, or give `covariance`"),
@@ -293,7 +294,7 @@ impl Checker<'_> {
         };
         for i in 0..inputs.len() {
             if (matrix[(i, i)] - 1.0).abs() > 1e-9 {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         JOINT,
                         correlation.value[i].value[i].span.clone(),

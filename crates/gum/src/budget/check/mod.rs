@@ -7,6 +7,7 @@ mod amounts;
 mod anova;
 mod certificates;
 mod chain;
+mod checker;
 mod claims;
 mod conformity;
 mod constants;
@@ -15,6 +16,7 @@ mod correlations;
 mod csv;
 mod detection;
 mod draft;
+mod entries;
 mod fits;
 mod formulas;
 mod given;
@@ -28,6 +30,8 @@ mod results;
 mod shapes;
 mod sources;
 mod specification;
+mod statement;
+mod taken;
 #[cfg(test)]
 mod tests;
 mod type_a;
@@ -37,83 +41,13 @@ mod ways;
 
 use std::path::Path;
 
-use super::shelf::Shelf;
 use super::tables::FileTable;
-use super::{
-    Budget, Component, Conventions, Heading, MonteCarloSettings, NamedFigure, Owner, Remark, Row,
-    TScale, Trials,
-};
+use super::{Budget, Component, Heading, MonteCarloSettings, NamedFigure, Owner, Row, Trials};
 use crate::fault::Fault;
-use crate::quantity::{Unit, UnitTable};
-use gumption_format::toml::Named;
+pub(super) use checker::Origin;
+use checker::{Checker, Source};
+use entries::{entries, shared};
 use gumption_format::toml::Stated;
-
-/// Where a budget comes from, and with it the files that it names.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Origin<'a> {
-    /// What has been read already.
-    pub shelf: &'a Shelf<'a>,
-    /// Folder of the budget, from which paths in it start.
-    pub directory: &'a Path,
-    /// The budget's own file, as [`Files::identity`](crate::budget::Files::identity) gives it.
-    pub file: &'a Path,
-}
-
-impl Origin<'_> {
-    /// The folder in words.
-    fn folder(&self) -> String {
-        match self.directory.as_os_str().is_empty() {
-            true => "the current folder".to_string(),
-            false => format!("the folder {}", self.directory.display()),
-        }
-    }
-}
-
-/// What all checks share.
-struct Checker<'a> {
-    /// The whole file.
-    text: &'a str,
-    origin: Origin<'a>,
-    units: UnitTable,
-    conventions: Conventions,
-    /// Date of the measurement.
-    date: Option<String>,
-    faults: Vec<Fault>,
-    remarks: Vec<Remark>,
-    /// What the fits of the file say about the scatter of their responses.
-    scatters: Vec<fits::Scatter>,
-    /// Parameters of fits with their units.
-    parameters: Vec<(String, Option<Unit>)>,
-    /// Names that the formulas of fits use.
-    used_by_fits: Vec<String>,
-    /// Figures of the analyses of the file's data.
-    figures: Vec<NamedFigure>,
-    /// Names of figures that only the evaluation will give.
-    awaited_figures: Vec<String>,
-    /// Every result by name, with the entry of the file it belongs to: a vector has one per element.
-    results: Vec<(String, usize)>,
-    /// Whether names that formulas use may be declared in a part of the file that was refused.
-    hidden_names: bool,
-}
-
-impl Checker<'_> {
-    /// Reports a fault; nothing can be returned.
-    fn refuse<T>(&mut self, fault: Fault) -> Option<T> {
-        self.faults.push(fault);
-        None
-    }
-
-    fn remark(&mut self, en: String, zh: String) {
-        let remark = Remark { en, zh };
-        if !self.remarks.contains(&remark) {
-            self.remarks.push(remark);
-        }
-    }
-
-    fn t_scale(&self) -> TScale {
-        self.conventions.t_scale
-    }
-}
 
 /// One evaluation: the file itself, or with the values of a row of its series in place.
 pub(super) struct Variant {
@@ -203,26 +137,17 @@ fn budget(
     row: Option<&str>,
 ) -> Result<Budget, Vec<Fault>> {
     let (conventions, resolution, faults) = conventions::conventions(file);
-    let mut checker = Checker {
+    let source = Source {
         text,
         origin,
-        units: UnitTable::default(),
-        conventions,
         date: heading.date.clone(),
-        faults,
-        remarks: Vec::new(),
-        scatters: Vec::new(),
-        parameters: Vec::new(),
-        used_by_fits: Vec::new(),
-        figures: Vec::new(),
-        awaited_figures: Vec::new(),
-        results: Vec::new(),
-        hidden_names: names_hidden(file),
     };
+    let mut checker = Checker::new(source, file, conventions);
+    checker.messages.faults = faults;
     let budget = checker.budget(file, resolution, heading, row);
     match budget {
-        Some(budget) if checker.faults.is_empty() => Ok(budget),
-        _ => Err(checker.faults),
+        Some(budget) if checker.messages.faults.is_empty() => Ok(budget),
+        _ => Err(checker.messages.faults),
     }
 }
 
@@ -248,12 +173,12 @@ impl Checker<'_> {
         let mut groups = self.groups(file, &fitted, &mut register);
         let chain = self.chain(file, row, &mut register, &mut groups);
         let model = self.model(file, &constants, &register);
-        self.results = formulas::results(file, model.as_ref());
+        self.names.results = formulas::results(file, model.as_ref());
         let conformity = self.conformity(file, &register);
         let detection = self.detection(file, &register);
         self.await_tolerances(file, &monte_carlo);
         let found = register.analyses.iter().flat_map(|one| one.figures());
-        self.figures.extend(found);
+        self.figures.found.extend(found);
         let claims = self.claims(file, &register);
         Some(Budget {
             heading: heading.clone(),
@@ -262,7 +187,7 @@ impl Checker<'_> {
             model: model?,
             inputs: register.inputs,
             constants,
-            measurands: formulas::measurands(file, &self.results),
+            measurands: formulas::measurands(file, &self.names.results),
             components: register.components,
             groups,
             following: register.following,
@@ -271,8 +196,8 @@ impl Checker<'_> {
             fits: fitted.into_iter().map(|found| found.fit).collect(),
             claims,
             analyses: register.analyses,
-            figures: std::mem::take(&mut self.figures),
-            remarks: std::mem::take(&mut self.remarks),
+            figures: std::mem::take(&mut self.figures.found),
+            remarks: std::mem::take(&mut self.messages.remarks),
             chain,
         })
     }
@@ -283,42 +208,11 @@ impl Checker<'_> {
     fn await_tolerances(&mut self, file: &FileTable, monte_carlo: &MonteCarloSettings) {
         for (name, _) in entries(&file.measurand) {
             let tolerances = [1, 2].map(|digits| NamedFigure::tolerance(name, digits));
-            self.awaited_figures.extend(tolerances);
+            self.figures.awaited.extend(tolerances);
         }
         if matches!(monte_carlo.trials, Trials::Adaptive { .. }) {
             let batches = [NamedFigure::LEAST_BATCH, NamedFigure::BATCH];
-            self.awaited_figures.extend(batches.map(String::from));
+            self.figures.awaited.extend(batches.map(String::from));
         }
     }
-}
-
-/// Whether the file has an unknown table or key at its top, or an entry that could not be read: what a
-/// formula names may be declared there.
-fn names_hidden(file: &FileTable) -> bool {
-    let refused = |key: &str, entry: Option<bool>| {
-        entry.unwrap_or_else(|| file.present.iter().any(|(present, _)| *present == key))
-    };
-    file.unknown
-        || refused(
-            "input",
-            file.input.as_ref().map(|named| named.value.refused),
-        )
-        || refused(
-            "constant",
-            file.constant.as_ref().map(|named| named.value.refused),
-        )
-        || refused("fit", file.fit.as_ref().map(|named| named.value.refused))
-        || refused("model", file.model.as_ref().map(|_| false))
-}
-
-/// The shared causes of a file.
-fn shared(file: &FileTable) -> &[(String, Stated<super::tables::SourceTable>)] {
-    file.source
-        .as_ref()
-        .map_or(&[], |stated| &stated.value.0.entries)
-}
-
-/// The named entries of an optional table.
-fn entries<T>(named: &Option<Stated<Named<T>>>) -> &[(String, Stated<T>)] {
-    named.as_ref().map_or(&[], |stated| &stated.value.entries)
 }

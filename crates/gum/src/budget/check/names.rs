@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::{Checker, entries, shared};
+use super::checker::Checker;
+use super::entries::{entries, shared};
 use crate::budget::faults::{BAD_NAME, NAME_TWICE};
 use crate::budget::tables::FileTable;
 use crate::fault::Fault;
@@ -67,7 +68,7 @@ impl Checker<'_> {
         place: Range<usize>,
     ) {
         if let Some(first) = used.get(name) {
-            self.faults.push(
+            self.report(
                 Fault::new(NAME_TWICE, place, format!("the name {name} is used twice"))
                     .label("used again here")
                     .related(first.clone(), "first used here")
@@ -80,13 +81,13 @@ impl Checker<'_> {
 
     pub(super) fn check_name(&mut self, name: &str, place: &Range<usize>, kind: &str) {
         if !is_identifier(name) {
-            self.hidden_names = true;
+            self.names.hidden = true;
             let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) {
                 "an"
             } else {
                 "a"
             };
-            self.faults.push(
+            self.report(
                 Fault::new(
                     BAD_NAME,
                     place.clone(),

@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use super::draft::{Draft, Kind};
-use super::results::{Formula, Taken};
+use super::taken::{Formula, Taken};
 use crate::budget::faults::UNKNOWN_NAME;
+use crate::budget::tables::InputTable;
 use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
 use crate::distribution::Distribution;
 use crate::fault::{Fault, nearest};
@@ -240,4 +241,26 @@ pub(super) fn no_such_input(name: &Stated<String>, known: &[&str]) -> Fault {
     Fault::new(UNKNOWN_NAME, name.span.clone(), message)
         .label("not declared")
         .help(help)
+}
+
+/// `U[3]`, counted from 1.
+pub(super) fn element_name(name: &str, element: usize) -> String {
+    format!("{name}[{}]", element + 1)
+}
+
+/// An input of which nothing is known yet but its words.
+pub(super) fn blank(
+    name: &str,
+    table: &InputTable,
+    unit: Option<&Unit>,
+    element: Option<usize>,
+) -> Input {
+    Input {
+        name: element.map_or_else(|| name.to_string(), |element| element_name(name, element)),
+        description: table.description.as_ref().map(|text| text.value.clone()),
+        group: table.group.as_ref().map(|text| text.value.clone()),
+        unit: unit.cloned().unwrap_or_else(Unit::one),
+        estimate: f64::NAN,
+        terms: Vec::new(),
+    }
 }

@@ -1,6 +1,6 @@
 //! Resolution beside repeatability: double counting, and readings that do not scatter at all.
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::{Draft, Kind, show};
 use crate::budget::tables::ResolutionWord;
 

@@ -1,74 +1,19 @@
 //! `from = { … }`: an input that is the result of another budget, or a saved one.
 
 use std::io::ErrorKind;
-use std::ops::Range;
-use std::rc::Rc;
-use std::sync::Arc;
 
-use super::Checker;
-use super::inputs::blank;
-use super::register::{InputEntry, Register};
-use crate::budget::Loaded;
+use super::checker::Checker;
+use super::register::{InputEntry, Register, blank};
+use super::taken::{OtherResult, Taken};
 use crate::budget::faults::{
     FROM, FROM_CIRCLE, FROM_MEASURAND, FROM_REFUSED, SAVED_RESULT, UNIT_CLASH,
 };
-use crate::budget::saved::SavedResults;
-use crate::budget::shelf::Missing;
+use crate::budget::open_files::Missing;
 use crate::budget::tables::{FromTable, InputTable};
 use crate::fault::{Fault, nearest};
-use crate::model::Model;
 use crate::quantity::Unit;
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::UNREADABLE_FILE;
-
-/// What an input takes over.
-#[derive(Debug, Clone)]
-pub(super) struct Taken {
-    /// Index into the entries of the register.
-    pub entry: usize,
-    pub result: Result,
-    /// The file as the user names it.
-    pub file: String,
-    /// Heading that the user wants for what comes with it.
-    pub group: Option<String>,
-    pub place: Range<usize>,
-}
-
-impl Taken {
-    /// The fault of a correlation that is stated for such an input.
-    pub(super) fn not_to_be_correlated(&self, name: &Stated<String>) -> Fault {
-        Fault::new(
-            FROM,
-            name.span.clone(),
-            format!("{} is a result of {}, and no correlation of it can be stated", name.value, self.file),
-        )
-        .label("what it has in common with others follows from its components")
-        .related(self.place.clone(), "the other file")
-        .help("use a common budget or a common [source] in the other files; for a bare coefficient state the result as an input with `value` and `u`")
-    }
-}
-
-/// A result of another file.
-#[derive(Debug, Clone)]
-pub(super) enum Result {
-    Budget {
-        loaded: Rc<Loaded>,
-        row: usize,
-        output: usize,
-    },
-    Saved {
-        saved: Rc<SavedResults>,
-        result: usize,
-    },
-}
-
-/// The formula behind an input, with the places of its own inputs.
-#[derive(Debug, Clone)]
-pub(super) struct Formula {
-    pub model: Arc<Model>,
-    pub output: usize,
-    pub places: Vec<usize>,
-}
 
 /// One thing to choose from in another file.
 struct Candidate<'a> {
@@ -92,7 +37,7 @@ impl Checker<'_> {
         let mut unit = None;
         let mut end = start;
         if let Some((result, file, found)) = found {
-            if let Result::Saved { saved, result } = &result {
+            if let OtherResult::Saved { saved, result } = &result {
                 let saved = &saved.results[*result];
                 let conversion = saved.unit.conversion_to(&found);
                 let mut input = blank(name, table, Some(&found), None);
@@ -125,7 +70,7 @@ impl Checker<'_> {
         name: &str,
         table: &InputTable,
         from: &Stated<FromTable>,
-    ) -> Option<(Result, String, Unit)> {
+    ) -> Option<(OtherResult, String, Unit)> {
         let alone = self.nothing_beside(name, table, from);
         let hidden = table.unit.is_none() && table.present.iter().any(|(key, _)| *key == "unit");
         if from.value.refused {
@@ -151,14 +96,14 @@ impl Checker<'_> {
             }
         };
         let theirs = match &result {
-            Result::Budget {
+            OtherResult::Budget {
                 loaded,
                 row,
                 output,
             } => loaded.rows[*row].budget.model.outputs()[*output]
                 .unit
                 .clone(),
-            Result::Saved { saved, result } => saved.results[*result].unit.clone(),
+            OtherResult::Saved { saved, result } => saved.results[*result].unit.clone(),
         };
         let unit = match &table.unit {
             None if hidden => return None,
@@ -201,7 +146,7 @@ impl Checker<'_> {
         let Some((key, place)) = beside else {
             return true;
         };
-        self.faults.push(
+        self.report(
             Fault::new(
                 FROM,
                 place.clone(),
@@ -216,8 +161,12 @@ impl Checker<'_> {
         false
     }
 
-    fn budget_result(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
-        let path = self.origin.directory.join(&file.value);
+    fn budget_result(
+        &mut self,
+        file: &Stated<String>,
+        from: &Stated<FromTable>,
+    ) -> Option<OtherResult> {
+        let path = self.source.origin.directory.join(&file.value);
         if path
             .extension()
             .is_some_and(|extension| extension == "json")
@@ -235,7 +184,7 @@ impl Checker<'_> {
                 )),
             );
         }
-        let loaded = match self.origin.shelf.budget(&path) {
+        let loaded = match self.source.origin.files.budget(&path) {
             Ok(loaded) => loaded,
             Err(missing) => return self.missing(file, missing),
         };
@@ -258,16 +207,20 @@ impl Checker<'_> {
             }
         }
         let (row, output) = places[self.choice(&file.value, from, &candidates)?];
-        Some(Result::Budget {
+        Some(OtherResult::Budget {
             loaded,
             row,
             output,
         })
     }
 
-    fn saved_result(&mut self, file: &Stated<String>, from: &Stated<FromTable>) -> Option<Result> {
-        let path = self.origin.directory.join(&file.value);
-        let saved = match self.origin.shelf.saved(&path) {
+    fn saved_result(
+        &mut self,
+        file: &Stated<String>,
+        from: &Stated<FromTable>,
+    ) -> Option<OtherResult> {
+        let path = self.source.origin.directory.join(&file.value);
+        let saved = match self.source.origin.files.saved(&path) {
             Ok(saved) => saved,
             Err(missing) => return self.missing(file, missing),
         };
@@ -280,7 +233,7 @@ impl Checker<'_> {
             })
             .collect();
         let result = self.choice(&file.value, from, &candidates)?;
-        Some(Result::Saved { saved, result })
+        Some(OtherResult::Saved { saved, result })
     }
 
     /// Which of the results of another file is meant.
@@ -401,7 +354,7 @@ impl Checker<'_> {
             Missing::Unreadable(error) => {
                 let message = match error.kind() {
                     ErrorKind::NotFound => {
-                        format!("there is no file {name} in {}", self.origin.folder())
+                        format!("there is no file {name} in {}", self.source.origin.folder())
                     }
                     ErrorKind::PermissionDenied => format!("{name} may not be read"),
                     _ => format!("{name} cannot be read: {error}"),

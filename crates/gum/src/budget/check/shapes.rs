@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::{Context, Core, show};
 use crate::budget::distributions::{DistributionEntry, Shape};
 use crate::budget::faults::{DISTRIBUTION, DOF, MISSING_KEY, MODIFIER, NO_COVERAGE_FACTOR};
@@ -139,7 +139,7 @@ impl Checker<'_> {
                     .distribution
                     .as_ref()
                     .map_or(span.clone(), |stated| stated.span.clone());
-                self.faults.push(
+                self.report(
                     Fault::new(
                         MODIFIER,
                         span.clone(),
@@ -158,7 +158,7 @@ impl Checker<'_> {
             .as_ref()
             .filter(|_| !matches!(shape, Shape::Normal | Shape::StudentT))
         {
-            self.faults.push(
+            self.report(
                 Fault::new(
                     MODIFIER,
                     p.key.clone(),

@@ -1,6 +1,6 @@
 //! Shared sources: one cause of error that acts on several inputs.
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::{Context, Draft, Location, show};
 use super::inputs::{Entry, Piece};
 use super::register::{Register, SourceEntry};
@@ -123,7 +123,7 @@ impl Checker<'_> {
                 .iter()
                 .any(|source| source.name == *name && !source.used)
             {
-                self.faults.push(
+                self.report(
                     Fault::new(UNUSED, stated.key.clone(), format!("no input refers to the source {name}"))
                         .label("not used")
                         .help(format!("add source = \"{name}\" to the components of the inputs that it acts on, or remove it")),

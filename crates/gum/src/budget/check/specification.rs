@@ -1,6 +1,6 @@
 //! Accuracy specifications of instruments.
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::Context;
 use crate::budget::faults::{MISSING_KEY, NOT_POSITIVE, UNIT};
 use crate::budget::tables::SpecificationTable;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::{Context, Core, Location, show};
 use crate::budget::faults::{
     MISSING_KEY, MODIFIER, NO_SCATTER, OUTLIER_TEST, PROBABILITY, SERIAL, TOO_FEW_READINGS,

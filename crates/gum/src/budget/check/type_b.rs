@@ -1,6 +1,6 @@
 //! Type B evaluation: uncertainty from limits, certificates, specifications (GUM 4.3).
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::{Context, Core, Location, show};
 use super::shapes::{Width, default_shape};
 use super::ways::Way;

@@ -1,9 +1,9 @@
 //! Vector inputs: one error for each element, or one that all share.
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::{Context, Draft, Location, show};
-use super::inputs::{Entry, Piece, element_name, single};
-use super::register::Register;
+use super::inputs::{Entry, Piece, single};
+use super::register::{Register, element_name};
 use super::ways::{Way, locates};
 use crate::budget::Owner;
 use crate::budget::faults::VECTOR;
@@ -363,7 +363,7 @@ impl Checker<'_> {
             .as_ref()
             .or(certificate)
             .and_then(|amount| amount.value.unit.as_ref())
-            .and_then(|(text, _)| self.units.parse(text).ok())
+            .and_then(|(text, _)| self.names.units.parse(text).ok())
             .is_some_and(|own| own.dimension == Unit::one().dimension);
         stated || (of_dimension_one && unit.dimension != Unit::one().dimension)
     }

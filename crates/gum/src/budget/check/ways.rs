@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Checker;
+use super::checker::Checker;
 use super::draft::{Context, Core, Draft, Kind, Location, show};
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::faults::{MISSING_KEY, MODIFIER, NO_DOUBT, TWO_WAYS};
@@ -330,7 +330,7 @@ impl Checker<'_> {
                 continue;
             };
             if !ways.contains(&way) && *key != way_key {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         MODIFIER,
                         span.clone(),
@@ -470,7 +470,7 @@ impl Checker<'_> {
             date: date(&table.date),
             due: date(&table.due),
         };
-        if let (Some(due), Some(date)) = (&certificate.due, self.date.clone())
+        if let (Some(due), Some(date)) = (&certificate.due, self.source.date.clone())
             && due[..10] < date[..10]
         {
             let (number, owner) = (

@@ -1,6 +1,6 @@
 //! What somebody's certificate says.
 
-use super::List;
+use super::list::List;
 use gumption_format::toml::{Amount, Named};
 use gumption_format::toml::{table, words};
 

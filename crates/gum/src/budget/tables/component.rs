@@ -1,6 +1,6 @@
 //! One reason to doubt a quantity, in every way of stating it.
 
-use super::List;
+use super::list::List;
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::variants::{Amounts, Groups, Numbers, ReadingsOf};
 use gumption_format::toml::{Amount, Date, Dof, OneOrMany};
@@ -140,18 +140,6 @@ table! {
     }
 }
 
-table! {
-    /// A column of a CSV file whose rows belong to groups.
-    GroupColumnTable "a CSV column in groups" {
-        /// Path of the file.
-        file: String,
-        /// Name of the column with the readings.
-        column: String,
-        /// Name of the column that tells the group; two names for groups and subgroups.
-        group: OneOrMany<String>,
-    }
-}
-
 words! {
     /// What is known of a rate or proportion before counting.
     PriorWord {
@@ -213,15 +201,5 @@ table! {
         dof: Dof,
         /// In place of both: earlier series of readings, one list for each.
         readings: List<List<f64>>,
-    }
-}
-
-table! {
-    /// A column of a CSV file; the file is looked up from the folder of the budget.
-    ColumnTable "a CSV column" {
-        /// Path of the file.
-        file: String,
-        /// Name of the column in its first line.
-        column: String,
     }
 }

@@ -1,6 +1,6 @@
 //! What inputs have to do with one another.
 
-use super::List;
+use super::list::List;
 use gumption_format::toml::Dof;
 use gumption_format::toml::table;
 

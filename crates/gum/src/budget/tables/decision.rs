@@ -1,6 +1,6 @@
 //! What is decided about a measurand: conformity and detection.
 
-use super::List;
+use super::list::List;
 use crate::budget::distributions::DistributionEntry;
 use gumption_format::toml::Amount;
 use gumption_format::toml::{table, words};

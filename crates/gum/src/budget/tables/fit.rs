@@ -1,10 +1,12 @@
 //! Curves fitted to data.
 
-use super::List;
 use super::component::ComponentTable;
-use crate::budget::variants::{FitParameters, Numbers};
-use gumption_format::toml::{Amount, Named};
-use gumption_format::toml::{table, words};
+use super::list::List;
+use crate::budget::variants::Numbers;
+use gumption_format::toml::faults::WRONG_TYPE;
+use gumption_format::toml::{Amount, FromToml, KeyRow, Named, Raw, Reader, Stated, table, words};
+use serde_json::{Value, json};
+use toml::de::DeValue;
 
 table! {
     /// A curve fitted to data by least squares; its parameters are inputs under their own names.
@@ -72,5 +74,41 @@ words! {
         Stated "stated",
         /// Known up to a common factor, which the residuals tell.
         Residuals "residuals",
+    }
+}
+
+/// Parameters of a fit: tables with unit and start value, or a list of names.
+#[derive(Debug, Clone)]
+pub struct FitParameters(pub Named<FitParameterTable>);
+
+impl FromToml for FitParameters {
+    fn expected() -> String {
+        "tables of parameters, or a list of their names".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        match value.get_ref() {
+            DeValue::Table(_) => Named::read(value, reader).map(FitParameters),
+            DeValue::Array(_) => {
+                let names: Vec<Stated<String>> = Vec::read(value, reader)?;
+                let entries = names.into_iter().map(|name| {
+                    let table = name.map(|_| FitParameterTable::default());
+                    (name.value, table)
+                });
+                Some(FitParameters(Named {
+                    entries: entries.collect(),
+                    refused: false,
+                }))
+            }
+            _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
+        }
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [Named::<FitParameterTable>::schema(), Vec::<Stated<String>>::schema()] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        Named::<FitParameterTable>::tables(path, rows);
     }
 }

@@ -1,10 +1,13 @@
 //! Inputs, and causes that several of them share.
 
-use super::List;
 use super::component::ComponentTable;
+use super::list::List;
 use crate::budget::variants::RowLabel;
-use gumption_format::toml::Amount;
-use gumption_format::toml::table;
+use crate::fault::Fault;
+use gumption_format::toml::faults::WRONG_TYPE;
+use gumption_format::toml::{Amount, FromToml, KeyRow, Named, Raw, Reader, table};
+use serde_json::Value;
+use toml::de::DeValue;
 
 table! {
     /// A quantity on which measurands depend: its estimate and its reasons for doubt.
@@ -51,5 +54,33 @@ table! {
         /// Several reasons for doubt; with a single one its keys may stand in the table itself.
         components: List<ComponentTable>,
         with component: ComponentTable
+    }
+}
+
+/// `[source.NAME]`: causes of uncertainty that several inputs share.
+#[derive(Debug, Clone)]
+pub struct Sources(pub Named<SourceTable>);
+
+impl FromToml for Sources {
+    fn expected() -> String {
+        "tables [source.NAME]".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        if matches!(value.get_ref(), DeValue::String(_)) {
+            let fault = Fault::new(WRONG_TYPE, value.span(), "`source` is not a text here")
+                .label("expected tables [source.NAME], the causes that several inputs share")
+                .help("to say where the figures come from, write reference = \"…\"");
+            return reader.refuse(fault);
+        }
+        Named::read(value, reader).map(Sources)
+    }
+
+    fn schema() -> Value {
+        Named::<SourceTable>::schema()
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        Named::<SourceTable>::tables(path, rows);
     }
 }

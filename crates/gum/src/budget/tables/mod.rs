@@ -1,26 +1,28 @@
 //! Every table of the budget file, as the user writes it: here the file as a whole, beside it its tables.
 
 mod claim;
+mod column;
 mod component;
+mod constant;
 mod conventions;
 mod correlation;
 mod decision;
 mod fit;
 mod input;
+mod list;
 
-use crate::budget::variants::{ConstantEntry, Sources};
-use gumption_format::toml::{Amount, Cell, Date, Named, OneOrMany};
-use gumption_format::toml::{Stated, table};
+use gumption_format::toml::{Cell, Date, Named, OneOrMany, table};
+use list::List;
 
 pub use claim::*;
+pub use column::*;
 pub use component::*;
+pub use constant::*;
 pub use conventions::*;
 pub use correlation::*;
 pub use decision::*;
 pub use fit::*;
 pub use input::*;
-
-type List<T> = Vec<Stated<T>>;
 
 table! {
     /// A budget of measurement uncertainty.
@@ -71,22 +73,6 @@ table! {
         claim: OneOrMany<ClaimTable>,
         /// The same budget for a table of values.
         series: SeriesTable,
-    }
-}
-
-table! {
-    /// An exactly known quantity.
-    ConstantTable "[constant]" {
-        /// Its value, in its unit.
-        value: Amount,
-        /// Several values: a vector.
-        values: List<f64>,
-        /// Its unit; dimension one when left out.
-        unit: String,
-        /// What it is.
-        description: String,
-        /// Where it comes from.
-        reference: String,
     }
 }
 

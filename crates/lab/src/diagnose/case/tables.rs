@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use toml::de::DeValue;
 
-use crate::budget::variants::ConstantEntry;
+use crate::budget::tables::ConstantEntry;
 use gumption_format::toml::faults::WRONG_TYPE;
 use gumption_format::toml::{Amount, Cell, Named, OneOrMany};
 use gumption_format::toml::{FromToml, KeyRow, Raw, Reader, Stated, table, words};

@@ -37,7 +37,7 @@ impl Checker<'_> {
                 continue;
             };
             if found.iter().any(|other| other.name == conformity.name) {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         NAME_TWICE,
                         one.span.clone(),
@@ -48,7 +48,7 @@ impl Checker<'_> {
                 );
             }
             let names = Conformity::FIGURES.map(|figure| format!("{}.{figure}", conformity.name));
-            self.awaited_figures.extend(names);
+            self.figures.awaited.extend(names);
             found.push(conformity);
         }
         found

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::super::Checker;
+use super::super::checker::Checker;
 use super::super::draft::{Context, Draft, Location};
-use super::super::entries;
+use super::super::entries::entries;
 use super::super::inputs::{Entry, Piece, single};
 use super::super::register::{Register, SourceEntry};
 use super::super::vectors::of_element;
@@ -106,7 +106,7 @@ impl Checker<'_> {
         for other in &columns[1..] {
             if other.values.len() != length {
                 complete = false;
-                self.faults.push(
+                self.report(
                     Fault::new(
                         FIT_COLUMNS,
                         other.key.clone(),
@@ -218,7 +218,7 @@ impl Checker<'_> {
             return Some(Vec::new());
         }
         let name = format!("{owner}.{}", column.name);
-        let before = self.faults.len();
+        let before = self.messages.faults.len();
         let list = self.ways(
             &name,
             &table.components,
@@ -236,7 +236,7 @@ impl Checker<'_> {
                 None => {}
             }
         }
-        if self.faults.len() > before {
+        if self.messages.faults.len() > before {
             return None;
         }
         common.extend(self.enter_common(&name, column, drafts, register));

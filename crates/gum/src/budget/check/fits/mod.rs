@@ -7,6 +7,7 @@
 
 mod columns;
 mod failures;
+mod fitted;
 mod formula;
 mod residual;
 mod solution;
@@ -18,9 +19,10 @@ use std::ops::Range;
 
 use nalgebra::DMatrix;
 
+use super::checker::Checker;
 use super::draft::{Draft, Kind, Location, show};
+use super::entries::{entries, shared};
 use super::register::{InputEntry, Register};
-use super::{Checker, entries, shared};
 use crate::budget::faults::{NAME_TWICE, UNUSED};
 use crate::budget::fit::Fit;
 use crate::budget::tables::{FileTable, FitTable, MeasurandTable};
@@ -34,18 +36,7 @@ use gumption_format::toml::Stated;
 use columns::ColumnErrors;
 use formula::{Parameter, Scope};
 
-pub(super) use residual::Scatter;
-
-/// A fit that was found, and where its parameters went.
-pub(super) struct Fitted {
-    pub fit: Fit,
-    /// Components of the parameters, in their order; none where they are exact.
-    members: Vec<usize>,
-    /// Their correlation coefficients.
-    correlation: DMatrix<f64>,
-    /// Place of the name of the fit.
-    place: Range<usize>,
-}
+pub(super) use fitted::{Fitted, Scatter};
 
 impl Checker<'_> {
     /// Reads `[fit.NAME]` and enters the parameters as inputs.
@@ -79,7 +70,7 @@ impl Checker<'_> {
     ) -> Option<Fitted> {
         let Some(columns) = self.fit_columns(name, stated) else {
             // The names of its parameters are not known.
-            self.hidden_names = true;
+            self.names.hidden = true;
             return None;
         };
         let scope = Scope {
@@ -92,7 +83,7 @@ impl Checker<'_> {
         let formula = match self.fit_formula(&scope) {
             Ok(formula) => formula,
             Err(parameters) => {
-                self.hidden_names |= parameters.is_empty();
+                self.names.hidden |= parameters.is_empty();
                 self.parameters(name, &parameters, register, taken);
                 return None;
             }
@@ -108,7 +99,7 @@ impl Checker<'_> {
         let columns: Vec<_> = order.iter().map(|index| &columns[*index]).collect();
         let solved = self.fit_solution(name, stated, &formula, &columns, &errors?)?;
         let fit = solved.into_fit(name, stated, &formula, &columns, start, register);
-        self.figures.extend(fit.figures());
+        self.figures.found.extend(fit.figures());
         Some(self.enter_fit(fit, stated, register))
     }
 
@@ -125,7 +116,7 @@ impl Checker<'_> {
             let name = &parameter.name;
             self.check_name(name, &parameter.place, "parameter");
             if let Some(other) = taken.insert(name.clone(), parameter.place.clone()) {
-                self.faults.push(
+                self.report(
                     Fault::new(
                         NAME_TWICE,
                         parameter.place.clone(),
@@ -153,7 +144,9 @@ impl Checker<'_> {
                 unit: parameter.unit.clone(),
                 formula: None,
             });
-            self.parameters.push((name.clone(), parameter.unit.clone()));
+            self.names
+                .parameters
+                .push((name.clone(), parameter.unit.clone()));
         }
         first
     }
@@ -263,7 +256,7 @@ impl Checker<'_> {
         register: &Register,
     ) {
         let unused = model.unused_symbols();
-        let parameters = self.parameters.len();
+        let parameters = self.names.parameters.len();
         let idle = |name: &str| {
             let place = register.entries[..parameters]
                 .iter()
@@ -279,7 +272,7 @@ impl Checker<'_> {
             if scatter.parameters.is_empty() || used {
                 continue;
             }
-            self.faults.push(
+            self.report(
                 Fault::new(
                     UNUSED,
                     stated.key.clone(),
@@ -299,7 +292,7 @@ impl Checker<'_> {
         let mut file = file.clone();
         let none = entries(&file.measurand).is_empty()
             && !file.present.iter().any(|(key, _)| *key == "measurand");
-        if !none || self.parameters.is_empty() {
+        if !none || self.names.parameters.is_empty() {
             return file;
         }
         let Some(first) = entries(&file.fit).first().map(|(_, stated)| stated.clone()) else {
@@ -316,7 +309,7 @@ impl Checker<'_> {
             .flat_map(|stated| &stated.value.0.entries)
             .filter_map(|(name, entry)| Some((name.clone(), entry.value.description.clone()?)))
             .collect();
-        let measurands = self.parameters.iter().map(|(name, _)| {
+        let measurands = self.names.parameters.iter().map(|(name, _)| {
             let table = MeasurandTable {
                 description: described.get(name).cloned(),
                 ..MeasurandTable::default()
@@ -348,7 +341,7 @@ impl Checker<'_> {
 
     /// The unit of a parameter of a fit that is reported as it is.
     pub(super) fn parameter_unit(&self, name: &str) -> Option<&Unit> {
-        let (_, unit) = self.parameters.iter().find(|(own, _)| own == name)?;
+        let (_, unit) = self.names.parameters.iter().find(|(own, _)| own == name)?;
         unit.as_ref()
     }
 }

@@ -1,61 +1,13 @@
 //! `residual_of`: the scatter of a further reading, as the residuals of a fit tell it.
 
-use super::super::Checker;
+use super::super::checker::Checker;
 use super::super::draft::{Context, Core, show};
-use super::Fitted;
 use crate::budget::faults::{MODIFIER, RESIDUAL_OF, UNIT_CLASH, UNKNOWN_NAME};
 use crate::budget::tables::ComponentTable;
 use crate::budget::variants::ReadingsOf;
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 use gumption_format::toml::Stated;
-
-/// What a fit says about the scatter of its response.
-#[derive(Debug, Clone)]
-pub(in crate::budget::check) struct Scatter {
-    fit: String,
-    /// Names of the parameters; none where the fit was refused.
-    pub parameters: Vec<String>,
-    /// The residual standard deviation, its ν and the unit of the response; `None` where uncertainties of
-    /// the data are stated, or the fit was refused.
-    known: Option<(f64, f64, Unit)>,
-    refused: bool,
-}
-
-impl Scatter {
-    pub(super) fn of(name: &str, fitted: Option<&Fitted>) -> Self {
-        let known = fitted.and_then(|found| {
-            let fit = &found.fit;
-            let s = fit.residual_sd.filter(|_| !fit.weighted && !fit.stated)?;
-            Some((s, fit.dof as f64, fit.response().unit.difference()))
-        });
-        Scatter {
-            fit: name.to_string(),
-            parameters: fitted.map_or_else(Vec::new, |found| {
-                found
-                    .fit
-                    .parameters
-                    .iter()
-                    .map(|p| p.name.clone())
-                    .collect()
-            }),
-            known,
-            refused: fitted.is_none(),
-        }
-    }
-
-    /// Whether a figure of this name is missing because the fit was refused.
-    pub(in crate::budget::check) fn withholds(&self, figure: &str) -> bool {
-        self.refused
-            && figure
-                .strip_prefix(&self.fit)
-                .is_some_and(|rest| rest.starts_with('.'))
-    }
-
-    pub(super) fn is(&self, name: &str) -> bool {
-        self.fit == name
-    }
-}
 
 impl Checker<'_> {
     /// The number of the fit whose scatter a component takes.

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::super::Checker;
+use super::super::checker::Checker;
 use super::super::register::Register;
 use super::columns::{Column, ColumnErrors, Common};
 use super::failures::Unsolved;

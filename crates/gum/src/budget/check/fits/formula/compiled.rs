@@ -1,8 +1,8 @@
 //! A formula as a function: units and start values of its parameters, and the program.
 
-use super::super::super::Checker;
+use super::super::super::checker::Checker;
+use super::parts::{Compiled, Formula, Parameter, Shape};
 use super::text::Written;
-use super::{Formula, Parameter, Shape};
 use crate::budget::Constant;
 use crate::budget::faults::FIT_START;
 use crate::fault::Fault;
@@ -10,9 +10,6 @@ use crate::least_squares::Gradient;
 use crate::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile};
 use crate::quantity::Unit;
 use gumption_format::toml::Stated;
-
-/// A compiled formula: parameters first in its input vector, then the predictors.
-pub(in super::super) type Compiled = Gradient<Box<dyn Fn(&[f64], &mut [f64]) -> f64>>;
 
 /// What a formula uses beside its parameters.
 struct Known<'f> {
@@ -63,7 +60,7 @@ impl Checker<'_> {
         let result = &formula.left().unit;
         let inferred = formula
             .outline
-            .parameter_units(&names, symbols, result, &self.units);
+            .parameter_units(&names, symbols, result, &self.names.units);
         for (parameter, inferred) in parameters.iter_mut().zip(inferred) {
             let own = parameter.stated.as_ref().map(|stated| stated.value.clone());
             let own = own.unwrap_or_default();
@@ -96,14 +93,14 @@ impl Checker<'_> {
                 model: Some(&formula.text.value),
                 unit: Some(column.unit.clone()),
             }],
-            units: &self.units,
+            units: &self.names.units,
         });
         match compiled {
             Ok(model) => Some(model),
             Err(faults) => {
                 for fault in faults {
                     let placed = self.in_fit(fault, formula, known, parameters);
-                    self.faults.push(placed);
+                    self.report(placed);
                 }
                 None
             }
@@ -151,7 +148,7 @@ impl Checker<'_> {
         if missing.is_empty() || refused {
             return missing.is_empty();
         }
-        self.faults.push(without_start(&missing, text));
+        self.report(without_start(&missing, text));
         false
     }
 }

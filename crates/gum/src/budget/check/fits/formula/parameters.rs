@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
-use super::super::super::{Checker, entries};
+use super::super::super::checker::Checker;
+use super::super::super::entries::entries;
 use super::super::columns::Column;
+use super::parts::{Parameter, Scope};
 use super::text::Written;
-use super::{Parameter, Scope};
 use crate::budget::faults::{FIT, NAME_TWICE, UNKNOWN_NAME, UNUSED};
 use crate::budget::tables::FitParameterTable;
 use crate::fault::{Fault, nearest};
@@ -40,19 +41,22 @@ struct Found<'f> {
 impl Checker<'_> {
     /// The parameters of a formula: those that the file lists, or else all names that are nothing else.
     pub(super) fn fit_parameters(&mut self, formula: &Written<'_>) -> Option<Vec<Parameter>> {
-        let before = self.faults.len();
+        let before = self.messages.faults.len();
         let found = self.names_of_formula(formula);
         let idle = formula.idle_columns();
         let unused = idle
             .iter()
             .filter(|column| !found.misspelt.contains(&column.name));
-        self.faults
+        self.messages
+            .faults
             .extend(unused.map(|column| unused_column(formula.fit, column)));
         let declared = formula.fit.declared();
         for (parameter, stated) in declared.unwrap_or_default() {
-            self.faults.extend(formula.fault_of(parameter, stated));
+            self.messages
+                .faults
+                .extend(formula.fault_of(parameter, stated));
         }
-        if formula.fit.list_is_unread() || self.faults.len() > before {
+        if formula.fit.list_is_unread() || self.messages.faults.len() > before {
             return None;
         }
         match declared {
@@ -72,19 +76,19 @@ impl Checker<'_> {
             match meaning {
                 Meaning::Known | Meaning::Unread => {}
                 Meaning::Parameter => found.parameters.push(unlisted(name, place)),
-                Meaning::LeftSide => self.faults.push(both_sides(name, place)),
+                Meaning::LeftSide => self.report(both_sides(name, place)),
                 Meaning::Column(near) => {
                     found.misspelt.push(near);
                     let fault = unknown(formula.fit, name, place);
-                    self.faults
+                    self.messages.faults
                         .push(fault.help(format!("did you mean the column `{near}`?")));
                 }
-                Meaning::Input => self.faults.push(unknown(formula.fit, name, place).help(format!(
+                Meaning::Input => self.report(unknown(formula.fit, name, place).help(format!(
                     "make {name} a [constant], and let a component common to all points stand for its uncertainty; or correct the column for it beforehand"
                 ))),
                 Meaning::Unlisted => {
                     let help = not_in_the_list(formula.fit, name);
-                    self.faults
+                    self.messages.faults
                         .push(unknown(formula.fit, name, place).help(help));
                 }
             }

@@ -1,7 +1,7 @@
 //! A formula given by its degree.
 
-use super::super::super::Checker;
-use super::{Formula, Parameter, Scope, Shape};
+use super::super::super::checker::Checker;
+use super::parts::{Formula, Parameter, Scope, Shape};
 use crate::budget::faults::{FIT, MISSING_KEY, MODIFIER, UNIT_CLASH, UNUSED};
 use crate::budget::tables::FitParameterTable;
 use crate::fault::Fault;
@@ -123,7 +123,7 @@ impl Checker<'_> {
         }
         if let Some(start) = &table.start {
             let message = "a polynomial needs no start values";
-            self.faults.push(
+            self.report(
                 Fault::new(MODIFIER, start.key.clone(), message)
                     .label("no meaning here")
                     .help("leave it out"),

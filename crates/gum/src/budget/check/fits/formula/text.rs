@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::super::super::Checker;
+use super::super::super::checker::Checker;
 use super::super::columns::Column;
-use super::{Formula, Parameter, Scope};
+use super::parts::{Formula, Parameter, Scope};
 use crate::budget::faults::{FIT, MODIFIER};
 use crate::fault::Fault;
 use crate::model::faults::LEFT_SIDE;
@@ -42,7 +42,7 @@ impl Checker<'_> {
         self.keys_of_polynomials(fit);
         let outline = self.fit_outline(text).ok_or_else(Vec::new)?;
         let needs = outline.needs.iter().map(|(name, _)| name.clone());
-        self.used_by_fits.extend(needs);
+        self.names.used_by_fits.extend(needs);
         let response = self
             .fit_response(fit, text, &outline)
             .ok_or_else(Vec::new)?;
@@ -77,7 +77,7 @@ impl Checker<'_> {
             ("predictor", key(&table.predictor)),
             ("intercept", intercept),
         ] {
-            self.faults.extend(place.map(|place| {
+            self.messages.faults.extend(place.map(|place| {
                 Fault::new(
                     MODIFIER,
                     place,
@@ -90,12 +90,12 @@ impl Checker<'_> {
     }
 
     fn fit_outline(&mut self, text: &Stated<String>) -> Option<Outline> {
-        match outline(&text.value, &self.units) {
+        match outline(&text.value, &self.names.units) {
             Ok(outline) => Some(outline),
             Err(faults) => {
                 for fault in faults {
                     let placed = self.in_formula(left_side(fault), Some(text));
-                    self.faults.push(placed);
+                    self.report(placed);
                 }
                 None
             }

@@ -7,15 +7,19 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use super::reader::{self, Loaded};
+use super::checked::Loaded;
 use super::saved::SavedResults;
 use crate::fault::Rejection;
 use crate::files::Files;
 
+/// Reads and checks a budget of this content.
+pub(super) type ReadBudget = fn(&OpenFiles<'_>, &Path, Vec<u8>) -> Result<Loaded, Rejection>;
+
 /// Files that have been read, and those that are being read.
 #[derive(Debug)]
-pub(super) struct Shelf<'a> {
+pub(super) struct OpenFiles<'a> {
     pub files: Files<'a>,
+    read_budget: ReadBudget,
     /// Budgets by identity; nothing for one that was refused.
     budgets: RefCell<HashMap<PathBuf, Option<Rc<Loaded>>>>,
     saved: RefCell<HashMap<PathBuf, Rc<SavedResults>>>,
@@ -32,7 +36,7 @@ pub(super) enum Missing {
     Unreadable(io::Error),
     /// It is a folder.
     Folder,
-    /// It has faults, which are kept on the shelf.
+    /// It has faults, which are kept.
     Refused,
     /// It is being read at this moment; all files of the circle.
     Circle(Vec<PathBuf>),
@@ -40,10 +44,12 @@ pub(super) enum Missing {
     Unfit(String),
 }
 
-impl<'a> Shelf<'a> {
-    pub fn new(files: Files<'a>) -> Self {
-        Shelf {
+impl<'a> OpenFiles<'a> {
+    /// Nothing is open yet.
+    pub fn new(files: Files<'a>, read_budget: ReadBudget) -> Self {
+        OpenFiles {
             files,
+            read_budget,
             budgets: RefCell::default(),
             saved: RefCell::default(),
             open: RefCell::default(),
@@ -67,7 +73,7 @@ impl<'a> Shelf<'a> {
         }
         let bytes = self.bytes(path)?;
         let before = self.rejections.borrow().len();
-        let loaded = match reader::load_bytes(self, path, bytes, None) {
+        let loaded = match (self.read_budget)(self, path, bytes) {
             Ok(loaded) => Some(Rc::new(loaded)),
             Err(rejection) => {
                 self.rejections.borrow_mut().insert(before, rejection);

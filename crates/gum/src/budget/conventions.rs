@@ -1,0 +1,160 @@
+//! Conventions on which guides differ, and settings of the Monte Carlo method.
+
+use crate::quantity::{Rounding, RoundingRule};
+
+/// The conventions on which guides differ, after profile and overrides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conventions {
+    /// Name of the profile that was chosen (`GUM`, `EA`, `JJF`, `NIST`, `UKAS`, …).
+    pub profile: String,
+    /// What the file changed in it, for the report (`coverage_probability = 0.99`).
+    pub overrides: Vec<String>,
+    /// p of the coverage interval, 0.95 or 0.9545 …
+    pub coverage_probability: f64,
+    /// Where k comes from.
+    pub coverage_factor: CoverageRule,
+    /// What [`CoverageRule::Output`] takes for the output's distribution.
+    pub output_shape: OutputShape,
+    /// How ν_eff enters t.
+    pub degrees_of_freedom: DofRule,
+    /// How numbers are rounded.
+    pub rounding: Rounding,
+    /// Significant digits of U: 1 or 2.
+    pub digits: u8,
+    /// EA-4/02 6.3: use the rounded-up value when rounding lowers U by more than 5 %.
+    pub up_if_lowered_by_5_percent: bool,
+    /// What u is for a t distribution in the Monte Carlo method.
+    pub t_scale: TScale,
+    /// Print k and not p (JJF 1059.1 with k = 2).
+    pub state_probability: bool,
+    /// How the statement writes result and uncertainty.
+    pub statement: StatementForm,
+}
+
+impl Conventions {
+    /// How U and y are rounded.
+    pub fn rounding_rule(&self) -> RoundingRule {
+        RoundingRule {
+            digits: self.digits,
+            rounding: self.rounding,
+            up_if_lowered_by_5_percent: self.up_if_lowered_by_5_percent,
+        }
+    }
+
+    /// Whether the file itself states a convention, rather than its profile.
+    pub fn states(&self, key: &str) -> bool {
+        let stated = |text: &String| text.split_once(" = ").is_some_and(|(name, _)| name == key);
+        self.overrides.iter().any(stated)
+    }
+}
+
+/// Where k comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CoverageRule {
+    /// t_p(ν_eff), but from the actual distribution of the (linearised) output when one or two
+    /// rectangles or another non-normal component dominate.
+    Output,
+    /// t_p(ν_eff) always (normal when ν_eff is infinite).
+    StudentT,
+    /// The normal quantile always.
+    Normal,
+    /// This number.
+    Fixed(f64),
+}
+
+/// The distribution of an output in which one or two contributions dominate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OutputShape {
+    /// The convolution of the dominant contributions with a normal remainder: k has the stated
+    /// probability.
+    #[default]
+    Convolution,
+    /// The dominant contributions alone, applied to the whole of u(y): the published figures of
+    /// EA-4/02 S9 and S10.
+    DominantAlone,
+}
+
+/// How effective degrees of freedom that are no integer enter t_p(ν_eff).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DofRule {
+    /// Cut to the next lower integer (GUM G.4.1 and H.1.6, EA-4/02 appendix E, JJF 1059.1, M3003).
+    #[default]
+    Truncated,
+    /// As they are, which is the exact form of the interpolation that GUM G.4.1 also allows.
+    Real,
+}
+
+/// What a t-distributed input's stated u is in the Monte Carlo method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TScale {
+    /// u is the scale parameter (JCGM 101 6.4.9).
+    Scale,
+    /// u is the standard deviation (NIST Uncertainty Machine, TN 1900).
+    StandardDeviation,
+}
+
+/// How the Monte Carlo method is run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MonteCarloSettings {
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// How many trials.
+    pub trials: Trials,
+    /// What trials are made of.
+    pub points: Points,
+    /// Whether Sobol' sensitivity indices are wanted, too.
+    pub indices: bool,
+}
+
+/// What the trials of the Monte Carlo method are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Points {
+    /// Random numbers, as JCGM 101 has it.
+    #[default]
+    Random,
+    /// Scrambled Sobol' points wherever they are far more accurate, else random numbers.
+    QuasiRandom,
+}
+
+/// How many trials.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Trials {
+    /// Exactly this many.
+    Fixed(u64),
+    /// `least`, and once more `most` where these leave a verdict of JCGM 101 clause 8 open at the digits that
+    /// are reported.
+    Decisive {
+        /// Enough for most budgets.
+        least: u64,
+        /// Enough for nearly all others.
+        most: u64,
+    },
+    /// Until the results are stable to a numerical tolerance, JCGM 101 7.9: δ from `digits`
+    /// significant digits of u.
+    Adaptive {
+        /// Which procedure.
+        procedure: Adaptive,
+        /// Significant digits of u to be stable.
+        digits: u8,
+        /// Give up after so many trials.
+        max: u64,
+    },
+}
+
+/// The two adaptive procedures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Adaptive {
+    /// JCGM 101 7.9.4.
+    Jcgm101,
+    /// Two-stage (Stein) procedure of Wübbeler, Harris, Cox and Elster (2010).
+    Stein,
+}
+
+/// How a statement writes result and uncertainty.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StatementForm {
+    /// `y = (… ± …) unit`.
+    PlusMinus,
+    /// `y = … unit, U = … unit, k = …` (JJF 1059.1 5.3; a lone uncertainty carries no sign).
+    Apart,
+}

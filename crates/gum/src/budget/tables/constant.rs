@@ -1,0 +1,63 @@
+//! `[constant.NAME]`.
+
+use serde_json::{Value, json};
+use toml::de::DeValue;
+
+use super::list::List;
+use gumption_format::toml::{Amount, FromToml, KeyRow, Raw, Reader, Stated, table};
+
+table! {
+    /// An exactly known quantity.
+    ConstantTable "[constant]" {
+        /// Its value, in its unit.
+        value: Amount,
+        /// Several values: a vector.
+        values: List<f64>,
+        /// Its unit; dimension one when left out.
+        unit: String,
+        /// What it is.
+        description: String,
+        /// Where it comes from.
+        reference: String,
+    }
+}
+
+/// A constant: `c = 9.8`, `c = "299792458 m/s"`, or a table.
+#[derive(Debug, Clone)]
+pub struct ConstantEntry(pub ConstantTable);
+
+impl FromToml for ConstantEntry {
+    fn expected() -> String {
+        "a number, an amount or a table".into()
+    }
+
+    fn read(value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Self> {
+        if matches!(value.get_ref(), DeValue::Table(_)) {
+            return ConstantTable::read(value, reader).map(ConstantEntry);
+        }
+        let amount = Amount::read(value, reader)?;
+        let unit = amount.unit.clone().map(|(text, span)| Stated {
+            value: text,
+            key: span.clone(),
+            span,
+        });
+        let value = Some(Stated {
+            value: amount,
+            span: value.span(),
+            key: value.span(),
+        });
+        Some(ConstantEntry(ConstantTable {
+            value,
+            unit,
+            ..ConstantTable::default()
+        }))
+    }
+
+    fn schema() -> Value {
+        json!({ "oneOf": [Amount::schema(), ConstantTable::schema()] })
+    }
+
+    fn tables(path: &str, rows: &mut Vec<KeyRow>) {
+        ConstantTable::tables(path, rows);
+    }
+}

@@ -1,8 +1,8 @@
 //! A formula cut where many inputs meet in one value.
 //!
 //! In √(Σ (xᵢ − x̄)²/(n − 1)) everything depends on everything, but only through two values, the mean and what
-//! the root is taken of. Such a value is a *hub*: many inputs meet in it, and it does not only go on into sums.
-//! With the hubs as inputs of their own, what is left of the formula joins few inputs at a time, and has few
+//! the root is taken of. Such a value is an *intermediate*: many inputs meet in it, and it does not only go on into sums.
+//! With the intermediates as inputs of their own, what is left of the formula joins few inputs at a time, and has few
 //! second derivatives.
 
 use std::ops::Range;
@@ -12,29 +12,29 @@ use super::interaction::{Neighbours, varying_operands};
 use super::jet::Jet;
 use super::{Along, points};
 
-/// Most hubs.
+/// Most intermediates.
 const MOST: usize = 8;
 
-/// Most inputs and hubs in one nonlinear operation.
+/// Most inputs and intermediates in one nonlinear operation.
 const FEW: usize = 16;
 
-/// An output f(x, s) of n inputs x and r hubs s, and the hubs s_k(x, s) with hubs before them.
+/// An output f(x, s) of n inputs x and r intermediates s, and the intermediates s_k(x, s) with intermediates before them.
 #[derive(Debug)]
 pub struct Cut<'m> {
     graph: Graph,
     /// s at the point x comes from here.
     whole: &'m Graph,
-    hubs: Vec<Id>,
+    intermediates: Vec<Id>,
     inputs: usize,
 }
 
 impl<'m> Cut<'m> {
     pub(super) fn new(graph: &'m Graph, inputs: usize, of: Id) -> Option<Self> {
-        let hubs = hubs(graph, inputs, of)?;
+        let intermediates = intermediates(graph, inputs, of)?;
         Some(Cut {
-            graph: graph.cut(of, &hubs, inputs),
+            graph: graph.cut(of, &intermediates, inputs),
             whole: graph,
-            hubs,
+            intermediates,
             inputs,
         })
     }
@@ -45,20 +45,23 @@ impl<'m> Cut<'m> {
     }
 
     /// r.
-    pub fn hubs(&self) -> usize {
-        self.hubs.len()
+    pub fn intermediates(&self) -> usize {
+        self.intermediates.len()
     }
 
     /// x and s, where the inputs are x.
     pub fn point(&self, x: &[f64]) -> Vec<f64> {
         let values = self.whole.evaluate(&points(x));
-        let hubs = self.hubs.iter().map(|id| values[*id as usize].value());
-        x.iter().copied().chain(hubs).collect()
+        let intermediates = self
+            .intermediates
+            .iter()
+            .map(|id| values[*id as usize].value());
+        x.iter().copied().chain(intermediates).collect()
     }
 
-    /// The places of the inputs and hubs that a hub is made of.
-    pub fn made_of(&self, hub: usize) -> impl Iterator<Item = usize> {
-        self.graph.inputs_of(self.graph.outputs[hub + 1])
+    /// The places of the inputs and intermediates that an intermediate is made of.
+    pub fn made_of(&self, intermediate: usize) -> impl Iterator<Item = usize> {
+        self.graph.inputs_of(self.graph.outputs[intermediate + 1])
     }
 
     /// First derivatives of f and then of each s_k by x and s, which are taken for independent.
@@ -82,14 +85,14 @@ impl<'m> Cut<'m> {
 
     /// For each of x and s those with which it may have mixed derivatives; `None` where they are not few.
     pub fn neighbours(&self) -> Option<Neighbours> {
-        Neighbours::new(&self.graph, self.inputs + self.hubs.len())
+        Neighbours::new(&self.graph, self.inputs + self.intermediates.len())
     }
 }
 
 /// What an operation is made of.
 #[derive(Debug, Clone, PartialEq)]
 enum Cone {
-    /// Inputs and hubs: this part of a list of them, in rising order.
+    /// Inputs and intermediates: this part of a list of them, in rising order.
     Few(Range<usize>),
     /// A sum of many.
     Many,
@@ -111,7 +114,7 @@ struct Cones {
 }
 
 impl Cones {
-    /// Takes an operation for an input or hub.
+    /// Takes an operation for an input or intermediate.
     fn set(&mut self, id: Id, place: usize) {
         let start = self.list.len();
         self.list.push(place);
@@ -153,8 +156,8 @@ impl Cones {
     }
 }
 
-/// The hubs of an output, in rising order.
-fn hubs(graph: &Graph, inputs: usize, of: Id) -> Option<Vec<Id>> {
+/// The intermediates of an output, in rising order.
+fn intermediates(graph: &Graph, inputs: usize, of: Id) -> Option<Vec<Id>> {
     let needed = graph.needed(&[of]);
     let ids = || (0..=of).filter(|id| needed[*id as usize]);
     let mut uses = vec![0; of as usize + 1];
@@ -165,7 +168,7 @@ fn hubs(graph: &Graph, inputs: usize, of: Id) -> Option<Vec<Id>> {
         of: vec![Cone::Few(0..0); of as usize + 1],
         list: Vec::new(),
     };
-    let mut hubs: Vec<Id> = Vec::new();
+    let mut intermediates: Vec<Id> = Vec::new();
     let mut operands = Vec::new();
     for id in ids() {
         let op = graph.ops[id as usize];
@@ -179,27 +182,27 @@ fn hubs(graph: &Graph, inputs: usize, of: Id) -> Option<Vec<Id>> {
             operands.push(a);
             bends |= nonlinear;
         });
-        let mut make_hub = |a: Id, cones: &mut Cones| {
-            cones.set(a, inputs + hubs.len());
-            hubs.push(a);
+        let mut make_intermediate = |a: Id, cones: &mut Cones| {
+            cones.set(a, inputs + intermediates.len());
+            intermediates.push(a);
         };
         for a in &operands {
             if cones.of[*a as usize] == Cone::Many && (bends || uses[*a as usize] > 1) {
-                make_hub(*a, &mut cones);
+                make_intermediate(*a, &mut cones);
             }
         }
         let mut cone = cones.union(&operands);
         while bends && cone == Cone::Many {
             let widest = operands.iter().copied().max_by_key(|a| cones.width(*a));
             let widest = widest.filter(|a| cones.width(*a) > 1)?;
-            make_hub(widest, &mut cones);
+            make_intermediate(widest, &mut cones);
             cone = cones.union(&operands);
         }
         cones.of[id as usize] = cone;
-        if hubs.len() > MOST {
+        if intermediates.len() > MOST {
             return None;
         }
     }
-    hubs.sort_unstable();
-    Some(hubs)
+    intermediates.sort_unstable();
+    Some(intermediates)
 }

@@ -35,7 +35,7 @@ pub fn blocks(graph: &Graph, inputs: usize) -> Vec<Option<usize>> {
 /// Operations that are looked at, and pairs that are listed, per operation and input of the model at most.
 const FEW: usize = 64;
 
-/// For each input those with which it may have mixed derivatives, itself included. Of a formula cut at hubs, these are
+/// For each input those with which it may have mixed derivatives, itself included. Of a formula cut at intermediates, these are
 /// inputs, too.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Neighbours {

@@ -4,7 +4,7 @@
 use crate::quantity::Unit;
 
 /// What somebody states about one measurand; compared, never used.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Claim {
     /// Index of the measurand.
     pub measurand: usize,
@@ -33,7 +33,7 @@ impl Claim {
 }
 
 /// How well the source of a claim is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub enum Confidence {
     /// Inputs and figures stand in a source that was read.
     #[default]
@@ -45,7 +45,7 @@ pub enum Confidence {
 }
 
 /// The method that a claim is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum ClaimedMethod {
     /// The file does not say: GUM is held against it, Monte Carlo is shown beside.
     Unstated,
@@ -58,7 +58,7 @@ pub enum ClaimedMethod {
 }
 
 /// One claimed figure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct ClaimedFigure {
     /// Which figure.
     pub what: Figure,
@@ -69,7 +69,7 @@ pub struct ClaimedFigure {
 }
 
 /// A figure that can be claimed.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub enum Figure {
     /// The estimate y.
     Estimate,
@@ -113,7 +113,7 @@ pub enum Figure {
 
 /// A figure that an analysis found, such as the residual standard deviation of a fit, under the name by which
 /// claims and machines refer to it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct NamedFigure {
     /// `OWNER.figure`, such as `calibration.residual_sd`.
     pub name: String,
@@ -138,7 +138,7 @@ impl NamedFigure {
 }
 
 /// Which figure of an input or component.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Part {
     /// Its estimate.
     Estimate,

@@ -142,7 +142,7 @@ pub enum Trials {
 }
 
 /// The two adaptive procedures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Adaptive {
     /// JCGM 101 7.9.4.
     Jcgm101,

@@ -26,7 +26,6 @@ mod parametric;
 mod profile;
 mod reader;
 mod remark;
-#[allow(missing_docs)]
 pub mod saved;
 mod series;
 pub mod tables;

@@ -5,7 +5,7 @@ use crate::budget::{Budget, Claim, ClaimedFigure, ClaimedMethod, Confidence, Fig
 use super::result::{Clause8, Evaluation, MeasurandResult};
 
 /// One claimed figure against one obtained figure.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Comparison {
     /// What is compared, with the claimed number and its tolerance.
     pub claimed: ClaimedFigure,
@@ -25,7 +25,7 @@ pub struct Comparison {
 }
 
 /// Which method gave a figure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Method {
     /// GUM, first order.
     Gum,

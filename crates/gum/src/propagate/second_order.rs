@@ -17,12 +17,12 @@
 //! run only over directions that have a block in common: Σ xᵢ² takes one sweep for any number of
 //! inputs. A formula that uses every input once, as x₁x₂…x_n, takes one pass, and one whose terms overlap
 //! little, as x₁x₂ + x₂x₃ + …, a few sweeps ([`sparse`]); so does one in which many inputs meet in few values,
-//! as in a standard deviation or a weighted mean, also where inputs correlate ([`hubs`]).
+//! as in a standard deviation or a weighted mean, also where inputs correlate ([`intermediates`]).
 
 mod bordered;
 mod direction;
 mod hessian;
-mod hubs;
+mod intermediates;
 mod sparse;
 mod spread;
 mod sums;
@@ -68,11 +68,11 @@ fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Sec
     let blocks: Vec<Option<usize>> = blocks
         .map(|(block, changes)| block.filter(|_| *changes))
         .collect();
-    let hubs = || hubs::outcomes(budget, linear, changing);
+    let intermediates = || intermediates::outcomes(budget, linear, changing);
     // The coordinates of many correlated inputs move all of them: not even the directions are cheap.
     let bent = blocks.iter().any(Option::is_some);
     let correlated = bent && linear.covariance.largest_group() > MOST_SWEEPS;
-    if correlated && let Some(outcomes) = hubs() {
+    if correlated && let Some(outcomes) = intermediates() {
         return outcomes;
     }
     let directions = directions(
@@ -89,7 +89,7 @@ fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Sec
             .or_else(|| sparse::outcomes(budget, linear, &directions));
     }
     if found.is_none() && !correlated && sweeps > MOST_SWEEPS {
-        found = hubs();
+        found = intermediates();
     }
     found.unwrap_or_else(|| {
         accumulate(linear, &directions, &plan, |direction| {
@@ -101,7 +101,7 @@ fn evaluate_over(budget: &Budget, linear: &Linear, changing: &[bool]) -> Vec<Sec
 /// So many sweeps take the time of one pass through a formula that uses every input once.
 const MANY_SWEEPS: usize = 3;
 
-/// More sweeps take longer than a look for hubs, and what follows when there are few.
+/// More sweeps take longer than a look for intermediates, and what follows when there are few.
 const MOST_SWEEPS: usize = 48;
 
 /// The same where inputs are independent and every measurand uses each of them once.

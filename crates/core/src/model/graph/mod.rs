@@ -185,21 +185,21 @@ impl Graph {
 
     /// The same output with some operations, in rising order, as further inputs: the output and then what these
     /// operations are made of. The new inputs have the places from `inputs` on.
-    pub fn cut(&self, of: Id, hubs: &[Id], inputs: usize) -> Graph {
+    pub fn cut(&self, of: Id, intermediates: &[Id], inputs: usize) -> Graph {
         let mut out = Graph::default();
-        let places = (0..hubs.len()).map(|k| Op::Input((inputs + k) as u32));
+        let places = (0..intermediates.len()).map(|k| Op::Input((inputs + k) as u32));
         out.ops.extend(places);
         let mut replaced: Vec<Id> = vec![0; of as usize + 1];
-        let mut made = Vec::with_capacity(hubs.len());
+        let mut made = Vec::with_capacity(intermediates.len());
         let needed = self.needed(&[of]);
         for id in (0..=of).filter(|id| needed[*id as usize]) {
             let at = |operand: Id| replaced[operand as usize];
             let moved = self.moved(self.ops[id as usize], at, &mut out);
             let mut place = out.ops.len() as Id;
             out.ops.push(moved);
-            if let Ok(hub) = hubs.binary_search(&id) {
+            if let Ok(intermediate) = intermediates.binary_search(&id) {
                 made.push(place);
-                place = hub as Id;
+                place = intermediate as Id;
             }
             replaced[id as usize] = place;
         }

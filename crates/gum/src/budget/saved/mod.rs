@@ -28,13 +28,21 @@ pub const RESULT_FORMAT: &str = "gumption-result/1";
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Document {
+    /// Name and version of this format.
     pub format: String,
+    /// Program that wrote it, with its version.
     pub generator: String,
+    /// Title of the budget.
     pub title: String,
+    /// Files that state components or results.
     pub files: Vec<FileEntry>,
+    /// The results, in linear form.
     pub results: Vec<ResultEntry>,
+    /// Every component that acts on one of them, once.
     pub components: Vec<ComponentEntry>,
+    /// Groups of correlated components.
     pub correlated: Vec<GroupEntry>,
+    /// What must be known of the files.
     pub remarks: Vec<RemarkEntry>,
 }
 
@@ -42,7 +50,9 @@ pub struct Document {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FileEntry {
+    /// From the folder of this file, with `/` between its parts.
     pub path: String,
+    /// Units that the file defines: name and definition.
     pub units: Vec<[String; 2]>,
 }
 
@@ -50,17 +60,28 @@ pub struct FileEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResultEntry {
+    /// Index into files: the budget.
     pub file: usize,
+    /// Row of its series.
     pub row: Option<String>,
+    /// Name of the measurand.
     pub measurand: String,
+    /// What it is.
     pub description: Option<String>,
+    /// Unit of the estimate.
     pub unit: String,
+    /// Estimate y.
     pub estimate: f64,
+    /// Combined standard uncertainty, first order; follows from the terms.
     pub standard_uncertainty: f64,
+    /// Effective degrees of freedom; follow from the terms.
     #[serde(with = "crate::distribution::extended")]
     pub effective_degrees_of_freedom: f64,
+    /// Whether the model is linear in everything that is uncertain.
     pub linear: bool,
+    /// Whether Monte Carlo validated the result (JCGM 101 clause 8, at the digits of the statement); nothing where it was not run.
     pub validated: Option<bool>,
+    /// How the components enter.
     pub terms: Vec<TermEntry>,
 }
 
@@ -68,7 +89,9 @@ pub struct ResultEntry {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TermEntry {
+    /// Index into components.
     pub component: usize,
+    /// Change of the result per unit of the component.
     pub sensitivity: f64,
 }
 
@@ -76,27 +99,41 @@ pub struct TermEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ComponentEntry {
+    /// Index into files: the file that states it.
     pub file: usize,
+    /// Row of that file's series.
     pub row: Option<String>,
+    /// Its name in that file.
     pub name: String,
+    /// Its name without that of its input.
     pub label: String,
     /// Name of the shared cause, for a component of a `[source.NAME]`.
     pub source: Option<String>,
+    /// Unit of the deviation.
     pub unit: String,
+    /// Standard uncertainty as GUM propagates it.
     pub standard_uncertainty: f64,
+    /// Degrees of freedom.
     #[serde(with = "crate::distribution::extended")]
     pub degrees_of_freedom: f64,
+    /// Distribution of the deviation.
     pub distribution: Distribution,
+    /// Type of evaluation.
     pub evaluation: TypeEntry,
+    /// How the standard uncertainty was found.
     pub how: String,
+    /// The certificate behind it.
     pub certificate: Option<Certificate>,
+    /// Where the number comes from.
     pub reference: Option<String>,
 }
 
 /// Type A or Type B.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum TypeEntry {
+    /// From a statistical analysis of readings.
     A,
+    /// By other means.
     B,
 }
 
@@ -104,9 +141,13 @@ pub enum TypeEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GroupEntry {
+    /// Indices into components.
     pub members: Vec<usize>,
+    /// Correlation matrix.
     pub correlation: Vec<Vec<f64>>,
+    /// Joint distribution.
     pub law: LawEntry,
+    /// Common degrees of freedom.
     pub degrees_of_freedom: Option<f64>,
 }
 
@@ -114,13 +155,19 @@ pub struct GroupEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "name", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum LawEntry {
+    /// Multivariate normal.
     Normal,
+    /// Multivariate t.
     #[serde(rename = "t")]
     StudentT {
+        /// ν of all members.
         dof: f64,
+        /// Scale of each member.
         scale: Vec<f64>,
     },
+    /// Margins as stated, joined by a Gaussian copula.
     GaussianCopula {
+        /// Correlation of the latent normal variables.
         latent: Vec<Vec<f64>>,
     },
 }
@@ -129,9 +176,13 @@ pub enum LawEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RemarkEntry {
+    /// Index into files.
     pub file: usize,
+    /// Row of its series.
     pub row: Option<String>,
+    /// In English.
     pub en: String,
+    /// In Chinese.
     pub zh: String,
 }
 

@@ -3,7 +3,7 @@
 use crate::budget::Detection;
 
 /// What was found for one measurand.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct DetectionResult {
     /// The primary result y.
     pub estimate: f64,
@@ -35,7 +35,7 @@ impl DetectionResult {
 }
 
 /// Decision threshold and detection limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct CharacteristicLimits {
     /// ũ(0): u of a measurement of nothing.
     pub u_of_zero: f64,
@@ -46,7 +46,7 @@ pub struct CharacteristicLimits {
 }
 
 /// The detection limit, if there is one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub enum DetectionLimit {
     /// Smallest value that is recognised with probability 1 − β.
     Found(f64),
@@ -69,7 +69,7 @@ impl DetectionLimit {
 }
 
 /// The result, truncated at zero.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct BestEstimate {
     /// ŷ.
     pub value: f64,

@@ -5,7 +5,7 @@ use crate::budget::LackOfFit;
 use crate::model::Notice;
 
 /// Something the reader must know before using the numbers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Finding {
     /// Index of the measurand it concerns; `None` = the whole budget.
     pub measurand: Option<usize>,
@@ -14,7 +14,7 @@ pub struct Finding {
 }
 
 /// The kinds of findings; the report has a sentence in each language for every one.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum FindingKind {
     /// c = 0 (or next to it) while u(x) > 0 and the input does act beyond first order.
     VanishingSensitivity {

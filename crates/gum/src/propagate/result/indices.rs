@@ -1,7 +1,7 @@
 //! Sobol' sensitivity indices.
 
 /// Sensitivity indices of a budget.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct SensitivityIndices {
     /// Trials of A and of B.
     pub trials: u64,
@@ -13,7 +13,7 @@ pub struct SensitivityIndices {
 }
 
 /// The indices of one factor, with their standard errors.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct SobolIndex {
     /// S.
     pub first: f64,

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::gum::Freedom;
 
 /// Several measurands (JCGM 102).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct JointResult {
     /// Covariance and correlation of the outputs, GUM.
     pub covariance: DMatrix<f64>,
@@ -28,7 +28,7 @@ pub struct JointResult {
 }
 
 /// Coverage regions from Monte Carlo (JCGM 102 7.7).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct Regions {
     /// k_p of the ellipsoid with the Monte Carlo covariance that holds a fraction p of the trials.
     pub k_ellipsoid: f64,

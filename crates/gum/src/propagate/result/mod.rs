@@ -23,7 +23,7 @@ pub use validation::{Clause8, Validation};
 use crate::budget::NamedFigure;
 
 /// What both methods found for one budget.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct Evaluation {
     /// One per measurand, in the order of the model's outputs.
     pub results: Vec<MeasurandResult>,
@@ -44,7 +44,7 @@ pub struct Evaluation {
 }
 
 /// Both methods for one measurand.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct MeasurandResult {
     /// First order.
     pub gum: Gum,
@@ -60,7 +60,7 @@ pub struct MeasurandResult {
 }
 
 /// Which method the statement uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Basis {
     /// GUM first order: validated, or Monte Carlo not run; also where k is fixed and Monte Carlo
     /// confirms y and u, which is all that the statement then claims.

@@ -4,7 +4,7 @@ use super::quasi::Quasi;
 use crate::budget::Adaptive;
 
 /// Monte Carlo results for one measurand.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, serde::Serialize)]
 pub struct MonteCarlo {
     /// Mean; `None` when the moment does not exist or does not converge.
     pub estimate: Option<f64>,
@@ -29,7 +29,7 @@ pub struct MonteCarlo {
 }
 
 /// Counts in equal bins.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Histogram {
     /// Left edge of the first bin.
     pub start: f64,
@@ -40,7 +40,7 @@ pub struct Histogram {
 }
 
 /// How the Monte Carlo method was run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Run {
     /// Trials that were run.
     pub trials: u64,
@@ -55,7 +55,7 @@ pub struct Run {
 }
 
 /// What an adaptive run reached.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct AdaptiveRun {
     /// Which procedure.
     pub procedure: Adaptive,
@@ -68,7 +68,7 @@ pub struct AdaptiveRun {
 }
 
 /// Why the mean or the standard deviation of an output is not given.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub enum MissingMoments {
     /// The output depends linearly on a component with a t distribution that has no standard
     /// deviation (ν ≤ 2) or not even a mean (ν ≤ 1).
@@ -102,7 +102,7 @@ pub enum MissingMoments {
 }
 
 /// Which end of the distribution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Side {
     /// The one with the smallest values.
     Lower,
@@ -111,7 +111,7 @@ pub enum Side {
 }
 
 /// What a heavy tail does to the first two moments.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Consequence {
     /// Neither mean nor standard deviation exists.
     NoMean,

@@ -10,19 +10,19 @@ use crate::model::Neighbours;
 pub(super) struct Bordered {
     /// A: per input the entries for its neighbours, in their order.
     pub few: Vec<f64>,
-    /// B: per hub the entries for the inputs.
+    /// B: per intermediate the entries for the inputs.
     pub border: Vec<Vec<f64>>,
-    /// M: hubs × hubs.
+    /// M: intermediates × intermediates.
     pub corner: DMatrix<f64>,
 }
 
 impl Bordered {
-    /// Without entries, for inputs with these neighbours and so many hubs.
-    pub(super) fn zero(near: &Neighbours, hubs: usize) -> Self {
+    /// Without entries, for inputs with these neighbours and so many intermediates.
+    pub(super) fn zero(near: &Neighbours, intermediates: usize) -> Self {
         Bordered {
             few: vec![0.0; near.pairs()],
-            border: vec![vec![0.0; near.inputs()]; hubs],
-            corner: DMatrix::zeros(hubs, hubs),
+            border: vec![vec![0.0; near.inputs()]; intermediates],
+            corner: DMatrix::zeros(intermediates, intermediates),
         }
     }
 
@@ -33,7 +33,7 @@ impl Bordered {
     }
 
     /// Takes the columns of variables from their sum: no two inputs among them have an input for a neighbour in common,
-    /// and no hub has any neighbour in common with the others. Each is its own neighbour.
+    /// and no intermediate has any neighbour in common with the others. Each is its own neighbour.
     pub(super) fn set(
         &mut self,
         near: &Neighbours,
@@ -50,9 +50,9 @@ impl Bordered {
                             self.few[place] = sum[i];
                         }
                     }
-                    (None, Some(hub)) => self.border[hub][i] = sum[i],
+                    (None, Some(intermediate)) => self.border[intermediate][i] = sum[i],
                     (Some(row), Some(column)) => self.corner[(row, column)] = sum[i],
-                    // The border is taken from its hub's column.
+                    // The border is taken from its intermediate's column.
                     (Some(_), None) => {}
                 }
             }
@@ -81,9 +81,9 @@ impl Bordered {
         out
     }
 
-    /// w·(this)·w for a step of an input and what it moves the hubs by.
-    pub(super) fn along(&self, near: &Neighbours, input: usize, hubs: &[Vec<f64>]) -> f64 {
-        let step = |k: usize| hubs[k][input];
+    /// w·(this)·w for a step of an input and what it moves the intermediates by.
+    pub(super) fn along(&self, near: &Neighbours, input: usize, intermediates: &[Vec<f64>]) -> f64 {
+        let step = |k: usize| intermediates[k][input];
         let own = near.place(input, input);
         let mut sum = own.map_or(0.0, |place| self.few[place]);
         for (k, border) in self.border.iter().enumerate() {
@@ -108,10 +108,15 @@ pub(super) struct Lifted<'a> {
 }
 
 impl<'a> Lifted<'a> {
-    /// For hubs with these derivatives S.
-    pub(super) fn new(spread: &'a Spread<'a>, hubs: &[Vec<f64>]) -> Self {
-        let k: Vec<Vec<f64>> = hubs.iter().map(|hub| spread.times(hub)).collect();
-        let q = DMatrix::from_fn(hubs.len(), hubs.len(), |a, b| dot(&hubs[a], &k[b]));
+    /// For intermediates with these derivatives S.
+    pub(super) fn new(spread: &'a Spread<'a>, intermediates: &[Vec<f64>]) -> Self {
+        let k: Vec<Vec<f64>> = intermediates
+            .iter()
+            .map(|intermediate| spread.times(intermediate))
+            .collect();
+        let q = DMatrix::from_fn(intermediates.len(), intermediates.len(), |a, b| {
+            dot(&intermediates[a], &k[b])
+        });
         Lifted { spread, k, q }
     }
 

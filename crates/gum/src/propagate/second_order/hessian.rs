@@ -1,4 +1,4 @@
-//! The second derivatives H of a measurand whose inputs meet in hubs, and what follows from them and the covariance C
+//! The second derivatives H of a measurand whose inputs meet in intermediates, and what follows from them and the covariance C
 //! of the inputs: ½ tr(HC), ½ tr(HCHC) and (HCH)_ii. No sum runs over all pairs of inputs.
 
 use nalgebra::DMatrix;
@@ -14,26 +14,26 @@ pub(super) struct Hessian {
     pub near: Neighbours,
     /// A, B and M.
     pub whole: Bordered,
-    /// S: per hub its derivatives.
-    pub hubs: Vec<Vec<f64>>,
+    /// S: per intermediate its derivatives.
+    pub intermediates: Vec<Vec<f64>>,
 }
 
 impl Hessian {
     /// How many numbers it consists of, about.
     pub(super) fn numbers(&self) -> usize {
-        2 * self.near.pairs() + (2 * self.hubs.len() + 1) * self.near.inputs()
+        2 * self.near.pairs() + (2 * self.intermediates.len() + 1) * self.near.inputs()
     }
 
     /// The second derivative along one unit of an input.
     pub(super) fn along(&self, input: usize) -> f64 {
-        self.whole.along(&self.near, input, &self.hubs)
+        self.whole.along(&self.near, input, &self.intermediates)
     }
 
     /// The Hessian among inputs with a covariance C.
     pub(super) fn over<'a>(&'a self, spread: &'a Spread<'a>) -> Over<'a> {
-        let r = self.hubs.len();
+        let r = self.intermediates.len();
         let Bordered { border, corner, .. } = &self.whole;
-        let u: Vec<&Vec<f64>> = border.iter().chain(&self.hubs).collect();
+        let u: Vec<&Vec<f64>> = border.iter().chain(&self.intermediates).collect();
         let mut w = DMatrix::zeros(2 * r, 2 * r);
         w.view_mut((0, r), (r, r)).fill_with_identity();
         w.view_mut((r, 0), (r, r)).fill_with_identity();

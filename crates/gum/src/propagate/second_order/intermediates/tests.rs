@@ -60,7 +60,7 @@ fn agrees(budget: &Budget, model: &str) {
     let linear = linearise(budget).unwrap();
     let all = over(budget, &linear, &budget.model.interactions()).remove(0);
     let found = outcomes(budget, &linear, &vec![true; linear.x.len()])
-        .unwrap_or_else(|| panic!("{model}: many hubs"))
+        .unwrap_or_else(|| panic!("{model}: many intermediates"))
         .remove(0);
     let u = linear.measurands[0].u;
     near(found.shift, all.shift, u, model);
@@ -144,7 +144,7 @@ fn third_derivatives_alone_are_seen() {
     }
 }
 
-/// A hub of inputs that rest has no derivatives that matter, also where they do not exist.
+/// A intermediate of inputs that rest has no derivatives that matter, also where they do not exist.
 #[test]
 fn inputs_that_rest_move_nothing() {
     let zeros = vec!["0"; COUNT].join(", ");
@@ -168,7 +168,7 @@ fn inputs_that_rest_move_nothing() {
 }
 
 #[test]
-fn what_has_many_hubs_is_left_alone() {
+fn what_has_many_intermediates_is_left_alone() {
     let factors: Vec<String> = (0..300)
         .map(|i| format!("(1 + x[{}] * x[{}])", i + 1, (7 * i) % 300 + 1))
         .collect();

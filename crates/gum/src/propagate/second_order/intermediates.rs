@@ -1,17 +1,17 @@
-//! Second-order terms of a formula in which many inputs meet in few values, its hubs ([`Cut`]).
+//! Second-order terms of a formula in which many inputs meet in few values, its intermediates ([`Cut`]).
 //!
-//! With x and the hubs s as variables of their own, L(x, s) = f(x, s) + Σ_k λ_k (s_k(x, s) − s_k) has the
+//! With x and the intermediates s as variables of their own, L(x, s) = f(x, s) + Σ_k λ_k (s_k(x, s) − s_k) has the
 //! derivatives of f(x, s(x)) where λ_k = ∂f/∂s_k: the first ones with respect to s vanish then. Along a direction
-//! d of the inputs, with w = (d, S d), S = ds/dx, and s″ the second derivatives of the hubs, therefore
+//! d of the inputs, with w = (d, S d), S = ds/dx, and s″ the second derivatives of the intermediates, therefore
 //!
 //! - D²f[d, d] = D²L[w, w]
 //! - D³f[d, e, g] = D³L[w_d, w_e, w_g] + D²L[w_d, s″_eg] + D²L[w_e, s″_dg] + D²L[w_g, s″_de],
 //!
-//! and D²L is a matrix A with few entries, bordered by a row B_k and column for each hub, with M where these
+//! and D²L is a matrix A with few entries, bordered by a row B_k and column for each intermediate, with M where these
 //! cross. The Hessian of f is A + B S + SᵀBᵀ + SᵀM S = A + U W Uᵀ with U = (B, Sᵀ): the traces of its products with
 //! the covariance of the inputs need no sum over all pairs of them.
 //!
-//! Inputs are measured in their standard uncertainties, f in u(y), and hubs in theirs, so that C is a correlation
+//! Inputs are measured in their standard uncertainties, f in u(y), and intermediates in theirs, so that C is a correlation
 //! matrix and all numbers are of one size.
 
 use std::ops::Range;
@@ -31,7 +31,7 @@ use crate::propagate::gum::Linear;
 const MOST_NUMBERS: usize = 1 << 24;
 
 /// The outcomes of all measurands when some inputs change, where components are not shared between inputs and
-/// hubs are few.
+/// intermediates are few.
 pub(super) fn outcomes(
     budget: &Budget,
     linear: &Linear,
@@ -42,41 +42,41 @@ pub(super) fn outcomes(
         let measurand = linear.measurands.get(output)?;
         let unit = unit(measurand.u);
         let cut = budget.model.cut(output)?;
-        let at_hubs = AtHubs::new(&cut, &linear.x, &spread, unit)?;
+        let at_intermediates = AtIntermediates::new(&cut, &linear.x, &spread, unit)?;
         let mut sums = Sums::new(measurand, unit, linear.x.len(), 0);
-        at_hubs.add_to(&mut sums);
+        at_intermediates.add_to(&mut sums);
         let outcome = sums.outcome(unit);
         // One input at which a derivative does not exist spoils what the others do.
         let usable = outcome.shift.is_finite() && outcome.curvature.is_finite();
-        let small = at_hubs.hessian.numbers() <= MOST_NUMBERS / linear.measurands.len();
+        let small = at_intermediates.hessian.numbers() <= MOST_NUMBERS / linear.measurands.len();
         Some(SecondOrderOutcome {
-            hessian: (usable && small).then_some(at_hubs.hessian),
+            hessian: (usable && small).then_some(at_intermediates.hessian),
             ..outcome
         })
     };
     (0..linear.measurands.len()).map(outcome).collect()
 }
 
-/// The derivatives of L and of the hubs at a point.
-struct AtHubs<'a> {
+/// The derivatives of L and of the intermediates at a point.
+struct AtIntermediates<'a> {
     cut: &'a Cut<'a>,
     spread: &'a Spread<'a>,
     point: Vec<f64>,
     /// Units of x and s.
     scales: Vec<f64>,
-    /// What f and the hubs, in the units of the file, are multiplied with in L.
+    /// What f and the intermediates, in the units of the file, are multiplied with in L.
     weights: Vec<f64>,
     /// ∂f/∂x of f(x, s(x)).
     gradient: Vec<f64>,
-    /// ∂s_k/∂s_j of the hubs before.
+    /// ∂s_k/∂s_j of the intermediates before.
     before: DMatrix<f64>,
     /// For each of x and s those with which it may have mixed derivatives.
     neighbours: Neighbours,
     /// Variables that move together, and then D³L[d, d, ·].
     sweeps: Vec<(Vec<usize>, Vec<f64>)>,
-    /// Of f, by D²L and the derivatives of the hubs.
+    /// Of f, by D²L and the derivatives of the intermediates.
     hessian: Hessian,
-    /// Per hub D²s_k.
+    /// Per intermediate D²s_k.
     parts: Vec<Bordered>,
 }
 
@@ -84,18 +84,18 @@ struct AtHubs<'a> {
 struct Sweep {
     /// D²L[d, ·]
     whole: Vec<f64>,
-    /// Per hub D²s_k[d, ·].
+    /// Per intermediate D²s_k[d, ·].
     parts: Vec<Vec<f64>>,
     /// D³L[d, d, ·]
     third: Vec<f64>,
 }
 
-impl<'a> AtHubs<'a> {
+impl<'a> AtIntermediates<'a> {
     fn new(cut: &'a Cut<'a>, x: &[f64], spread: &'a Spread<'a>, unit: f64) -> Option<Self> {
-        let (n, r) = (cut.inputs(), cut.hubs());
+        let (n, r) = (cut.inputs(), cut.intermediates());
         let neighbours = cut.neighbours()?;
         let near = neighbours.clone().among_first(n);
-        let mut at_hubs = AtHubs {
+        let mut at_intermediates = AtIntermediates {
             cut,
             spread,
             point: cut.point(x),
@@ -108,41 +108,41 @@ impl<'a> AtHubs<'a> {
             parts: vec![Bordered::zero(&near, r); r],
             hessian: Hessian {
                 whole: Bordered::zero(&near, r),
-                hubs: Vec::new(),
+                intermediates: Vec::new(),
                 near,
             },
         };
-        at_hubs.find_first_derivatives();
-        at_hubs.find_second_derivatives();
-        Some(at_hubs)
+        at_intermediates.find_first_derivatives();
+        at_intermediates.find_second_derivatives();
+        Some(at_intermediates)
     }
 
     fn find_first_derivatives(&mut self) {
-        let (n, r) = (self.cut.inputs(), self.cut.hubs());
+        let (n, r) = (self.cut.inputs(), self.cut.intermediates());
         let gradients = self.cut.gradients(&self.point);
         let moving = self.moving();
-        let hubs = || (0..r).filter(|k| moving[*k]);
-        // ∂f/∂s_k, also through the hubs behind.
+        let intermediates = || (0..r).filter(|k| moving[*k]);
+        // ∂f/∂s_k, also through the intermediates behind.
         let mut lambda = vec![0.0; r];
-        for k in hubs().rev() {
+        for k in intermediates().rev() {
             lambda[k] += gradients[0][n + k] * self.weights[0];
-            for j in hubs().filter(|j| *j < k) {
+            for j in intermediates().filter(|j| *j < k) {
                 lambda[j] += lambda[k] * gradients[k + 1][n + j];
             }
         }
         for k in 0..r {
             if !moving[k] {
-                self.hessian.hubs.push(vec![0.0; n]);
+                self.hessian.intermediates.push(vec![0.0; n]);
                 self.scales.push(0.0);
                 continue;
             }
             let mut slopes = self.in_units(gradients[k + 1][..n].to_vec());
-            for j in hubs().filter(|j| *j < k) {
+            for j in intermediates().filter(|j| *j < k) {
                 let slope = gradients[k + 1][n + j] * self.scales[n + j];
                 self.before[(k, j)] = slope;
-                add_scaled(&mut slopes, slope, &self.hessian.hubs[j]);
+                add_scaled(&mut slopes, slope, &self.hessian.intermediates[j]);
             }
-            // A hub that does not move to first order is measured by what it does to f.
+            // A intermediate that does not move to first order is measured by what it does to f.
             let sizes = [self.spread.deviation(&slopes), 1.0 / lambda[k].abs()];
             let scale = sizes
                 .into_iter()
@@ -153,23 +153,23 @@ impl<'a> AtHubs<'a> {
                 .row_mut(k)
                 .iter_mut()
                 .for_each(|slope| *slope /= scale);
-            self.hessian.hubs.push(slopes);
+            self.hessian.intermediates.push(slopes);
             self.scales.push(scale);
         }
         self.gradient = self.in_units(gradients[0][..n].to_vec());
-        for k in hubs() {
+        for k in intermediates() {
             let slope = gradients[0][n + k] * self.scales[n + k];
-            add_scaled(&mut self.gradient, slope, &self.hessian.hubs[k]);
+            add_scaled(&mut self.gradient, slope, &self.hessian.intermediates[k]);
         }
         self.gradient.iter_mut().for_each(|g| *g *= self.weights[0]);
         self.weights.append(&mut lambda);
     }
 
-    /// Which hubs an input moves. One without a value is in a branch that is not taken.
+    /// Which intermediates an input moves. One without a value is in a branch that is not taken.
     fn moving(&self) -> Vec<bool> {
         let mut moves: Vec<bool> = self.scales.iter().map(|scale| *scale > 0.0).collect();
         let n = moves.len();
-        for k in 0..self.cut.hubs() {
+        for k in 0..self.cut.intermediates() {
             let moved = self.cut.made_of(k).any(|place| moves[place]);
             moves.push(moved && self.point[n + k].is_finite());
         }
@@ -188,20 +188,20 @@ impl<'a> AtHubs<'a> {
         }
     }
 
-    /// Variables whose columns of D²L are found together, as [`Bordered::set`] takes them. A hub may be a neighbour of
+    /// Variables whose columns of D²L are found together, as [`Bordered::set`] takes them. A intermediate may be a neighbour of
     /// two inputs that move together: its entries are taken from its own column.
     fn moving_together(&self) -> Vec<Vec<usize>> {
         let n = self.cut.inputs();
         let moved = |places: Range<usize>| places.filter(|place| self.scales[*place] > 0.0);
         let mut together = sweeps(moved(0..n), &self.hessian.near);
         let mut met = vec![false; self.scales.len()];
-        for hub in moved(n..self.scales.len()) {
-            let near = self.neighbours.of(hub);
+        for intermediate in moved(n..self.scales.len()) {
+            let near = self.neighbours.of(intermediate);
             near.iter().for_each(|place| met[*place] = true);
             let meets = |place: &usize| self.neighbours.of(*place).iter().any(|near| met[*near]);
             match together.iter_mut().find(|sweep| !sweep.iter().any(meets)) {
-                Some(sweep) => sweep.push(hub),
-                None => together.push(vec![hub]),
+                Some(sweep) => sweep.push(intermediate),
+                None => together.push(vec![intermediate]),
             }
             near.iter().for_each(|place| met[*place] = false);
         }
@@ -218,7 +218,7 @@ impl<'a> AtHubs<'a> {
             add_scaled(&mut whole, *weight, &along.second);
             add_scaled(&mut third, *weight, &along.third);
         }
-        let hubs = all.drain(1..).zip(&self.scales[self.cut.inputs()..]);
+        let intermediates = all.drain(1..).zip(&self.scales[self.cut.inputs()..]);
         let part = |second: Vec<f64>, scale: f64| {
             if scale == 0.0 {
                 return vec![0.0; second.len()];
@@ -228,7 +228,7 @@ impl<'a> AtHubs<'a> {
             part
         };
         Sweep {
-            parts: hubs
+            parts: intermediates
                 .map(|(along, scale)| part(along.second, *scale))
                 .collect(),
             whole: self.in_units(whole),
@@ -274,7 +274,12 @@ impl<'a> AtHubs<'a> {
 
     /// (d, S d).
     fn lifted(&self, d: Vec<f64>) -> Vec<f64> {
-        let along: Vec<f64> = self.hessian.hubs.iter().map(|hub| dot(hub, &d)).collect();
+        let along: Vec<f64> = self
+            .hessian
+            .intermediates
+            .iter()
+            .map(|intermediate| dot(intermediate, &d))
+            .collect();
         d.into_iter().chain(along).collect()
     }
 
@@ -320,8 +325,8 @@ impl<'a> AtHubs<'a> {
 
     /// Σ_l D³f[v, d_l, d_l] over the coordinates l, with v = Σ_l g_l d_l = C ∂f/∂x.
     fn drift(&self) -> f64 {
-        let (n, r) = (self.cut.inputs(), self.cut.hubs());
-        let lifted = Lifted::new(self.spread, &self.hessian.hubs);
+        let (n, r) = (self.cut.inputs(), self.cut.intermediates());
+        let lifted = Lifted::new(self.spread, &self.hessian.intermediates);
         let v = self.lifted(self.spread.times(&self.gradient));
         let resting = self.third(&v);
         // 2 D³L[v, d, ·] where D³L[d, d, ·] is known.
@@ -337,7 +342,7 @@ impl<'a> AtHubs<'a> {
             twice.set(&self.hessian.near, &self.neighbours, places, &column);
         }
         let moved = self.hessian.whole.times(&self.hessian.near, &v);
-        let bent = self.through_hubs(|part| lifted.trace(&self.hessian.near, part));
+        let bent = self.through_intermediates(|part| lifted.trace(&self.hessian.near, part));
         let mut sum = 0.5 * lifted.trace(&self.hessian.near, &twice) + dot(&moved[n..], &bent);
         // s″_vl = q·w_l.
         let mut q: Vec<Vec<f64>> = Vec::with_capacity(r);
@@ -356,8 +361,8 @@ impl<'a> AtHubs<'a> {
         sum
     }
 
-    /// Second derivatives of the hubs: what each has of its own, and what it has from those before.
-    fn through_hubs(&self, own: impl Fn(&Bordered) -> f64) -> Vec<f64> {
+    /// Second derivatives of the intermediates: what each has of its own, and what it has from those before.
+    fn through_intermediates(&self, own: impl Fn(&Bordered) -> f64) -> Vec<f64> {
         let mut bent: Vec<f64> = Vec::with_capacity(self.parts.len());
         for (k, part) in self.parts.iter().enumerate() {
             let earlier = bent.iter().enumerate();
@@ -370,18 +375,18 @@ impl<'a> AtHubs<'a> {
 
 /// Third derivatives of L that decide D³f[d, d, d] for a direction of one input.
 struct Thirds<'b, 'a> {
-    of: &'b AtHubs<'a>,
+    of: &'b AtIntermediates<'a>,
     /// L_iii
     own: Vec<f64>,
-    /// Per hub 3 L_iik.
+    /// Per intermediate 3 L_iik.
     once: Vec<Vec<f64>>,
-    /// L_·kk per hub, and 2 L_·kl per pair of hubs that may have mixed derivatives.
+    /// L_·kk per intermediate, and 2 L_·kl per pair of intermediates that may have mixed derivatives.
     twice: Vec<(usize, usize, Vec<f64>)>,
 }
 
 impl<'b, 'a> Thirds<'b, 'a> {
-    fn new(of: &'b AtHubs<'a>) -> Self {
-        let (n, r) = (of.cut.inputs(), of.cut.hubs());
+    fn new(of: &'b AtIntermediates<'a>) -> Self {
+        let (n, r) = (of.cut.inputs(), of.cut.intermediates());
         let mut own = vec![0.0; n];
         let mut alone = vec![vec![0.0; n + r]; r];
         for (places, third) in &of.sweeps {
@@ -397,7 +402,7 @@ impl<'b, 'a> Thirds<'b, 'a> {
         }
         let mut once = vec![vec![0.0; n]; r];
         for (places, _) in &of.sweeps {
-            for (k, hub) in alone.iter().enumerate() {
+            for (k, intermediate) in alone.iter().enumerate() {
                 let inputs = places.iter().copied().filter(|place| *place < n);
                 let mut both: Vec<usize> = inputs.filter(|i| of.are_near(*i, n + k)).collect();
                 if both.is_empty() {
@@ -406,7 +411,7 @@ impl<'b, 'a> Thirds<'b, 'a> {
                 both.push(n + k);
                 let third = of.third(&of.ones(&both));
                 for &i in both.iter().filter(|i| **i < n) {
-                    once[k][i] = 1.5 * (third[i] - own[i] - hub[i]);
+                    once[k][i] = 1.5 * (third[i] - own[i] - intermediate[i]);
                 }
             }
         }
@@ -419,7 +424,12 @@ impl<'b, 'a> Thirds<'b, 'a> {
                 twice.push((k, l, both));
             }
         }
-        twice.extend(alone.into_iter().enumerate().map(|(k, hub)| (k, k, hub)));
+        twice.extend(
+            alone
+                .into_iter()
+                .enumerate()
+                .map(|(k, intermediate)| (k, k, intermediate)),
+        );
         Thirds {
             of,
             own,
@@ -430,8 +440,11 @@ impl<'b, 'a> Thirds<'b, 'a> {
 
     /// D³f[d, d, d] for a step d of one unit of an input.
     fn along(&self, input: usize) -> f64 {
-        let (n, hubs) = (self.of.cut.inputs(), &self.of.hessian.hubs);
-        let step: Vec<f64> = hubs.iter().map(|hub| hub[input]).collect();
+        let (n, intermediates) = (self.of.cut.inputs(), &self.of.hessian.intermediates);
+        let step: Vec<f64> = intermediates
+            .iter()
+            .map(|intermediate| intermediate[input])
+            .collect();
         let mut sum = self.own[input];
         for (once, step) in self.once.iter().zip(&step) {
             sum += once[input] * step;
@@ -441,7 +454,9 @@ impl<'b, 'a> Thirds<'b, 'a> {
         }
         let whole = &self.of.hessian.whole;
         let near = &self.of.hessian.near;
-        let bent = self.of.through_hubs(|part| part.along(near, input, hubs));
+        let bent = self
+            .of
+            .through_intermediates(|part| part.along(near, input, intermediates));
         for (k, bent) in bent.iter().enumerate() {
             let corner: f64 = step
                 .iter()

@@ -6,7 +6,10 @@
 
 use crate::budget::{Conventions, CoverageRule, StatementForm};
 use crate::distribution::KINDS;
-use crate::propagate::{Basis, Coverage, CoverageBasis, FindingKind, Freedom, MonteCarlo};
+use crate::propagate::{
+    Basis, Coverage, CoverageBasis, Freedom, IntervalKind, MonteCarlo, Reported,
+    ReportedUncertainty, StatedProbability,
+};
 use crate::quantity::{Decimal, Rounded, Unit, space_before};
 
 use super::language::Language;
@@ -27,8 +30,12 @@ pub fn statement(report: &Report<'_>) -> Vec<String> {
 
 fn of_measurand(report: &Report<'_>, measurand: usize) -> String {
     let result = &report.evaluation.results[measurand];
-    let subject = Subject::new(report, measurand);
-    match (result.basis, &result.monte_carlo) {
+    let conventions = &report.budget.conventions;
+    let Some(reported) = report.evaluation.reported(measurand, conventions) else {
+        return String::new();
+    };
+    let subject = Subject::new(report, measurand, reported);
+    match (reported.basis, &result.monte_carlo) {
         (Basis::MonteCarlo, Some(monte_carlo)) => subject.monte_carlo_sentence(monte_carlo),
         _ => subject.gum_sentence(
             result.gum.estimate,
@@ -42,7 +49,7 @@ fn of_measurand(report: &Report<'_>, measurand: usize) -> String {
 /// What a sentence about one measurand needs.
 struct Subject<'a> {
     report: &'a Report<'a>,
-    measurand: usize,
+    reported: Reported,
     name: &'a str,
     unit: &'a Unit,
     conventions: &'a Conventions,
@@ -50,11 +57,11 @@ struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    fn new(report: &'a Report<'a>, measurand: usize) -> Self {
+    fn new(report: &'a Report<'a>, measurand: usize, reported: Reported) -> Self {
         let (name, unit) = report.measurand(measurand);
         Subject {
             report,
-            measurand,
+            reported,
             name,
             unit,
             conventions: &report.budget.conventions,
@@ -71,10 +78,9 @@ impl<'a> Subject<'a> {
     }
 
     fn gum_sentence(&self, estimate: f64, u: f64, coverage: &Coverage, dof: &Freedom) -> String {
-        let expanded = coverage.expanded;
-        if expanded == 0.0 || !expanded.is_finite() {
+        let ReportedUncertainty::Multiple { expanded, .. } = self.reported.uncertainty else {
             return self.without_uncertainty(estimate);
-        }
+        };
         let pair = self.conventions.rounding_rule().align(estimate, expanded);
         let u = self.small(u);
         let k = self.factor(coverage);
@@ -122,16 +128,18 @@ impl<'a> Subject<'a> {
 
     /// Why k has this value, and what it covers.
     fn reason(&self, k: &str, coverage: &Coverage, dof: &Freedom) -> String {
-        let p = probability(self.stated_probability(coverage));
+        let p = match self.reported.probability {
+            StatedProbability::Of(p) => probability(p),
+            StatedProbability::Unnamed => return String::new(),
+            StatedProbability::Refuted => {
+                let words = self.language.pick(
+                    ", a fixed factor, for which no coverage probability is stated",
+                    "；k 取约定值，不注明包含概率",
+                );
+                return words.to_string();
+            }
+        };
         match (&coverage.basis, self.language) {
-            (CoverageBasis::Fixed, _) if !self.conventions.state_probability => String::new(),
-            // The probability of k is what Monte Carlo has just refuted.
-            (CoverageBasis::Fixed, Language::English) if self.refuted() => {
-                ", a fixed factor, for which no coverage probability is stated".to_string()
-            }
-            (CoverageBasis::Fixed, Language::Chinese) if self.refuted() => {
-                "；k 取约定值，不注明包含概率".to_string()
-            }
             (CoverageBasis::Normal, Language::English) => {
                 format!(
                     ", which for a normal distribution corresponds to a coverage probability of about {p}"
@@ -178,13 +186,9 @@ impl<'a> Subject<'a> {
     ) -> String {
         let name = self.name;
         let (y, expanded) = (self.value(&pair.estimate), self.amount(&pair.uncertainty));
-        let index = if self.names_probability(coverage) {
-            format!(
-                "_{}",
-                probability(self.stated_probability(coverage)).trim_end_matches(" %")
-            )
-        } else {
-            String::new()
+        let index = match self.reported.probability {
+            StatedProbability::Of(p) => format!("_{}", probability(p).trim_end_matches(" %")),
+            _ => String::new(),
         };
         let nu = match &coverage.basis {
             CoverageBasis::StudentT { dof: used } => {
@@ -220,28 +224,6 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// With k fixed at 2 or 3, p need not be stated (JJF 1059.1 5.3); with a k found for p it must be.
-    fn names_probability(&self, coverage: &Coverage) -> bool {
-        let fixed = coverage.basis == CoverageBasis::Fixed;
-        !fixed || (self.conventions.state_probability && !self.refuted())
-    }
-
-    /// Whether Monte Carlo has not validated the interval of the GUM.
-    fn refuted(&self) -> bool {
-        self.report
-            .finds(self.measurand, |kind| *kind == FindingKind::NotValidated)
-    }
-
-    /// For a fixed k the probability that it happens to have, to the whole percent.
-    fn stated_probability(&self, coverage: &Coverage) -> f64 {
-        match coverage.basis {
-            CoverageBasis::Fixed => (coverage.probability * 100.0).round() / 100.0,
-            // EA-4/02: 95.45 % is what k = 2 has for a normal distribution; "about" goes with 95 %.
-            _ if (coverage.probability - 0.9545).abs() < 1e-4 => 0.95,
-            _ => coverage.probability,
-        }
-    }
-
     /// k as the profile states it: a fixed one as it was given, others to two decimals.
     fn factor(&self, coverage: &Coverage) -> String {
         match (&coverage.basis, self.conventions.coverage_factor) {
@@ -252,18 +234,19 @@ impl<'a> Subject<'a> {
 
     /// A result of Monte Carlo: y ± U where the interval is symmetric about y, else the interval.
     fn monte_carlo_sentence(&self, monte_carlo: &MonteCarlo) -> String {
-        let half = monte_carlo.half_width(self.conventions.digits);
-        let fixed = match self.conventions.coverage_factor {
-            CoverageRule::Fixed(k) if !self.conventions.state_probability => Some(k),
-            _ => None,
-        };
-        match (half, monte_carlo.estimate, monte_carlo.u) {
-            (Some(half), Some(estimate), Some(u)) if half > 0.0 && u > 0.0 => match fixed {
-                Some(k) => self.fixed_multiple(estimate, u, k),
-                None => self.half_interval(estimate, u, half),
-            },
-            (Some(half), _, None) if half > 0.0 => self.half_interval_alone(monte_carlo, half),
-            _ => self.interval(monte_carlo),
+        let Reported { estimate, u, .. } = self.reported;
+        match (self.reported.uncertainty, u) {
+            (ReportedUncertainty::Multiple { k, .. }, Some(u)) => {
+                self.fixed_multiple(estimate, u, k)
+            }
+            (ReportedUncertainty::HalfWidth { expanded }, Some(u)) => {
+                self.half_interval(estimate, u, expanded)
+            }
+            (ReportedUncertainty::HalfWidth { expanded }, None) => {
+                self.half_interval_alone(monte_carlo, expanded)
+            }
+            (ReportedUncertainty::Interval { ends, kind }, _) => self.interval(ends, kind),
+            _ => self.without_uncertainty(estimate),
         }
     }
 
@@ -368,34 +351,24 @@ impl<'a> Subject<'a> {
         grouped(run.map_or(0, |run| run.trials))
     }
 
-    fn interval(&self, monte_carlo: &MonteCarlo) -> String {
-        let shortest = self
-            .report
-            .finds(self.measurand, |kind| *kind == FindingKind::Asymmetric);
-        let interval = if shortest {
-            monte_carlo.shortest
-        } else {
-            monte_carlo.symmetric
-        };
+    fn interval(&self, interval: [f64; 2], kind: IntervalKind) -> String {
         let p = probability(self.report.coverage_probability());
-        let which = match (shortest, self.language) {
-            (true, Language::English) => "shortest",
-            (true, Language::Chinese) => "最短",
-            (false, Language::English) => "probabilistically symmetric",
-            (false, Language::Chinese) => "概率对称",
+        let which = match kind {
+            IntervalKind::Shortest => self.language.pick("shortest", "最短"),
+            IntervalKind::Symmetric => {
+                let symmetric = "probabilistically symmetric";
+                self.language.pick(symmetric, "概率对称")
+            }
         };
-        let scale = monte_carlo.u.unwrap_or((interval[1] - interval[0]) / 4.0);
-        let centre = monte_carlo.estimate.unwrap_or(monte_carlo.median);
-        if scale <= 0.0 || !scale.is_finite() {
-            return self.without_uncertainty(centre);
-        }
+        let Reported { estimate, u, .. } = self.reported;
+        let scale = u.unwrap_or((interval[1] - interval[0]) / 4.0);
         let rule = self.conventions.rounding_rule();
-        let pair = rule.align(centre, scale);
+        let pair = rule.align(estimate, scale);
         let [low, high] = interval.map(|end| self.value(&rule.to_place_of(&pair, end)));
         let value = self.value(&pair.estimate);
         let trials = self.trials();
         let name = self.name;
-        match (monte_carlo.u, self.language) {
+        match (u, self.language) {
             (Some(_), Language::English) => format!(
                 "{name}: estimate {value}, standard uncertainty u = {u}, {which} {p} coverage interval from {low} to {high}. These figures were found by the Monte Carlo method (JCGM 101) with {trials} trials, against which the result of the GUM method could not be validated.",
                 u = self.amount(&pair.uncertainty),

@@ -18,6 +18,7 @@ mod joint;
 mod monte_carlo;
 mod options;
 mod progress;
+mod reported;
 mod result;
 mod second_order;
 mod shape;
@@ -32,6 +33,7 @@ pub use evaluate::evaluate;
 pub use findings::is_residue;
 pub use options::{MonteCarloChoice, Options};
 pub use progress::Progress;
+pub use reported::{IntervalKind, Reported, ReportedUncertainty, StatedProbability};
 pub use result::{
     AdaptiveRun, Basis, BestEstimate, CharacteristicLimits, Clause8, Conformance, ConformityResult,
     Consequence, Contribution, Coverage, CoverageBasis, DetectionLimit, DetectionResult,

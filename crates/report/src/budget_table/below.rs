@@ -58,7 +58,7 @@ pub(super) fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, Stri
     let fixed = coverage.basis == CoverageBasis::Fixed;
     // A fixed k has the profile's probability only where the distribution of the result grants it.
     let conventions = &report.budget.conventions;
-    let granted = (coverage.probability - conventions.coverage_probability).abs() < 0.01;
+    let granted = coverage.grants(conventions.coverage_probability);
     let p = if fixed && !(conventions.state_probability && granted) {
         l.pick("no probability stated", "不注明包含概率")
             .to_string()

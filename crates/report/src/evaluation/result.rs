@@ -3,7 +3,7 @@
 use crate::machine::{Number, numbers};
 use crate::propagate::{
     Basis, Clause8, Contribution, Coverage, CoverageBasis, Freedom, Gum, MeasurandResult,
-    MonteCarlo, Validation,
+    MonteCarlo, Reported, ReportedUncertainty, StatedProbability, Validation,
 };
 use crate::{Report, machine::record};
 
@@ -26,6 +26,8 @@ record! {
         second_order: Option<SecondOrderJson>,
         /// Propagation of distributions.
         monte_carlo: Option<MonteCarloJson>,
+        /// What is reported on a certificate.
+        reported: Option<ReportedJson>,
         /// Clause 8 of JCGM 101 for two and for one digit of u.
         validation: Option<Vec<ValidationJson>>,
     }
@@ -60,6 +62,22 @@ record! {
         inputs: Vec<ContributionJson>,
         /// Contribution of each component.
         components: Vec<ContributionJson>,
+    }
+
+    /// What is reported on a certificate; its method is `basis`.
+    ReportedJson {
+        /// Estimate; the median where the distribution has no mean.
+        estimate: Number,
+        /// Standard uncertainty; null where the distribution has none.
+        standard_uncertainty: Option<Number>,
+        /// Coverage factor, where U is a multiple of u.
+        coverage_factor: Option<Number>,
+        /// Expanded uncertainty; null where the interval stands in its place, and where there is none.
+        expanded_uncertainty: Option<Number>,
+        /// The interval, where it is not symmetric about the estimate.
+        interval: Option<Vec<Number>>,
+        /// Coverage probability, where one is stated.
+        coverage_probability: Option<Number>,
     }
 
     /// A line of the budget table.
@@ -165,10 +183,35 @@ pub(super) fn measurand<'a>(
             matters: s.matters,
         }),
         monte_carlo: result.monte_carlo.as_ref().map(monte_carlo),
+        reported: report
+            .evaluation
+            .reported(m, &report.budget.conventions)
+            .map(|of| reported(&of)),
         validation: result
             .validation
             .as_ref()
             .map(|both| both.iter().map(validation).collect()),
+    }
+}
+
+fn reported(of: &Reported) -> ReportedJson {
+    let (expanded, interval) = match of.uncertainty {
+        ReportedUncertainty::Multiple { expanded, .. }
+        | ReportedUncertainty::HalfWidth { expanded } => (Some(expanded), None),
+        ReportedUncertainty::Interval { ends, .. } => (None, Some(numbers(&ends))),
+        ReportedUncertainty::None => (None, None),
+    };
+    let probability = match of.probability {
+        StatedProbability::Of(p) => Some(p),
+        StatedProbability::Unnamed | StatedProbability::Refuted => None,
+    };
+    ReportedJson {
+        estimate: Number(of.estimate),
+        standard_uncertainty: of.u.map(Number),
+        coverage_factor: of.coverage_factor().map(Number),
+        expanded_uncertainty: expanded.map(Number),
+        interval,
+        coverage_probability: probability.map(Number),
     }
 }
 

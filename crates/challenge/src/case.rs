@@ -1,10 +1,12 @@
 //! Making a sealed case from a seed.
 
 use nalgebra::DVector;
+use rand::RngExt;
+use rand::seq::IndexedRandom;
 
 use super::files::{CaseFile, case_file, recordings};
 use super::further::Further;
-use super::random::{Random, Stream};
+use super::random::{Random, Stream, source};
 use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge, Scenario, draw};
 use super::schedule::Campaign;
@@ -81,11 +83,11 @@ pub fn dwell(request: &Request) -> f64 {
 }
 
 fn drawn(request: &Request) -> Drawn {
-    let mut random = Random::new(request.seed, Stream::Case, 0);
+    let mut random = source(request.seed, Stream::Case, 0);
     let scenario = request
         .scenario
         .unwrap_or_else(|| choose(request.rig, &mut random));
-    let by_chance = if random.chance(0.5) {
+    let by_chance = if random.random() {
         NoiseKnowledge::Stated
     } else {
         NoiseKnowledge::AtRest
@@ -109,16 +111,11 @@ fn choose(rig: Option<Rig>, random: &mut Random) -> Scenario {
         .into_iter()
         .filter(|s| rig.is_none_or(|rig| s.rig == rig))
         .collect();
-    let total: f64 = CLASSES.iter().map(|(_, share)| share).sum();
-    let mut left = random.between(0.0, total);
-    let class = CLASSES.iter().find(|(_, share)| {
-        left -= share;
-        left <= 0.0
-    });
+    let class = CLASSES.choose_weighted(random, |(_, share)| *share);
     let class = class.map_or(Class::Single, |(class, _)| *class);
     let of_class: Vec<Scenario> = all.iter().copied().filter(|s| s.class == class).collect();
     let pool = if of_class.is_empty() { all } else { of_class };
-    pool[random.index(pool.len())]
+    pool[random.random_range(0..pool.len())]
 }
 
 #[cfg(test)]

@@ -3,24 +3,12 @@
 
 use std::f64::consts::TAU;
 
-use super::random::{Random, Stream};
-use super::schedule::FURTHER;
-use super::world::Surroundings;
+use rand::RngExt;
 
-/// What the instruments of the room show, averaged over a row of the recording.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Shown {
-    /// Thermometer on the fixture, °C.
-    pub temperature: f64,
-    /// Relative humidity, %.
-    pub humidity: f64,
-    /// Barometer, hPa.
-    pub pressure: f64,
-    /// Voltmeter at the supply, V.
-    pub supply: f64,
-    /// Vibration monitor, multiples of g, rms.
-    pub vibration: f64,
-}
+use super::noise::{Relaxation, Wander};
+use super::random::{Random, Stream, log_between, sign, source};
+use super::schedule::FURTHER;
+use super::world::{Shown, Surroundings};
 
 /// A slow wave of the room: amplitude, period in seconds, phase.
 #[derive(Debug, Clone, Copy)]
@@ -30,35 +18,15 @@ struct Wave {
     phase: f64,
 }
 
-/// A variable that wanders about zero and forgets with a time constant.
-#[derive(Debug, Clone)]
-struct Wander {
-    value: f64,
-    scatter: f64,
-    memory: f64,
-}
-
-impl Wander {
-    fn new(scatter: f64, memory: f64, random: &mut Random) -> Wander {
-        Wander {
-            value: scatter * random.normal(),
-            scatter,
-            memory,
-        }
-    }
-
-    fn advance(&mut self, dt: f64, random: &mut Random) {
-        let kept = libm::exp(-dt / self.memory);
-        self.value =
-            kept * self.value + self.scatter * libm::sqrt(1.0 - kept * kept) * random.normal();
-    }
+fn wander(scatter: f64, memory: f64, random: &mut Random) -> Wander {
+    Wander::new(Relaxation { scatter, memory }, random)
 }
 
 /// Vibration of the motor in a run, between these, multiples of g.
 const MOTOR: [f64; 2] = [0.02, 0.06];
 
 /// Thermal network of two masses: the room warms the fixture, the fixture the thermometer's bulb.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Climate {
     random: Random,
     waves: Vec<Wave>,
@@ -82,28 +50,28 @@ pub(super) struct Climate {
 impl Climate {
     /// The climate of a campaign of so many seconds and runs.
     pub(super) fn new(seed: u64, campaign: u64, duration: f64, runs: usize) -> Climate {
-        let mut random = Random::new(seed, Stream::Climate, campaign);
+        let mut random = source(seed, Stream::Climate, campaign);
         let r = &mut random;
         // Two or three waves between a fifth of the campaign and all of it: the temperature moves
         // within a run, and not only monotonically.
         let waves: Vec<Wave> = (0..3)
             .map(|k| Wave {
-                amplitude: r.between(0.3, 1.2) / (1.0 + f64::from(k) / 2.0),
-                period: duration * r.between(0.18, 0.9),
-                phase: r.between(0.0, TAU),
+                amplitude: r.random_range(0.3..1.2) / (1.0 + f64::from(k) / 2.0),
+                period: duration * r.random_range(0.18..0.9),
+                phase: r.random_range(0.0..TAU),
             })
             .collect();
-        let ramp = r.between(-0.8, 0.8) / duration;
-        let air = Wander::new(0.15, 900.0, r);
-        let [fixture_lag, bulb_lag] = [r.between(200.0, 500.0), r.between(60.0, 300.0)];
-        let moisture = Wander::new(1.5, 3000.0, r);
-        let weather = Wander::new(0.4, 5000.0, r);
-        let pressure_trend = r.between(-2.0, 2.0) / duration;
-        let supply = Wander::new(0.02, 1200.0, r);
-        let supply_step = (duration * r.between(0.2, 0.8), 0.03 * r.sign());
-        let traffic = Wander::new(0.25, 600.0, r);
+        let ramp = r.random_range(-0.8..0.8) / duration;
+        let air = wander(0.15, 900.0, r);
+        let [fixture_lag, bulb_lag] = [r.random_range(200.0..500.0), r.random_range(60.0..300.0)];
+        let moisture = wander(1.5, 3000.0, r);
+        let weather = wander(0.4, 5000.0, r);
+        let pressure_trend = r.random_range(-2.0..2.0) / duration;
+        let supply = wander(0.02, 1200.0, r);
+        let supply_step = (duration * r.random_range(0.2..0.8), 0.03 * sign(r));
+        let traffic = wander(0.25, 600.0, r);
         let motor = (0..runs)
-            .map(|_| r.log_between(MOTOR[0], MOTOR[1]))
+            .map(|_| log_between(r, MOTOR[0], MOTOR[1]))
             .collect();
         let start: f64 = waves.iter().map(|w| w.amplitude * libm::sin(w.phase)).sum();
         Climate {
@@ -129,8 +97,8 @@ impl Climate {
 
     /// Provides for as many runs again, in a further measurement.
     pub(super) fn go_on(&mut self, seed: u64, runs: usize) {
-        let mut random = Random::new(seed, Stream::Climate, FURTHER);
-        let motor = (0..runs).map(|_| random.log_between(MOTOR[0], MOTOR[1]));
+        let mut random = source(seed, Stream::Climate, FURTHER);
+        let motor = (0..runs).map(|_| log_between(&mut random, MOTOR[0], MOTOR[1]));
         self.motor.extend(motor);
     }
 
@@ -198,11 +166,11 @@ mod tests {
         let mut climate = Climate::new(3, 0, 8000.0, 3);
         climate.waves.clear();
         climate.ramp = 0.0;
-        climate.air = Wander {
-            value: 2.0,
+        let law = Relaxation {
             scatter: 0.0,
             memory: 1e12,
         };
+        climate.air = Wander { law, value: 2.0 };
         climate.fixture = 0.0;
         climate.bulb = 0.0;
         let lag = climate.fixture_lag;

@@ -1,12 +1,15 @@
 //! A case as files: the recording, the held-out campaign, the recording at rest, and the case file
 //! that says how they were made and nothing of what is concealed.
 
+use rand::RngExt;
+
 use super::further::Further;
-use super::random::{Random, Stream};
+use super::random::{Stream, source};
 use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge};
 use super::schedule::Campaign;
-use super::simulate::{Readings, Row, at_rest, duration, simulate, simulate_longer};
+use super::simulate::{Readings, at_rest, duration, simulate, simulate_longer};
+use super::world::Row;
 
 /// Name of the case file.
 pub(super) const CASE: &str = "CASE.toml";
@@ -85,8 +88,8 @@ fn heading((name, unit, _): (&'static str, &'static str, usize)) -> String {
 /// A thermometer is there unless the scenario hides it; now and then it is missing where that does
 /// no harm, so that its absence tells nothing.
 fn has_thermometer(drawn: &Drawn) -> bool {
-    let mut random = Random::new(drawn.setup.seed, Stream::Case, 1);
-    let missing = random.chance(0.12);
+    let mut random = source(drawn.setup.seed, Stream::Case, 1);
+    let missing = random.random_bool(0.12);
     let needed = drawn
         .concealed()
         .iter()

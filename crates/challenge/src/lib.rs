@@ -17,6 +17,7 @@
 //! | `effect` | everything that can be concealed |
 //! | `simulate` | a campaign, in time |
 //! | `strength` | λ and κ from twin runs |
+//! | `names` | which names of the catalogue are right for which physics |
 //! | `scenario` | what is concealed together, and how strongly |
 //! | `truth` | the sealed truth |
 //! | `files` | the case as files |
@@ -36,6 +37,7 @@ mod effect;
 mod files;
 mod further;
 pub mod grade;
+mod names;
 mod noise;
 mod random;
 mod rig;

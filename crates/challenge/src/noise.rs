@@ -3,15 +3,38 @@
 
 use nalgebra::DMatrix;
 
-use super::random::Random;
+use super::random::{Random, normal};
 
-/// One rung of the flicker ladder: an Ornstein–Uhlenbeck process.
+/// An Ornstein–Uhlenbeck process: it wanders about zero and forgets.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Rung {
+pub(super) struct Relaxation {
     /// Standard deviation.
     pub scatter: f64,
     /// Time constant, s.
     pub memory: f64,
+}
+
+/// Such a process as it goes on.
+#[derive(Debug, Clone)]
+pub(super) struct Wander {
+    pub law: Relaxation,
+    pub value: f64,
+}
+
+impl Wander {
+    pub(super) fn new(law: Relaxation, random: &mut Random) -> Wander {
+        Wander {
+            law,
+            value: law.scatter * normal(random),
+        }
+    }
+
+    /// Lets `dt` seconds pass.
+    pub(super) fn advance(&mut self, dt: f64, random: &mut Random) {
+        let kept = libm::exp(-dt / self.law.memory);
+        self.value =
+            kept * self.value + self.law.scatter * libm::sqrt(1.0 - kept * kept) * normal(random);
+    }
 }
 
 /// The noise of one axis, in units of the output.
@@ -22,7 +45,7 @@ pub(super) struct NoiseLaw {
     /// Random walk, per square root of a second.
     pub walk: f64,
     /// Flicker.
-    pub flicker: Vec<Rung>,
+    pub flicker: Vec<Relaxation>,
 }
 
 impl NoiseLaw {
@@ -44,7 +67,7 @@ impl NoiseLaw {
     /// spectrum close to 1/f between them.
     pub(super) fn with_flicker(mut self, floor: f64) -> NoiseLaw {
         self.flicker = [60.0, 300.0, 1500.0, 7500.0]
-            .map(|memory| Rung {
+            .map(|memory| Relaxation {
                 scatter: floor,
                 memory,
             })
@@ -62,34 +85,30 @@ impl NoiseLaw {
             };
             let walk = self.walk * self.walk * times[i].min(times[j]).max(0.0);
             let apart = (times[i] - times[j]).abs();
-            let rung = |r: &Rung| r.scatter * r.scatter * libm::exp(-apart / r.memory);
+            let rung = |r: &Relaxation| r.scatter * r.scatter * libm::exp(-apart / r.memory);
             white + walk + self.flicker.iter().map(rung).sum::<f64>()
         })
     }
 }
 
 /// The noise of one axis as it goes on.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct NoiseState {
     law: NoiseLaw,
     random: Random,
     walk: f64,
-    flicker: Vec<f64>,
+    flicker: Vec<Wander>,
     time: f64,
 }
 
 impl NoiseState {
     pub(super) fn new(law: &NoiseLaw, mut random: Random) -> NoiseState {
-        let flicker = law
-            .flicker
-            .iter()
-            .map(|r| r.scatter * random.normal())
-            .collect();
+        let flicker = law.flicker.iter();
         NoiseState {
+            flicker: flicker.map(|r| Wander::new(*r, &mut random)).collect(),
             law: law.clone(),
             random,
             walk: 0.0,
-            flicker,
             time: 0.0,
         }
     }
@@ -98,20 +117,19 @@ impl NoiseState {
     pub(super) fn sample(&mut self, time: f64) -> f64 {
         let dt = (time - self.time).max(0.0);
         self.time = time;
-        self.walk += self.law.walk * libm::sqrt(dt) * self.random.normal();
-        for (value, rung) in self.flicker.iter_mut().zip(&self.law.flicker) {
-            let kept = libm::exp(-dt / rung.memory);
-            *value =
-                kept * *value + rung.scatter * libm::sqrt(1.0 - kept * kept) * self.random.normal();
+        self.walk += self.law.walk * libm::sqrt(dt) * normal(&mut self.random);
+        for rung in &mut self.flicker {
+            rung.advance(dt, &mut self.random);
         }
-        self.law.white * self.random.normal() + self.walk + self.flicker.iter().sum::<f64>()
+        let flicker: f64 = self.flicker.iter().map(|rung| rung.value).sum();
+        self.law.white * normal(&mut self.random) + self.walk + flicker
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Stream;
+    use crate::random::{Stream, source};
 
     #[test]
     fn scatter_of_averages_is_the_covariance() {
@@ -121,7 +139,7 @@ mod tests {
         let mut sums = DMatrix::<f64>::zeros(3, 3);
         let draws = 3000;
         for number in 0..draws {
-            let mut state = NoiseState::new(&law, Random::new(5, Stream::Noise, number));
+            let mut state = NoiseState::new(&law, source(5, Stream::Noise, number));
             let averages = starts.map(|start| {
                 let mut sum = 0.0;
                 for k in 0..60 {

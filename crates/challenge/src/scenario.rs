@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::effect::{Concealed, Physics, Shape};
-use super::random::{Random, Stream};
+use super::random::{Stream, log_between, source};
 use super::rig::Rig;
 use super::simulate::Setup;
 use super::strength::Visible;
@@ -207,7 +207,7 @@ const LARGEST: f64 = 0.02;
 
 /// Draws a case of a scenario.
 pub(super) fn draw(scenario: Scenario, knowledge: NoiseKnowledge, seed: u64) -> Drawn {
-    let mut random = Random::new(seed, Stream::Effect, 0);
+    let mut random = source(seed, Stream::Effect, 0);
     let rig = scenario.rig;
     let noise = match knowledge {
         NoiseKnowledge::Stated => rig.noise().without_walk(),
@@ -220,10 +220,10 @@ pub(super) fn draw(scenario: Scenario, knowledge: NoiseKnowledge, seed: u64) -> 
     let mut effects: Vec<(Concealed, f64)> = Vec::new();
     if !scenario.effects.is_empty() {
         let visible = Visible::new(&setup);
-        let common = random.log_between(STRENGTHS[0], STRENGTHS[1]).max(8.0);
+        let common = log_between(&mut random, STRENGTHS[0], STRENGTHS[1]).max(8.0);
         for &physics in scenario.effects {
             let shape = Shape::draw(rig, &mut random);
-            let target = random.log_between(STRENGTHS[0], STRENGTHS[1]);
+            let target = log_between(&mut random, STRENGTHS[0], STRENGTHS[1]);
             let target = if scenario.class == Class::Masked {
                 common
             } else {

@@ -2,8 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
+use rand::RngExt;
+use rand::seq::SliceRandom;
+
 use super::further::{Further, Setting};
-use super::random::{Random, Stream};
+use super::random::{Random, Stream, source};
 use super::rig::Rig;
 use super::world::Pose;
 
@@ -71,7 +74,7 @@ pub(super) fn plan(rig: Rig, campaign: Campaign, seed: u64) -> Vec<Dwell> {
     let number = campaign as u64;
     let mut planner = Planner {
         rig,
-        random: Random::new(seed, Stream::Schedule, number),
+        random: source(seed, Stream::Schedule, number),
         time: 300.0,
         last: Pose::default(),
         dwells: Vec::new(),
@@ -95,7 +98,7 @@ pub(super) const FURTHER: u64 = 2;
 pub(super) fn further(rig: Rig, what: Further, before: &[Dwell], seed: u64) -> Vec<Dwell> {
     let mut planner = Planner {
         rig,
-        random: Random::new(seed, Stream::Schedule, FURTHER),
+        random: source(seed, Stream::Schedule, FURTHER),
         time: before.last().map_or(0.0, Dwell::end),
         last: before.last().map_or_else(Pose::default, |dwell| dwell.to),
         dwells: Vec::new(),
@@ -153,7 +156,7 @@ impl Planner {
         } else {
             1200.0
         };
-        usual * self.random.between(0.8, 1.3)
+        usual * self.random.random_range(0.8..1.3)
     }
 
     /// Faces and edges of a cube, twice, the second time in another order; corners are held out.
@@ -161,20 +164,13 @@ impl Planner {
         for pass in 0..2 {
             let mut poses = cube(campaign);
             if pass == 1 || campaign == Campaign::HeldOut {
-                self.shuffle(&mut poses);
+                poses.shuffle(&mut self.random);
             }
             self.time += if pass == 0 { 0.0 } else { BETWEEN_PASSES };
             for to in poses {
                 let direction = side(to.outer >= self.last.outer);
                 self.stay(pass, direction, to);
             }
-        }
-    }
-
-    fn shuffle(&mut self, poses: &mut [Pose]) {
-        for i in (1..poses.len()).rev() {
-            let j = self.random.index(i + 1);
-            poses.swap(i, j);
         }
     }
 
@@ -188,7 +184,7 @@ impl Planner {
             self.time += if mount == 0 {
                 0.0
             } else {
-                self.random.between(250.0, 400.0)
+                self.random.random_range(250.0..400.0)
             };
             self.stop(mount);
             for k in 0..rates.len() {
@@ -261,10 +257,10 @@ impl Planner {
     /// Before a run of a further measurement: the first begins after a longer pause.
     fn begin(&mut self, first: bool, direction: f64, to: Pose) {
         self.time += match self.rig {
-            _ if first => 1200.0 * self.random.between(0.8, 1.3),
+            _ if first => 1200.0 * self.random.random_range(0.8..1.3),
             Rig::Tumble | Rig::Remount => self.pause(to.mount),
             Rig::Triad => BETWEEN_PASSES,
-            Rig::RateTable => self.random.between(250.0, 400.0),
+            Rig::RateTable => self.random.random_range(250.0..400.0),
         };
         match self.rig {
             Rig::Tumble | Rig::Remount => self.back(direction * TAU / 12.0, to),
@@ -282,7 +278,7 @@ impl Planner {
         // The head turns at 5° per second; the table spins up at 20°/s².
         let move_time = 2.0 + turn.to_degrees() / 5.0 + (to.rate - from.rate).abs() / 20.0;
         let arrive = depart + move_time;
-        let settle = 45.0 * self.random.between(0.9, 1.2);
+        let settle = 45.0 * self.random.random_range(0.9..1.2);
         let (samples, tables) = match self.rig {
             Rig::RateTable if to.rate == 0.0 => stopped(arrive + settle, self.rig.samples()),
             Rig::RateTable => gated(arrive + settle, to.rate),

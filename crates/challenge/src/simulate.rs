@@ -1,31 +1,17 @@
 //! Running a campaign in time: the room, the rig, the sensor and whatever acts on it.
 
-use super::climate::{Climate, Shown};
+use super::climate::Climate;
 use super::effect::{Concealed, Process};
 use super::further::Further;
 use super::noise::{NoiseLaw, NoiseState};
-use super::random::{Random, Stream};
+use super::random::{Stream, normal, source};
 use super::rig::Rig;
 use super::schedule::{Campaign, Dwell, further, plan};
-use super::world::{Pose, Vector, World};
+use super::world::{Pose, Row, Shown, Vector, World};
 
 /// Longest step of time, s. Every process advances exactly for a constant input, so that this bounds
 /// how well changing inputs are followed, not stability.
 const STEP: f64 = 4.0;
-
-/// One row of a recording.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Row {
-    /// Mean time of the readings, seconds since power-on.
-    pub time: f64,
-    pub run: usize,
-    pub direction: f64,
-    /// The pose as the protocol states it.
-    pub pose: Pose,
-    pub shown: Shown,
-    /// Mean readings of the axes, in units of the input.
-    pub output: Vector,
-}
 
 /// A device with its surroundings: what stays the same between campaigns and between twins.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,10 +42,10 @@ struct Device {
 
 impl Device {
     fn new(setup: &Setup) -> Device {
-        let mut random = Random::new(setup.seed, Stream::Device, 0);
+        let mut random = source(setup.seed, Stream::Device, 0);
         let scale = setup.rig.full_scale();
-        let bias = [(); 3].map(|()| 2e-3 * scale * random.normal());
-        let mut coupling = [(); 3].map(|()| [(); 3].map(|()| 1e-3 * random.normal()));
+        let bias = [(); 3].map(|()| 2e-3 * scale * normal(&mut random));
+        let mut coupling = [(); 3].map(|()| [(); 3].map(|()| 1e-3 * normal(&mut random)));
         if setup.rig.axes() == 1 {
             // The second and third axis of a single sensor are directions, not outputs; the output
             // axis does not lie along the head to better than this anyway.
@@ -68,7 +54,7 @@ impl Device {
         Device {
             bias,
             coupling,
-            square: 2e-4 * random.normal(),
+            square: 2e-4 * normal(&mut random),
         }
     }
 }
@@ -145,7 +131,7 @@ pub(super) fn duration(rig: Rig, campaign: Campaign, seed: u64) -> f64 {
 pub(super) fn at_rest(setup: &Setup, length: f64) -> Vec<(f64, Vector)> {
     let device = Device::new(setup);
     let mut noise = [0, 1, 2]
-        .map(|axis| NoiseState::new(&setup.noise, Random::new(setup.seed, Stream::Static, axis)));
+        .map(|axis| NoiseState::new(&setup.noise, source(setup.seed, Stream::Static, axis)));
     let samples = setup.rig.samples();
     let interval = 60.0;
     let count = (length / interval) as usize;
@@ -260,7 +246,7 @@ struct Readout {
 impl Readout {
     fn new(setup: &Setup, campaign: Campaign, readings: Readings) -> Readout {
         let state = |axis: u64| {
-            let random = Random::new(setup.seed, Stream::Noise, 8 * campaign as u64 + axis);
+            let random = source(setup.seed, Stream::Noise, 8 * campaign as u64 + axis);
             NoiseState::new(&setup.noise, random)
         };
         match readings {
@@ -341,9 +327,9 @@ impl RowSum {
 
 /// Noise and digits of the instruments that show the surroundings.
 fn instruments(seed: u64, campaign: Campaign, rows: &mut [Row]) {
-    let mut random = Random::new(seed, Stream::Instruments, campaign as u64);
+    let mut random = source(seed, Stream::Instruments, campaign as u64);
     let mut shown = |value: f64, noise: f64, step: f64| {
-        ((value + noise * random.normal()) / step).round() * step
+        ((value + noise * normal(&mut random)) / step).round() * step
     };
     for row in rows {
         let s = &mut row.shown;

@@ -9,9 +9,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::effect::{Concealed, Physics, Shape};
+use super::effect::{Concealed, Member, Physics, Shape};
 use super::schedule::Campaign;
-use super::simulate::{Readings, Row, Setup, simulate};
+use super::simulate::{Readings, Setup, simulate};
+use super::world::Row;
 
 /// The geometry of a campaign: what noise and declared parameters leave visible.
 pub(super) struct Visible<'a> {
@@ -147,7 +148,8 @@ impl<'a> Visible<'a> {
         others: &[DVector<f64>],
     ) -> Vec<Rival> {
         let candidates = Physics::ALL
-            .into_iter()
+            .iter()
+            .copied()
             .filter(|p| *p != physics && p.occurs(self.setup.rig) && *p != Physics::SwappedLabel);
         let mut rivals: Vec<Rival> = candidates
             .map(|rival| Rival {
@@ -160,18 +162,18 @@ impl<'a> Visible<'a> {
     }
 
     fn left_by(&self, rival: Physics, trace: &DVector<f64>, others: &[DVector<f64>]) -> f64 {
-        let uses = rival.uses();
-        let paces: &[f64] = if uses.pace {
+        let depends = rival.depends();
+        let paces: &[f64] = if depends == Member::Pace {
             &[0.1, 0.35, 0.5, 0.65, 0.9]
         } else {
             &[0.5]
         };
-        let moments: &[f64] = if uses.moment {
+        let moments: &[f64] = if depends == Member::Moment {
             &[0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95]
         } else {
             &[0.5]
         };
-        let phases: &[f64] = if uses.phase {
+        let phases: &[f64] = if depends == Member::Phase {
             &[0.0, std::f64::consts::FRAC_PI_2]
         } else {
             &[0.0]

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use super::effect::{Concealed, Physics, Shape};
-use super::grade::share_a_name;
-use super::random::{Random, Stream};
+use super::names::share_a_name;
+use super::random::{Stream, source};
 use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge};
 use super::schedule::Campaign;
@@ -162,8 +163,8 @@ fn coefficient(rig: Rig, effect: &Concealed) -> Option<f64> {
 /// Salt from a seed and from the moment, so that the same seed gives the same case but not a truth
 /// that can be guessed. Without a moment the salt follows from the seed alone.
 pub(super) fn salt(seed: u64, entropy: u64) -> String {
-    let mut random = Random::new(seed ^ entropy, Stream::Salt, entropy);
-    format!("{:016x}{:016x}", random.word(), random.word())
+    let mut random = source(seed ^ entropy, Stream::Salt, entropy);
+    format!("{:032x}", random.random::<u128>())
 }
 
 /// SHA-256 of a text, as 64 hexadecimal digits.

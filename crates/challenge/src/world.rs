@@ -108,3 +108,32 @@ mod tests {
         );
     }
 }
+
+/// What the instruments of the room show, averaged over a row of the recording.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Shown {
+    /// Thermometer on the fixture, °C.
+    pub temperature: f64,
+    /// Relative humidity, %.
+    pub humidity: f64,
+    /// Barometer, hPa.
+    pub pressure: f64,
+    /// Voltmeter at the supply, V.
+    pub supply: f64,
+    /// Vibration monitor, multiples of g, rms.
+    pub vibration: f64,
+}
+
+/// One row of a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Row {
+    /// Mean time of the readings, seconds since power-on.
+    pub time: f64,
+    pub run: usize,
+    pub direction: f64,
+    /// The pose as the protocol states it.
+    pub pose: Pose,
+    pub shown: Shown,
+    /// Mean readings of the axes, in units of the input.
+    pub output: Vector,
+}

@@ -1,10 +1,12 @@
 //! What happens once, or at random.
 
+use rand::RngExt;
+use rand_distr::Exp1;
+
 use super::{Part, Physics, Process};
-use crate::random::{Random, Stream};
+use crate::random::{Stream, source};
 use crate::schedule::Dwell;
-use crate::simulate::Row;
-use crate::world::{Pose, Vector, World};
+use crate::world::{Pose, Row, Vector, World};
 
 pub(super) fn process(physics: Physics, part: Part, dwells: &[Dwell]) -> Box<dyn Process> {
     let runs = dwells.last().map_or(1, |d| d.run + 1);
@@ -64,11 +66,12 @@ struct Popcorn {
 impl Popcorn {
     fn new(part: Part, end: f64) -> Popcorn {
         let seed = part.shape.moment.to_bits();
-        let mut random = Random::new(seed, Stream::Effect, 1);
+        let mut random = source(seed, Stream::Effect, 1);
         let mut flips = Vec::new();
         let mut time = 0.0;
         while time < end {
-            time += -700.0 * libm::log(random.uniform());
+            let wait: f64 = random.sample(Exp1);
+            time += 700.0 * wait;
             flips.push(time);
         }
         Popcorn { part, flips }

@@ -1,9 +1,10 @@
 //! Fields and supplies that reach the sensor.
 
 use super::{Part, Physics, Process};
+use crate::schedule::Dwell;
 use crate::world::{EARTH_RATE, FIELD, Input, LATITUDE, Vector, World, about_z, apply};
 
-pub(super) fn process(physics: Physics, part: Part) -> Box<dyn Process> {
+pub(super) fn process(physics: Physics, part: Part, _dwells: &[Dwell]) -> Box<dyn Process> {
     match physics {
         Physics::EarthRate => Box::new(EarthRate),
         _ => Box::new(Pickup { part, physics }),

@@ -1,9 +1,10 @@
 //! Where the rig really points and how it really turns.
 
 use super::{Part, Physics, Process};
+use crate::schedule::Dwell;
 use crate::world::{Input, Pose, World, apply};
 
-pub(super) fn process(physics: Physics, part: Part) -> Box<dyn Process> {
+pub(super) fn process(physics: Physics, part: Part, _dwells: &[Dwell]) -> Box<dyn Process> {
     match physics {
         Physics::Wobble => Box::new(Wobble { part }),
         Physics::RateRipple => Box::new(RateRipple { part }),

@@ -1,9 +1,10 @@
 //! What remembers where it came from.
 
 use super::{Part, Physics, Process};
+use crate::schedule::Dwell;
 use crate::world::{Pose, Vector, World};
 
-pub(super) fn process(physics: Physics, part: Part) -> Box<dyn Process> {
+pub(super) fn process(physics: Physics, part: Part, _dwells: &[Dwell]) -> Box<dyn Process> {
     match physics {
         Physics::Settling => {
             let quick = part.between(40.0, 300.0);

@@ -18,13 +18,13 @@ mod memory;
 mod sensor;
 mod thermal;
 
+use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
-use super::random::Random;
+use super::random::{Random, sign};
 use super::rig::Rig;
 use super::schedule::Dwell;
-use super::simulate::Row;
-use super::world::{Input, Pose, Vector, World};
+use super::world::{Input, Pose, Row, Vector, World};
 
 /// An effect at work: its states, and where it acts. What it leaves alone it need not mention.
 pub(super) trait Process {
@@ -42,50 +42,119 @@ pub(super) trait Process {
     fn record(&self, _rows: &mut [Row]) {}
 }
 
-/// What is concealed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)]
-pub enum Physics {
-    SecondOrder,
-    ThirdOrder,
-    CrossProduct,
-    CrossSquare,
-    Asymmetry,
-    Saturation,
-    DeadBand,
-    CoarseReadout,
-    TemperatureBias,
-    TemperatureScale,
-    WarmUp,
-    LoadHeating,
-    Drift,
-    ScaleDrift,
-    Settling,
-    Hysteresis,
-    Backlash,
-    Eccentricity,
-    Ellipticity,
-    ElevationEccentricity,
-    Flexure,
-    Wobble,
-    RateRipple,
-    Supply,
-    Vibration,
-    Magnetic,
-    EarthRate,
-    GSensitivity,
-    GSquared,
-    RunShift,
-    RunScale,
-    Knock,
-    SwappedLabel,
-    LocalRub,
-    Ripple,
-    Resonance,
-    MotorPickup,
-    Popcorn,
-    WrongUnit,
+/// Builds an effect for its part in a case, through the dwells of a campaign.
+type Build = fn(Physics, Part, &[Dwell]) -> Box<dyn Process>;
+
+/// What is known of a kind of effect.
+struct Kind {
+    build: Build,
+    rigs: Rigs,
+    depends: Member,
+    remarks: &'static [Remark],
+}
+
+/// Rigs on which an effect can occur.
+enum Rigs {
+    Every,
+    /// All but the rate table.
+    Still,
+    /// Those with a dividing head.
+    Head,
+    Triad,
+    Table,
+}
+
+/// The member of a shape, beside the gains, on which an effect depends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Member {
+    Nothing,
+    Phase,
+    Pace,
+    Moment,
+}
+
+/// What else there is to say of an effect.
+#[derive(PartialEq)]
+enum Remark {
+    /// It follows a condition that is recorded.
+    Conditions,
+    /// It comes from the rig and reaches all axes alike.
+    OfTheRig,
+    /// The trade has no name for it.
+    Nameless,
+}
+
+macro_rules! physics {
+    ($($name:ident: $chapter:ident, $rigs:ident, $member:ident $(, $($remark:ident)+)?;)*) => {
+        /// What is concealed.
+        #[derive(
+            Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize,
+        )]
+        #[serde(rename_all = "kebab-case")]
+        #[allow(missing_docs)]
+        pub enum Physics {
+            $($name),*
+        }
+
+        impl Physics {
+            /// All of them.
+            pub const ALL: &[Physics] = &[$(Physics::$name),*];
+
+            fn kind(self) -> Kind {
+                match self {
+                    $(Physics::$name => Kind {
+                        build: $chapter::process,
+                        rigs: Rigs::$rigs,
+                        depends: Member::$member,
+                        remarks: &[$($(Remark::$remark),+)?],
+                    }),*
+                }
+            }
+        }
+    };
+}
+
+// Name: chapter, rigs, member of the shape, remarks.
+physics! {
+    SecondOrder: sensor, Every, Nothing;
+    ThirdOrder: sensor, Every, Nothing;
+    CrossProduct: sensor, Still, Nothing;
+    CrossSquare: sensor, Still, Nothing;
+    Asymmetry: sensor, Every, Nothing;
+    Saturation: sensor, Table, Nothing;
+    DeadBand: sensor, Table, Nothing;
+    CoarseReadout: sensor, Every, Nothing;
+    TemperatureBias: thermal, Every, Pace, Conditions;
+    TemperatureScale: thermal, Every, Pace, Conditions;
+    WarmUp: thermal, Every, Pace;
+    LoadHeating: thermal, Head, Pace;
+    Drift: thermal, Every, Pace;
+    ScaleDrift: thermal, Every, Pace;
+    Settling: memory, Every, Pace;
+    Hysteresis: memory, Every, Nothing;
+    Backlash: memory, Head, Nothing, OfTheRig;
+    Eccentricity: geometry, Still, Phase, OfTheRig;
+    Ellipticity: geometry, Still, Phase, OfTheRig;
+    ElevationEccentricity: geometry, Triad, Phase, OfTheRig;
+    Flexure: geometry, Head, Phase, OfTheRig;
+    Wobble: geometry, Table, Phase, OfTheRig;
+    RateRipple: geometry, Table, Phase, OfTheRig;
+    Supply: field, Every, Nothing, Conditions;
+    Vibration: field, Every, Nothing, Conditions;
+    Magnetic: field, Table, Phase;
+    EarthRate: field, Table, Nothing, OfTheRig;
+    GSensitivity: field, Table, Nothing;
+    GSquared: field, Table, Nothing;
+    RunShift: event, Every, Moment;
+    RunScale: event, Every, Moment;
+    Knock: event, Every, Moment;
+    SwappedLabel: event, Still, Moment, OfTheRig;
+    LocalRub: geometry, Still, Moment, OfTheRig Nameless;
+    Ripple: geometry, Still, Phase, OfTheRig;
+    Resonance: field, Table, Moment, Nameless;
+    MotorPickup: field, Table, Nothing, Nameless;
+    Popcorn: event, Every, Moment, Nameless;
+    WrongUnit: event, Head, Moment, OfTheRig Nameless;
 }
 
 /// How an effect of a kind looks in one case.
@@ -99,14 +168,6 @@ pub struct Shape {
     pub pace: f64,
     /// From 0, the beginning, to 1, the end of the campaign; or a place around a circle.
     pub moment: f64,
-}
-
-/// Which members of a shape an effect depends on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Uses {
-    pub phase: bool,
-    pub pace: bool,
-    pub moment: bool,
 }
 
 /// An effect in a case.
@@ -128,43 +189,7 @@ impl Concealed {
             size: self.size,
             shape: self.shape,
         };
-        use Physics as P;
-        match self.physics {
-            P::SecondOrder
-            | P::ThirdOrder
-            | P::CrossProduct
-            | P::CrossSquare
-            | P::Asymmetry
-            | P::Saturation
-            | P::DeadBand
-            | P::CoarseReadout => sensor::process(self.physics, part),
-            P::TemperatureBias
-            | P::TemperatureScale
-            | P::WarmUp
-            | P::LoadHeating
-            | P::Drift
-            | P::ScaleDrift => thermal::process(self.physics, part, dwells),
-            P::Settling | P::Hysteresis | P::Backlash => memory::process(self.physics, part),
-            P::Eccentricity
-            | P::Ellipticity
-            | P::ElevationEccentricity
-            | P::Flexure
-            | P::LocalRub
-            | P::Ripple
-            | P::Wobble
-            | P::RateRipple => geometry::process(self.physics, part),
-            P::Supply
-            | P::Vibration
-            | P::Magnetic
-            | P::EarthRate
-            | P::GSensitivity
-            | P::GSquared
-            | P::Resonance
-            | P::MotorPickup => field::process(self.physics, part),
-            P::RunShift | P::RunScale | P::Knock | P::SwappedLabel | P::Popcorn | P::WrongUnit => {
-                event::process(self.physics, part, dwells)
-            }
-        }
+        (self.physics.kind().build)(self.physics, part, dwells)
     }
 }
 
@@ -204,49 +229,6 @@ impl Part {
 }
 
 impl Physics {
-    /// All of them.
-    pub const ALL: [Physics; 39] = [
-        Physics::SecondOrder,
-        Physics::ThirdOrder,
-        Physics::CrossProduct,
-        Physics::CrossSquare,
-        Physics::Asymmetry,
-        Physics::Saturation,
-        Physics::DeadBand,
-        Physics::CoarseReadout,
-        Physics::TemperatureBias,
-        Physics::TemperatureScale,
-        Physics::WarmUp,
-        Physics::LoadHeating,
-        Physics::Drift,
-        Physics::ScaleDrift,
-        Physics::Settling,
-        Physics::Hysteresis,
-        Physics::Backlash,
-        Physics::Eccentricity,
-        Physics::Ellipticity,
-        Physics::ElevationEccentricity,
-        Physics::Flexure,
-        Physics::Wobble,
-        Physics::RateRipple,
-        Physics::Supply,
-        Physics::Vibration,
-        Physics::Magnetic,
-        Physics::EarthRate,
-        Physics::GSensitivity,
-        Physics::GSquared,
-        Physics::RunShift,
-        Physics::RunScale,
-        Physics::Knock,
-        Physics::SwappedLabel,
-        Physics::LocalRub,
-        Physics::Ripple,
-        Physics::Resonance,
-        Physics::MotorPickup,
-        Physics::Popcorn,
-        Physics::WrongUnit,
-    ];
-
     /// The name in files and on the command line.
     pub fn name(self) -> String {
         match serde_json::to_value(self) {
@@ -257,31 +239,12 @@ impl Physics {
 
     /// Whether it can occur on a rig.
     pub(super) fn occurs(self, rig: Rig) -> bool {
-        use Physics as P;
-        let tumble = matches!(rig, Rig::Tumble | Rig::Remount);
-        let table = rig == Rig::RateTable;
-        match self {
-            P::CrossSquare
-            | P::CrossProduct
-            | P::Eccentricity
-            | P::Ellipticity
-            | P::LocalRub
-            | P::Ripple => !table,
-            P::LoadHeating | P::Backlash | P::Flexure => tumble,
-            P::ElevationEccentricity => rig == Rig::Triad,
-            P::Saturation
-            | P::DeadBand
-            | P::Wobble
-            | P::RateRipple
-            | P::Magnetic
-            | P::EarthRate
-            | P::GSensitivity
-            | P::GSquared
-            | P::Resonance
-            | P::MotorPickup => table,
-            P::WrongUnit => tumble,
-            P::SwappedLabel => !table,
-            _ => true,
+        match self.kind().rigs {
+            Rigs::Every => true,
+            Rigs::Still => rig != Rig::RateTable,
+            Rigs::Head => matches!(rig, Rig::Tumble | Rig::Remount),
+            Rigs::Triad => rig == Rig::Triad,
+            Rigs::Table => rig == Rig::RateTable,
         }
     }
 
@@ -299,81 +262,25 @@ impl Physics {
         }
     }
 
-    /// Members of the shape that matter.
-    pub(super) fn uses(self) -> Uses {
-        use Physics as P;
-        let none = Uses::default();
-        match self {
-            P::Eccentricity
-            | P::Ellipticity
-            | P::ElevationEccentricity
-            | P::Flexure
-            | P::Wobble
-            | P::RateRipple
-            | P::Magnetic
-            | P::Ripple => Uses {
-                phase: true,
-                ..none
-            },
-            P::TemperatureBias
-            | P::TemperatureScale
-            | P::WarmUp
-            | P::LoadHeating
-            | P::Drift
-            | P::ScaleDrift
-            | P::Settling => Uses { pace: true, ..none },
-            P::RunShift
-            | P::RunScale
-            | P::Knock
-            | P::SwappedLabel
-            | P::LocalRub
-            | P::Resonance
-            | P::Popcorn
-            | P::WrongUnit => Uses {
-                moment: true,
-                ..none
-            },
-            _ => none,
-        }
+    /// The member of the shape that matters, beside the gains.
+    pub(super) fn depends(self) -> Member {
+        self.kind().depends
     }
 
     /// Whether it follows a condition that is recorded.
     pub(super) fn follows_conditions(self) -> bool {
-        use Physics as P;
-        matches!(
-            self,
-            P::TemperatureBias | P::TemperatureScale | P::Supply | P::Vibration
-        )
+        self.kind().remarks.contains(&Remark::Conditions)
     }
 
     /// Whether it comes from the rig and reaches all axes alike.
     pub(super) fn of_the_rig(self) -> bool {
-        use Physics as P;
-        matches!(
-            self,
-            P::Eccentricity
-                | P::Ellipticity
-                | P::ElevationEccentricity
-                | P::Flexure
-                | P::Backlash
-                | P::LocalRub
-                | P::Ripple
-                | P::Wobble
-                | P::RateRipple
-                | P::EarthRate
-                | P::SwappedLabel
-                | P::WrongUnit
-        )
+        self.kind().remarks.contains(&Remark::OfTheRig)
     }
 
     /// Whether knowledge of the trade has a name for it that a diagnosis can be expected to give.
     /// The others are to be called unexplained.
     pub fn nameable(self) -> bool {
-        use Physics as P;
-        !matches!(
-            self,
-            P::LocalRub | P::Resonance | P::MotorPickup | P::Popcorn | P::WrongUnit
-        )
+        !self.kind().remarks.contains(&Remark::Nameless)
     }
 }
 
@@ -381,19 +288,19 @@ impl Shape {
     /// A shape by chance. A single sensor has all on its axis; of a triad either one axis or all.
     pub(super) fn draw(rig: Rig, random: &mut Random) -> Shape {
         let gains = if rig.axes() == 1 {
-            [random.sign(), 0.0, 0.0]
-        } else if random.chance(0.6) {
+            [sign(random), 0.0, 0.0]
+        } else if random.random_bool(0.6) {
             let mut one = [0.0; 3];
-            one[random.index(3)] = random.sign();
+            one[random.random_range(0..3)] = sign(random);
             one
         } else {
-            [(); 3].map(|()| random.between(0.5, 1.2) * random.sign())
+            [(); 3].map(|()| random.random_range(0.5..1.2) * sign(random))
         };
         Shape {
             gains,
-            phase: random.between(0.0, std::f64::consts::TAU),
-            pace: random.uniform(),
-            moment: random.uniform(),
+            phase: random.random_range(0.0..std::f64::consts::TAU),
+            pace: random.random(),
+            moment: random.random(),
         }
     }
 }

@@ -1,9 +1,10 @@
 //! What the sensor itself does to its input.
 
 use super::{Part, Physics, Process};
+use crate::schedule::Dwell;
 use crate::world::{Vector, World};
 
-pub(super) fn process(physics: Physics, part: Part) -> Box<dyn Process> {
+pub(super) fn process(physics: Physics, part: Part, _dwells: &[Dwell]) -> Box<dyn Process> {
     match physics {
         Physics::Saturation => Box::new(Saturation { part }),
         Physics::CoarseReadout => Box::new(CoarseReadout { part }),

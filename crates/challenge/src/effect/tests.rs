@@ -286,7 +286,7 @@ fn every_effect_shows_on_every_rig_where_it_occurs_and_is_reproducible() {
             simulate(&setup, Campaign::Calibration, effects, Readings::Ideal)
         };
         let without = run(&[]);
-        for physics in Physics::ALL.into_iter().filter(|p| p.occurs(rig)) {
+        for physics in Physics::ALL.iter().copied().filter(|p| p.occurs(rig)) {
             let effect = part(physics, 1e-3);
             let with = run(&[effect]);
             assert!(with != without, "{physics:?} on {rig:?}");

@@ -3,7 +3,7 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `answer` | what the grader reads of a diagnosis |
-//! | `vocabulary` | which names of the catalogue are right for which physics |
+//! | `vocabulary` | whether a name is right for a physics |
 //! | `place` | whether axis and moment are right |
 //! | `score` | what was found, missed, made up, and the points |
 //! | `text` | the same in words |
@@ -20,8 +20,7 @@ pub use answer::{Answer, AnsweredEffect, Name, Quality, State};
 pub use place::located;
 pub use score::{Finding, Graded, GradedEffect, grade, grade_names};
 pub use text::{json, text};
-pub(super) use vocabulary::share_a_name;
-pub use vocabulary::{accepted_ids, accepts};
+pub use vocabulary::accepts;
 
 use super::files::{CASE, CaseFile};
 use super::truth::{Truth, seal};

@@ -1,11 +1,8 @@
 //! The further measurement that a diagnosis recommends for a list of names, made by the simulator, and what
 //! the longer recording says.
 
-use std::collections::BTreeMap;
-
 use serde::Deserialize;
 
-use super::report::{Study, table};
 use super::trial::Trial;
 use crate::further::Further;
 use crate::grade::{self, Answer, Finding, Graded, GradedEffect};
@@ -183,7 +180,7 @@ impl ForEffect {
 }
 
 impl Decision {
-    const ALL: [(Decision, &'static str); 5] = [
+    pub(super) const ALL: [(Decision, &'static str); 5] = [
         (Decision::Resolved, "resolved"),
         (Decision::Class, "class"),
         (Decision::Listed, "list"),
@@ -229,67 +226,6 @@ impl Sequel {
                 Some(Sequel::Made(further.parse().ok()?, found.0))
             }
         }
-    }
-}
-
-impl Study<'_> {
-    /// What became of the lists for which a further measurement was asked.
-    pub(super) fn sequels(&self) -> impl Iterator<Item = Sequel> {
-        self.singles().filter_map(|(record, _)| record.further)
-    }
-
-    /// The lists by the measurement that was recommended.
-    pub(super) fn further(&self) -> String {
-        let mut by_measure: BTreeMap<Sequel, usize> = BTreeMap::new();
-        let mut made: BTreeMap<Further, Vec<Decision>> = BTreeMap::new();
-        for sequel in self.sequels() {
-            match sequel {
-                Sequel::Made(further, decision) => made.entry(further).or_default().push(decision),
-                other => *by_measure.entry(other).or_default() += 1,
-            }
-        }
-        let mut rows: Vec<Vec<String>> = made
-            .into_iter()
-            .map(|(further, decisions)| {
-                let count = |wanted| decisions.iter().filter(|d| **d == wanted).count();
-                let mut row = vec![further.to_string(), decisions.len().to_string()];
-                row.extend(Decision::ALL.iter().map(|(d, _)| count(*d).to_string()));
-                row
-            })
-            .collect();
-        let without = [
-            (
-                Sequel::Same,
-                "none: all names say the same of every measurement",
-            ),
-            (Sequel::Unpromised, "none that promises it"),
-            (Sequel::Impossible, "one that the simulator cannot make"),
-        ];
-        for (sequel, words) in without {
-            let count = by_measure.get(&sequel).copied().unwrap_or_default();
-            let mut row = vec![words.to_owned(), count.to_string()];
-            row.extend(Decision::ALL.iter().map(|_| String::new()));
-            rows.push(row);
-        }
-        table(
-            "Lists, and the measurement that was recommended",
-            &format!(
-                "One effect of λ ≥ 8 whose right name is in a list. The best measurement that promises, with a \
-                 probability of {:.0} % or more, to decide was made by the simulator in the same life of the \
-                 device, and the whole recording was diagnosed anew.",
-                100.0 * PROMISED
-            ),
-            &[
-                "recommended",
-                "lists",
-                "then named rightly",
-                "or with names that say the same",
-                "still listed",
-                "a wrong name",
-                "no name",
-            ],
-            &rows,
-        )
     }
 }
 

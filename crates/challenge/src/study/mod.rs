@@ -7,6 +7,7 @@
 //! | `trial` | which cases are made, and one of them run |
 //! | `record` | what is kept of a run, as a line of CSV |
 //! | `further` | the measurement that a diagnosis recommends for a list, made and diagnosed |
+//! | `sequels` | the table of these measurements |
 //! | `rate` | how often something happened, with its Clopper–Pearson interval |
 //! | `report` | the tables |
 //! | `bars` | the first of them: what has to hold, and whether it does |
@@ -16,6 +17,7 @@ mod further;
 mod rate;
 mod record;
 mod report;
+mod sequels;
 mod trial;
 
 pub use further::{Advice, Decision, PROMISED, Request, Sequel, decision, request};

@@ -202,7 +202,7 @@ fn without(scenario: &Scenario) -> String {
     let mut names: Vec<String> = scenario
         .effects
         .iter()
-        .flat_map(|effect| crate::grade::accepted_ids(*effect))
+        .flat_map(|effect| crate::names::accepted_ids(*effect))
         .map(|id| format!("\"{id}\""))
         .collect();
     names.sort();

@@ -1,0 +1,74 @@
+//! Which names of the catalogue are right for which physics. Where two mechanisms give the same
+//! function of the same quantities, either name is right: a saturation far below its rails is a cubic
+//! error, a resistor in its own heat is one as well.
+
+use super::effect::Physics;
+
+/// Identifiers of the catalogue, each with the columns that it has to follow; none = any.
+pub(super) fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str])] {
+    use Physics as P;
+    match physics {
+        P::SecondOrder => &[("quadratic", &[]), ("axis-quadratic", &[])],
+        P::ThirdOrder => &[("cubic", &[]), ("axis-cubic", &[])],
+        P::CrossProduct => &[("cross-product", &[])],
+        P::CrossSquare => &[("cross-square", &[])],
+        P::Asymmetry => &[("asymmetry", &[]), ("axis-asymmetry", &[])],
+        P::Saturation => &[("saturation", &[]), ("cubic", &[])],
+        P::DeadBand => &[("zero-step", &[])],
+        P::CoarseReadout => &[("quantisation", &[])],
+        P::TemperatureBias => &[("tempco-bias", &["temperature"])],
+        P::TemperatureScale => &[("tempco-scale", &["temperature"])],
+        P::WarmUp => &[("warm-up", &[])],
+        P::LoadHeating => &[("cubic", &[]), ("self-heating", &[]), ("lag", &[])],
+        P::Drift => &[("drift", &[])],
+        P::ScaleDrift => &[("drift-scale", &[])],
+        P::Settling => &[("lag", &[])],
+        P::Hysteresis => &[("hysteresis", &[])],
+        P::Backlash => &[("play", &["head"])],
+        P::Eccentricity | P::Ellipticity | P::Ripple => &[("eccentricity", &["head", "azimuth"])],
+        P::ElevationEccentricity => &[("eccentricity", &["elevation"])],
+        P::Flexure => &[("eccentricity", &["head"]), ("cross-product", &[])],
+        P::Wobble => &[("periodic", &["table"]), ("axis-wobble", &["table"])],
+        P::RateRipple => &[("periodic", &["table"]), ("periodic-scale", &["table"])],
+        P::Magnetic | P::EarthRate => &[("periodic", &["table"]), ("laboratory-field", &["table"])],
+        P::Supply => &[("sensitivity", &["supply"])],
+        P::Vibration => &[
+            ("sensitivity", &["vibration"]),
+            ("sensitivity-quadratic", &["vibration"]),
+        ],
+        P::GSensitivity | P::GSquared => &[("cross-sensitivity", &["cx", "cy", "cz"])],
+        // A jump between two runs is a shift of the runs, whatever made it.
+        P::RunShift | P::Knock => &[("level-shift", &["run"]), ("step", &[])],
+        P::RunScale => &[("level-scale", &["run"]), ("step-scale", &[])],
+        P::SwappedLabel => &[("swapped", &[]), ("outlier", &[])],
+        P::LocalRub | P::Resonance | P::MotorPickup | P::Popcorn | P::WrongUnit => &[],
+    }
+}
+
+/// Identifiers of the catalogue that can be right for a physics.
+pub(super) fn accepted_ids(physics: Physics) -> impl Iterator<Item = &'static str> {
+    accepted(physics).iter().map(|(id, _)| *id)
+}
+
+/// Whether two physics have a right name in common.
+pub(super) fn share_a_name(a: Physics, b: Physics) -> bool {
+    accepted(a)
+        .iter()
+        .any(|(id, _)| accepted(b).iter().any(|(other, _)| id == other))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_nameable_has_a_name() {
+        for physics in Physics::ALL {
+            assert_eq!(
+                physics.nameable(),
+                !accepted(*physics).is_empty(),
+                "{physics:?}"
+            );
+        }
+    }
+}

@@ -80,6 +80,15 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
     })
 }
 
+/// Values of the measurands in trials of the Monte Carlo method, each in its unit: one list for each measurand, and the
+/// n-th values of the lists are of one trial. They are the trials of a run with the seed of the budget or of the
+/// options, on whatever number of threads; a trial in which the model has no value is NaN.
+pub fn samples(budget: &Budget, trials: u64, options: &Options) -> Vec<Vec<f64>> {
+    let settings = options.monte_carlo.settings(budget);
+    let seed = settings.unwrap_or(&budget.monte_carlo).seed;
+    monte_carlo::draws(budget, (seed, trials), options.workers())
+}
+
 fn require_derivatives(budget: &Budget, linear: &Linear) -> Result<(), EvaluationError> {
     for (measurand, output) in budget.model.outputs().iter().enumerate() {
         if let Some(input) = linear.missing_derivative(measurand) {

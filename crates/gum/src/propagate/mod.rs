@@ -29,7 +29,7 @@ mod validation;
 
 pub use claims::{Comparison, Method, compare_claims};
 pub use error::EvaluationError;
-pub use evaluate::evaluate;
+pub use evaluate::{evaluate, samples};
 pub use findings::is_residue;
 pub use options::{MonteCarloChoice, Options};
 pub use progress::Progress;

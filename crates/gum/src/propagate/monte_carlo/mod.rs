@@ -16,6 +16,7 @@
 //! | [`interval`] | median, symmetric and shortest coverage interval |
 //! | [`existence`] | whether the moments exist at all, judged from the trials |
 //! | [`heavy_components`] | components that are known to leave the output without moments |
+//! | [`draws`] | the values of trials themselves |
 //! | [`fractions`] | fractions of the trials between given limits |
 //! | [`adaptive`] | how many trials |
 //! | [`indices`] | Sobol' sensitivity indices |
@@ -29,6 +30,7 @@ mod budget_source;
 mod collect;
 mod comoments;
 mod decisive_cells;
+mod draws;
 mod engine;
 mod existence;
 mod factor;
@@ -58,6 +60,7 @@ use adaptive::Target;
 pub use adaptive::{batch_size, least_batch};
 use collect::{Collector, Held, Plan};
 use decisive_cells::Wanted;
+pub use draws::draws;
 use engine::{Layout, Source};
 use existence::{Tail, Verdict};
 pub use fractions::fractions;

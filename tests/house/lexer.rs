@@ -1,6 +1,6 @@
-//! Rust as far as paths go: words and signs without comments, texts and tests.
+//! Rust as far as names go: words, signs and texts, without comments and tests.
 
-/// A word (identifier, keyword or number) or a sign; `::` is one sign.
+/// A word (identifier, keyword or number), a sign, where `::` is one, or a text with its quotation marks.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Token(pub String);
 
@@ -34,6 +34,7 @@ fn all(source: &str) -> Vec<Token> {
         } else if rest.starts_with("/*") {
             rest.find("*/").map_or(rest.len(), |end| end + 2)
         } else if let Some(length) = text(rest) {
+            found.push(Token(rest[..length].to_owned()));
             length
         } else if first == '\'' {
             character(rest)
@@ -156,10 +157,13 @@ mod tests {
     }
 
     #[test]
-    fn texts_comments_and_characters_are_no_paths() {
+    fn comments_and_characters_are_no_names_and_texts_stay_whole() {
         let source =
             "let a = \"crate::x\"; // crate::y\nlet b = r#\"super::\"z\"#; '\"' '\\'' &'a self::w";
-        assert_eq!(words(source), "let a = ; let b = ; & a self :: w");
+        assert_eq!(
+            words(source),
+            "let a = \"crate::x\" ; let b = r#\"super::\"z\"# ; & a self :: w"
+        );
     }
 
     #[test]

@@ -57,6 +57,7 @@ mod whiten;
 pub use crate::dd::Dd;
 pub use gradient::Gradient;
 pub use lack_of_fit::{LackOfFit, Replicates, lack_of_fit, replicates};
+pub use nonlinear::{Linear, Minimum, Residuals, Stuck, minimise};
 pub use polynomial::Polynomial;
 pub use problem::{Errors, Problem, Response, Scale, Spread};
 pub use solution::{Failure, Observed, Solution};

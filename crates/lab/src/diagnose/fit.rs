@@ -1,8 +1,10 @@
-//! The declared model fitted to the recording by weighted least squares (Levenberg–Marquardt).
+//! The declared model fitted to the recording by weighted least squares: the search of
+//! [`crate::least_squares`], begun at several places.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::frame::{Frame, Linear};
+use crate::least_squares::{self, Residuals, Stuck, minimise};
 
 /// The model at its best.
 #[derive(Debug, Clone)]
@@ -15,6 +17,65 @@ pub struct Fit {
     pub jacobian: DMatrix<f64>,
     /// Observed less modelled.
     pub residuals: DVector<f64>,
+    /// How the unknowns came to their values.
+    pub ending: Ending,
+}
+
+/// How the unknowns of a fit came to their values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// They were given.
+    Given,
+    /// The search found a minimum.
+    Minimum,
+    /// The search ended elsewhere: no step improved χ² any more, or there was no end of them.
+    Lost {
+        /// Steps made.
+        steps: usize,
+    },
+}
+
+/// A model that a diagnosis fits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FittedModel {
+    /// The model of the case.
+    Declared,
+    /// The model with the adopted effects in it.
+    Improved,
+}
+
+/// A fit on which a reader should not rely.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unsettled {
+    /// What was fitted.
+    pub model: FittedModel,
+    /// What went wrong.
+    pub trouble: Trouble,
+}
+
+/// What went wrong with a fit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Trouble {
+    /// The values are not those of a minimum of χ².
+    NoMinimum {
+        /// Steps of the search.
+        steps: usize,
+    },
+    /// There are no values.
+    NoFit(NoFit),
+}
+
+impl Fit {
+    /// What is to be said of this fit of a model, if anything.
+    pub fn unsettled(&self, model: FittedModel) -> Option<Unsettled> {
+        match self.ending {
+            Ending::Given | Ending::Minimum => None,
+            Ending::Lost { steps } => Some(Unsettled {
+                model,
+                trouble: Trouble::NoMinimum { steps },
+            }),
+        }
+    }
 }
 
 /// Why there is no fit.
@@ -22,7 +83,7 @@ pub struct Fit {
 pub enum NoFit {
     /// The model has no finite value where the search begins.
     NoStart,
-    /// The search went nowhere.
+    /// Nothing depends on any unknown where the search begins.
     NoMinimum,
     /// This unknown is not determined by the recording.
     Undetermined(String),
@@ -52,11 +113,7 @@ pub fn fit(frame: &Frame<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
             unknowns: count,
         });
     }
-    let problem = Problem {
-        frame,
-        observed: frame.observed_column(|response| frame.observed(response)),
-        u,
-    };
+    let problem = Problem::new(frame, u);
     let mut best: Option<(f64, Fit)> = None;
     let mut failure = NoFit::NoStart;
     for start in starts(frame) {
@@ -90,7 +147,10 @@ fn without_turns(frame: &Frame<'_>, mut fit: Fit) -> Fit {
         }
         let mut unwound = fit.unknowns.clone();
         unwound[place] -= turns * turn;
-        let unwound = at(frame, unwound);
+        let unwound = Fit {
+            ending: fit.ending,
+            ..at(frame, unwound)
+        };
         if same_values(&fit, &unwound) {
             fit = unwound;
         }
@@ -118,12 +178,23 @@ fn same_values(one: &Fit, other: &Fit) -> bool {
 /// # Errors
 /// As [`fit`].
 pub fn from(frame: &Frame<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
-    let problem = Problem {
-        frame,
-        observed: frame.observed_column(|response| frame.observed(response)),
-        u,
-    };
+    let problem = Problem::new(frame, u);
     problem.search(start).map(|(_, fit)| fit)
+}
+
+/// Fits the model from a place that should be near; from everywhere else where that fails.
+///
+/// # Errors
+/// As [`fit`].
+pub fn near(frame: &Frame<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
+    match from(frame, u, start) {
+        Ok(found) if found.ending == Ending::Minimum => Ok(found),
+        first => match (first, fit(frame, u)) {
+            // The search from elsewhere may end in a place that is no better.
+            (Ok(first), Err(_)) => Ok(first),
+            (_, second) => second,
+        },
+    }
 }
 
 /// The model at given unknowns, without a search.
@@ -136,6 +207,7 @@ pub fn at(frame: &Frame<'_>, unknowns: DVector<f64>) -> Fit {
         residuals: observed - modelled,
         unknowns,
         linear,
+        ending: Ending::Given,
     }
 }
 
@@ -161,155 +233,119 @@ fn starts(frame: &Frame<'_>) -> Vec<DVector<f64>> {
     starts
 }
 
+/// What is minimised: squares of the weighted residuals, and of what is known beforehand.
 struct Problem<'f, 'c> {
     frame: &'f Frame<'c>,
     observed: DVector<f64>,
     u: &'f DVector<f64>,
+    /// Unknowns of which something is known beforehand: place, value and standard uncertainty.
+    priors: Vec<(usize, f64, f64)>,
 }
 
-impl Problem<'_, '_> {
+impl<'f, 'c> Problem<'f, 'c> {
+    fn new(frame: &'f Frame<'c>, u: &'f DVector<f64>) -> Problem<'f, 'c> {
+        let known = frame.unknowns.iter().enumerate();
+        let known = known.filter_map(|(place, unknown)| {
+            let (value, u) = unknown.prior?;
+            Some((place, value, u))
+        });
+        Problem {
+            frame,
+            observed: frame.observed_column(|response| frame.observed(response)),
+            u,
+            priors: known.collect(),
+        }
+    }
+
     fn is_linear(&self) -> bool {
         let parameters: Vec<usize> = (0..self.frame.case.parameters.len()).collect();
         self.frame.case.equations.are_affine_in(&parameters)
     }
 
-    /// Weighted residuals, prior rows at the end.
-    fn weighted(&self, unknowns: &DVector<f64>, linear: &Linear) -> DVector<f64> {
-        let modelled = self
-            .frame
-            .observed_column(|response| linear.values[response].clone());
-        let rows = (&self.observed - modelled).component_div(self.u);
-        let priors = self.frame.unknowns.iter().zip(unknowns.iter());
-        let priors =
-            priors.filter_map(|(unknown, now)| unknown.prior.map(|(value, u)| (value - now) / u));
-        DVector::from_iterator(
-            rows.len() + priors.clone().count(),
-            rows.iter().copied().chain(priors),
-        )
-    }
-
-    fn weighted_jacobian(&self, linear: &Linear) -> DMatrix<f64> {
-        let mut jacobian = self.frame.jacobian(linear);
-        for mut column in jacobian.column_iter_mut() {
-            column.component_div_assign(self.u);
-        }
-        let (rows, columns) = jacobian.shape();
-        let known: Vec<(usize, f64)> = self
-            .frame
-            .unknowns
-            .iter()
-            .enumerate()
-            .filter_map(|(at, unknown)| Some((at, unknown.prior?.1)))
-            .collect();
-        let mut jacobian = jacobian.resize(rows + known.len(), columns, 0.0);
-        for (row, (at, u)) in known.iter().enumerate() {
-            jacobian[(rows + row, *at)] = 1.0 / u;
-        }
-        jacobian
-    }
-
+    /// The fit to which a start leads, with its χ².
     fn search(&self, start: DVector<f64>) -> Result<(f64, Fit), NoFit> {
-        const STEPS: usize = 200;
-        let mut unknowns = start;
-        let mut linear = self.frame.linear(&unknowns);
-        let mut residuals = self.weighted(&unknowns, &linear);
-        let mut sum = residuals.norm_squared();
-        if !sum.is_finite() {
-            return Err(NoFit::NoStart);
+        let first = self.at(start.as_slice(), None).ok_or(NoFit::NoStart)?;
+        if start.is_empty() {
+            return Ok((first.chi_squared(), at(self.frame, start)));
         }
-        let mut damping = if self.is_linear() { 0.0 } else { 1e-3 };
-        let mut settled = false;
-        for _ in 0..STEPS {
-            let jacobian = self.weighted_jacobian(&linear);
-            let Some(step) = self.step(&jacobian, &residuals, damping)? else {
-                damping = (damping * 10.0).max(1e-6);
-                if damping > 1e12 {
-                    break;
-                }
-                continue;
-            };
-            let next = &unknowns + &step;
-            let next_linear = self.frame.linear(&next);
-            let next_residuals = self.weighted(&next, &next_linear);
-            let next_sum = next_residuals.norm_squared();
-            if next_sum.is_finite() && next_sum <= sum * (1.0 + 1e-14) {
-                // The size of a step in standard uncertainties of the fitted values.
-                let moved = (&jacobian * &step).norm();
-                settled = moved <= 1e-9 * (1.0 + sum.sqrt())
-                    || sum - next_sum <= 1e-13 * sum && damping <= 1e-6;
-                (unknowns, linear, residuals, sum) = (next, next_linear, next_residuals, next_sum);
-                damping = if damping > 1e-9 { damping * 0.2 } else { 0.0 };
-                if settled {
-                    break;
-                }
-            } else {
-                damping = (damping * 10.0).max(1e-6);
-                if damping > 1e12 {
-                    break;
-                }
+        let (unknowns, linear, ending) = match minimise(self, start.as_slice()) {
+            Ok(minimum) => (minimum.parameters, minimum.linear, Ending::Minimum),
+            Err(Stuck::Lost {
+                iterations,
+                parameters,
+            }) => {
+                let linear = self.at(&parameters, None).ok_or(NoFit::NoMinimum)?;
+                (parameters, linear, Ending::Lost { steps: iterations })
             }
-        }
-        let _ = settled;
-        let unknowns_at = unknowns;
-        self.determined(&linear)?;
-        Ok((sum, at(self.frame, unknowns_at)))
-    }
-
-    /// (JᵀJ + λ diag)⁻¹Jᵀr by QR of scaled columns; nothing if the columns depend on one another here.
-    fn step(
-        &self,
-        jacobian: &DMatrix<f64>,
-        residuals: &DVector<f64>,
-        damping: f64,
-    ) -> Result<Option<DVector<f64>>, NoFit> {
-        let (rows, columns) = jacobian.shape();
-        if columns == 0 {
-            return Ok(Some(DVector::zeros(0)));
-        }
-        if jacobian.iter().any(|x| !x.is_finite()) {
-            return Err(NoFit::NoMinimum);
-        }
-        let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
-        if lengths.iter().all(|length| *length == 0.0) {
-            return Err(NoFit::NoMinimum);
-        }
-        let mut scaled = jacobian.clone().resize(rows + columns, columns, 0.0);
-        for (at, length) in lengths.iter().enumerate() {
-            let scale = if *length > 0.0 { 1.0 / length } else { 0.0 };
-            scaled.column_mut(at).scale_mut(scale);
-            scaled[(rows + at, at)] = if *length > 0.0 { damping.sqrt() } else { 1.0 };
-        }
-        let right = residuals.clone().resize_vertically(rows + columns, 0.0);
-        let qr = scaled.qr();
-        let target = qr.q().tr_mul(&right);
-        let r = qr.r();
-        if (0..columns).any(|i| r[(i, i)].abs() < 1e-13) {
-            return Ok(None);
-        }
-        let Some(mut step) = r.solve_upper_triangular(&target) else {
-            return Ok(None);
+            Err(Stuck::Start) => return Err(NoFit::NoStart),
+            Err(Stuck::Flat { parameters }) => {
+                let nothing = first.jacobian.iter().flatten().all(|slope| *slope == 0.0);
+                let name = |place: &usize| self.frame.unknowns[*place].name.clone();
+                return Err(match parameters.first().map(name) {
+                    Some(name) if !nothing => NoFit::Undetermined(name),
+                    _ => NoFit::NoMinimum,
+                });
+            }
         };
-        for (value, length) in step.iter_mut().zip(&lengths) {
-            *value = if *length > 0.0 { *value / length } else { 0.0 };
-        }
-        Ok(Some(step))
+        self.determined(&linear)?;
+        let fit = Fit {
+            ending,
+            ..at(self.frame, DVector::from_vec(unknowns))
+        };
+        Ok((linear.chi_squared(), fit))
     }
 
     /// Whether every unknown has an effect of its own on the fitted values.
-    fn determined(&self, linear: &Linear) -> Result<(), NoFit> {
+    fn determined(&self, linear: &least_squares::Linear) -> Result<(), NoFit> {
         const DEPENDENT: f64 = 1e-9;
-        let jacobian = self.weighted_jacobian(linear);
-        if jacobian.ncols() == 0 {
-            return Ok(());
-        }
-        let lengths: Vec<f64> = jacobian.column_iter().map(|c| c.norm()).collect();
-        let r = jacobian.qr().r();
-        for (at, length) in lengths.iter().enumerate() {
-            let own = r[(at, at)].abs();
-            if own.is_nan() || own <= DEPENDENT * length {
-                return Err(NoFit::Undetermined(self.frame.unknowns[at].name.clone()));
+        let columns = linear.jacobian.iter().cloned().map(DVector::from_vec);
+        let columns: Vec<DVector<f64>> = columns.collect();
+        let r = DMatrix::from_columns(&columns).qr().r();
+        for (place, column) in columns.iter().enumerate() {
+            let own = r[(place, place)].abs();
+            if own.is_nan() || own <= DEPENDENT * column.norm() {
+                return Err(NoFit::Undetermined(self.frame.unknowns[place].name.clone()));
             }
         }
         Ok(())
+    }
+}
+
+impl Residuals for Problem<'_, '_> {
+    /// Rows of the observations, then those of what is known beforehand.
+    fn at(
+        &self,
+        unknowns: &[f64],
+        _near: Option<&least_squares::Linear>,
+    ) -> Option<least_squares::Linear> {
+        let linear = self.frame.linear(&DVector::from_column_slice(unknowns));
+        let modelled = self
+            .frame
+            .observed_column(|response| linear.values[response].clone());
+        let known = self.priors.iter();
+        let residuals = (&self.observed - modelled).component_div(self.u);
+        let residuals = residuals.iter().copied();
+        let residuals =
+            residuals.chain((known.clone()).map(|(at, value, u)| (value - unknowns[*at]) / u));
+        let observed = self.observed.component_div(self.u);
+        let observed = observed.iter().copied();
+        let observed = observed.chain(known.clone().map(|(_, value, u)| value / u));
+        let jacobian = self.frame.jacobian(&linear);
+        let column = |(place, column): (usize, nalgebra::DVectorView<'_, f64>)| {
+            let rows = column.component_div(self.u);
+            let of_known =
+                |(at, _, u): &(usize, f64, f64)| if *at == place { 1.0 / u } else { 0.0 };
+            let rows = rows.iter().copied();
+            rows.chain(known.clone().map(of_known)).collect()
+        };
+        let jacobian: Vec<Vec<f64>> = jacobian.column_iter().enumerate().map(column).collect();
+        let linear = least_squares::Linear::new(residuals.collect(), jacobian, observed.collect());
+        let finite = linear.chi_squared().is_finite()
+            && linear
+                .jacobian
+                .iter()
+                .flatten()
+                .all(|slope| slope.is_finite());
+        finite.then_some(linear)
     }
 }

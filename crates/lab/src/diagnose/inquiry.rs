@@ -9,9 +9,9 @@ use super::adopt::{self, Free};
 use super::case::Case;
 use super::catalogue::{self, Cell, Finer, Ground, Variation};
 use super::evidence::{
-    self, Atom, Baseline, Candidate, Examination, Prior, Question, Refusal, Shape, TRACE,
+    self, Atom, Baseline, Candidate, Examination, Fitted, Prior, Question, Refusal, Shape, TRACE,
 };
-use super::fit::Fit;
+use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
 use super::noise::{self, Claimed};
 use super::run::Failure;
@@ -78,8 +78,8 @@ impl<'f> Inquiry<'f> {
             claimed,
         );
         match adopted {
-            Some((extended, fit)) => noise::refined(&Frame::new(&extended.case), &fit),
-            None => noise::refined(self.ground.frame, self.ground.fit),
+            Ok(Some((extended, fit))) => noise::refined(&Frame::new(&extended.case), &fit),
+            Ok(None) | Err(_) => noise::refined(self.ground.frame, self.ground.fit),
         }
     }
 
@@ -239,18 +239,44 @@ fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Opt
     }
 }
 
-/// The refit with the named effects in the model.
+/// The refit with the named effects in the model; nothing where there are none, or where the equations
+/// cannot be written.
+///
+/// # Errors
+/// When the model with the effects cannot be fitted.
 pub(super) fn adopted_fit(
     ground: &Ground<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
     examination: &Examination,
     claimed: &Claimed,
-) -> Option<(adopt::Extended, Fit)> {
-    let fitted = examination.fitted.as_ref()?;
-    if fitted.atoms.is_empty() {
-        return None;
+) -> Result<Option<(adopt::Extended, Fit)>, NoFit> {
+    let fitted = examination.fitted.as_ref();
+    let Some(fitted) = fitted.filter(|fitted| !fitted.atoms.is_empty()) else {
+        return Ok(None);
+    };
+    let Some((mut extended, open)) = with_effects(ground, cells, places, fitted, claimed) else {
+        return Ok(None);
+    };
+    // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
+    // parameter's.
+    adopt::scattered(&mut extended, |effect| open.contains(&effect));
+    if let Ok(fit) = refit(ground, &extended, claimed) {
+        return Ok(Some((extended, fit)));
     }
+    adopt::scattered(&mut extended, |_| true);
+    let fit = refit(ground, &extended, claimed)?;
+    Ok(Some((extended, fit)))
+}
+
+/// The model with the named effects in it, and those of them that the recording does not determine.
+fn with_effects(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    fitted: &Fitted,
+    claimed: &Claimed,
+) -> Option<(adopt::Extended, Vec<usize>)> {
     let baseline = baseline(ground.frame, ground.fit, claimed).ok()?;
     let mut sizes = fitted.coefficients.as_slice();
     let mut effects = Vec::new();
@@ -261,16 +287,7 @@ pub(super) fn adopted_fit(
         sizes = rest;
     }
     let open = undetermined(ground, &baseline, &effects);
-    let mut extended = adopt::extended(ground, effects)?;
-    // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
-    // parameter's.
-    adopt::scattered(&mut extended, |effect| open.contains(&effect));
-    if let Some(fit) = refit(ground, &extended, claimed) {
-        return Some((extended, fit));
-    }
-    adopt::scattered(&mut extended, |_| true);
-    let fit = refit(ground, &extended, claimed)?;
-    Some((extended, fit))
+    Some((adopt::extended(ground, effects)?, open))
 }
 
 /// Effects with coefficients that the recording does not determine beside the parameters and one another.
@@ -289,11 +306,10 @@ fn undetermined(ground: &Ground<'_>, baseline: &Baseline, effects: &[Free]) -> V
     open.map(|(_, effect)| effect).collect()
 }
 
-fn refit(ground: &Ground<'_>, extended: &adopt::Extended, claimed: &Claimed) -> Option<Fit> {
+fn refit(ground: &Ground<'_>, extended: &adopt::Extended, claimed: &Claimed) -> Result<Fit, NoFit> {
     let frame = Frame::new(&extended.case);
     let start = adopt::start(ground, &frame, &extended.effects);
-    let fit = super::fit::from(&frame, &claimed.u, start);
-    fit.or_else(|_| super::fit::fit(&frame, &claimed.u)).ok()
+    fit::near(&frame, &claimed.u, start)
 }
 
 /// Candidates of a known size (a reversal, an exchange) that would have to have another size here.

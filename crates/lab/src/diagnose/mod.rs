@@ -64,7 +64,7 @@ pub use conclusion::{Conclusion, Doubt, Nameless};
 pub use confirm::Quality;
 pub use emphasis::{Agreement, Unseen};
 pub use extra::{Extra, Measure};
-pub use fit::NoFit;
+pub use fit::{FittedModel, NoFit, Trouble, Unsettled};
 pub use held_out::{HeldOutQuality, Prediction};
 pub use improved::improved;
 pub use likeness::{Likeness, likenesses};

@@ -105,8 +105,7 @@ pub fn settle(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
         Some(first) if case.columns.iter().all(|column| column.u.is_none()) => first,
         _ => claimed(frame, Some(&rough)).unwrap_or_else(|| estimated(frame, &rough)),
     };
-    let fit = fit::from(frame, &claimed.u, rough.unknowns.clone())
-        .or_else(|_| fit::fit(frame, &claimed.u))?;
+    let fit = fit::near(frame, &claimed.u, rough.unknowns.clone())?;
     if claimed.is_estimated() {
         let better = estimated(frame, &fit);
         return Ok((fit, better));

@@ -10,7 +10,7 @@ use super::catalogue::{Cell, Finer, Ground};
 use super::confirm::{self, Quality};
 use super::evidence::{self, Examination, Located, Refusal, TRACE, Verdict};
 use super::faults::{NOT_FITTED, START, TOO_FEW};
-use super::fit::{Fit, NoFit};
+use super::fit::{Fit, FittedModel, NoFit, Trouble, Unsettled};
 use super::frame::Frame;
 use super::held_out::{self, HeldOutQuality};
 use super::inquiry::{Inquiry, adopted_fit, baseline, settings};
@@ -89,6 +89,8 @@ pub struct Diagnosis {
     /// For each slot, where something is adopted, what it costs each unknown that the slot has several
     /// explanations.
     pub choices: Vec<Vec<f64>>,
+    /// Fits on which a reader should not rely.
+    pub unsettled: Vec<Unsettled>,
     /// Explanations that the recording cannot tell apart, with the measurements that would.
     pub separating: Vec<Separating>,
 }
@@ -123,6 +125,8 @@ pub struct Adopted {
     pub residuals: DVector<f64>,
     /// Further checks.
     pub confirmation: Confirmation,
+    /// Whether its fit is one on which a reader should not rely.
+    pub unsettled: Option<Unsettled>,
 }
 
 impl Diagnosis {
@@ -218,7 +222,18 @@ pub fn diagnose(
             .collect()
     };
     let before = confirm::quality(&frame, &fit, &claimed, &claimed);
-    let adopted = adopt_named(&ground, &cells, &places, &examination, &claimed);
+    let mut unsettled: Vec<Unsettled> = fit.unsettled(FittedModel::Declared).into_iter().collect();
+    let adopted = match adopt_named(&ground, &cells, &places, &examination, &claimed) {
+        Ok(adopted) => adopted,
+        Err(why) => {
+            unsettled.push(Unsettled {
+                model: FittedModel::Improved,
+                trouble: Trouble::NoFit(why),
+            });
+            None
+        }
+    };
+    unsettled.extend((adopted.iter()).filter_map(|adopted| adopted.unsettled.clone()));
     let unknowns = estimates(&frame, &fit, &claimed, before.scale);
     let improved = adopted
         .as_ref()
@@ -262,6 +277,7 @@ pub fn diagnose(
         adopted,
         blocks: frame.blocks.clone(),
         omitted,
+        unsettled,
         separating,
         held_out,
         choices,
@@ -287,9 +303,11 @@ fn adopt_named(
     places: &[(usize, usize)],
     examination: &Examination,
     claimed: &Claimed,
-) -> Option<Adopted> {
-    let fitted = examination.fitted.as_ref()?;
-    let (extended, fit) = adopted_fit(ground, cells, places, examination, claimed)?;
+) -> Result<Option<Adopted>, NoFit> {
+    let found = adopted_fit(ground, cells, places, examination, claimed)?;
+    let (Some(fitted), Some((extended, fit))) = (examination.fitted.as_ref(), found) else {
+        return Ok(None);
+    };
     let frame = Frame::new(&extended.case);
     let quality = confirm::quality(&frame, &fit, claimed, claimed);
     let all = estimates(&frame, &fit, claimed, quality.scale);
@@ -313,15 +331,16 @@ fn adopt_named(
     }
     let residuals = fit.residuals.clone();
     drop(frame);
-    Some(Adopted {
+    Ok(Some(Adopted {
         atoms: fitted.atoms.clone(),
         coefficients,
         unknowns,
         quality,
         residuals,
         confirmation,
+        unsettled: fit.unsettled(FittedModel::Improved),
         extended,
-    })
+    }))
 }
 
 /// Adds to the uncertainty of a fitted coefficient of an atom what the fit does not know: that other effects

@@ -13,7 +13,7 @@ use super::labels::spoken;
 use super::statement::{tentative, verdict, weighs};
 use super::words::{
     amplitude, chance, fitted, formula, name, name_of_atom, noise, orders, p_found, probability,
-    prose, quantity,
+    prose, quantity, unsettled as unsettled_fit,
 };
 use super::{improvement, open};
 
@@ -25,8 +25,10 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> 
     let mut blocks = vec![
         Block::Title(case.title.clone()),
         Block::Statement(vec![verdict(diagnosis, language)]),
-        Block::Fields(fields(case, diagnosis, language)),
     ];
+    let unsettled = diagnosis.unsettled.iter();
+    blocks.extend(unsettled.map(|one| Block::Paragraph(unsettled_fit(case, one, language))));
+    blocks.push(Block::Fields(fields(case, diagnosis, language)));
     blocks.extend(located(diagnosis, language));
     blocks.extend(slots(case, diagnosis, language));
     blocks.extend(improvement::blocks(case, diagnosis, language));

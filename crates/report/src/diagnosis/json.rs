@@ -4,10 +4,12 @@ use serde_json::{Value, json};
 
 use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
-use crate::diagnose::{Diagnosis, Estimated, Measure, Omitted, Prediction, Quality};
+use crate::diagnose::{
+    Diagnosis, Estimated, FittedModel, Measure, Omitted, Prediction, Quality, Trouble, Unsettled,
+};
 
 use super::statement::verdict;
-use super::words::{formula, measure, name, name_of_atom, noise, prose};
+use super::words::{self, formula, measure, name, name_of_atom, noise, prose};
 use crate::language::Language;
 
 /// Name and version of the format.
@@ -38,6 +40,7 @@ pub fn json(case: &Case, diagnosis: &Diagnosis, language: Language) -> Value {
             "size": located.size, "u": located.u, "delta_chi_squared": located.chi_squared, "p": located.p,
         })).collect::<Vec<_>>(),
         "effects": examination.slots.iter().map(|slot| effect(case, diagnosis, slot, language)).collect::<Vec<_>>(),
+        "unsettled_fits": diagnosis.unsettled.iter().map(|one| unsettled(case, one, language)).collect::<Vec<_>>(),
         "explained": finite(examination.explained),
         "generic_probability": finite(examination.generic_probability),
         "margin": finite(examination.margin),
@@ -102,6 +105,24 @@ pub(super) fn measure_json(measure: &Measure) -> Value {
         Measure::Opposite { column } => json!({ "kind": "opposite", "column": column }),
         Measure::Exchanged { column } => json!({ "kind": "exchanged", "column": column }),
     }
+}
+
+fn unsettled(case: &Case, found: &Unsettled, language: Language) -> Value {
+    json!({
+        "model": match found.model {
+            FittedModel::Declared => "declared",
+            FittedModel::Improved => "improved",
+        },
+        "trouble": match found.trouble {
+            Trouble::NoMinimum { .. } => "no_minimum",
+            Trouble::NoFit(_) => "no_fit",
+        },
+        "steps": match found.trouble {
+            Trouble::NoMinimum { steps } => Some(steps),
+            Trouble::NoFit(_) => None,
+        },
+        "message": words::unsettled(case, found, language),
+    })
 }
 
 fn omitted(diagnosis: &Diagnosis, line: &Omitted, language: Language) -> Value {

@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use crate::diagnose::case::{Case, NoiseClaim};
 use crate::diagnose::catalogue::{Cell, Term, Variation, Words};
 use crate::diagnose::evidence::{Alternative, Refusal};
-use crate::diagnose::{Claimed, Diagnosis, Estimated, Failure, Measure, NoFit, Origin};
+use crate::diagnose::{
+    Claimed, Diagnosis, Estimated, Failure, FittedModel, Measure, NoFit, Origin, Trouble, Unsettled,
+};
 
 use super::labels::{formula_in, spoken};
 use crate::language::Language;
@@ -379,6 +381,29 @@ pub(super) fn probability(p: f64) -> String {
         "<0.001".to_owned()
     } else {
         significant(p, 2)
+    }
+}
+
+/// A fit on which a reader should not rely.
+pub(super) fn unsettled(case: &Case, found: &Unsettled, language: Language) -> String {
+    let model = match found.model {
+        FittedModel::Declared => language.pick("the declared model", "所声明的模型"),
+        FittedModel::Improved => {
+            language.pick("the model with the effects in it", "含上述效应的模型")
+        }
+    };
+    match &found.trouble {
+        Trouble::NoMinimum { steps } => language.pick(
+            format!("Not settled: the search for the parameters of {model} ended after {steps} steps in a place that is no minimum of χ². Values, uncertainties and names that follow from it may be wrong; state starts nearer to the truth: [parameter] NAME = {{ start = … }}"),
+            format!("未收敛：{model}的参数搜索在 {steps} 步后停在并非 χ² 极小值之处。由此得到的数值、不确定度和名称可能有误；请给出更接近的起始值：[parameter] 名称 = {{ start = … }}"),
+        ),
+        Trouble::NoFit(why) => {
+            let why = failure(case, &Failure::Fit(why.clone()), language);
+            language.pick(
+                format!("Not settled: {model} could not be fitted, so nothing is adopted: {why}"),
+                format!("未收敛：{model}无法拟合，故未采纳任何效应：{why}"),
+            )
+        }
     }
 }
 

@@ -19,19 +19,19 @@ use crate::least_squares::whiten::Whitener;
 use search::Search;
 
 /// Residuals of unit variance, as a function of the parameters.
-pub(super) trait Residuals {
+pub trait Residuals {
     /// At these parameters; None where the response is not finite. `near` is an earlier result
     /// from which to continue where something is iterated inside.
     fn at(&self, parameters: &[f64], near: Option<&Linear>) -> Option<Linear>;
 }
 
 /// Residuals, and how they follow the parameters.
-#[derive(Clone)]
-pub(super) struct Linear {
+#[derive(Debug, Clone)]
+pub struct Linear {
     /// Observed minus response, of unit variance.
-    pub(super) residuals: Vec<f64>,
+    pub residuals: Vec<f64>,
     /// Columns of the Jacobian of the response, of the same weight.
-    pub(super) jacobian: Vec<Vec<f64>>,
+    pub jacobian: Vec<Vec<f64>>,
     /// Errors of the predictors; empty where these are exact.
     pub(super) shifts: Vec<f64>,
     /// The observations, of the same weight.
@@ -41,6 +41,22 @@ pub(super) struct Linear {
 }
 
 impl Linear {
+    /// From residuals, columns of the Jacobian and observations, all of unit variance. The predictors are
+    /// exact, and nobody asks how much better the response does than a constant.
+    pub fn new(residuals: Vec<f64>, jacobian: Vec<Vec<f64>>, observed: Vec<f64>) -> Linear {
+        Linear {
+            residuals,
+            jacobian,
+            observed,
+            ..Linear::join(0)
+        }
+    }
+
+    /// χ² there.
+    pub fn chi_squared(&self) -> f64 {
+        square(&self.residuals)
+    }
+
     /// Puts together what independent blocks of points give.
     pub(super) fn join(parameters: usize) -> Linear {
         Linear {
@@ -66,21 +82,31 @@ impl Linear {
 }
 
 /// Where the search ended.
-pub(super) struct Minimum {
-    pub(super) parameters: Vec<f64>,
-    pub(super) linear: Linear,
-    pub(super) iterations: usize,
+#[derive(Debug, Clone)]
+pub struct Minimum {
+    /// The best parameters.
+    pub parameters: Vec<f64>,
+    /// Residuals and slopes there.
+    pub linear: Linear,
+    /// Steps made.
+    pub iterations: usize,
 }
 
 /// Why it did not end in a minimum.
-pub(super) enum Stuck {
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stuck {
     /// The response is not finite at the start.
     Start,
     /// The parameters there cannot be told apart.
-    Flat { parameters: Vec<usize> },
+    Flat {
+        /// Those that may change together without any change of the response.
+        parameters: Vec<usize>,
+    },
     /// No progress, or no end.
     Lost {
+        /// Steps made.
         iterations: usize,
+        /// The best values so far.
         parameters: Vec<f64>,
     },
 }
@@ -92,8 +118,12 @@ const FIRST_REGIONS: [f64; 4] = [100.0, 1.0, 0.1, 0.01];
 /// Columns of the Jacobian that agree to this fraction make the problem flat.
 const FLAT: f64 = 1e-14;
 
-/// The minimum that the start leads to.
-pub(super) fn minimise(residuals: &dyn Residuals, start: &[f64]) -> Result<Minimum, Stuck> {
+/// The minimum that the start leads to: the search alone, for residuals of any kind.
+///
+/// # Errors
+///
+/// [`Stuck`] says where and why the search ended elsewhere.
+pub fn minimise(residuals: &dyn Residuals, start: &[f64]) -> Result<Minimum, Stuck> {
     let first = residuals.at(start, None).ok_or(Stuck::Start)?;
     let mut reason = None;
     for region in FIRST_REGIONS {

@@ -1,7 +1,7 @@
 //! What other methods in common use would say of a case, with the same candidates.
 
 use super::case::Case;
-use super::catalogue::{self, Ground};
+use super::catalogue::{self, EffectId, Ground};
 use super::evidence::Question;
 use super::frame::Frame;
 use super::inquiry::{baseline, question, settings};
@@ -12,7 +12,7 @@ use super::{noise, rivals};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Pick {
     /// Identifier of the catalogue.
-    pub id: String,
+    pub id: EffectId,
     /// What it follows.
     pub along: String,
 }
@@ -48,7 +48,7 @@ pub fn opinions(case: &Case) -> Result<Vec<Opinion>, Failure> {
         picks: found
             .into_iter()
             .map(|candidate| Pick {
-                id: cells[candidate].effect.id.clone(),
+                id: cells[candidate].effect.id,
                 along: cells[candidate].place.along.clone(),
             })
             .collect(),

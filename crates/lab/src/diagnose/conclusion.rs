@@ -175,7 +175,7 @@ impl Diagnosis {
     /// one level of a factor to another tells more: where to look.
     fn describes(&self, one: &Alternative) -> bool {
         let effect = self.cells[one.candidate].effect;
-        effect.describes && !effect.locates
+        effect.only_describes()
     }
 
     /// The first name of the first slot, if it is not much less likely than what has no name.

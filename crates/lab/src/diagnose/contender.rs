@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::catalogue::{Cell, Ground, Variation, Words};
+use super::catalogue::{Cell, EffectId, Ground, Pattern, Variation, Words};
 use super::evidence::{self, Baseline, Standing};
 use super::longer::{Longer, Recorded};
 use crate::special::normal_quantile;
@@ -11,7 +11,7 @@ use crate::special::normal_quantile;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contender {
     /// Identifier of the effect.
-    id: String,
+    id: EffectId,
     /// What its texts speak of.
     words: Words,
     /// Whether several of its variants may act at once.
@@ -48,7 +48,7 @@ impl Contender {
         let sizes = sizes.map(|x| if x.is_finite() { x } else { 0.0 });
         let columns = variation.columns(recorded.ground);
         Contender {
-            id: cell.effect.id.clone(),
+            id: cell.effect.id,
             words: cell.words.clone(),
             repeats: cell.effect.repeats,
             probability,
@@ -299,7 +299,7 @@ const FAR: f64 = 8.0;
 /// What a candidate that is not in a list leaves of each explanation of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Outsider {
-    id: &'static str,
+    id: EffectId,
     words: Words,
     /// κ of each.
     pub kappas: Vec<f64>,
@@ -328,7 +328,7 @@ pub(super) fn outsiders(
     let counts = |cell: &&Cell| {
         let named =
             cell.variants.iter().all(|v| v.spectrum.is_none()) && cell.effect.exact.is_none();
-        let rows = matches!(cell.effect.id.as_str(), "outlier" | "wave");
+        let rows = matches!(cell.effect.pattern, Some(Pattern::Row | Pattern::Wave));
         named && !rows && !set.iter().any(|one| one.is(cell))
     };
     let of = |cell: &Cell| {
@@ -344,7 +344,7 @@ pub(super) fn outsiders(
             .zip(standing)
             .map(|(kappa, one)| *kappa < FAR && !cell.effect.repeats && one.keeps(&seen));
         Outsider {
-            id: &cell.effect.id,
+            id: cell.effect.id,
             words: cell.words.clone(),
             stays: near.collect(),
             kappas,

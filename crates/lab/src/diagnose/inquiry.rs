@@ -153,7 +153,7 @@ pub(super) fn question(
             cause: cause(cells, index),
             typical: cell.typical,
             repeats: cell.effect.repeats,
-            describes: cell.effect.describes,
+            describes: cell.effect.pattern.is_some(),
             odds: cell.odds,
         });
         let before = atoms.len();
@@ -184,9 +184,8 @@ pub(super) fn question(
 /// The cell that stands for the cause of one: that of which it is another order, or itself.
 fn cause(cells: &[Cell], index: usize) -> usize {
     let cell = &cells[index];
-    let stands = |other: &Cell| {
-        cell.effect.order_of.as_ref() == Some(&other.effect.id) && other.place == cell.place
-    };
+    let stands =
+        |other: &Cell| cell.effect.order_of == Some(other.effect.id) && other.place == cell.place;
     cells.iter().position(stands).unwrap_or(index)
 }
 

@@ -92,7 +92,7 @@ pub fn likenesses(
         };
         (!own.is_empty()).then(|| Likeness {
             pick: Pick {
-                id: cell.effect.id.clone(),
+                id: cell.effect.id,
                 along: cell.place.along.clone(),
             },
             label: cell.variants[place.1].label.clone(),

@@ -2,7 +2,7 @@
 //! effect of its own, which no catalogue names; a jump that is taken back is something that came and went;
 //! and a wave in time beside stronger effects is what their shape leaves.
 
-use super::catalogue::{Cell, Ground};
+use super::catalogue::{Cell, Ground, Pattern};
 use super::evidence::{Examination, Slot, State};
 
 /// So many of them are no accidents any more.
@@ -10,32 +10,35 @@ const MANY: usize = 3;
 /// A column with fewer different values says nothing when two rows agree in it.
 const VALUES: usize = 5;
 
-/// Slots of single rows, jumps, or odd levels that have no name because of the others.
+/// Slots of single rows, jumps, or levels that have no name because of the others.
 pub(super) fn nameless(
     ground: &Ground<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
     examination: &Examination,
 ) -> Vec<usize> {
-    let of_kind = |id: &str| -> Vec<usize> {
+    let of_kind = |pattern: Pattern| -> Vec<usize> {
         let first = |slot: usize| examination.slots[slot].named.first();
         (0..examination.slots.len())
             .filter(|slot| examination.slots[*slot].state != State::Unexplained)
-            .filter(|slot| first(*slot).is_some_and(|one| cells[one.candidate].effect.id == id))
+            .filter(|slot| {
+                let named = first(*slot).map(|one| cells[one.candidate].effect);
+                named.is_some_and(|effect| effect.pattern == Some(pattern))
+            })
             .collect()
     };
-    let mut found: Vec<usize> = ["outlier", "step", "odd-level"]
+    let mut found: Vec<usize> = [Pattern::Row, Pattern::Jump]
         .into_iter()
         .flat_map(of_kind)
         .collect();
     if found.len() >= 2 {
         // A shift of a run beside them is one more of the kind.
-        found.extend(of_kind("level-shift"));
+        found.extend(of_kind(Pattern::Level));
     }
     if found.len() < MANY {
         found.clear();
     }
-    let outliers = of_kind("outlier");
+    let outliers = of_kind(Pattern::Row);
     let row = |slot: usize| {
         let variant = examination.slots[slot].named.first()?.variants.first()?;
         let (cell, variation) = places[variant.atom];
@@ -48,7 +51,7 @@ pub(super) fn nameless(
     {
         found.extend(outliers);
     }
-    let steps = of_kind("step");
+    let steps = of_kind(Pattern::Jump);
     if let [one, other] = steps[..]
         && undone(&examination.slots[one], &examination.slots[other])
     {
@@ -60,7 +63,7 @@ pub(super) fn nameless(
     };
     // The strongest stands first.
     found.extend(
-        of_kind("wave")
+        of_kind(Pattern::Wave)
             .into_iter()
             .filter(|slot| *slot > 0)
             .filter(in_time),

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Role};
 use super::catalogue::modifiers::range;
-use super::catalogue::{Cell, Ground, Variation};
+use super::catalogue::{Cell, Ground, Kind, Variation};
 use super::evidence::{self, Baseline};
 use super::fit;
 use super::form;
@@ -93,7 +93,7 @@ pub(super) fn lines(
     };
     let others = cells.iter().enumerate();
     let mut every: Vec<Omitted> = others
-        .filter(|(index, cell)| cell.effect.family != "unnamed" && !adopted.contains(index))
+        .filter(|(index, cell)| cell.effect.kind != Kind::Unnamed && !adopted.contains(index))
         .flat_map(|(index, cell)| {
             let step = cell.variants.len().div_ceil(VARIANTS).max(1);
             let variants = cell.variants.iter().enumerate().step_by(step);

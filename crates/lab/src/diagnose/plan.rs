@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use nalgebra::{DMatrix, DVector};
 
 use super::case::Case;
-use super::catalogue::{self, Cell, Ground};
+use super::catalogue::{self, Cell, Ground, Kind};
 use super::contender::Contender;
 use super::evidence::{self, Atom, Refusal, Shape};
 use super::extra::{Extra, extras};
@@ -252,7 +252,7 @@ fn classes(cells: &[Cell], places: &[(usize, usize)], atoms: &[Vec<usize>]) -> V
     for class in atoms {
         let mut of: Vec<usize> = class.iter().map(|atom| places[*atom].0).collect();
         // A single row or a jump is an alias of much in few rows.
-        of.retain(|cell| cells[*cell].effect.family != "data");
+        of.retain(|cell| cells[*cell].effect.kind != Kind::Record);
         of.sort_unstable();
         of.dedup();
         if of.len() > 1 && !classes.contains(&of) {

@@ -174,8 +174,8 @@ mod tests {
         type Course = fn(f64) -> f64;
         let columns: [(&str, Course); 3] = [
             ("slope", |t| t),
-            ("step", |t| f64::from(t > 0.3)),
-            ("wave", |t| (12.0 * t).sin()),
+            ("jump", |t| f64::from(t > 0.3)),
+            ("sine", |t| (12.0 * t).sin()),
         ];
         let candidates: Vec<Candidate> = columns
             .iter()
@@ -214,8 +214,8 @@ mod tests {
             let noise = (r as f64 * 37.7).sin() * 1.2;
             6.0 * (12.0 * t).sin() + 12.0 * t + noise
         });
-        assert_eq!(ask(&residuals, w_test), ["wave", "slope"]);
-        assert_eq!(ask(&residuals, forward_bic)[..2], ["wave", "slope"]);
+        assert_eq!(ask(&residuals, w_test), ["sine", "slope"]);
+        assert_eq!(ask(&residuals, forward_bic)[..2], ["sine", "slope"]);
     }
 
     #[test]

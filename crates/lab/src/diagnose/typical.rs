@@ -7,61 +7,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Observed};
-use super::catalogue::{Cell, Ground, Node, Variation};
+use super::catalogue::{Cell, Ground, Node, Usual, Variation};
 use crate::quantity::UnitTable;
-
-/// What usual sizes of an effect refer to.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Usual {
-    /// The largest shift of the output as a share of full scale.
-    Share(f64),
-    /// The same for each kelvin of the column that the effect follows.
-    PerKelvin(f64),
-    /// The same for each square kelvin.
-    PerSquareKelvin(f64),
-    /// The coefficient, as an angle in rad or a length in m, whichever the disturbed column is.
-    Geometric {
-        /// In rad.
-        angle: f64,
-        /// In m.
-        length: f64,
-    },
-}
-
-/// The upper ends of the sizes that `effects.toml` calls usual, for effects of which it knows any.
-const USUAL: &[(&str, Usual)] = &[
-    ("quadratic", Usual::Share(1e-3)),
-    ("cubic", Usual::Share(1e-3)),
-    ("asymmetry", Usual::Share(1e-3)),
-    ("zero-step", Usual::Share(1e-3)),
-    ("cross-square", Usual::Share(3e-5)),
-    ("cross-product", Usual::Share(2e-5)),
-    ("cross-sensitivity", Usual::Share(1e-2)),
-    ("cross-axis", Usual::Share(2e-2)),
-    ("axis-quadratic", Usual::Share(2e-3)),
-    ("axis-cubic", Usual::Share(1e-3)),
-    ("axis-asymmetry", Usual::Share(1e-3)),
-    ("tempco-bias", Usual::PerKelvin(1e-4)),
-    ("tempco-scale", Usual::PerKelvin(5e-4)),
-    ("tempco-quadratic", Usual::PerSquareKelvin(1e-6)),
-    ("lag", Usual::Share(1e-3)),
-    ("hysteresis", Usual::Share(1e-3)),
-    ("season", Usual::Share(1e-5)),
-    (
-        "play",
-        Usual::Geometric {
-            angle: 2e-5,
-            length: 5e-5,
-        },
-    ),
-    (
-        "eccentricity",
-        Usual::Geometric {
-            angle: 2e-5,
-            length: 5e-5,
-        },
-    ),
-];
 
 /// Columns of a variation in units in which each shifts the output by one unit at most.
 pub struct Unified {
@@ -121,14 +68,13 @@ pub fn shift(
         .fold(0.0, f64::max);
     let of_share = |wanted: f64| (share > 0.0).then(|| wanted / share);
     let mut stated = case.settings.typical.iter();
-    if let Some((_, wanted)) = stated.find(|(id, _)| *id == cell.effect.id) {
+    if let Some((_, wanted)) = stated.find(|(id, _)| cell.effect.id.as_str() == id) {
         return of_share(*wanted);
     }
     if let Some(own) = cell.typical {
         return unified.peaks.first().map(|peak| own.abs() * peak);
     }
-    let (_, usual) = USUAL.iter().find(|(id, _)| *id == cell.effect.id)?;
-    match usual {
+    match cell.effect.usual.as_ref()? {
         Usual::Share(wanted) => of_share(*wanted),
         Usual::PerKelvin(wanted) => of_share(wanted * excursion(case, &cell.words.x)?),
         Usual::PerSquareKelvin(wanted) => {
@@ -166,14 +112,6 @@ fn excursion(case: &Case, column: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::catalogue::effects;
-
-    #[test]
-    fn sizes_belong_to_effects_of_the_catalogue() {
-        for (id, _) in USUAL {
-            assert!(effects().iter().any(|effect| effect.id == *id), "{id}");
-        }
-    }
 
     #[test]
     fn columns_are_unified_by_their_largest_value() {

@@ -189,7 +189,7 @@ fn alternative(
 ) -> Value {
     let cell = &diagnosis.cells[alternative.candidate];
     json!({
-        "id": cell.effect.id,
+        "id": cell.effect.id.as_str(),
         "name": name(cell, language),
         "family": cell.effect.family,
         "prose": cell.description.clone().unwrap_or_else(|| prose(cell, language)),
@@ -200,7 +200,7 @@ fn alternative(
         "variants": alternative.variants.iter().take(5).map(|variant| {
             let (cell, variation) = diagnosis.atoms[variant.atom];
             let cell = &diagnosis.cells[cell];
-            json!({ "id": cell.effect.id, "label": cell.variants[variation].label, "share": variant.share })
+            json!({ "id": cell.effect.id.as_str(), "label": cell.variants[variation].label, "share": variant.share })
         }).collect::<Vec<_>>(),
         "terms": terms(case, diagnosis, alternative),
         "size": alternative.estimate.iter().map(|x| finite(*x)).collect::<Vec<_>>(),

@@ -168,7 +168,7 @@ pub(super) fn omitted_json(
     };
     json!({
         "effect": full_name(cell, language),
-        "id": cell.effect.id,
+        "id": cell.effect.id.as_str(),
         "variant": cell.variants[line.variation].label,
         "invisible": line.is_invisible(),
         "visibility": finite(line.visibility),

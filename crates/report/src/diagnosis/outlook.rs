@@ -285,14 +285,14 @@ pub fn json(case: &Case, outlook: &Outlook, language: Language) -> Value {
             one
         }).collect::<Vec<_>>(),
         "effects": outlook.effects.iter().map(|p| json!({
-            "id": cell(p.cell).effect.id,
+            "id": cell(p.cell).effect.id.as_str(),
             "name": name(cell(p.cell), language),
             "variant": cell(p.cell).variants[p.variation].label,
             "visibility": finite(p.visibility),
             "detectable": finite(p.detectable),
             "separable": p.separable,
             "usual": p.typical,
-            "rival": p.rival.map(|(rival, cosine)| json!({ "id": cell(rival).effect.id, "name": name(cell(rival), language), "cosine": finite(cosine) })),
+            "rival": p.rival.map(|(rival, cosine)| json!({ "id": cell(rival).effect.id.as_str(), "name": name(cell(rival), language), "cosine": finite(cosine) })),
         })).collect::<Vec<_>>(),
         "classes": outlook.classes.iter().map(|class| class.iter().map(|at| full_name(cell(*at), language)).collect::<Vec<_>>()).collect::<Vec<_>>(),
         "omitted": outlook.omitted.iter().map(|line| open::omitted_json(&outlook.cells, line, unknowns(), language)).collect::<Vec<_>>(),

@@ -142,8 +142,7 @@ pub(super) fn tentative<'s>(diagnosis: &Diagnosis, slot: &'s Slot) -> Option<&'s
 /// Whether a name only tells how the recording looks, which is no name beside something unexplained. A shift from
 /// one level of a factor to another tells more: where to look.
 fn describes(diagnosis: &Diagnosis, one: &Alternative) -> bool {
-    let id = diagnosis.cells[one.candidate].effect.id.as_str();
-    matches!(id, "outlier" | "step" | "step-scale" | "wave")
+    diagnosis.cells[one.candidate].effect.only_describes()
 }
 
 /// Names that are tentative, over all slots.

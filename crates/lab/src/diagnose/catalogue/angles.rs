@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{map, range};
 use super::response::{on_node, words};
-use super::{Cell, Modifier, Term, Variants, Variation};
+use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 use crate::quantity::UnitTable;
@@ -33,7 +33,7 @@ fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let name = ground.label(column);
     let variants = harmonics(ground, column);
     // Harmonics are independent of one another: each is a candidate of its own.
-    let each = |id: &str, node: Node| -> Vec<Cell> {
+    let each = |id: EffectId, node: Node| -> Vec<Cell> {
         let one = |variant: &(String, Vec<Modifier>)| {
             let mut words = words(ground, name);
             words.p = ground.name(node);
@@ -44,15 +44,15 @@ fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let mut cells = Vec::new();
     // Several outputs that an angle turns into one another have powers of their inputs for harmonics.
     if !ground.in_model(column) || ground.case().responses.len() == 1 {
-        cells.extend(each("periodic", Node::Output));
+        cells.extend(each(EffectId::Periodic, Node::Output));
     }
     if !ground.in_model(column) {
         if ground.has_signal() {
-            cells.extend(each("periodic-scale", Node::Gain));
+            cells.extend(each(EffectId::PeriodicScale, Node::Gain));
         }
         return cells;
     }
-    cells.extend(each("eccentricity", Node::Column(column)));
+    cells.extend(each(EffectId::Eccentricity, Node::Column(column)));
     cells.extend(play(ground, column));
     cells
 }
@@ -122,7 +122,7 @@ fn play(ground: &Ground<'_>, column: usize) -> Option<Cell> {
     let modifier = Modifier::number(modifier, format!("-direction({name})/2"));
     let term = Term::new(Node::Column(column), modifier);
     Some(Cell::new(
-        "play",
+        EffectId::Play,
         words(ground, name),
         Place {
             node: name.to_owned(),

@@ -5,7 +5,7 @@ use super::ground::{Ground, Node, varies};
 use super::modifiers::{centred, correlation, figure, lag, map, map2, range};
 use super::response::{levels_of, on_node, on_outputs, time_constants, words};
 use super::sharp::sharpened;
-use super::{Cell, Modifier, Term, Variants, Words};
+use super::{Cell, EffectId, Modifier, Term, Variants, Words};
 use crate::diagnose::case::Role;
 use crate::quantity::Unit;
 
@@ -45,9 +45,9 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let stimulus = ground.case().columns[column].role == Role::Stimulus;
     let mut cells = Vec::new();
     let bias = match (temperature, stimulus) {
-        (true, _) => "tempco-bias",
-        (_, true) => "cross-sensitivity",
-        _ => "sensitivity",
+        (true, _) => EffectId::TempcoBias,
+        (_, true) => EffectId::CrossSensitivity,
+        _ => EffectId::Sensitivity,
     };
     let on = |node: Node| delayed(ground, column, node, &own);
     let linear = |delayed: &Variants| -> Variants {
@@ -72,9 +72,9 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         .collect();
     let square = square.into_iter().chain(squares(ground, column)).collect();
     let second = if temperature {
-        "tempco-quadratic"
+        EffectId::TempcoQuadratic
     } else {
-        "sensitivity-quadratic"
+        EffectId::SensitivityQuadratic
     };
     cells.push(on_outputs(ground, second, words.clone(), &label, square));
     for (node, id) in scale_nodes(ground, temperature) {
@@ -86,7 +86,7 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let words = cells[cells.len() - 1].words.clone();
         cells.push(on_node(
             ground,
-            "sensitivity-scale-quadratic",
+            EffectId::SensitivityScaleQuadratic,
             words,
             &label,
             node,
@@ -95,16 +95,16 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     }
     if ground.is_timed() {
         let id = if temperature {
-            "temperature-rate"
+            EffectId::TemperatureRate
         } else {
-            "sensitivity-rate"
+            EffectId::SensitivityRate
         };
         let variants = vec![(String::new(), vec![ground.rate(column)])];
         cells.push(on_outputs(ground, id, words, &label, variants));
     }
     if !stimulus && stands_for_temperature(ground, column) {
         let words = cells[0].words.clone();
-        let id = "unrecorded-temperature";
+        let id = EffectId::UnrecordedTemperature;
         cells.push(on_outputs(ground, id, words, &label, linear(&delayed)));
     }
     let odds = if stimulus || !is_of_air(ground, column) {
@@ -114,9 +114,9 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     };
     for cell in &mut cells {
         shape(ground, cell);
-        cell.odds = match cell.effect.id.as_str() {
-            "unrecorded-temperature" => 1.0,
-            id if id.ends_with("-quadratic") || id.ends_with("-rate") => odds * HIGHER,
+        cell.odds = match cell.effect.id {
+            EffectId::UnrecordedTemperature => 1.0,
+            _ if cell.effect.is_higher => odds * HIGHER,
             _ => odds,
         };
     }
@@ -222,11 +222,11 @@ fn shape(ground: &Ground<'_>, cell: &mut Cell) {
 }
 
 /// The nodes that stand for the scale: parameters whose effect varies from row to row, or the whole signal.
-pub(super) fn scale_nodes(ground: &Ground<'_>, temperature: bool) -> Vec<(Node, &'static str)> {
+pub(super) fn scale_nodes(ground: &Ground<'_>, temperature: bool) -> Vec<(Node, EffectId)> {
     let id = if temperature {
-        "tempco-scale"
+        EffectId::TempcoScale
     } else {
-        "sensitivity-scale"
+        EffectId::SensitivityScale
     };
     if ground.has_signal() {
         vec![(Node::Gain, id)]
@@ -254,7 +254,7 @@ fn reciprocal(ground: &Ground<'_>, column: usize) -> Cell {
     let node = scale_or_offset(ground);
     on_node(
         ground,
-        "reciprocal",
+        EffectId::Reciprocal,
         words(ground, &label),
         &label,
         node,
@@ -283,7 +283,7 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
             odds: HIGHER,
             ..on_outputs(
                 ground,
-                "interaction",
+                EffectId::Interaction,
                 pair.clone(),
                 &along,
                 vec![(String::new(), vec![ground.centred_product(x, z)])],
@@ -302,9 +302,9 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
         );
         let square = inverse.square();
         let id = if gas && size {
-            "mean-free-path"
+            EffectId::MeanFreePath
         } else {
-            "reciprocal-product"
+            EffectId::ReciprocalProduct
         };
         let node = scale_or_offset(ground);
         cells.push(on_node(

@@ -3,7 +3,7 @@
 use super::ground::{Ground, Node};
 use super::implicit::singles_and_all;
 use super::response::words;
-use super::{Cell, Term, Words};
+use super::{Cell, EffectId, Term, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -30,7 +30,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Option<Cell> {
     let names = names.join(", ");
     (!pairs.is_empty()).then(|| {
         Cell::new(
-            "cross-axis",
+            EffectId::CrossAxis,
             Words {
                 p: ground.output(),
                 ..words(ground, &names)

@@ -9,7 +9,7 @@ use super::angles::{angles, radians};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{largest, map2};
 use super::response::words;
-use super::{Cell, Modifier, Term, Variation, tied};
+use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -107,12 +107,12 @@ impl<'g> Turning<'g> {
             .iter()
             .map(|(label, sense)| Variation::of(*label, self.common(*sense, |row| rate[row])));
         vec![
-            self.cell("laboratory-field", fields),
-            self.cell("axis-wobble", leans.collect()),
+            self.cell(EffectId::LaboratoryField, fields),
+            self.cell(EffectId::AxisWobble, leans.collect()),
         ]
     }
 
-    fn cell(&self, id: &str, variants: Vec<Variation>) -> Cell {
+    fn cell(&self, id: EffectId, variants: Vec<Variation>) -> Cell {
         let name = self.ground.label(self.angle);
         Cell::new(
             id,

@@ -2,7 +2,7 @@
 //! the values about it are tried as well, in that effect alone.
 
 use super::modifiers::range;
-use super::{Cell, Variation};
+use super::{Cell, EffectId, Variation};
 
 /// Parts into which the distance from a value to its neighbours is divided.
 const PARTS: usize = 4;
@@ -18,7 +18,7 @@ pub struct Finer(Vec<Around>);
 #[derive(Debug, Clone, PartialEq)]
 struct Around {
     /// The effect, and what it follows.
-    id: &'static str,
+    id: EffectId,
     along: String,
     is_time: bool,
     values: Vec<f64>,
@@ -50,7 +50,7 @@ impl Finer {
         let values: Vec<f64> = neighbours.into_iter().flatten().flat_map(between).collect();
         let new = values.iter().any(|x| !self.has(cell, *x));
         self.0.push(Around {
-            id: &cell.effect.id,
+            id: cell.effect.id,
             along: cell.place.along.clone(),
             is_time,
             values,
@@ -127,7 +127,7 @@ mod tests {
     use super::*;
     use crate::diagnose::evidence::Place;
 
-    fn cell(id: &str, grid: &[f64]) -> Cell {
+    fn cell(id: EffectId, grid: &[f64]) -> Cell {
         let one = |tau: &f64| {
             let term = Term::new(Node::Output, Modifier::unnamed(vec![*tau]));
             Variation::one("", term).shaped("τ", *tau, "s")
@@ -139,11 +139,11 @@ mod tests {
     #[test]
     fn values_lie_between_neighbours_and_close_in() {
         let mut finer = Finer::default();
-        let lag = cell("lag", &[1.0, 2.0, 4.0]);
+        let lag = cell(EffectId::Lag, &[1.0, 2.0, 4.0]);
         assert!(finer.add(&lag, &lag.variants[1]));
         let grid = finer.times(vec![1.0, 2.0, 4.0]);
         assert_eq!(grid, [1.0, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 3.5, 4.0]);
-        let lag = cell("lag", &grid);
+        let lag = cell(EffectId::Lag, &grid);
         assert!(finer.add(&lag, &lag.variants[1]));
         assert_eq!(finer.times(vec![1.0, 1.5])[1..4], [1.0625, 1.125, 1.1875]);
         assert_eq!(finer.levels(vec![1.0, 2.0]), [1.0, 2.0]);
@@ -154,7 +154,7 @@ mod tests {
         let grid: Vec<f64> = (0..15).map(|knee| 101_320.0 + f64::from(knee)).collect();
         assert_eq!(Finer::default().levels(grid.clone()), grid);
         let mut finer = Finer::default();
-        let mut kink = cell("kink", &grid);
+        let mut kink = cell(EffectId::Kink, &grid);
         for variant in &mut kink.variants {
             *variant = variant
                 .clone()
@@ -170,10 +170,10 @@ mod tests {
     #[test]
     fn other_effects_keep_their_grids() {
         let mut finer = Finer::default();
-        let lag = cell("lag", &[1.0, 2.0, 4.0]);
+        let lag = cell(EffectId::Lag, &[1.0, 2.0, 4.0]);
         finer.add(&lag, &lag.variants[1]);
         let grid = finer.times(vec![1.0, 2.0, 4.0]);
-        let mut cells = [cell("lag", &grid), cell("warm-up", &grid)];
+        let mut cells = [cell(EffectId::Lag, &grid), cell(EffectId::WarmUp, &grid)];
         finer.prune(&mut cells);
         assert_eq!(cells[0].variants.len(), 9);
         assert_eq!(cells[1].variants.len(), 3);
@@ -181,7 +181,7 @@ mod tests {
 
     #[test]
     fn what_has_no_parameter_has_no_neighbours() {
-        let mut plain = cell("lag", &[1.0, 2.0]);
+        let mut plain = cell(EffectId::Lag, &[1.0, 2.0]);
         plain.variants[0].shape = None;
         assert!(!Finer::default().add(&plain, &plain.variants[0]));
     }

@@ -8,7 +8,7 @@ use super::ground::{Ground, Node};
 use super::levels::{indicator, present};
 use super::modifiers::{map, range};
 use super::response::words;
-use super::{Cell, Modifier, Term, Variation};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::{NoiseClaim, Role};
 use crate::diagnose::evidence::Place;
 
@@ -63,7 +63,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         }
     }
     if !matches!(ground.case().noise, NoiseClaim::Estimated) {
-        let mut scatter = generic(ground, "scatter", Node::Output, "row", &[]);
+        let mut scatter = generic(ground, EffectId::Scatter, Node::Output, "row", &[]);
         scatter.place.along = String::new();
         cells.push(scatter);
     }
@@ -101,7 +101,7 @@ type Feature = (Vec<f64>, f64);
 
 fn smooth(ground: &Ground<'_>, node: Node, name: &str, course: &[f64]) -> Option<Cell> {
     let features = waves(course);
-    (features.len() >= LEAST).then(|| generic(ground, "smooth", node, name, &features))
+    (features.len() >= LEAST).then(|| generic(ground, EffectId::Smooth, node, name, &features))
 }
 
 /// Cosines over the range of a course, fewer where it has few values.
@@ -149,10 +149,16 @@ fn labels(ground: &Ground<'_>, node: Node, column: usize) -> Option<Cell> {
 fn at_levels(ground: &Ground<'_>, node: Node, name: &str, features: &[Feature]) -> Cell {
     /// More levels are not looked at one by one.
     const MOST: usize = 24;
-    let mut cell = generic(ground, "levels", node, name, features);
+    let mut cell = generic(ground, EffectId::Levels, node, name, features);
     if (3..=MOST).contains(&features.len()) {
         for feature in features {
-            let single = generic(ground, "levels", node, name, std::slice::from_ref(feature));
+            let single = generic(
+                ground,
+                EffectId::Levels,
+                node,
+                name,
+                std::slice::from_ref(feature),
+            );
             cell.variants.extend(single.variants);
         }
     }
@@ -193,7 +199,13 @@ fn unnamed(label: &str, terms: Vec<Term>, spectrum: Vec<f64>) -> Variation {
 }
 
 /// On one response, and on each of them in its own way; an error of a column reaches all.
-fn generic(ground: &Ground<'_>, id: &str, node: Node, along: &str, features: &[Feature]) -> Cell {
+fn generic(
+    ground: &Ground<'_>,
+    id: EffectId,
+    node: Node,
+    along: &str,
+    features: &[Feature],
+) -> Cell {
     let term = |(modifier, _): &Feature| Term::new(node, Modifier::unnamed(modifier.clone()));
     let variances = features.iter().map(|(_, variance)| *variance);
     let on = |response: usize| features.iter().map(move |f| term(f).on(response));

@@ -4,7 +4,7 @@ use super::ground::{Ground, Node, varies};
 use super::inputs::Signal;
 use super::modifiers::{figure, grid, lag, largest};
 use super::response::words;
-use super::{Cell, Modifier, Term, Variation};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -104,7 +104,7 @@ fn cell(ground: &Ground<'_>, node: Node, along: &str, variants: Vec<Variation>) 
     let mut words = words(ground, along);
     words.p = ground.name(node);
     Cell::new(
-        "self-heating",
+        EffectId::SelfHeating,
         words,
         Place {
             node: ground.name(node),

@@ -5,7 +5,7 @@ use super::modifiers::{
     direction, figure, five_digits, grid, map, map2, play, range, typical_step,
 };
 use super::response::{on_output, plain};
-use super::{Cell, Modifier, Term, Variation};
+use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 
 /// Cells of one column that is an input.
@@ -17,7 +17,7 @@ pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let way = direction(x);
     let mut cells = vec![plain(
         ground,
-        "hysteresis",
+        EffectId::Hysteresis,
         label,
         loops(ground, column, &way),
     )];
@@ -44,7 +44,7 @@ pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         && ground.case().columns[column].role == Role::Stimulus
         && !wide.is_empty()
     {
-        cells.push(plain(ground, "play", label, wide));
+        cells.push(plain(ground, EffectId::Play, label, wide));
     }
     cells
 }

@@ -3,14 +3,14 @@
 use super::ground::{Ground, Node};
 use super::modifiers::{map, range, rounded};
 use super::response::words;
-use super::{Cell, Modifier, Term, Variation, Words};
+use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 use crate::quantity::Unit;
 
 /// Disturbances of each column that the model uses.
 pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
     let term = |column: usize, modifier: Modifier| Term::new(Node::Column(column), modifier);
-    let cell = |id: &str, variants: Vec<Variation>| {
+    let cell = |id: EffectId, variants: Vec<Variation>| {
         let names: Vec<&str> = used.iter().map(|c| ground.label(*c)).collect();
         let joined = names.join(", ");
         Cell::new(
@@ -36,14 +36,14 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
             ));
         }
     }
-    cells.push(cell("cross-axis", singles_and_all(pairs)));
+    cells.push(cell(EffectId::CrossAxis, singles_and_all(pairs)));
     let own = used.iter().map(|column| {
         let label = ground.label(*column).to_owned();
         let x = ground.numbers(*column).to_vec();
         let own = Modifier::new(x, &label, ground.step_unit(*column));
         (label, term(*column, own))
     });
-    let mut scales = cell("axis-scale", singles_and_all(own.collect()));
+    let mut scales = cell(EffectId::AxisScale, singles_and_all(own.collect()));
     let absorbed = super::zero::Absorbed::by_parameters(ground);
     scales.variants.retain(|variation| {
         let columns = variation.columns(ground);
@@ -52,10 +52,10 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
     });
     cells.push(scales);
     type Law = fn(f64) -> f64;
-    let laws: [(&str, [&str; 2], i32, Law); 3] = [
-        ("axis-quadratic", ["", "^2"], 2, |x| x * x),
-        ("axis-cubic", ["", "^3"], 3, |x| x * x * x),
-        ("axis-asymmetry", ["abs", ""], 1, f64::abs),
+    let laws: [(EffectId, [&str; 2], i32, Law); 3] = [
+        (EffectId::AxisQuadratic, ["", "^2"], 2, |x| x * x),
+        (EffectId::AxisCubic, ["", "^3"], 3, |x| x * x * x),
+        (EffectId::AxisAsymmetry, ["abs", ""], 1, f64::abs),
     ];
     for (id, [before, after], power, law) in laws {
         let own = used.iter().map(|column| {

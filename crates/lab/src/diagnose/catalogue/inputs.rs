@@ -12,7 +12,7 @@ use super::modifiers::{
     rate,
 };
 use super::response::time_constants;
-use super::{Cell, Modifier, Term, Variation, Words};
+use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 use crate::quantity::Unit;
@@ -40,7 +40,7 @@ pub(super) fn unnamed(ground: &Ground<'_>) -> Option<Cell> {
         p: ground.name(Node::Output),
         ..words(ground, &inputs)
     };
-    (!variants.is_empty()).then(|| Cell::new("smooth", words, place(ground), variants))
+    (!variants.is_empty()).then(|| Cell::new(EffectId::Smooth, words, place(ground), variants))
 }
 
 /// What a response takes in.
@@ -187,7 +187,7 @@ impl<'l> Shaped<'l> {
 }
 
 /// A cell whose effect may be on one axis, or on all of them, on each with a size of its own.
-fn cell(ground: &Ground<'_>, inputs: &[Input], id: &str, laws: Vec<Shaped<'_>>) -> Cell {
+fn cell(ground: &Ground<'_>, inputs: &[Input], id: EffectId, laws: Vec<Shaped<'_>>) -> Cell {
     let case = ground.case();
     let mut variants = Vec::new();
     for Shaped { label, shape, law } in laws {
@@ -253,11 +253,11 @@ fn along(ground: &Ground<'_>) -> String {
 }
 
 fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
-    type Power = (&'static str, [&'static str; 2], fn(f64) -> f64);
+    type Power = (EffectId, [&'static str; 2], fn(f64) -> f64);
     let laws: [Power; 3] = [
-        ("quadratic", ["", "^2"], |s| s * s),
-        ("cubic", ["", "^3"], |s| s * s * s),
-        ("asymmetry", ["abs", ""], f64::abs),
+        (EffectId::Quadratic, ["", "^2"], |s| s * s),
+        (EffectId::Cubic, ["", "^3"], |s| s * s * s),
+        (EffectId::Asymmetry, ["abs", ""], f64::abs),
     ];
     let one = |(id, [before, after], law): Power| {
         let law = move |input: &Input| {
@@ -276,7 +276,7 @@ fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
         };
         Shaped::plain(&format!("within {} %", 100.0 * width), law)
     });
-    cells.push(cell(ground, inputs, "zero-step", steps.into()));
+    cells.push(cell(ground, inputs, EffectId::ZeroStep, steps.into()));
     cells
 }
 
@@ -297,7 +297,7 @@ fn limits(ground: &Ground<'_>, inputs: &[Input]) -> Option<Cell> {
             vec![Modifier::number(modifier, text)]
         }),
     });
-    Some(cell(ground, inputs, "saturation", knees.into()))
+    Some(cell(ground, inputs, EffectId::Saturation, knees.into()))
 }
 
 /// Different sizes, to a hundredth of the largest.
@@ -357,8 +357,8 @@ fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     });
     let squared = squared.collect();
     vec![
-        cell(ground, inputs, "cross-product", crossed),
-        cell(ground, inputs, "cross-square", squared),
+        cell(ground, inputs, EffectId::CrossProduct, crossed),
+        cell(ground, inputs, EffectId::CrossSquare, squared),
     ]
 }
 
@@ -366,7 +366,7 @@ fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
 fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     let mut cells = Vec::new();
     if inputs.iter().any(|input| comes_back(&input.own)) {
-        cells.push(cell(ground, inputs, "hysteresis", loops()));
+        cells.push(cell(ground, inputs, EffectId::Hysteresis, loops()));
     }
     if !ground.is_timed() {
         return cells;
@@ -402,7 +402,12 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
         shape: None,
         law: Box::new(move |input: &Input| vec![lacks(input, *tau), lacks(input, 4.0 * tau)]),
     });
-    cells.push(cell(ground, inputs, "lag", single.chain(double).collect()));
+    cells.push(cell(
+        ground,
+        inputs,
+        EffectId::Lag,
+        single.chain(double).collect(),
+    ));
     let skew = |input: &Input| {
         let per_time = Unit::one().quotient(&ground.clock_unit());
         let text = format!("d{}/dt", input.text);
@@ -411,7 +416,7 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
         moving.then_some(modifier).into_iter().collect()
     };
     let skew = vec![Shaped::plain("", skew)];
-    cells.push(cell(ground, inputs, "timing-skew", skew));
+    cells.push(cell(ground, inputs, EffectId::TimingSkew, skew));
     cells
 }
 

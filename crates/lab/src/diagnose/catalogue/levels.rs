@@ -3,7 +3,7 @@
 use super::ground::{Ground, Node};
 use super::modifiers::map;
 use super::response::{on_node, words};
-use super::{Cell, Modifier, Variants};
+use super::{Cell, EffectId, Modifier, Variants};
 use crate::diagnose::case::Role;
 use crate::recording::Labels;
 
@@ -22,7 +22,9 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             Role::Direction => cells.extend(directions(ground, &column.name, labels, &levels)),
             Role::Position if is_place(ground) => {
                 let all = shifts(ground, &column.name, labels, &levels, column.role);
-                let scales = all.into_iter().filter(|c| c.effect.id == "level-scale");
+                let scales = all
+                    .into_iter()
+                    .filter(|c| c.effect.id == EffectId::LevelScale);
                 cells.extend(scales);
             }
             role @ (Role::Run | Role::Factor | Role::Axis) => {
@@ -104,7 +106,10 @@ fn shifts(
         .flat_map(|kind| kind.iter().map(|_| 1.0 / kind.len() as f64));
     let weights: Vec<f64> = weights.collect();
     let variants: Variants = kinds.into_iter().flatten().collect();
-    let nodes = [(Node::Output, "level-shift"), (Node::Gain, "level-scale")];
+    let nodes = [
+        (Node::Output, EffectId::LevelShift),
+        (Node::Gain, EffectId::LevelScale),
+    ];
     nodes
         .into_iter()
         .filter(|(node, _)| *node == Node::Output || ground.has_signal())
@@ -151,7 +156,7 @@ fn directions(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) 
     )];
     vec![on_node(
         ground,
-        "hysteresis",
+        EffectId::Hysteresis,
         words(ground, name),
         name,
         Node::Output,

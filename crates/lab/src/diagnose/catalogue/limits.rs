@@ -5,7 +5,7 @@ use super::ground::{Ground, Node, varies};
 use super::modifiers::{figure, figure_to, five_digits, largest, map, range, rounded};
 use super::response::{levels_of, on_node, on_output, plain, words};
 use super::sharp::sharpened;
-use super::{Cell, Modifier, Term, Variants, Variation};
+use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
 
 /// Rounding of knees in formulas, as a share of the range: whoever writes the formula into a model has the
 /// fit again.
@@ -32,7 +32,12 @@ pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         }
         cells.push(kink(ground, column));
     } else {
-        cells.push(plain(ground, "saturation", ground.label(column), ends));
+        cells.push(plain(
+            ground,
+            EffectId::Saturation,
+            ground.label(column),
+            ends,
+        ));
     }
     cells
 }
@@ -60,7 +65,14 @@ fn dead_band(ground: &Ground<'_>, column: usize) -> Cell {
     });
     let variants: Variants = [step].into_iter().chain(bands).collect();
     let words = words(ground, name);
-    on_node(ground, "zero-step", words, name, Node::Output, variants)
+    on_node(
+        ground,
+        EffectId::ZeroStep,
+        words,
+        name,
+        Node::Output,
+        variants,
+    )
 }
 
 /// Both ends bend alike.
@@ -82,7 +94,7 @@ fn soft_limit(ground: &Ground<'_>, column: usize) -> Cell {
         let label = format!("above {} {unit}", figure(limit));
         Variation::one(label, beyond(limit)).shaped("x₀", limit, &unit)
     });
-    plain(ground, "saturation", name, variants.collect())
+    plain(ground, EffectId::Saturation, name, variants.collect())
 }
 
 /// Another slope from one value on.
@@ -102,7 +114,12 @@ fn kink(ground: &Ground<'_>, column: usize) -> Cell {
         let modifier = Modifier::new(modifier, text, ground.step_unit(column));
         Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
     });
-    plain(ground, "kink", ground.label(column), variants.collect())
+    plain(
+        ground,
+        EffectId::Kink,
+        ground.label(column),
+        variants.collect(),
+    )
 }
 
 /// Ends of the range at which the readings pile up at one value although the model moves on: what is

@@ -6,7 +6,8 @@
 //!
 //! | chapter | holds |
 //! |---|---|
-//! | `effects.toml` | names, prose, formulas of all effects |
+//! | `effects.toml` | all effects: names, prose, formulas, properties, and the files with their forms |
+//! | `effect` | an entry of it, with its identifier |
 //! | `modifiers` | what a disturbance may follow, computed row by row |
 //! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `ground` | slopes of the nodes, and which columns can be what |
@@ -25,6 +26,7 @@
 mod angles;
 mod conditions;
 mod cross;
+mod effect;
 mod fields;
 mod finer;
 mod generics;
@@ -49,103 +51,15 @@ mod user;
 mod waves;
 mod zero;
 
-use crate::language::Language;
-use std::sync::LazyLock;
-
 use nalgebra::{DMatrix, DVector};
-use serde::Deserialize;
 
+pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
 pub use finer::Finer;
 pub use ground::{Ground, Node};
 
 use super::case::Case;
 use super::evidence;
 use crate::quantity::Unit;
-
-/// A text in both languages.
-#[derive(Debug, Clone, Deserialize)]
-pub struct Text {
-    /// English.
-    pub en: String,
-    /// Simplified Chinese.
-    pub zh: String,
-}
-
-impl Text {
-    /// The text in a language.
-    pub fn of(&self, language: Language) -> &str {
-        language.pick(&self.en, &self.zh)
-    }
-}
-
-/// An entry of the catalogue.
-#[derive(Debug, Clone, Deserialize)]
-pub struct Effect {
-    /// Stable identifier.
-    pub id: String,
-    /// Effects of one family are next of kin.
-    pub family: String,
-    /// Its name; `{x}`, `{y}`, `{z}`, `{p}` stand for columns and quantities.
-    pub name: Text,
-    /// One paragraph.
-    pub prose: Text,
-    /// What it adds to the model.
-    pub formula: String,
-    /// Sizes that are usual.
-    pub typical: String,
-    /// The size that it must have if it is there at all.
-    pub exact: Option<f64>,
-    /// The effect of which this is another order: the cause is the same.
-    pub order_of: Option<String>,
-    /// It says what the recording looks like, and not why.
-    #[serde(default)]
-    pub describes: bool,
-    /// It says where to look: at one level of a factor.
-    #[serde(default)]
-    pub locates: bool,
-    /// Several of its variants may act at once: bad rows, jumps.
-    #[serde(default)]
-    pub repeats: bool,
-}
-
-impl Effect {
-    /// Whether its name is not complete without the place of its variant: a bad row, a jump, a slip.
-    pub fn has_place(&self) -> bool {
-        self.repeats || self.exact.is_some()
-    }
-
-    /// Whether a fitted size may belong to this effect: any, unless its size is known.
-    pub fn admits(&self, size: f64, u: f64) -> bool {
-        /// Standard uncertainties that a fitted size may differ by.
-        const FAR: f64 = 4.0;
-        /// Part of the size that it may differ by: a slip is hardly ever alone.
-        const PART: f64 = 0.2;
-        self.exact.is_none_or(|exact| {
-            let differs = (size - exact).abs();
-            differs.is_nan() || differs <= (FAR * u).max(PART * exact.abs())
-        })
-    }
-}
-
-/// All effects, in the order of the catalogue.
-pub fn effects() -> &'static [Effect] {
-    #[derive(Deserialize)]
-    struct File {
-        effect: Vec<Effect>,
-    }
-    static EFFECTS: LazyLock<Vec<Effect>> = LazyLock::new(|| {
-        let file: File = toml::from_str(include_str!("effects.toml"))
-            .expect("the catalogue is part of the program");
-        file.effect
-    });
-    &EFFECTS
-}
-
-/// The effect of an identifier.
-fn effect(id: &str) -> &'static Effect {
-    let found = effects().iter().find(|effect| effect.id == id);
-    found.expect("the grammar asks for effects of the catalogue only")
-}
 
 /// What the placeholders of an effect's texts stand for.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -191,9 +105,9 @@ pub struct Cell {
 
 impl Cell {
     /// An effect of the catalogue, without a size or a sentence of the user's own.
-    fn new(id: &str, words: Words, place: evidence::Place, variants: Vec<Variation>) -> Cell {
+    fn new(id: EffectId, words: Words, place: evidence::Place, variants: Vec<Variation>) -> Cell {
         Cell {
-            effect: effect(id),
+            effect: id.entry(),
             words,
             place,
             variants,
@@ -426,12 +340,13 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells.extend(user::cells(ground));
     let settings = &ground.frame.case.settings;
     let wanted = |cell: &Cell| {
-        let named = |word: &String| *word == cell.effect.id || *word == cell.effect.family;
+        let effect = cell.effect;
+        let named = |word: &String| *word == effect.id.as_str() || *word == effect.family;
         let chosen = settings
             .catalogue
             .as_ref()
             .is_none_or(|list| list.iter().any(named));
-        (chosen || cell.effect.family == "user") && !settings.exclude.iter().any(named)
+        (chosen || effect.kind == Kind::Own) && !settings.exclude.iter().any(named)
     };
     cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
     let mut cells = distinct(cells);
@@ -466,14 +381,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_reversal_is_complete() {
-        let reversed = effect("polarity");
-        assert!(reversed.admits(0.99, 1e-4) && reversed.admits(0.5, 0.2));
-        assert!(!reversed.admits(0.002, 1e-4));
-        assert!(effect("cubic").admits(0.002, 1e-4));
-    }
-
-    #[test]
     fn what_was_tried_is_said_with_three_digits() {
         let of = |label: &str| Variation::of(label, Vec::new()).shaped("τ", 2641.4, "s");
         assert_eq!(of("τ = 2641.4 s").short_label(), "τ = 2640 s");
@@ -482,26 +389,5 @@ mod tests {
             Variation::of("row 26414", Vec::new()).short_label(),
             "row 26414"
         );
-    }
-
-    #[test]
-    fn identifiers_are_unique_and_texts_complete() {
-        let all = effects();
-        for (at, effect) in all.iter().enumerate() {
-            assert!(
-                !all[..at].iter().any(|other| other.id == effect.id),
-                "{}",
-                effect.id
-            );
-            for text in [
-                &effect.name.en,
-                &effect.name.zh,
-                &effect.prose.en,
-                &effect.prose.zh,
-                &effect.formula,
-            ] {
-                assert!(!text.is_empty(), "{}", effect.id);
-            }
-        }
     }
 }

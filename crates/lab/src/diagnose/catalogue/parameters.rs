@@ -5,7 +5,7 @@ use super::ground::{Ground, Node, varies};
 use super::levels::{indicator, present};
 use super::modifiers::largest;
 use super::response::{on_node, words};
-use super::{Cell, Modifier};
+use super::{Cell, EffectId, Modifier};
 use crate::diagnose::case::Role;
 
 /// Models with more of them are tables of coefficients: their inputs are disturbed instead, axis by axis.
@@ -49,7 +49,7 @@ fn proportional(a: &[f64], b: &[f64]) -> bool {
 fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
     let case = ground.case();
     let mut cells = Vec::new();
-    let mut add = |id: &str, along: &str, modifiers: Vec<Modifier>| {
+    let mut add = |id: EffectId, along: &str, modifiers: Vec<Modifier>| {
         let variants = vec![(String::new(), modifiers)];
         let mut cell = on_node(ground, id, words(ground, along), along, node, variants);
         cell.words.p = ground.name(node);
@@ -60,11 +60,19 @@ fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
             continue;
         }
         let name = &case.columns[column].name;
-        add("parameter-sensitivity", name, vec![ground.centred(column)]);
+        add(
+            EffectId::ParameterSensitivity,
+            name,
+            vec![ground.centred(column)],
+        );
     }
     if ground.clock.column.is_some() {
         let along = ground.along_time();
-        add("parameter-drift", &along, vec![ground.centred_time()]);
+        add(
+            EffectId::ParameterDrift,
+            &along,
+            vec![ground.centred_time()],
+        );
     }
     let turns = turns_an_angle(ground, node);
     for column in case.columns.iter().filter(|_| !turns) {
@@ -85,7 +93,7 @@ fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
                 format!("[{} = {label}]", column.name),
             )
         });
-        add("parameter-shift", &column.name, shifts.collect());
+        add(EffectId::ParameterShift, &column.name, shifts.collect());
     }
     cells
 }

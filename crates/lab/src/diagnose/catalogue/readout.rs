@@ -2,7 +2,7 @@
 
 use super::ground::{Ground, varies};
 use super::response::{on_output, plain};
-use super::{Cell, Modifier, Variation, tied};
+use super::{Cell, EffectId, Modifier, Variation, tied};
 
 /// Cells of the readout.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -36,7 +36,7 @@ fn quantisation(ground: &Ground<'_>, response: usize) -> Option<Cell> {
     let label = format!("step {shown} {unit}");
     let mut cell = plain(
         ground,
-        "quantisation",
+        EffectId::Quantisation,
         name,
         vec![Variation::one(label, term.on(response))],
     );
@@ -89,7 +89,7 @@ fn shifted(ground: &Ground<'_>) -> Option<Cell> {
         variant("one row late", &|row| row.saturating_sub(1)),
         variant("one row early", &|row| (row + 1).min(last)),
     ];
-    Some(plain(ground, "shifted", "row", variants))
+    Some(plain(ground, EffectId::Shifted, "row", variants))
 }
 
 #[cfg(test)]

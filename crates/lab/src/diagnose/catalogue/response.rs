@@ -7,7 +7,7 @@ use super::modifiers::{
 };
 use super::powers::Power;
 use super::sharp::{best_pair, sharpened};
-use super::{Cell, Modifier, Term, Variants, Variation, Words, effect};
+use super::{Cell, EffectId, Modifier, Term, Variants, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
@@ -45,7 +45,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 /// A cell on the offset of the outputs: alike on all responses, and on each of them alone.
 pub(super) fn on_outputs(
     ground: &Ground<'_>,
-    id: &str,
+    id: EffectId,
     words: Words,
     along: &str,
     variants: Variants,
@@ -56,7 +56,7 @@ pub(super) fn on_outputs(
 /// A cell on a node, with scopes over the responses.
 pub(super) fn on_node(
     ground: &Ground<'_>,
-    id: &str,
+    id: EffectId,
     words: Words,
     along: &str,
     node: Node,
@@ -127,9 +127,9 @@ fn aside(ground: &Ground<'_>, factors: &[usize]) -> Vec<Cell> {
         let names = names.join(", ");
         let each = vector.iter().map(|column| ground.centred(*column));
         let id = match ground.case().columns[vector[0]].role {
-            _ if ground.is_temperature(vector[0]) => "tempco-bias",
-            Role::Stimulus => "cross-sensitivity",
-            _ => "sensitivity",
+            _ if ground.is_temperature(vector[0]) => EffectId::TempcoBias,
+            Role::Stimulus => EffectId::CrossSensitivity,
+            _ => EffectId::Sensitivity,
         };
         let variants = vec![(String::new(), each.collect())];
         on_outputs(ground, id, words(ground, &names), &names, variants)
@@ -165,7 +165,7 @@ fn exponent(ground: &Ground<'_>, column: usize) -> Option<Cell> {
     let variants = vec![(String::new(), vec![Modifier::number(modifier, text)])];
     Some(on_node(
         ground,
-        "exponent",
+        EffectId::Exponent,
         words(ground, label),
         label,
         Node::Gain,
@@ -190,7 +190,7 @@ fn bends(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     }
     let size = five_digits(super::modifiers::largest(x));
     let label = name(ground, column);
-    let power = |id: &str, exponent: i32| {
+    let power = |id: EffectId, exponent: i32| {
         let modifier = map(x, |x| x * (x / size).powi(exponent - 1));
         let shown = ground.figure(column, size);
         let text = match exponent {
@@ -202,7 +202,7 @@ fn bends(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let node = Node::Column(column);
         on_node(ground, id, words(ground, label), label, node, variants)
     };
-    vec![power("quadratic", 2), power("cubic", 3)]
+    vec![power(EffectId::Quadratic, 2), power(EffectId::Cubic, 3)]
 }
 
 fn name<'g>(ground: &'g Ground<'_>, column: usize) -> &'g str {
@@ -211,14 +211,14 @@ fn name<'g>(ground: &'g Ground<'_>, column: usize) -> &'g str {
 
 fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let second = if ground.is_temperature(column) {
-        "tempco-quadratic"
+        EffectId::TempcoQuadratic
     } else {
-        "quadratic"
+        EffectId::Quadratic
     };
     let [square, cube] = super::powers::of(ground, column);
     let mut cells = vec![
         power(ground, column, second, square),
-        power(ground, column, "cubic", cube),
+        power(ground, column, EffectId::Cubic, cube),
     ];
     let (x, label) = (ground.numbers(column), name(ground, column));
     if ground.passes_zero(column) {
@@ -226,14 +226,20 @@ fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let modulus = Modifier::new(map(x, f64::abs), text, ground.step_unit(column));
         let variants = vec![(String::new(), vec![modulus])];
         let words = words(ground, label);
-        cells.push(on_outputs(ground, "asymmetry", words, label, variants));
+        cells.push(on_outputs(
+            ground,
+            EffectId::Asymmetry,
+            words,
+            label,
+            variants,
+        ));
     } else if !ground.is_temperature(column) {
         cells[0].variants.extend(levelling(ground, column));
     }
     cells
 }
 
-fn power(ground: &Ground<'_>, column: usize, id: &str, power: Power) -> Cell {
+fn power(ground: &Ground<'_>, column: usize, id: EffectId, power: Power) -> Cell {
     let label = name(ground, column);
     let variants = vec![(String::new(), vec![power.searched])];
     let mut cell = on_outputs(ground, id, words(ground, label), label, variants);
@@ -288,7 +294,7 @@ pub(super) fn on_output(modifier: Modifier) -> Term {
 }
 
 /// A cell on the offset, alike on all responses.
-pub(super) fn plain(ground: &Ground<'_>, id: &str, x: &str, variants: Vec<Variation>) -> Cell {
+pub(super) fn plain(ground: &Ground<'_>, id: EffectId, x: &str, variants: Vec<Variation>) -> Cell {
     Cell::new(
         id,
         words(ground, x),
@@ -328,9 +334,9 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let unit = ground.time_unit();
     let node = Node::Column(column);
     let id = if ground.is_temperature(column) {
-        "temperature-lag"
+        EffectId::TemperatureLag
     } else {
-        "lag"
+        EffectId::Lag
     };
     let lacks = |tau: f64| {
         let modifier = map2(&late(t, x, tau), x, |late, x| late - x);
@@ -382,12 +388,12 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     );
     let instant = Variation::one("", Term::new(node, ground.rate(column)));
     let (id, delays) = if ground.is_temperature(column) {
-        ("temperature-rate", Vec::new())
+        (EffectId::TemperatureRate, Vec::new())
     } else {
-        ("timing-skew", delays(ground, column))
+        (EffectId::TimingSkew, delays(ground, column))
     };
     let skew = Cell {
-        effect: effect(id),
+        effect: id.entry(),
         variants: [instant].into_iter().chain(delays).collect(),
         ..lagged.clone()
     };
@@ -428,5 +434,11 @@ fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {
         z: z.clone(),
         ..words(ground, &x)
     };
-    on_outputs(ground, "interaction", words, &format!("{x}, {z}"), variants)
+    on_outputs(
+        ground,
+        EffectId::Interaction,
+        words,
+        &format!("{x}, {z}"),
+        variants,
+    )
 }

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::ground::{Ground, Node};
 use super::response::{on_output, plain};
 use super::zero::Absorbed;
-use super::{Cell, Modifier, Term, Variation, tied};
+use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 use crate::diagnose::evidence::Place;
 
 /// Longer recordings are not searched row by row.
@@ -33,7 +33,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         });
         Variation::of(named(rows), terms.collect())
     });
-    let mut cells = vec![plain(ground, "outlier", "row", outliers.collect())];
+    let mut cells = vec![plain(ground, EffectId::Outlier, "row", outliers.collect())];
     if blocks.len() == ground.rows() && ground.has_signal() && blocks.len() <= MOST / 2 {
         cells.push(swapped(ground));
         cells.push(reversed(ground));
@@ -84,7 +84,7 @@ fn swapped(ground: &Ground<'_>) -> Cell {
         // All responses of a row are exchanged together: one coefficient.
         Variation::of(label.clone(), tied(terms.collect()))
     });
-    plain(ground, "swapped", "row", variants.collect())
+    plain(ground, EffectId::Swapped, "row", variants.collect())
 }
 
 /// The model fitted without single rows, which may have bent the fit; all rows alike.
@@ -193,8 +193,8 @@ fn reversed(ground: &Ground<'_>) -> Cell {
         }
     }
     Cell::new(
-        "polarity",
-        super::response::words(ground, "polarity"),
+        EffectId::Polarity,
+        super::response::words(ground, EffectId::Polarity.as_str()),
         Place {
             node: ground.name(Node::Gain),
             along: "level".into(),

@@ -3,7 +3,7 @@
 use super::ground::{Ground, Node};
 use super::modifiers::{figure, five_digits, map, range};
 use super::response::{levels_of, on_node, words};
-use super::{Cell, Modifier, Variants};
+use super::{Cell, EffectId, Modifier, Variants};
 
 /// Cells of columns that may be depths.
 pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
@@ -37,7 +37,7 @@ fn stem(ground: &Ground<'_>, column: usize) -> Option<Cell> {
     let words = words(ground, name);
     Some(on_node(
         ground,
-        "immersion",
+        EffectId::Immersion,
         words,
         name,
         Node::Gain,

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{range, typical_step};
 use super::response::{on_output, plain};
-use super::{Cell, Modifier, Variation};
+use super::{Cell, EffectId, Modifier, Variation};
 
 /// Fewer readings in a row are alike by chance.
 const ROWS: usize = 5;
@@ -24,7 +24,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Option<Cell> {
         .filter(|response| !ground.is_implicit(*response))
         .flat_map(|response| of_response(ground, response))
         .collect();
-    Some(plain(ground, "stuck", "row", variants))
+    Some(plain(ground, EffectId::Stuck, "row", variants))
 }
 
 fn of_response(ground: &Ground<'_>, response: usize) -> Vec<Variation> {

@@ -5,7 +5,7 @@ use super::ground::{Ground, Node};
 use super::modifiers::{figure, grid, map, range};
 use super::response::{on_node, words};
 use super::sharp::{self, sharpened};
-use super::{Cell, Modifier, Term, Variants};
+use super::{Cell, EffectId, Modifier, Term, Variants};
 use crate::diagnose::case::Role;
 use crate::quantity::Unit;
 
@@ -38,14 +38,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         vec![Node::Output]
     };
     let mut cells = Vec::new();
-    let mut add = |ids: [&str; 2], variants: Variants, symbol: Option<&'static str>| {
+    let mut add = |ids: &[EffectId], variants: Variants, symbol: Option<&'static str>| {
         for (node, id) in nodes.iter().zip(ids) {
-            if id.is_empty() {
-                continue;
-            }
             let mut cell = on_node(
                 ground,
-                id,
+                *id,
                 words(ground, &along),
                 &along,
                 *node,
@@ -74,8 +71,12 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         let scales = sharpened(ground, scales.clone(), &slowing);
         drifts.extend(curved(ground, &since, &began, &ground.finer.times(scales)));
     }
-    add(["drift", "drift-scale"], drifts, Some("t₀"));
-    add(["step", "step-scale"], steps(ground, &along), None);
+    add(&[EffectId::Drift, EffectId::DriftScale], drifts, Some("t₀"));
+    add(
+        &[EffectId::Step, EffectId::StepScale],
+        steps(ground, &along),
+        None,
+    );
     if ground.is_timed() {
         let unit = ground.time_unit();
         let decay = |tau: f64| {
@@ -96,23 +97,31 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             (label, vec![decay(*tau), decay(4.0 * tau)])
         });
         let decays = single.chain(double).collect();
-        add(["warm-up", "warm-up-scale"], decays, Some("τ"));
+        add(
+            &[EffectId::WarmUp, EffectId::WarmUpScale],
+            decays,
+            Some("τ"),
+        );
         for (id, period, least, most) in [
-            ("season", 365.2422 * 86_400.0, 0.75, 60.0),
-            ("daily", 86_400.0, 1.0, 60.0),
+            (EffectId::Season, 365.2422 * 86_400.0, 0.75, 60.0),
+            (EffectId::Daily, 86_400.0, 1.0, 60.0),
         ] {
             let Some(period) = ground.seconds().map(|second| period / second) else {
                 continue;
             };
             if span >= least * period && span <= most * period {
-                let name = if id == "season" { "1 year" } else { "24 h" };
+                let name = if id == EffectId::Season {
+                    "1 year"
+                } else {
+                    "24 h"
+                };
                 let wave =
                     |f: fn(f64) -> f64| map(&since, |t| f(std::f64::consts::TAU * t / period));
                 let pair = vec![
                     Modifier::number(wave(libm::sin), format!("sin(2*pi*{began}/({name}))")),
                     Modifier::number(wave(libm::cos), format!("cos(2*pi*{began}/({name}))")),
                 ];
-                add([id, ""], vec![(String::new(), pair)], None);
+                add(&[id], vec![(String::new(), pair)], None);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Explanations of the user's own.
 
 use super::ground::{Ground, Node};
-use super::{Cell, Modifier, Term, Variation, Words, effect};
+use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
 /// One cell for each candidate of the case.
@@ -23,7 +23,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             })
             .collect();
         Cell {
-            effect: effect("user"),
+            effect: EffectId::User.entry(),
             words: Words {
                 x: candidate.name.clone(),
                 z: candidate.formula.clone(),

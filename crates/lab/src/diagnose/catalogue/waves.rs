@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use super::ground::Ground;
 use super::modifiers::{correlation, figure, map, range, rounded};
 use super::response::{on_outputs, words};
-use super::{Cell, Modifier, Variants};
+use super::{Cell, EffectId, Modifier, Variants};
 use crate::diagnose::case::Role;
 
 /// A wave with fewer periods is the business of drifts and smooth curves.
@@ -125,7 +125,7 @@ fn wave(ground: &Ground<'_>, course: &Course) -> Option<Cell> {
         .collect();
     Some(on_outputs(
         ground,
-        "wave",
+        EffectId::Wave,
         words(ground, &course.words),
         &course.name,
         variants,
@@ -175,7 +175,7 @@ fn lines(ground: &Ground<'_>, column: usize) -> Option<Cell> {
         })
         .collect();
     let words = words(ground, name);
-    Some(on_outputs(ground, "wave", words, name, variants))
+    Some(on_outputs(ground, EffectId::Wave, words, name, variants))
 }
 
 /// Moves the frequencies next to the highest peaks of the residuals' spectrum onto them: a line between two

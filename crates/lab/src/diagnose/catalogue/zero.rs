@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::ground::{Ground, Node};
 use super::response::{on_node, words};
-use super::{Cell, Modifier};
+use super::{Cell, EffectId, Modifier};
 use crate::diagnose::case::Role;
 
 /// Part of a regressor that must be left when the parameters have absorbed what they can.
@@ -19,7 +19,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     }
     let rows = ground.rows();
     let shift = || Modifier::number(vec![1.0; rows], "1");
-    let mut cells = vec![cell(ground, "zero", Node::Output, shift())];
+    let mut cells = vec![cell(ground, EffectId::Zero, Node::Output, shift())];
     for (column, data) in ground.case().columns.iter().enumerate() {
         let exact = matches!(data.role, Role::Stimulus | Role::Angle | Role::Time);
         // A direction or a switch by which the model multiplies has no scale to be wrong.
@@ -30,8 +30,8 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
         };
         let node = Node::Column(column);
         let own = Modifier::new(numbers.to_vec(), &data.name, ground.step_unit(column));
-        cells.push(cell(ground, "zero-of", node, shift()));
-        cells.push(cell(ground, "factor-of", node, own));
+        cells.push(cell(ground, EffectId::ZeroOf, node, shift()));
+        cells.push(cell(ground, EffectId::FactorOf, node, own));
     }
     let absorbed = Absorbed::by_parameters(ground);
     for cell in &mut cells {
@@ -46,7 +46,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     cells
 }
 
-fn cell(ground: &Ground<'_>, id: &str, node: Node, modifier: Modifier) -> Cell {
+fn cell(ground: &Ground<'_>, id: EffectId, node: Node, modifier: Modifier) -> Cell {
     let name = ground.name(node);
     let variants = vec![(String::new(), vec![modifier])];
     let mut cell = on_node(ground, id, words(ground, &name), "", node, variants);

@@ -261,7 +261,7 @@ mod tests {
             ("square", vec![column(|t| (t - 20.0) * (t - 20.0))]),
             ("inverse", vec![column(|t| 1.0 / (1.0 + t))]),
             ("root", vec![column(f64::sqrt)]),
-            ("wave", vec![wave()]),
+            ("sine", vec![wave()]),
             ("slow wave", vec![column(|t| libm::sin(0.4 * t))]),
             (
                 "power",
@@ -326,7 +326,7 @@ mod tests {
                     .max_by(|a, b| fit(&space.blocks[*a]).total_cmp(&fit(&space.blocks[*b])))
                     .unwrap()
             };
-            let (first, wave, other) = (block("relaxation"), block("wave"), block("inverse"));
+            let (first, wave, other) = (block("relaxation"), block("sine"), block("inverse"));
             assert!(shapes(&space, question, &[first, wave]).is_empty());
             assert_eq!(shapes(&space, question, &[first, wave, other]), [other]);
         });

@@ -3,9 +3,9 @@
 use super::case::Case;
 use super::catalogue::{self, EffectId, Ground};
 use super::evidence::Question;
+use super::failure::Failure;
 use super::frame::Frame;
 use super::inquiry::{baseline, question, settings};
-use super::run::Failure;
 use super::{noise, rivals};
 
 /// A name that a method gives.

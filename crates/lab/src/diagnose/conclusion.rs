@@ -4,8 +4,9 @@
 
 use super::case::Case;
 use super::catalogue::{Term, Variation};
+use super::confirm::Estimated;
 use super::evidence::{Alternative, Slot, State, Verdict};
-use super::run::{Diagnosis, Estimated};
+use super::run::Diagnosis;
 
 /// What a diagnosis says, in one sentence.
 #[derive(Debug, Clone, PartialEq)]

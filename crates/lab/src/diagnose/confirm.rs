@@ -59,6 +59,40 @@ pub(super) fn quality(
     }
 }
 
+/// A fitted quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimated {
+    /// Its name.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// Its value.
+    pub value: f64,
+    /// Its standard uncertainty.
+    pub u: f64,
+}
+
+/// Unknowns with their standard uncertainties; `scale` is the factor on the claimed noise.
+pub(super) fn estimates(
+    frame: &Frame<'_>,
+    fit: &Fit,
+    claimed: &Claimed,
+    scale: f64,
+) -> Vec<Estimated> {
+    let covariance = covariance(frame, fit, claimed);
+    frame
+        .unknowns
+        .iter()
+        .enumerate()
+        .map(|(at, unknown)| Estimated {
+            name: unknown.name.clone(),
+            unit: frame.unit(at),
+            value: fit.unknowns[at],
+            u: scale * covariance[(at, at)].max(0.0).sqrt(),
+        })
+        .collect()
+}
+
 /// Observations and priors less unknowns.
 pub(super) fn degrees(frame: &Frame<'_>) -> f64 {
     let priors = frame

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::catalogue::{Cell, EffectId, Ground, Pattern, Variation, Words};
-use super::evidence::{self, Baseline, Standing};
+use super::evidence::{self, Apart, Baseline, Standing};
 use super::longer::{Longer, Recorded};
 use crate::special::normal_quantile;
 
@@ -197,6 +197,26 @@ impl Contender {
 
 fn value(variation: &Variation) -> Option<f64> {
     Some(variation.shape.as_ref()?.value)
+}
+
+/// How explanations stand in another design; nothing where one of them is none there.
+pub(super) fn standing(
+    recorded: &Recorded<'_>,
+    longer: &Longer<'_>,
+    set: &[Contender],
+) -> Option<Vec<Standing>> {
+    set.iter()
+        .map(|one| one.standing(recorded, longer))
+        .collect()
+}
+
+/// How far explanations are apart in another design.
+pub(super) fn apart(
+    recorded: &Recorded<'_>,
+    longer: &Longer<'_>,
+    set: &[Contender],
+) -> Option<Apart> {
+    evidence::apart(&standing(recorded, longer, set)?).ok()
 }
 
 /// The sizes with which columns come nearest to effects.

@@ -1,12 +1,13 @@
 //! What of a diagnosis or a plan is worth a reader's attention: lines that change a result, measurements that decide.
 
 use super::case::Case;
+use super::confirm::Estimated;
 use super::evidence::{Cell, Located, State, Worth};
 use super::extra::Extra;
 use super::omitted::Omitted;
 use super::parts::Confirmation;
 use super::plan::{Outlook, Promise};
-use super::run::{Diagnosis, Estimated};
+use super::run::Diagnosis;
 use super::separation::Separating;
 use crate::special::chi_squared_sf;
 

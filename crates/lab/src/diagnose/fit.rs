@@ -1,6 +1,8 @@
 //! The declared model fitted to the recording by weighted least squares: the search of
 //! [`crate::least_squares`], begun at several places.
 
+use std::fmt::{self, Display};
+
 use nalgebra::{DMatrix, DVector};
 
 use super::frame::{Frame, Linear};
@@ -95,6 +97,24 @@ pub enum NoFit {
         unknowns: usize,
     },
 }
+
+impl Display for NoFit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoFit::NoStart => f.write_str("the model has no finite value where the search begins"),
+            NoFit::NoMinimum => f.write_str("the search for the parameters found no minimum"),
+            NoFit::Undetermined(name) => {
+                write!(f, "the recording does not determine the parameter {name}")
+            }
+            NoFit::TooFew {
+                observations,
+                unknowns,
+            } => write!(f, "{observations} observations for {unknowns} unknowns"),
+        }
+    }
+}
+
+impl std::error::Error for NoFit {}
 
 /// Fits the model with the given standard uncertainties of the observations.
 ///

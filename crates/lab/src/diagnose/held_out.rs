@@ -3,14 +3,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::adopted::Adopted;
 use super::case::Data;
 use super::catalogue::{self, Cell, Ground, Term};
-use super::confirm;
+use super::confirm::{self, Estimated};
 use super::fit::{self, Fit};
 use super::frame::Frame;
 use super::longer::{Known, noise_of};
 use super::noise::Claimed;
-use super::run::{Adopted, Estimated};
 
 /// How well a recording is predicted.
 #[derive(Debug, Clone, PartialEq)]

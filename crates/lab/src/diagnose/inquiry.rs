@@ -11,10 +11,10 @@ use super::catalogue::{self, Cell, Finer, Ground, Variation};
 use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Fitted, Prior, Question, Refusal, Shape, TRACE,
 };
+use super::failure::Failure;
 use super::fit::{self, Fit, NoFit};
 use super::frame::Frame;
 use super::noise::{self, Claimed};
-use super::run::Failure;
 
 /// λ from which on it matters that the parameter of an effect lies between the steps of its grid.
 const CLEAR: f64 = 15.0;

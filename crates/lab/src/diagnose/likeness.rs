@@ -7,10 +7,10 @@ use super::case::Case;
 use super::catalogue::{self, Ground};
 use super::compare::Pick;
 use super::evidence::Shape;
+use super::failure::Failure;
 use super::frame::Frame;
 use super::inquiry::{baseline, question};
 use super::noise;
-use super::run::Failure;
 
 /// A direction of which less than this (squared) is left adds nothing.
 const DEPENDENT: f64 = 1e-6;

@@ -4,8 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, NoiseClaim};
 use super::catalogue::{self, Cell, Ground};
-use super::contender::Contender;
-use super::evidence::{self, Apart, Baseline, Standing};
+use super::evidence::Baseline;
 use super::extra::Extra;
 use super::fit::{self, Fit};
 use super::frame::Frame;
@@ -72,20 +71,6 @@ impl Longer<'_> {
             .flat_map(|response| (0..own).map(move |block| response * all + block))
             .collect();
         columns.select_rows(&places)
-    }
-
-    /// How explanations stand here; nothing where one of them is none.
-    pub(super) fn standing(
-        &self,
-        recorded: &Recorded<'_>,
-        set: &[Contender],
-    ) -> Option<Vec<Standing>> {
-        set.iter().map(|one| one.standing(recorded, self)).collect()
-    }
-
-    /// How far explanations are apart here.
-    pub(super) fn apart(&self, recorded: &Recorded<'_>, set: &[Contender]) -> Option<Apart> {
-        evidence::apart(&self.standing(recorded, set)?).ok()
     }
 }
 

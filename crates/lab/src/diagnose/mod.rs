@@ -23,6 +23,7 @@
 //! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
 
 mod adopt;
+mod adopted;
 pub mod at_rest;
 pub mod case;
 pub mod catalogue;
@@ -34,6 +35,7 @@ mod correlation;
 mod emphasis;
 pub mod evidence;
 mod extra;
+mod failure;
 pub mod faults;
 mod fit;
 mod form;
@@ -59,11 +61,13 @@ mod spread;
 mod typical;
 
 pub use adopt::{Addition, Extended, Free};
+pub use adopted::Adopted;
 pub use compare::{Opinion, Pick, opinions};
 pub use conclusion::{Conclusion, Doubt, Nameless};
-pub use confirm::Quality;
+pub use confirm::{Estimated, Quality};
 pub use emphasis::{Agreement, Unseen};
 pub use extra::{Extra, Measure};
+pub use failure::Failure;
 pub use fit::{FittedModel, NoFit, Trouble, Unsettled};
 pub use held_out::{HeldOutQuality, Prediction};
 pub use improved::improved;
@@ -73,7 +77,7 @@ pub use omitted::Omitted;
 pub use parts::Confirmation;
 pub use plan::{Outlook, Promise, Prospect, plan};
 pub use result::budget;
-pub use run::{Adopted, Diagnosis, Estimated, Failure, diagnose};
+pub use run::{Diagnosis, diagnose};
 pub use separation::Separating;
 pub use simulate::{Sheet, Simulation, simulate};
 pub use spread::Growth;

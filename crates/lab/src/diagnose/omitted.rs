@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::adopted::Adopted;
 use super::case::{Case, Role};
 use super::catalogue::modifiers::range;
 use super::catalogue::{Cell, Ground, Kind, Variation};
@@ -11,7 +12,6 @@ use super::form;
 use super::frame::Frame;
 use super::inquiry::baseline;
 use super::noise::Claimed;
-use super::run::Adopted;
 use super::typical;
 
 /// An effect of the catalogue that is not in the model.

@@ -7,16 +7,17 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::Case;
 use super::catalogue::{self, Cell, Ground, Kind};
-use super::contender::Contender;
+use super::confirm::{Estimated, estimates};
+use super::contender::{self, Contender};
 use super::evidence::{self, Atom, Refusal, Shape};
 use super::extra::{Extra, extras};
+use super::failure::Failure;
 use super::fit::Fit;
 use super::frame::Frame;
 use super::inquiry::{baseline, question};
 use super::longer::{Known, Recorded, examined};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
-use super::run::{Estimated, Failure, estimates};
 use super::typical::{self, Unified};
 
 /// What an experiment can see and tell apart. Sizes of effects are the largest shifts of the output.
@@ -328,14 +329,14 @@ impl Contenders<'_> {
                 Contender::new(recorded, &cells[line.cell], variation, &sizes, EVEN)
             })
             .collect();
-        let apart =
+        let told =
             |apart: Option<evidence::Apart>| apart.is_some_and(|apart| apart.least() >= SEPARATED);
         let (aparts, shares): (Vec<bool>, Vec<Option<f64>>) =
             examined(recorded, extra, |longer| {
                 let aparts = self
                     .sets
                     .iter()
-                    .map(|set| apart(longer.apart(recorded, set)));
+                    .map(|set| told(contender::apart(recorded, longer, set)));
                 let shares = asked.iter().map(|one| one.visibility(longer));
                 (aparts.collect(), shares.collect())
             })?;

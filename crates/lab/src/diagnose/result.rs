@@ -9,10 +9,11 @@ use std::fmt::Write;
 use nalgebra::{DMatrix, DVector};
 
 use super::case::Case;
+use super::confirm::{self, Estimated};
+use super::fit;
 use super::frame::{Frame, UnknownKind};
 use super::omitted::Omitted;
-use super::run::{Diagnosis, Estimated};
-use super::{confirm, fit};
+use super::run::Diagnosis;
 use crate::budget::writing::{key, quoted};
 use crate::quantity::Unit;
 

@@ -4,60 +4,22 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::adopt;
+use super::adopted::{Adopted, adopt_named};
 use super::case::Case;
 use super::catalogue::{Cell, Finer, Ground};
-use super::confirm::{self, Quality};
-use super::evidence::{self, Examination, Located, Refusal, TRACE, Verdict};
-use super::faults::{NOT_FITTED, START, TOO_FEW};
-use super::fit::{Fit, FittedModel, NoFit, Trouble, Unsettled};
+use super::confirm::{self, Estimated, Quality, estimates};
+use super::evidence::{self, Examination, Located, TRACE, Verdict};
+use super::failure::Failure;
+use super::fit::{FittedModel, Trouble, Unsettled};
 use super::frame::Frame;
 use super::held_out::{self, HeldOutQuality};
-use super::inquiry::{Inquiry, adopted_fit, baseline, settings};
+use super::inquiry::{Inquiry, baseline, settings};
 use super::local;
 use super::longer::{Known, Recorded};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
-use super::parts::{self, Confirmation};
 use super::place;
 use super::separation::{self, Separating};
-use crate::fault::Code;
-
-/// Why a case could not be diagnosed.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Failure {
-    /// The declared model could not be fitted.
-    Fit(NoFit),
-    /// The statistics refused.
-    Refused(Refusal),
-}
-
-impl Failure {
-    /// The code under which `gumption explain` says more, where it does.
-    pub fn code(&self) -> Option<Code> {
-        match self {
-            Failure::Fit(NoFit::NoStart) => Some(START),
-            Failure::Fit(NoFit::TooFew { .. }) | Failure::Refused(Refusal::NoFreedom { .. }) => {
-                Some(TOO_FEW)
-            }
-            Failure::Fit(NoFit::NoMinimum | NoFit::Undetermined(_))
-            | Failure::Refused(Refusal::Dependent { .. }) => Some(NOT_FITTED),
-            Failure::Refused(_) => None,
-        }
-    }
-}
-
-impl From<NoFit> for Failure {
-    fn from(why: NoFit) -> Failure {
-        Failure::Fit(why)
-    }
-}
-
-impl From<Refusal> for Failure {
-    fn from(why: Refusal) -> Failure {
-        Failure::Refused(why)
-    }
-}
 
 /// Everything that a diagnosis found.
 #[derive(Debug)]
@@ -93,40 +55,6 @@ pub struct Diagnosis {
     pub unsettled: Vec<Unsettled>,
     /// Explanations that the recording cannot tell apart, with the measurements that would.
     pub separating: Vec<Separating>,
-}
-
-/// A fitted quantity.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Estimated {
-    /// Its name.
-    pub name: String,
-    /// Its unit.
-    pub unit: String,
-    /// Its value.
-    pub value: f64,
-    /// Its standard uncertainty.
-    pub u: f64,
-}
-
-/// The model with the effects in it.
-#[derive(Debug)]
-pub struct Adopted {
-    /// Atoms that were adopted.
-    pub atoms: Vec<usize>,
-    /// Coefficients, in the order of the atoms and their terms.
-    pub coefficients: Vec<Estimated>,
-    /// The unknowns of the declared model, now.
-    pub unknowns: Vec<Estimated>,
-    /// The improved case.
-    pub extended: adopt::Extended,
-    /// How well it describes the recording.
-    pub quality: Quality,
-    /// What it leaves.
-    pub residuals: DVector<f64>,
-    /// Further checks.
-    pub confirmation: Confirmation,
-    /// Whether its fit is one on which a reader should not rely.
-    pub unsettled: Option<Unsettled>,
 }
 
 impl Diagnosis {
@@ -296,83 +224,3 @@ fn adopted_atoms(examination: &Examination) -> Option<Vec<usize>> {
 const ROUNDS: u8 = 3;
 /// So often the values about the parameter of an effect are brought closer together.
 const REFINEMENTS: u8 = 3;
-/// The model with the named effects, and how well it does.
-fn adopt_named(
-    ground: &Ground<'_>,
-    cells: &[Cell],
-    places: &[(usize, usize)],
-    examination: &Examination,
-    claimed: &Claimed,
-) -> Result<Option<Adopted>, NoFit> {
-    let found = adopted_fit(ground, cells, places, examination, claimed)?;
-    let (Some(fitted), Some((extended, fit))) = (examination.fitted.as_ref(), found) else {
-        return Ok(None);
-    };
-    let frame = Frame::new(&extended.case);
-    let quality = confirm::quality(&frame, &fit, claimed, claimed);
-    let all = estimates(&frame, &fit, claimed, quality.scale);
-    let added = extended.additions.len();
-    let confirmation = parts::confirmation(&frame, &fit, claimed, added, fitted);
-    let is_added = |estimated: &Estimated| {
-        extended
-            .additions
-            .iter()
-            .any(|addition| addition.parameter == estimated.name)
-    };
-    let (mut coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
-        all.into_iter().partition(is_added);
-    for (estimated, addition) in coefficients.iter_mut().zip(&extended.additions) {
-        widen(
-            estimated,
-            fitted.atoms[addition.effect],
-            addition.coefficient,
-            examination,
-        );
-    }
-    let residuals = fit.residuals.clone();
-    drop(frame);
-    Ok(Some(Adopted {
-        atoms: fitted.atoms.clone(),
-        coefficients,
-        unknowns,
-        quality,
-        residuals,
-        confirmation,
-        unsettled: fit.unsettled(FittedModel::Improved),
-        extended,
-    }))
-}
-
-/// Adds to the uncertainty of a fitted coefficient of an atom what the fit does not know: that other effects
-/// may have other explanations, and that weak ones are found where they come out large.
-fn widen(estimated: &mut Estimated, atom: usize, coefficient: usize, examination: &Examination) {
-    let mut firsts = (examination.slots.iter()).filter_map(|slot| slot.named.first());
-    let is_it =
-        |first: &&evidence::Alternative| first.variants.iter().take(1).any(|one| one.atom == atom);
-    if let Some(found) = firsts.find(is_it) {
-        let choice = found.choice.get(coefficient).copied().unwrap_or(0.0);
-        let choice = if choice.is_finite() { choice } else { 0.0 };
-        estimated.u = found.widened(estimated.u, choice);
-    }
-}
-
-/// Unknowns with their standard uncertainties; `scale` is the factor on the claimed noise.
-pub(super) fn estimates(
-    frame: &Frame<'_>,
-    fit: &Fit,
-    claimed: &Claimed,
-    scale: f64,
-) -> Vec<Estimated> {
-    let covariance = confirm::covariance(frame, fit, claimed);
-    frame
-        .unknowns
-        .iter()
-        .enumerate()
-        .map(|(at, unknown)| Estimated {
-            name: unknown.name.clone(),
-            unit: frame.unit(at),
-            value: fit.unknowns[at],
-            u: scale * covariance[(at, at)].max(0.0).sqrt(),
-        })
-        .collect()
-}

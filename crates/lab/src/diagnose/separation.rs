@@ -1,7 +1,7 @@
 //! What further measurements tell apart.
 
 use super::catalogue::{Cell, Variation};
-use super::contender::{Contender, Outsider, likened, outsiders, sizes};
+use super::contender::{Contender, Outsider, likened, outsiders, sizes, standing};
 use super::evidence::{self, Apart, Examination, Prospects, Standing, Verdict, Worth};
 use super::extra::Extra;
 use super::longer::{Longer, Recorded, examined};
@@ -141,7 +141,7 @@ struct After {
 
 impl List {
     fn after(&self, recorded: &Recorded<'_>, longer: &Longer<'_>) -> Option<After> {
-        let standing = longer.standing(recorded, &self.set)?;
+        let standing = standing(recorded, longer, &self.set)?;
         let apart = evidence::apart(&standing).ok()?;
         let (ground, baseline) = (&longer.ground, &longer.baseline);
         let outside = outsiders(ground, &longer.cells, baseline, &self.set, &standing);

@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::building::{on_node, words};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{map, range};
-use super::response::{on_node, words};
 use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;

@@ -1,9 +1,9 @@
 //! What recorded conditions may do that the model leaves out: on the offset, on the scale, with a lag,
 //! squared, as a rate, inversely, and together.
 
+use super::building::{on_node, on_outputs, time_constants, words};
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{centred, correlation, figure, lag, map, map2, range};
-use super::response::{levels_of, on_node, on_outputs, time_constants, words};
+use super::modifiers::{centred, correlation, figure, lag, levels_of, map, map2, range};
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variants, Words};
 use crate::diagnose::case::Role;

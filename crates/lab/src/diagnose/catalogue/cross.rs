@@ -1,8 +1,8 @@
 //! Axes that see part of what belongs to another one, where each output of the model has a stimulus of its own.
 
+use super::building::words;
 use super::ground::{Ground, Node};
 use super::implicit::singles_and_all;
-use super::response::words;
 use super::{Cell, EffectId, Term, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;

@@ -6,9 +6,9 @@
 //! recorded: across the axis a field has two unknown components in each mount.
 
 use super::angles::{angles, radians};
+use super::building::words;
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{largest, map2};
-use super::response::words;
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;

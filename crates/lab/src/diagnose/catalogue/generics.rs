@@ -4,10 +4,10 @@
 use std::f64::consts::PI;
 
 use super::angles::angles;
+use super::building::words;
 use super::ground::{Ground, Node};
 use super::levels::{indicator, present};
 use super::modifiers::{map, range};
-use super::response::words;
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::{NoiseClaim, Role};
 use crate::diagnose::evidence::Place;

@@ -198,7 +198,7 @@ impl<'f> Ground<'f> {
     /// other.
     pub fn passes_zero(&self, column: usize) -> bool {
         let is_point = self.case().columns[column].unit.is_point();
-        !is_point && super::response::crosses_zero(self.numbers(column))
+        !is_point && super::modifiers::crosses_zero(self.numbers(column))
     }
 
     /// Whether a column has the dimension of a unit.

@@ -1,9 +1,9 @@
 //! Self-heating: the power of the signal warms what senses it, and warmth needs time.
 
+use super::building::words;
 use super::ground::{Ground, Node, varies};
 use super::inputs::Signal;
 use super::modifiers::{figure, grid, lag, largest};
-use super::response::words;
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;

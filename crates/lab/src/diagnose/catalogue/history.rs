@@ -1,10 +1,10 @@
 //! What depends on the way by which a value was reached: hysteresis and backlash.
 
+use super::building::{on_output, plain};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{
     direction, figure, five_digits, grid, map, map2, play, range, typical_step,
 };
-use super::response::{on_output, plain};
 use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 

@@ -1,8 +1,8 @@
 //! Models that hold a constant against several columns, such as |a| = g for a triad at rest.
 
+use super::building::words;
 use super::ground::{Ground, Node};
 use super::modifiers::{map, range, rounded};
-use super::response::words;
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 use crate::quantity::Unit;
@@ -44,7 +44,7 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
         (label, term(*column, own))
     });
     let mut scales = cell(EffectId::AxisScale, singles_and_all(own.collect()));
-    let absorbed = super::zero::Absorbed::by_parameters(ground);
+    let absorbed = super::absorbed::Absorbed::by_parameters(ground);
     scales.variants.retain(|variation| {
         let columns = variation.columns(ground);
         let mut columns = columns.column_iter();

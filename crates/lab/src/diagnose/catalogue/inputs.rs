@@ -4,6 +4,7 @@
 //! The signal of a response, what its model gives besides constant terms, is the input of its axis in units
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
+use super::building::time_constants;
 use super::generics::over_signals;
 use super::ground::{Ground, Node, varies};
 use super::history::comes_back;
@@ -11,7 +12,6 @@ use super::modifiers::{
     correlation, creeps, figure, five_digits, held_lag, lag, largest, map, map2, play_from, range,
     rate,
 };
-use super::response::time_constants;
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;

@@ -1,8 +1,8 @@
 //! Levels of factors: runs, instruments, operators, mounts, directions.
 
+use super::building::{on_node, words};
 use super::ground::{Ground, Node};
 use super::modifiers::map;
-use super::response::{on_node, words};
 use super::{Cell, EffectId, Modifier, Variants};
 use crate::diagnose::case::Role;
 use crate::recording::Labels;

@@ -1,9 +1,9 @@
 //! Ends of the range and dead zones of a column: saturation, a change of slope, a band around zero in which
 //! nothing happens.
 
+use super::building::{on_node, on_output, plain, words};
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{figure, figure_to, five_digits, largest, map, range, rounded};
-use super::response::{levels_of, on_node, on_output, plain, words};
+use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
 

@@ -9,6 +9,8 @@
 //! | `effects.toml` | all effects: names, prose, formulas, properties, and the files with their forms |
 //! | `effect` | an entry of it, with its identifier |
 //! | `modifiers` | what a disturbance may follow, computed row by row |
+//! | `building` | what the forms are built of: cells, words, grids of time constants |
+//! | `absorbed` | what the parameters take away from a regressor |
 //! | `sharp` | grids of time constants and knees, with the best value exactly |
 //! | `ground` | slopes of the nodes, and which columns can be what |
 //! | `response`, `powers`, `limits`, `history` | what a stimulus does otherwise than declared |
@@ -23,7 +25,9 @@
 //! | `finer` | values between those of the grids |
 //! | `generics` | competitors without a name |
 
+mod absorbed;
 mod angles;
+mod building;
 mod conditions;
 mod cross;
 mod effect;

@@ -247,6 +247,20 @@ pub fn map(x: &[f64], f: impl Fn(f64) -> f64) -> Vec<f64> {
     x.iter().map(|x| f(*x)).collect()
 }
 
+/// Whether numbers go well to both sides of zero.
+pub fn crosses_zero(x: &[f64]) -> bool {
+    let (least, most) = range(x);
+    least < 0.0 && most > 0.0 && (-least).min(most) > 0.1 * (-least).max(most)
+}
+
+/// Different values, ascending.
+pub fn levels_of(x: &[f64]) -> Vec<f64> {
+    let mut levels = x.to_vec();
+    levels.sort_by(f64::total_cmp);
+    levels.dedup();
+    levels
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

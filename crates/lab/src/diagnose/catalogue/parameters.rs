@@ -1,10 +1,10 @@
 //! What makes a parameter of the model another one from row to row: a condition, the time, the run. Offset
 //! and scale have chapters of their own; this is about time constants, exponents, angles, coefficients.
 
+use super::building::{on_node, words};
 use super::ground::{Ground, Node, varies};
 use super::levels::{indicator, present};
 use super::modifiers::largest;
-use super::response::{on_node, words};
 use super::{Cell, EffectId, Modifier};
 use crate::diagnose::case::Role;
 

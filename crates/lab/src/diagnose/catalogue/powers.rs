@@ -1,10 +1,9 @@
 //! Squares and cubes of what the model takes in, about the zero that the declared model has for it: so its
 //! offset, its slope and its further coefficients keep their meaning beside the new term.
 
+use super::absorbed::Absorbed;
 use super::ground::{Ground, Node, varies};
-use super::modifiers::{map, mean, middle, range, rounded};
-use super::response::crosses_zero;
-use super::zero::Absorbed;
+use super::modifiers::{crosses_zero, map, mean, middle, range, rounded};
 use super::{Modifier, Term};
 
 /// A power, as the search takes it and as the improved model has it.

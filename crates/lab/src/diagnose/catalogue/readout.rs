@@ -1,7 +1,7 @@
 //! What the readout and the protocol do: rounding to a step, outputs in the wrong line.
 
+use super::building::{on_output, plain};
 use super::ground::{Ground, varies};
-use super::response::{on_output, plain};
 use super::{Cell, EffectId, Modifier, Variation, tied};
 
 /// Cells of the readout.

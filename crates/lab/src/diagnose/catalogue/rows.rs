@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::absorbed::Absorbed;
+use super::building::{on_output, plain};
 use super::ground::{Ground, Node};
-use super::response::{on_output, plain};
-use super::zero::Absorbed;
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 use crate::diagnose::evidence::Place;
 
@@ -194,7 +194,7 @@ fn reversed(ground: &Ground<'_>) -> Cell {
     }
     Cell::new(
         EffectId::Polarity,
-        super::response::words(ground, EffectId::Polarity.as_str()),
+        super::building::words(ground, EffectId::Polarity.as_str()),
         Place {
             node: ground.name(Node::Gain),
             along: "level".into(),

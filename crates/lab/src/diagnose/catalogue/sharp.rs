@@ -4,8 +4,8 @@
 use nalgebra::DVector;
 
 use super::Term;
+use super::absorbed::Absorbed;
 use super::ground::Ground;
-use super::zero::Absorbed;
 
 /// Ratio of variances from which on an effect shows.
 const SHOWS: f64 = 16.0;

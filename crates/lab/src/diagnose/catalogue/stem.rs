@@ -1,8 +1,8 @@
 //! Loss along the stem of a probe, which dies away with the depth of immersion.
 
+use super::building::{on_node, words};
 use super::ground::{Ground, Node};
-use super::modifiers::{figure, five_digits, map, range};
-use super::response::{levels_of, on_node, words};
+use super::modifiers::{figure, five_digits, levels_of, map, range};
 use super::{Cell, EffectId, Modifier, Variants};
 
 /// Cells of columns that may be depths.

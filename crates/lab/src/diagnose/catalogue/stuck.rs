@@ -3,9 +3,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::building::{on_output, plain};
 use super::ground::{Ground, Node, varies};
 use super::modifiers::{range, typical_step};
-use super::response::{on_output, plain};
 use super::{Cell, EffectId, Modifier, Variation};
 
 /// Fewer readings in a row are alike by chance.

@@ -1,9 +1,9 @@
 //! Laws of time: drift, ageing, warm-up, season, steps.
 
+use super::building::{on_node, words};
 use super::conditions::single;
 use super::ground::{Ground, Node};
 use super::modifiers::{figure, grid, map, range};
-use super::response::{on_node, words};
 use super::sharp::{self, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variants};
 use crate::diagnose::case::Role;

@@ -4,9 +4,9 @@
 
 use std::f64::consts::TAU;
 
+use super::building::{on_outputs, words};
 use super::ground::Ground;
 use super::modifiers::{correlation, figure, map, range, rounded};
-use super::response::{on_outputs, words};
 use super::{Cell, EffectId, Modifier, Variants};
 use crate::diagnose::case::Role;
 

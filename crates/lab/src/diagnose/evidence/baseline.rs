@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::noise::{Covariance, Factor, Noise};
-use super::question::Refusal;
+use super::refusal::Refusal;
 
 /// What is known of the parameters beforehand: rows of unit variance, each saying that a combination
 /// of the parameters has a value. u⁻¹ in the column of a parameter and u⁻¹(x − x₀) as its residual

@@ -11,7 +11,6 @@ use super::findings::{Confusion, Slot};
 use super::fit::{Estimate, estimate};
 use super::null::{Recordings, Simulated};
 use super::question::{Kind, Question};
-use super::search::frame_of;
 use super::space::{Frame, Residual, Space};
 
 /// Explanations that are simulated for each slot.
@@ -39,7 +38,7 @@ pub(super) fn confusions(
             continue;
         };
         let others: Vec<usize> = named.iter().copied().filter(|b| *b != own).collect();
-        let rest = frame_of(space, &others);
+        let rest = space.frame_of(&others);
         let bench = Bench::new(space, question, &rest, simulated);
         let atoms = slot.named.iter().map(|one| one.variants[0].atom);
         let nearest = slot.named[0].nearest.as_ref().map(|rival| rival.atom);

@@ -12,8 +12,9 @@ use super::fit::fitted;
 use super::guard::{Again, Rivalry, leftover, unlisted};
 use super::kin;
 use super::null::Simulated;
-use super::question::{Question, Refusal, Shape};
-use super::search::{Search, frame_of, search};
+use super::question::{Question, Shape};
+use super::refusal::Refusal;
+use super::search::{Search, search};
 use super::slots::{Member, contest, slot};
 use super::space::Space;
 
@@ -85,7 +86,7 @@ pub fn examine(
     if let Some(generic) = generic {
         misshapen(&space, question, generic, &mut slots);
     }
-    let set = frame_of(&space, named);
+    let set = space.frame_of(named);
     let explained = explained(&space, set.fit, set.basis.ncols());
     let kept = kept(&search, &explanation, &rivalry);
     let before = match &kept {

@@ -16,7 +16,6 @@ use super::fit::estimate;
 use super::gate::combined;
 use super::null::{Simulated, side_by_side};
 use super::question::{Kind, Question};
-use super::search::frame_of;
 use super::space::{Block, Form, Frame, Residual, Space, smooth};
 
 /// Simulated recordings behind a probability.
@@ -205,7 +204,7 @@ impl Again {
             .iter()
             .map(|block| {
                 let others: Vec<usize> = named.iter().copied().filter(|b| b != block).collect();
-                let rest = frame_of(space, &others);
+                let rest = space.frame_of(&others);
                 estimate(space, question, &rest, *block).visible
             })
             .collect();

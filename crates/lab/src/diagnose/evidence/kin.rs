@@ -10,10 +10,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::beside::Beside;
-use super::directions::{joined, orthonormal, without};
+use super::directions::{joined, left, orthonormal, without};
 use super::fit::Estimate;
 use super::question::{Kind, Question};
-use super::separate::left;
 use super::space::{Block, Form, Frame, Space};
 
 /// Explanations whose directions have a cosine of more than 0.995 are one: squared …

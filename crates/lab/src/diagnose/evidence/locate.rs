@@ -9,7 +9,8 @@ use nalgebra::{DMatrix, DVector};
 use super::baseline::Baseline;
 use super::closed_form::Scale;
 use super::null::{Null, side_by_side};
-use super::question::{Refusal, Settings};
+use super::question::Settings;
+use super::refusal::Refusal;
 
 /// Stage of the random numbers, apart from those of the gate.
 const STAGE: u64 = 0x1_0000_0001;

@@ -20,6 +20,7 @@
 //! | `noise` | covariance matrices of the rows and how well they are known |
 //! | `baseline` | whitening, projection, what the data say of the declared parameters |
 //! | `question` | candidates, atoms, settings: what is asked |
+//! | `refusal` | the reasons not to answer |
 //! | `findings` | verdict, slots, alternatives: what is answered |
 //! | `examine` | the examination from end to end |
 //! | `closed_form` | Bayes factors |
@@ -66,6 +67,7 @@ mod omitted;
 mod pairs;
 mod plan;
 mod question;
+mod refusal;
 mod search;
 mod selection;
 mod separate;
@@ -73,7 +75,7 @@ mod slots;
 mod space;
 
 pub use baseline::{Baseline, Prior};
-pub use directions::{TRACE, determined, left_beside};
+pub use directions::{TRACE, determined, left, left_beside};
 pub use examine::examine;
 pub use findings::{
     Alternative, Confusion, Examination, Fitted, Invisible, Level, Rival, Slot, State, Variant,
@@ -83,5 +85,6 @@ pub use locate::{Cell, Located, locate};
 pub use noise::{Covariance, Noise};
 pub use omitted::omitted;
 pub use plan::{Pair, Plan, Seen, visibility};
-pub use question::{Atom, Candidate, Kind, Place, Question, Refusal, Settings, Shape};
-pub use separate::{Apart, Prospects, Standing, Worth, apart, doubt, left};
+pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};
+pub use refusal::Refusal;
+pub use separate::{Apart, Prospects, Standing, Worth, apart, doubt};

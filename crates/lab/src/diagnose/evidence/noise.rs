@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::question::Refusal;
+use super::refusal::Refusal;
 
 /// Covariance matrix of the errors of n rows, in squared output units.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,8 @@ use nalgebra::DMatrix;
 
 use super::baseline::Baseline;
 use super::directions::INVISIBLE;
-use super::question::{Atom, Candidate, Kind, Question, Refusal, Settings, Shape};
+use super::question::{Atom, Candidate, Kind, Question, Settings, Shape};
+use super::refusal::Refusal;
 use super::space::{Block, Space};
 
 /// What an experiment of this design can see and tell apart. Sizes refer to the noise of the baseline.

@@ -10,8 +10,9 @@ use super::gate;
 use super::guard::Again;
 use super::null::Simulated;
 use super::pairs::Pairs;
-use super::question::{Kind, Question, Refusal};
-use super::space::{Frame, Space};
+use super::question::{Kind, Question};
+use super::refusal::Refusal;
+use super::space::Space;
 
 /// Logarithm of the odds by which a pair has to beat the best single effect for the search to go on
 /// although nothing stands out beside the single effect.
@@ -236,9 +237,4 @@ impl Search {
             .iter()
             .max_by(|a, b| a.score.total_cmp(&b.score))
     }
-}
-
-/// The frame of a set of blocks that were independent when they were visited.
-pub(super) fn frame_of(space: &Space, set: &[usize]) -> Frame {
-    space.frame(set).unwrap_or_else(|| space.empty())
 }

@@ -2,9 +2,10 @@
 
 use nalgebra::DMatrix;
 
+use super::directions::left;
+use super::findings::ALONE;
 use super::kin::stays;
-use super::question::Refusal;
-use super::slots::ALONE;
+use super::refusal::Refusal;
 use crate::special::normal_cdf;
 
 /// A rival explanation in a design, as it is seen beside the fitted parameters
@@ -206,35 +207,6 @@ fn decided(odds: f64, gain: f64) -> f64 {
     } else {
         f64::from(u8::from(odds >= alone()))
     }
-}
-
-/// Length of what the best of some variants leaves of each effect, all of them seen beside the parameters.
-pub fn left(effects: &DMatrix<f64>, variants: impl IntoIterator<Item = DMatrix<f64>>) -> Vec<f64> {
-    let mut least: Vec<f64> = effects.column_iter().map(|e| e.norm_squared()).collect();
-    for basis in variants.into_iter().map(basis) {
-        let rest = effects - &basis * basis.tr_mul(effects);
-        for (least, rest) in least.iter_mut().zip(rest.column_iter()) {
-            *least = least.min(rest.norm_squared());
-        }
-    }
-    least.into_iter().map(f64::sqrt).collect()
-}
-
-/// Orthonormal columns of the same span.
-fn basis(mut columns: DMatrix<f64>) -> DMatrix<f64> {
-    /// Directions that columns of unit length reach no further have none.
-    const FLAT: f64 = 1e-7;
-    for mut column in columns.column_iter_mut() {
-        let length = column.norm();
-        if length > 0.0 {
-            column /= length;
-        }
-    }
-    let svd = columns.svd(true, false);
-    let kept: Vec<usize> = (0..svd.singular_values.len())
-        .filter(|k| svd.singular_values[*k] > FLAT)
-        .collect();
-    svd.u.unwrap_or_default().select_columns(&kept)
 }
 
 #[cfg(test)]

@@ -6,19 +6,16 @@ use nalgebra::{DMatrix, DVector};
 
 use super::beside::{Beside, Rest};
 use super::closed_form::log_sum;
-use super::findings::{Alternative, Slot, State, Variant};
+use super::findings::{ALONE, Alternative, Slot, State, Variant};
 use super::fit::{estimate, nearest};
 use super::guard::Again;
 use super::kin;
 use super::question::{Kind, Question};
-use super::search::{Search, frame_of};
+use super::search::Search;
 use super::space::{Frame, Space};
 
 /// Probability of a credible list.
 const CREDIBLE: f64 = 0.95;
-/// Probability from which on a name stands alone: posteriors between the two are right less often than they
-/// say, because catalogues have gaps.
-pub(super) const ALONE: f64 = 0.99;
 /// A slot in which generics have this probability has no name …
 const NAMELESS: f64 = 0.3;
 /// … and one in which they have this has no unique name.
@@ -47,9 +44,9 @@ pub(super) fn slot(
     let (rest, fixed) = match member {
         Member::Named(block) => {
             let others: Vec<usize> = named.iter().copied().filter(|b| *b != block).collect();
-            (frame_of(space, &others), generic)
+            (space.frame_of(&others), generic)
         }
-        Member::Generic(_) => (frame_of(space, named), None),
+        Member::Generic(_) => (space.frame_of(named), None),
     };
     let mut scores = replacements(space, question, &rest, fixed);
     for (block, score) in &mut scores {
@@ -229,7 +226,7 @@ pub(super) fn contest(
             probability,
             blocks: vec![(block, variant)],
         };
-        let rest = frame_of(space, &rest);
+        let rest = space.frame_of(&rest);
         let shared = 1.0 - slot.generic_share;
         slot.named
             .push(alternative(space, question, &rest, ranked, shared));

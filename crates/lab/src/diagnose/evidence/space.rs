@@ -5,7 +5,8 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use super::baseline::Baseline;
 use super::closed_form::{Ladder, Scale, named, scatter};
 use super::directions::{INVISIBLE, joined, orthonormal, own, visible, without};
-use super::question::{Atom, Kind, Question, Refusal, Shape};
+use super::question::{Atom, Kind, Question, Shape};
+use super::refusal::Refusal;
 
 /// Prior odds of all generics together, over those of all named candidates.
 const GENERIC_ODDS: f64 = 0.15;
@@ -144,6 +145,11 @@ impl Space {
             basis: DMatrix::zeros(self.z.len(), 0),
             fit: 0.0,
         }
+    }
+
+    /// Blocks together that were independent when they were visited.
+    pub(super) fn frame_of(&self, blocks: &[usize]) -> Frame {
+        self.frame(blocks).unwrap_or_else(|| self.empty())
     }
 
     /// The blocks together; `None` if they are not independent.

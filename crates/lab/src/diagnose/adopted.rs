@@ -1,0 +1,94 @@
+//! The model with the effects in it: its fit, its coefficients, how well it does.
+
+use nalgebra::DVector;
+
+use super::adopt;
+use super::catalogue::{Cell, Ground};
+use super::confirm::{self, Estimated, Quality, estimates};
+use super::evidence::{self, Examination};
+use super::fit::{FittedModel, NoFit, Unsettled};
+use super::frame::Frame;
+use super::inquiry::adopted_fit;
+use super::noise::Claimed;
+use super::parts::{self, Confirmation};
+
+/// The model with the effects in it.
+#[derive(Debug)]
+pub struct Adopted {
+    /// Atoms that were adopted.
+    pub atoms: Vec<usize>,
+    /// Coefficients, in the order of the atoms and their terms.
+    pub coefficients: Vec<Estimated>,
+    /// The unknowns of the declared model, now.
+    pub unknowns: Vec<Estimated>,
+    /// The improved case.
+    pub extended: adopt::Extended,
+    /// How well it describes the recording.
+    pub quality: Quality,
+    /// What it leaves.
+    pub residuals: DVector<f64>,
+    /// Further checks.
+    pub confirmation: Confirmation,
+    /// Whether its fit is one on which a reader should not rely.
+    pub unsettled: Option<Unsettled>,
+}
+
+/// The model with the named effects, and how well it does.
+pub(super) fn adopt_named(
+    ground: &Ground<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    examination: &Examination,
+    claimed: &Claimed,
+) -> Result<Option<Adopted>, NoFit> {
+    let found = adopted_fit(ground, cells, places, examination, claimed)?;
+    let (Some(fitted), Some((extended, fit))) = (examination.fitted.as_ref(), found) else {
+        return Ok(None);
+    };
+    let frame = Frame::new(&extended.case);
+    let quality = confirm::quality(&frame, &fit, claimed, claimed);
+    let all = estimates(&frame, &fit, claimed, quality.scale);
+    let added = extended.additions.len();
+    let confirmation = parts::confirmation(&frame, &fit, claimed, added, fitted);
+    let is_added = |estimated: &Estimated| {
+        extended
+            .additions
+            .iter()
+            .any(|addition| addition.parameter == estimated.name)
+    };
+    let (mut coefficients, unknowns): (Vec<Estimated>, Vec<Estimated>) =
+        all.into_iter().partition(is_added);
+    for (estimated, addition) in coefficients.iter_mut().zip(&extended.additions) {
+        widen(
+            estimated,
+            fitted.atoms[addition.effect],
+            addition.coefficient,
+            examination,
+        );
+    }
+    let residuals = fit.residuals.clone();
+    drop(frame);
+    Ok(Some(Adopted {
+        atoms: fitted.atoms.clone(),
+        coefficients,
+        unknowns,
+        quality,
+        residuals,
+        confirmation,
+        unsettled: fit.unsettled(FittedModel::Improved),
+        extended,
+    }))
+}
+
+/// Adds to the uncertainty of a fitted coefficient of an atom what the fit does not know: that other effects
+/// may have other explanations, and that weak ones are found where they come out large.
+fn widen(estimated: &mut Estimated, atom: usize, coefficient: usize, examination: &Examination) {
+    let mut firsts = (examination.slots.iter()).filter_map(|slot| slot.named.first());
+    let is_it =
+        |first: &&evidence::Alternative| first.variants.iter().take(1).any(|one| one.atom == atom);
+    if let Some(found) = firsts.find(is_it) {
+        let choice = found.choice.get(coefficient).copied().unwrap_or(0.0);
+        let choice = if choice.is_finite() { choice } else { 0.0 };
+        estimated.u = found.widened(estimated.u, choice);
+    }
+}

@@ -1,0 +1,99 @@
+//! What the forms are built of: cells on the offset or on a node, their words, grids of time constants.
+
+use super::ground::{Ground, Node};
+use super::modifiers::grid;
+use super::{Cell, EffectId, Modifier, Term, Variants, Variation, Words};
+use crate::diagnose::evidence::Place;
+
+/// A cell on the offset of the outputs: alike on all responses, and on each of them alone.
+pub(super) fn on_outputs(
+    ground: &Ground<'_>,
+    id: EffectId,
+    words: Words,
+    along: &str,
+    variants: Variants,
+) -> Cell {
+    on_node(ground, id, words, along, Node::Output, variants)
+}
+
+/// A cell on a node, with scopes over the responses.
+pub(super) fn on_node(
+    ground: &Ground<'_>,
+    id: EffectId,
+    words: Words,
+    along: &str,
+    node: Node,
+    variants: Variants,
+) -> Cell {
+    let responses = &ground.case().responses;
+    let mut all = Vec::new();
+    for (label, modifiers) in variants {
+        let term = |response: Option<usize>| {
+            let terms = modifiers.iter().map(move |modifier| Term {
+                response,
+                ..Term::new(node, modifier.clone())
+            });
+            terms.collect::<Vec<Term>>()
+        };
+        // An error of a column reaches all responses through the model.
+        if responses.len() == 1 || matches!(node, Node::Column(_)) {
+            all.push(Variation::of(label, term(None)));
+            continue;
+        }
+        for (index, response) in responses.iter().enumerate() {
+            let joined = if label.is_empty() {
+                response.name.clone()
+            } else {
+                format!("{}, {label}", response.name)
+            };
+            all.push(Variation::of(joined, term(Some(index))));
+        }
+        let each = (0..responses.len())
+            .flat_map(|index| term(Some(index)))
+            .collect();
+        all.push(Variation::of(label, each));
+    }
+    Cell::new(
+        id,
+        words,
+        Place {
+            node: ground.name(node),
+            along: along.to_owned(),
+        },
+        all,
+    )
+}
+
+/// Words for one column.
+pub(super) fn words(ground: &Ground<'_>, x: &str) -> Words {
+    Words {
+        x: x.to_owned(),
+        y: ground.output(),
+        ..Words::default()
+    }
+}
+
+pub(super) fn on_output(modifier: Modifier) -> Term {
+    Term::new(Node::Output, modifier)
+}
+
+/// A cell on the offset, alike on all responses.
+pub(super) fn plain(ground: &Ground<'_>, id: EffectId, x: &str, variants: Vec<Variation>) -> Cell {
+    Cell::new(
+        id,
+        words(ground, x),
+        Place {
+            node: ground.name(Node::Output),
+            along: x.to_owned(),
+        },
+        variants,
+    )
+}
+
+/// Time constants from a fraction of the interval of the blocks to a fraction of the recording.
+pub(super) fn time_constants(ground: &Ground<'_>) -> Vec<f64> {
+    let span = ground.clock.span();
+    let blocks = ground.frame.blocks.len().max(2) as f64;
+    let least = (span / blocks * 0.5).max(ground.clock.interval() * 0.5);
+    grid(least, span / 3.0, 1.7, 12)
+}

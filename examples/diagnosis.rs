@@ -25,7 +25,7 @@ use gumption::challenge::study::{
 };
 use gumption::challenge::{Further, SealedCase};
 use gumption::diagnose::case::{Case, Purpose};
-use gumption::diagnose::{Failure, Likeness, Opinion, Pick, diagnose, likenesses, opinions};
+use gumption::diagnose::{Failure, Likeness, Opinion, Pick, diagnose, opinions, stand_ins};
 use gumption::report::{self, Language, diagnosis_failure};
 
 struct Options {
@@ -323,7 +323,7 @@ fn twins(
     let of = |at: usize| {
         let mut others = traces.clone();
         let own = others.remove(at);
-        let all = likenesses(case, &own, &others)?;
+        let all = stand_ins(case, &own, &others)?;
         let (own, wrong): (Vec<&Likeness>, Vec<&Likeness>) =
             all.iter().partition(|likeness| right(&likeness.pick));
         let best = own.iter().min_by(|a, b| a.left.total_cmp(&b.left));

@@ -4,7 +4,7 @@
 use nalgebra::DVector;
 
 use super::case::{Case, Column, Data, Parameter, Role};
-use super::catalogue::{Ground, Node, Term, Variation};
+use super::catalogue::{FittedModel, Node, Term, Variation};
 use super::evidence::{Baseline, TRACE};
 use crate::equations::{EquationText, Equations, Quantity};
 use crate::quantity::Unit;
@@ -35,12 +35,12 @@ pub struct Free {
 impl Free {
     /// From an effect and the sizes of all its coefficients.
     pub(super) fn of(
-        ground: &Ground<'_>,
+        fitted: &FittedModel<'_>,
         baseline: &Baseline,
         variation: &Variation,
         sizes: &[f64],
     ) -> Free {
-        let shares = baseline.visibilities(&variation.columns(ground));
+        let shares = baseline.visibilities(&variation.columns(fitted));
         let shows = shares.iter().any(|share| *share > TRACE);
         let is_free = |at: &usize| !shows || shares[*at] > TRACE;
         let coefficients: Vec<usize> = (0..shares.len()).filter(is_free).collect();
@@ -82,8 +82,8 @@ pub struct Addition {
 
 /// Adds effects to the model of a case. Nothing if the equations cannot be written, which only unusual ones
 /// cannot.
-pub(super) fn extended(ground: &Ground<'_>, effects: Vec<Free>) -> Option<Extended> {
-    let mut case = ground.case().clone();
+pub(super) fn extended(fitted: &FittedModel<'_>, effects: Vec<Free>) -> Option<Extended> {
+    let mut case = fitted.case().clone();
     let mut additions: Vec<Addition> = Vec::new();
     let mut equations: Vec<Extending> = (0..case.responses.len())
         .map(|response| Extending::of(case.equations.text(response)))
@@ -105,7 +105,7 @@ pub(super) fn extended(ground: &Ground<'_>, effects: Vec<Free>) -> Option<Extend
         let is_new = shared.is_none();
         for (response, equation) in equations.iter_mut().enumerate() {
             if term.response.is_none_or(|only| only == response) {
-                equation.insert(ground, term, &format!("{parameter}*{column}"));
+                equation.insert(fitted, term, &format!("{parameter}*{column}"));
             }
         }
         columns.push(Column {
@@ -123,7 +123,7 @@ pub(super) fn extended(ground: &Ground<'_>, effects: Vec<Free>) -> Option<Extend
         if is_new {
             case.parameters.push(Parameter {
                 name: parameter.clone(),
-                unit: term.unit_of_size(ground.case()),
+                unit: term.unit_of_size(fitted.case()),
                 start: None,
                 prior: None,
                 per: None,
@@ -144,7 +144,7 @@ pub(super) fn extended(ground: &Ground<'_>, effects: Vec<Free>) -> Option<Extend
     let texts: Vec<String> = equations
         .iter()
         .enumerate()
-        .map(|(response, equation)| equation.text(ground, response))
+        .map(|(response, equation)| equation.text(fitted, response))
         .collect();
     case.equations = compiled(&case, &texts)?;
     case.model = texts;
@@ -171,15 +171,15 @@ pub(super) fn scattered(extended: &mut Extended, is_scattered: impl Fn(usize) ->
 
 /// Where the search begins: the declared fit, with the coefficients that the examination found.
 pub fn start(
-    ground: &Ground<'_>,
-    frame: &super::frame::Frame<'_>,
+    fitted: &FittedModel<'_>,
+    design: &super::design::Design<'_>,
     effects: &[Free],
 ) -> DVector<f64> {
-    use super::frame::UnknownKind;
+    use super::design::UnknownKind;
     let sizes: Vec<f64> = effects.iter().flat_map(|free| free.sizes.clone()).collect();
-    let declared = ground.case().parameters.len();
-    let mut own = ground.fit.unknowns.iter();
-    let of = frame.unknowns.iter().map(|unknown| match unknown.kind {
+    let declared = fitted.case().parameters.len();
+    let mut own = fitted.fit.unknowns.iter();
+    let of = design.unknowns.iter().map(|unknown| match unknown.kind {
         UnknownKind::Parameter { parameter, .. } if parameter >= declared => {
             let value = sizes.get(parameter - declared).copied().unwrap_or(0.0);
             if value.is_finite() { value } else { 0.0 }
@@ -230,12 +230,12 @@ impl Extending {
         }
     }
 
-    fn insert(&mut self, ground: &Ground<'_>, term: &Term, product: &str) {
+    fn insert(&mut self, fitted: &FittedModel<'_>, term: &Term, product: &str) {
         match term.node {
             Node::Output => self.offsets.push(product.to_owned()),
             Node::Gain => self.gains.push(product.to_owned()),
             Node::Parameter(_) | Node::Column(_) => {
-                let name = ground.name(term.node);
+                let name = fitted.name(term.node);
                 let with = format!("({name} + {product})");
                 self.right = replaced(&self.right, &name, &with);
                 for line in &mut self.before {
@@ -250,12 +250,12 @@ impl Extending {
         }
     }
 
-    fn text(&self, ground: &Ground<'_>, response: usize) -> String {
+    fn text(&self, fitted: &FittedModel<'_>, response: usize) -> String {
         let right = &self.right;
         let mut last = format!("{} = {right}", self.left);
         if !self.gains.is_empty() {
-            let parameters = &ground.case().parameters;
-            let constants = ground.constant_terms(response);
+            let parameters = &fitted.case().parameters;
+            let constants = fitted.constant_terms(response);
             let minus = constants
                 .iter()
                 .map(|p| format!(" - {}", parameters[*p].name));

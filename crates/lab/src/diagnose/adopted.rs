@@ -3,12 +3,12 @@
 use nalgebra::DVector;
 
 use super::adopt;
-use super::catalogue::{Cell, Ground};
+use super::candidates::adopted_fit;
+use super::catalogue::{Cell, FittedModel};
 use super::confirm::{self, Estimated, Quality, estimates};
+use super::design::Design;
 use super::evidence::{self, Examination};
-use super::fit::{FittedModel, NoFit, Unsettled};
-use super::frame::Frame;
-use super::inquiry::adopted_fit;
+use super::fit::{ModelVersion, NoFit, Unsettled};
 use super::noise::Claimed;
 use super::parts::{self, Confirmation};
 
@@ -35,21 +35,21 @@ pub struct Adopted {
 
 /// The model with the named effects, and how well it does.
 pub(super) fn adopt_named(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
     examination: &Examination,
     claimed: &Claimed,
 ) -> Result<Option<Adopted>, NoFit> {
-    let found = adopted_fit(ground, cells, places, examination, claimed)?;
-    let (Some(fitted), Some((extended, fit))) = (examination.fitted.as_ref(), found) else {
+    let refit = adopted_fit(fitted, cells, places, examination, claimed)?;
+    let (Some(found), Some((extended, fit))) = (examination.fitted.as_ref(), refit) else {
         return Ok(None);
     };
-    let frame = Frame::new(&extended.case);
-    let quality = confirm::quality(&frame, &fit, claimed, claimed);
-    let all = estimates(&frame, &fit, claimed, quality.scale);
+    let design = Design::new(&extended.case);
+    let quality = confirm::quality(&design, &fit, claimed, claimed);
+    let all = estimates(&design, &fit, claimed, quality.scale);
     let added = extended.additions.len();
-    let confirmation = parts::confirmation(&frame, &fit, claimed, added, fitted);
+    let confirmation = parts::confirmation(&design, &fit, claimed, added, found);
     let is_added = |estimated: &Estimated| {
         extended
             .additions
@@ -61,21 +61,21 @@ pub(super) fn adopt_named(
     for (estimated, addition) in coefficients.iter_mut().zip(&extended.additions) {
         widen(
             estimated,
-            fitted.atoms[addition.effect],
+            found.atoms[addition.effect],
             addition.coefficient,
             examination,
         );
     }
     let residuals = fit.residuals.clone();
-    drop(frame);
+    drop(design);
     Ok(Some(Adopted {
-        atoms: fitted.atoms.clone(),
+        atoms: found.atoms.clone(),
         coefficients,
         unknowns,
         quality,
         residuals,
         confirmation,
-        unsettled: fit.unsettled(FittedModel::Improved),
+        unsettled: fit.unsettled(ModelVersion::Improved),
         extended,
     }))
 }

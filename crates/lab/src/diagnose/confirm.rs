@@ -2,9 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::candidates::baseline;
+use super::design::Design;
 use super::fit::Fit;
-use super::frame::Frame;
-use super::inquiry::baseline;
 use super::noise::Claimed;
 
 /// How well a model describes the recording.
@@ -30,27 +30,27 @@ const FOLDS: usize = 10;
 
 /// Computes the quality of a fit.
 pub(super) fn quality(
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     fit: &Fit,
     claimed: &Claimed,
     expected: &Claimed,
 ) -> Quality {
     let whitened = fit.residuals.component_div(&claimed.u);
-    let dof = degrees(frame);
+    let dof = degrees(design);
     let chi_squared = whitened.norm_squared();
-    let blocks = frame.blocks.len();
+    let blocks = design.blocks.len();
     let of_response = |values: &DVector<f64>| -> Vec<f64> {
         let rms = |response: usize| {
             (values.rows(response * blocks, blocks).norm_squared() / blocks as f64).sqrt()
         };
-        (0..frame.case.responses.len()).map(rms).collect()
+        (0..design.case.responses.len()).map(rms).collect()
     };
     Quality {
         chi_squared,
         dof,
         residual: of_response(&fit.residuals),
         expected: of_response(&expected.u),
-        held_out: of_response(&held_out(frame, fit, claimed)),
+        held_out: of_response(&held_out(design, fit, claimed)),
         scale: if claimed.is_estimated() {
             (chi_squared / dof.max(1.0)).sqrt()
         } else {
@@ -74,19 +74,19 @@ pub struct Estimated {
 
 /// Unknowns with their standard uncertainties; `scale` is the factor on the claimed noise.
 pub(super) fn estimates(
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     fit: &Fit,
     claimed: &Claimed,
     scale: f64,
 ) -> Vec<Estimated> {
-    let covariance = covariance(frame, fit, claimed);
-    frame
+    let covariance = covariance(design, fit, claimed);
+    design
         .unknowns
         .iter()
         .enumerate()
         .map(|(at, unknown)| Estimated {
             name: unknown.name.clone(),
-            unit: frame.unit(at),
+            unit: design.unit(at),
             value: fit.unknowns[at],
             u: scale * covariance[(at, at)].max(0.0).sqrt(),
         })
@@ -94,29 +94,29 @@ pub(super) fn estimates(
 }
 
 /// Observations and priors less unknowns.
-pub(super) fn degrees(frame: &Frame<'_>) -> f64 {
-    let priors = frame
+pub(super) fn degrees(design: &Design<'_>) -> f64 {
+    let priors = design
         .unknowns
         .iter()
         .filter(|unknown| unknown.prior.is_some())
         .count();
-    (frame.observations() + priors) as f64 - frame.unknowns.len() as f64
+    (design.observations() + priors) as f64 - design.unknowns.len() as f64
 }
 
 /// Errors of the predictions of observations that the fit had not seen: tenths of the recording, in short
 /// stretches that are spread over it.
-fn held_out(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
-    let blocks = frame.blocks.len();
+fn held_out(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
+    let blocks = design.blocks.len();
     let folds = FOLDS.min(blocks);
     let stretch = (blocks / (4 * folds)).max(1);
-    let fold = |observation: usize| frame.place(observation).1 / stretch % folds;
-    let mut errors = DVector::zeros(frame.observations());
+    let fold = |observation: usize| design.place(observation).1 / stretch % folds;
+    let mut errors = DVector::zeros(design.observations());
     for held in 0..folds {
-        let kept: Vec<usize> = (0..frame.observations())
+        let kept: Vec<usize> = (0..design.observations())
             .filter(|o| fold(*o) != held)
             .collect();
-        let change = solved(frame, fit, claimed, &kept);
-        for observation in (0..frame.observations()).filter(|o| fold(*o) == held) {
+        let change = solved(design, fit, claimed, &kept);
+        for observation in (0..design.observations()).filter(|o| fold(*o) == held) {
             let predicted = fit.jacobian.row(observation).transpose().dot(&change);
             errors[observation] = fit.residuals[observation] - predicted;
         }
@@ -125,11 +125,11 @@ fn held_out(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DVector<f64> {
 }
 
 /// Change of the unknowns when only some observations count.
-fn solved(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, kept: &[usize]) -> DVector<f64> {
-    if frame.unknowns.is_empty() {
+fn solved(design: &Design<'_>, fit: &Fit, claimed: &Claimed, kept: &[usize]) -> DVector<f64> {
+    if design.unknowns.is_empty() {
         return DVector::zeros(0);
     }
-    let (normal, right) = normal(frame, fit, claimed, kept);
+    let (normal, right) = normal(design, fit, claimed, kept);
     let scale = normal
         .diagonal()
         .map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
@@ -145,12 +145,12 @@ fn solved(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed, kept: &[usize]) -> DV
 }
 
 fn normal(
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     fit: &Fit,
     claimed: &Claimed,
     kept: &[usize],
 ) -> (DMatrix<f64>, DVector<f64>) {
-    let count = frame.unknowns.len();
+    let count = design.unknowns.len();
     let mut jacobian = DMatrix::zeros(kept.len(), count);
     let mut residuals = DVector::zeros(kept.len());
     for (row, observation) in kept.iter().enumerate() {
@@ -160,7 +160,7 @@ fn normal(
     }
     let mut normal = jacobian.tr_mul(&jacobian);
     let mut right = jacobian.tr_mul(&residuals);
-    for (at, unknown) in frame.unknowns.iter().enumerate() {
+    for (at, unknown) in design.unknowns.iter().enumerate() {
         if let Some((value, u)) = unknown.prior {
             normal[(at, at)] += 1.0 / (u * u);
             right[at] += (value - fit.unknowns[at]) / (u * u);
@@ -170,13 +170,13 @@ fn normal(
 }
 
 /// Covariance matrix of the unknowns with the claimed noise.
-pub(super) fn covariance(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
+pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> DMatrix<f64> {
     // By orthogonal directions: a normal matrix has lost what hardly differs from another unknown.
-    if let Ok(baseline) = baseline(frame, fit, &claimed.uncorrelated()) {
+    if let Ok(baseline) = baseline(design, fit, &claimed.uncorrelated()) {
         return baseline.covariance();
     }
-    let all: Vec<usize> = (0..frame.observations()).collect();
-    inverse(&normal(frame, fit, claimed, &all).0)
+    let all: Vec<usize> = (0..design.observations()).collect();
+    inverse(&normal(design, fit, claimed, &all).0)
 }
 
 fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {

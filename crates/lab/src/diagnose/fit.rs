@@ -5,7 +5,7 @@ use std::fmt::{self, Display};
 
 use nalgebra::{DMatrix, DVector};
 
-use super::frame::{Frame, Linear};
+use super::design::{Design, Linear};
 use crate::least_squares::{self, Residuals, Stuck, minimise};
 
 /// The model at its best.
@@ -39,7 +39,7 @@ pub enum Ending {
 
 /// A model that a diagnosis fits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FittedModel {
+pub enum ModelVersion {
     /// The model of the case.
     Declared,
     /// The model with the adopted effects in it.
@@ -50,7 +50,7 @@ pub enum FittedModel {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unsettled {
     /// What was fitted.
-    pub model: FittedModel,
+    pub model: ModelVersion,
     /// What went wrong.
     pub trouble: Trouble,
 }
@@ -69,7 +69,7 @@ pub enum Trouble {
 
 impl Fit {
     /// What is to be said of this fit of a model, if anything.
-    pub fn unsettled(&self, model: FittedModel) -> Option<Unsettled> {
+    pub fn unsettled(&self, model: ModelVersion) -> Option<Unsettled> {
         match self.ending {
             Ending::Given | Ending::Minimum => None,
             Ending::Lost { steps } => Some(Unsettled {
@@ -120,23 +120,23 @@ impl std::error::Error for NoFit {}
 ///
 /// # Errors
 /// When the recording does not determine the parameters, or the search fails.
-pub fn fit(frame: &Frame<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
-    let count = frame.unknowns.len();
-    let priors = frame
+pub fn fit(design: &Design<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
+    let count = design.unknowns.len();
+    let priors = design
         .unknowns
         .iter()
         .filter(|unknown| unknown.prior.is_some())
         .count();
-    if frame.observations() + priors <= count {
+    if design.observations() + priors <= count {
         return Err(NoFit::TooFew {
-            observations: frame.observations(),
+            observations: design.observations(),
             unknowns: count,
         });
     }
-    let problem = Problem::new(frame, u);
+    let problem = Problem::new(design, u);
     let mut best: Option<(f64, Fit)> = None;
     let mut failure = NoFit::NoStart;
-    for start in starts(frame) {
+    for start in starts(design) {
         match problem.search(start) {
             Ok((sum, fit)) if best.as_ref().is_none_or(|(least, _)| sum < 0.999 * least) => {
                 best = Some((sum, fit))
@@ -149,16 +149,16 @@ pub fn fit(frame: &Frame<'_>, u: &DVector<f64>) -> Result<Fit, NoFit> {
             break;
         }
     }
-    best.map(|(_, fit)| without_turns(frame, fit))
+    best.map(|(_, fit)| without_turns(design, fit))
         .ok_or(failure)
 }
 
 /// Angles that the search left whole turns away from zero, within half a turn of it. Where a start or a
 /// value is stated, that chooses the turn.
-fn without_turns(frame: &Frame<'_>, mut fit: Fit) -> Fit {
-    for (place, unknown) in frame.unknowns.iter().enumerate() {
+fn without_turns(design: &Design<'_>, mut fit: Fit) -> Fit {
+    for (place, unknown) in design.unknowns.iter().enumerate() {
         let stated = unknown.start.is_some() || unknown.prior.is_some();
-        let Some(turn) = frame.turn_of(unknown).filter(|_| !stated) else {
+        let Some(turn) = design.turn_of(unknown).filter(|_| !stated) else {
             continue;
         };
         let turns = (fit.unknowns[place] / turn).round();
@@ -169,7 +169,7 @@ fn without_turns(frame: &Frame<'_>, mut fit: Fit) -> Fit {
         unwound[place] -= turns * turn;
         let unwound = Fit {
             ending: fit.ending,
-            ..at(frame, unwound)
+            ..at(design, unwound)
         };
         if same_values(&fit, &unwound) {
             fit = unwound;
@@ -197,8 +197,8 @@ fn same_values(one: &Fit, other: &Fit) -> bool {
 ///
 /// # Errors
 /// As [`fit`].
-pub fn from(frame: &Frame<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
-    let problem = Problem::new(frame, u);
+pub fn from(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
+    let problem = Problem::new(design, u);
     problem.search(start).map(|(_, fit)| fit)
 }
 
@@ -206,10 +206,10 @@ pub fn from(frame: &Frame<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<
 ///
 /// # Errors
 /// As [`fit`].
-pub fn near(frame: &Frame<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
-    match from(frame, u, start) {
+pub fn near(design: &Design<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<Fit, NoFit> {
+    match from(design, u, start) {
         Ok(found) if found.ending == Ending::Minimum => Ok(found),
-        first => match (first, fit(frame, u)) {
+        first => match (first, fit(design, u)) {
             // The search from elsewhere may end in a place that is no better.
             (Ok(first), Err(_)) => Ok(first),
             (_, second) => second,
@@ -218,12 +218,12 @@ pub fn near(frame: &Frame<'_>, u: &DVector<f64>, start: DVector<f64>) -> Result<
 }
 
 /// The model at given unknowns, without a search.
-pub fn at(frame: &Frame<'_>, unknowns: DVector<f64>) -> Fit {
-    let linear = frame.linear(&unknowns);
-    let modelled = frame.observed_column(|response| linear.values[response].clone());
-    let observed = frame.observed_column(|response| frame.observed(response));
+pub fn at(design: &Design<'_>, unknowns: DVector<f64>) -> Fit {
+    let linear = design.linear(&unknowns);
+    let modelled = design.observed_column(|response| linear.values[response].clone());
+    let observed = design.observed_column(|response| design.observed(response));
     Fit {
-        jacobian: frame.jacobian(&linear),
+        jacobian: design.jacobian(&linear),
         residuals: observed - modelled,
         unknowns,
         linear,
@@ -232,17 +232,17 @@ pub fn at(frame: &Frame<'_>, unknowns: DVector<f64>) -> Fit {
 }
 
 /// Points from which the search begins: what is stated, and orders of magnitude for the rest.
-fn starts(frame: &Frame<'_>) -> Vec<DVector<f64>> {
-    let observed = frame.observed_column(|response| frame.observed(response));
+fn starts(design: &Design<'_>) -> Vec<DVector<f64>> {
+    let observed = design.observed_column(|response| design.observed(response));
     let mean = observed.mean();
     let fill = |value: f64| {
-        let of = frame.unknowns.iter().map(|unknown| {
+        let of = design.unknowns.iter().map(|unknown| {
             let known = unknown.start.or(unknown.prior.map(|(value, _)| value));
             known.unwrap_or(value)
         });
-        DVector::from_iterator(frame.unknowns.len(), of)
+        DVector::from_iterator(design.unknowns.len(), of)
     };
-    let open = frame
+    let open = design
         .unknowns
         .iter()
         .filter(|unknown| unknown.start.is_none() && unknown.prior.is_none());
@@ -255,7 +255,7 @@ fn starts(frame: &Frame<'_>) -> Vec<DVector<f64>> {
 
 /// What is minimised: squares of the weighted residuals, and of what is known beforehand.
 struct Problem<'f, 'c> {
-    frame: &'f Frame<'c>,
+    design: &'f Design<'c>,
     observed: DVector<f64>,
     u: &'f DVector<f64>,
     /// Unknowns of which something is known beforehand: place, value and standard uncertainty.
@@ -263,30 +263,30 @@ struct Problem<'f, 'c> {
 }
 
 impl<'f, 'c> Problem<'f, 'c> {
-    fn new(frame: &'f Frame<'c>, u: &'f DVector<f64>) -> Problem<'f, 'c> {
-        let known = frame.unknowns.iter().enumerate();
+    fn new(design: &'f Design<'c>, u: &'f DVector<f64>) -> Problem<'f, 'c> {
+        let known = design.unknowns.iter().enumerate();
         let known = known.filter_map(|(place, unknown)| {
             let (value, u) = unknown.prior?;
             Some((place, value, u))
         });
         Problem {
-            frame,
-            observed: frame.observed_column(|response| frame.observed(response)),
+            design,
+            observed: design.observed_column(|response| design.observed(response)),
             u,
             priors: known.collect(),
         }
     }
 
     fn is_linear(&self) -> bool {
-        let parameters: Vec<usize> = (0..self.frame.case.parameters.len()).collect();
-        self.frame.case.equations.are_affine_in(&parameters)
+        let parameters: Vec<usize> = (0..self.design.case.parameters.len()).collect();
+        self.design.case.equations.are_affine_in(&parameters)
     }
 
     /// The fit to which a start leads, with its χ².
     fn search(&self, start: DVector<f64>) -> Result<(f64, Fit), NoFit> {
         let first = self.at(start.as_slice(), None).ok_or(NoFit::NoStart)?;
         if start.is_empty() {
-            return Ok((first.chi_squared(), at(self.frame, start)));
+            return Ok((first.chi_squared(), at(self.design, start)));
         }
         let (unknowns, linear, ending) = match minimise(self, start.as_slice()) {
             Ok(minimum) => (minimum.parameters, minimum.linear, Ending::Minimum),
@@ -300,7 +300,7 @@ impl<'f, 'c> Problem<'f, 'c> {
             Err(Stuck::Start) => return Err(NoFit::NoStart),
             Err(Stuck::Flat { parameters }) => {
                 let nothing = first.jacobian.iter().flatten().all(|slope| *slope == 0.0);
-                let name = |place: &usize| self.frame.unknowns[*place].name.clone();
+                let name = |place: &usize| self.design.unknowns[*place].name.clone();
                 return Err(match parameters.first().map(name) {
                     Some(name) if !nothing => NoFit::Undetermined(name),
                     _ => NoFit::NoMinimum,
@@ -310,7 +310,7 @@ impl<'f, 'c> Problem<'f, 'c> {
         self.determined(&linear)?;
         let fit = Fit {
             ending,
-            ..at(self.frame, DVector::from_vec(unknowns))
+            ..at(self.design, DVector::from_vec(unknowns))
         };
         Ok((linear.chi_squared(), fit))
     }
@@ -324,7 +324,9 @@ impl<'f, 'c> Problem<'f, 'c> {
         for (place, column) in columns.iter().enumerate() {
             let own = r[(place, place)].abs();
             if own.is_nan() || own <= DEPENDENT * column.norm() {
-                return Err(NoFit::Undetermined(self.frame.unknowns[place].name.clone()));
+                return Err(NoFit::Undetermined(
+                    self.design.unknowns[place].name.clone(),
+                ));
             }
         }
         Ok(())
@@ -338,9 +340,9 @@ impl Residuals for Problem<'_, '_> {
         unknowns: &[f64],
         _near: Option<&least_squares::Linear>,
     ) -> Option<least_squares::Linear> {
-        let linear = self.frame.linear(&DVector::from_column_slice(unknowns));
+        let linear = self.design.linear(&DVector::from_column_slice(unknowns));
         let modelled = self
-            .frame
+            .design
             .observed_column(|response| linear.values[response].clone());
         let known = self.priors.iter();
         let residuals = (&self.observed - modelled).component_div(self.u);
@@ -350,7 +352,7 @@ impl Residuals for Problem<'_, '_> {
         let observed = self.observed.component_div(self.u);
         let observed = observed.iter().copied();
         let observed = observed.chain(known.clone().map(|(_, value, u)| value / u));
-        let jacobian = self.frame.jacobian(&linear);
+        let jacobian = self.design.jacobian(&linear);
         let column = |(place, column): (usize, nalgebra::DVectorView<'_, f64>)| {
             let rows = column.component_div(self.u);
             let of_known =

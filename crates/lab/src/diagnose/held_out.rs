@@ -5,12 +5,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::adopted::Adopted;
 use super::case::Data;
-use super::catalogue::{self, Cell, Ground, Term};
+use super::catalogue::{self, Cell, FittedModel, Term};
 use super::confirm::{self, Estimated};
+use super::design::Design;
 use super::fit::{self, Fit};
-use super::frame::Frame;
-use super::longer::{Known, noise_of};
 use super::noise::Claimed;
+use super::prolonged::{Known, noise_of};
 
 /// How well a recording is predicted.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ pub struct Prediction {
 /// Predicts the held-out recording of a case, if there is one.
 pub(super) fn held_out(
     known: &Known<'_>,
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
     unknowns: &[Estimated],
@@ -48,22 +48,22 @@ pub(super) fn held_out(
 ) -> Option<HeldOutQuality> {
     let held = known.case.held_out.as_ref()?;
     let case = known.case.with(&held.rows);
-    let frame = Frame::new(&case);
-    let covariance = confirm::covariance(known.frame, known.fit, known.claimed);
+    let design = Design::new(&case);
+    let covariance = confirm::covariance(known.design, known.fit, known.claimed);
     let model = Model {
-        names: known.frame.unknowns.iter().map(|u| &u.name).collect(),
+        names: known.design.unknowns.iter().map(|u| &u.name).collect(),
         values: unknowns,
         covariance: &covariance,
     };
-    let fit = model.at(&frame);
-    let claimed = noise_of(known, &frame, &fit, 0);
-    let after = adopted.and_then(|adopted| improved(known, ground, cells, places, adopted));
-    let rms = |values: &DVector<f64>| root_mean_squares(&frame, values);
+    let fit = model.at(&design);
+    let claimed = noise_of(known, &design, &fit, 0);
+    let after = adopted.and_then(|adopted| improved(known, fitted, cells, places, adopted));
+    let rms = |values: &DVector<f64>| root_mean_squares(&design, values);
     Some(HeldOutQuality {
         file: held.file.clone(),
-        observations: frame.observations(),
+        observations: design.observations(),
         expected: rms(&claimed.u),
-        before: model.prediction(&frame, &fit, &claimed),
+        before: model.prediction(&design, &fit, &claimed),
         after,
     })
 }
@@ -91,13 +91,16 @@ impl Model<'_> {
         }
     }
 
-    fn at(&self, frame: &Frame<'_>) -> Fit {
-        let values = frame.unknowns.iter().map(|u| self.value(&u.name));
-        fit::at(frame, DVector::from_iterator(frame.unknowns.len(), values))
+    fn at(&self, design: &Design<'_>) -> Fit {
+        let values = design.unknowns.iter().map(|u| self.value(&u.name));
+        fit::at(
+            design,
+            DVector::from_iterator(design.unknowns.len(), values),
+        )
     }
 
-    fn prediction(&self, frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> Prediction {
-        let places: Vec<Option<usize>> = frame
+    fn prediction(&self, design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Prediction {
+        let places: Vec<Option<usize>> = design
             .unknowns
             .iter()
             .map(|unknown| self.names.iter().position(|name| **name == unknown.name))
@@ -114,15 +117,15 @@ impl Model<'_> {
             fit.residuals[at].powi(2) / (claimed.u[at].powi(2) + model)
         };
         Prediction {
-            rms: root_mean_squares(frame, &fit.residuals),
-            chi_squared: (0..frame.observations()).map(squared).sum(),
+            rms: root_mean_squares(design, &fit.residuals),
+            chi_squared: (0..design.observations()).map(squared).sum(),
         }
     }
 }
 
-fn root_mean_squares(frame: &Frame<'_>, values: &DVector<f64>) -> Vec<f64> {
-    let blocks = frame.blocks.len();
-    (0..frame.case.responses.len())
+fn root_mean_squares(design: &Design<'_>, values: &DVector<f64>) -> Vec<f64> {
+    let blocks = design.blocks.len();
+    (0..design.case.responses.len())
         .map(|response| {
             (values.rows(response * blocks, blocks).norm_squared() / blocks as f64).sqrt()
         })
@@ -131,16 +134,16 @@ fn root_mean_squares(frame: &Frame<'_>, values: &DVector<f64>) -> Vec<f64> {
 
 fn improved(
     known: &Known<'_>,
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
     adopted: &Adopted,
 ) -> Option<Prediction> {
     let held = known.case.held_out.as_ref()?;
     let both = known.case.followed_by(&held.rows);
-    let frame = Frame::new(&both);
-    let fit = fit::at(&frame, super::longer::unknowns(known, &frame));
-    let wide = Ground::new(&frame, &fit).refined(ground.finer.clone());
+    let design = Design::new(&both);
+    let fit = fit::at(&design, super::prolonged::unknowns(known, &design));
+    let wide = FittedModel::new(&design, &fit).refined(fitted.finer.clone());
     let others = catalogue::cells(&wide);
     let mut rows = held.rows.clone();
     for (atom, free) in adopted.atoms.iter().zip(&adopted.extended.effects) {
@@ -149,12 +152,12 @@ fn improved(
         let alike = |other: &&Cell| other.effect.id == cell.effect.id && other.words == cell.words;
         let alike: Vec<&Cell> = others.iter().filter(alike).collect();
         for term in &free.variation.terms {
-            let modifier = continued(term, &alike, ground.rows())?;
+            let modifier = continued(term, &alike, fitted.rows())?;
             rows.data.push(Data::Numbers(modifier));
         }
     }
     let extended = &adopted.extended.case;
-    let fitted = Frame::new(extended);
+    let fitted = Design::new(extended);
     let values: Vec<Estimated> = adopted
         .unknowns
         .iter()
@@ -174,10 +177,10 @@ fn improved(
         covariance: &covariance,
     };
     let case = extended.with(&rows);
-    let frame = Frame::new(&case);
-    let fit = model.at(&frame);
-    let claimed = noise_of(known, &frame, &fit, 0);
-    Some(model.prediction(&frame, &fit, &claimed))
+    let design = Design::new(&case);
+    let fit = model.at(&design);
+    let claimed = noise_of(known, &design, &fit, 0);
+    Some(model.prediction(&design, &fit, &claimed))
 }
 
 /// The course of a modifier in the rows that follow the first `rows`: of the term of the same effect that

@@ -1,83 +1,106 @@
 //! Diagnosis: does a recording agree with the declared measurement model, and if not, which physics
 //! was left out?
 //!
+//! # Words
+//!
+//! | word | means |
+//! |---|---|
+//! | design | the rows of a case as numbers: averaged in blocks, with the unknowns and their slopes |
+//! | fitted model | the declared model at its best, with the slopes by everything that an effect may disturb |
+//! | cell | an effect of the catalogue on quantities of this case, with all its variants |
+//! | candidate, atom | a cell, and a variant of it, as matrices for the statistics |
+//! | block | an atom as directions that are seen beside the parameters |
+//! | slot | an effect that was found, with the names that may stand for it |
+//! | explanation | a name for an effect with the sizes that it may have; rivals explain the same |
+//! | visibility | share of an effect that the parameters do not absorb |
+//! | λ, κ | strength of an effect, and what the nearest rival leaves of it, in standard deviations |
+//!
+//! # Chapters
+//!
 //! | chapter | holds |
 //! |---|---|
-//! | [`faults`] | codes of what is refused |
+//! | [`faults`], `failure` | codes of what is refused; why a case could not be diagnosed |
 //! | [`case`] | the case file: model, recording, claims |
-//! | `frame` | the rows as numbers; the model at any parameters |
+//! | `design` | the rows as numbers; the model at any parameters |
 //! | `fit` | the declared model fitted to the recording |
+//! | `noise` | what is claimed about the noise, or estimated |
+//! | [`at_rest`], `replicates`, `noise_growth`, `noise_correlation` | noise from a recording at rest, from rows that agree; noise that grows with the reading, or is correlated in time |
+//! | [`catalogue`] | the effects, and what they do to the rows of a case |
+//! | `candidates` | cells and recording as matrices, asked of `evidence` |
+//! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
+//! | `run` | a diagnosis from end to end |
+//! | `adopt`, `adopted` | the model with effects in it: its equations, its fit |
+//! | `confirm`, `parts`, `held_out` | how well a model describes the recording, its parts, and a recording that the fit has not seen |
+//! | `regions` | where the mismatch may sit |
+//! | `accidents` | bad rows and jumps that are too many to be accidents |
 //! | `plan` | what an experiment can see and tell apart, without data |
-//! | `extra`, `longer` | measurements that may follow, and the recording together with one of them |
-//! | `contender`, `separation` | explanations of the same mismatch, and what tells them apart |
+//! | `extra`, `prolonged` | measurements that may follow, and the recording together with one of them |
+//! | `explanation`, `separation` | explanations of the same mismatch, and what tells them apart |
 //! | `typical`, `omitted` | usual sizes of effects, and what those cost that are not in the model |
-//! | `form` | whether the declared model has an effect already, by its form |
-//! | `confirm`, `parts` | how well a model describes the recording, and its parts |
-//! | `held_out` | prediction of a recording that the fit has not seen |
-//! | `likeness` | what can stand in for something whose trace is known |
-//! | `inquiry` | candidates and recording as matrices, asked of `evidence` |
+//! | `declared_form` | whether the declared model has an effect already, by its form |
 //! | `conclusion` | what is said: names that are told, tentative ones, what has none |
 //! | `emphasis` | what is worth attention: lines that change a result, measurements that decide |
-//! | `result` | the parameters as the measurands of a budget |
-//! | [`rivals`] | methods in common use, to be compared with |
-//! | [`evidence`] | the statistics, on matrices only: detection, naming, location, plan |
+//! | `result`, `improved` | the parameters as the measurands of a budget; the improved case as files |
+//! | `simulate` | the recording that a case predicts |
+//! | `stand_in` | what can stand in for something whose trace is known |
+//! | `opinions`, [`other_methods`] | what methods in common use say of the same case |
 
+mod accidents;
 mod adopt;
 mod adopted;
 pub mod at_rest;
+mod candidates;
 pub mod case;
 pub mod catalogue;
-mod compare;
 mod conclusion;
 mod confirm;
-mod contender;
-mod correlation;
+mod declared_form;
+mod design;
 mod emphasis;
 pub mod evidence;
+mod explanation;
 mod extra;
 mod failure;
 pub mod faults;
 mod fit;
-mod form;
-mod frame;
 mod held_out;
 mod improved;
-mod inquiry;
-mod likeness;
-mod local;
-mod longer;
 mod noise;
+mod noise_correlation;
+mod noise_growth;
 mod omitted;
+mod opinions;
+pub mod other_methods;
 mod parts;
-mod place;
 mod plan;
+mod prolonged;
+mod regions;
 mod replicates;
 mod result;
-pub mod rivals;
 mod run;
 mod separation;
 mod simulate;
-mod spread;
+mod stand_in;
 mod typical;
 
 pub use adopt::{Addition, Extended, Free};
 pub use adopted::Adopted;
-pub use compare::{Opinion, Pick, opinions};
 pub use conclusion::{Conclusion, Doubt, Nameless};
 pub use confirm::{Estimated, Quality};
 pub use emphasis::{Agreement, Unseen};
 pub use extra::{Extra, Measure};
 pub use failure::Failure;
-pub use fit::{FittedModel, NoFit, Trouble, Unsettled};
+pub use fit::{ModelVersion, NoFit, Trouble, Unsettled};
 pub use held_out::{HeldOutQuality, Prediction};
 pub use improved::improved;
-pub use likeness::{Likeness, likenesses};
 pub use noise::{Claimed, Origin};
+pub use noise_growth::Growth;
 pub use omitted::Omitted;
+pub use opinions::{Opinion, Pick, opinions};
 pub use parts::Confirmation;
 pub use plan::{Outlook, Promise, Prospect, plan};
 pub use result::budget;
 pub use run::{Diagnosis, diagnose};
 pub use separation::Separating;
 pub use simulate::{Sheet, Simulation, simulate};
-pub use spread::Growth;
+pub use stand_in::{StandIn, stand_ins};

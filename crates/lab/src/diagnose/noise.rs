@@ -4,12 +4,12 @@ use nalgebra::{DMatrix, DVector};
 
 use super::at_rest;
 use super::case::{Case, NoiseClaim, NoiseOrigin, RestReadings, Role, hours};
-use super::correlation::{self, Correlated};
+use super::design::Design;
 use super::evidence::{Covariance, Noise};
 use super::fit::{self, Fit, NoFit};
-use super::frame::Frame;
+use super::noise_correlation::{self, Correlated};
+use super::noise_growth::{self, Growth, Spread};
 use super::replicates::{self, Scatter};
-use super::spread::{self, Growth, Spread};
 
 /// The noise of the observations.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,28 +95,28 @@ impl Claimed {
 ///
 /// # Errors
 /// When the model cannot be fitted.
-pub fn settle(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
-    let case = frame.case;
-    let first = claimed(frame, None);
-    let unit = DVector::from_element(frame.observations(), 1.0);
-    let rough = fit::fit(frame, first.as_ref().map_or(&unit, |claimed| &claimed.u))?;
+pub fn settle(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
+    let case = design.case;
+    let first = claimed(design, None);
+    let unit = DVector::from_element(design.observations(), 1.0);
+    let rough = fit::fit(design, first.as_ref().map_or(&unit, |claimed| &claimed.u))?;
     let claimed = match first {
         // The effect of uncertain columns needs the slopes of the model.
         Some(first) if case.columns.iter().all(|column| column.u.is_none()) => first,
-        _ => claimed(frame, Some(&rough)).unwrap_or_else(|| estimated(frame, &rough)),
+        _ => claimed(design, Some(&rough)).unwrap_or_else(|| estimated(design, &rough)),
     };
-    let fit = fit::near(frame, &claimed.u, rough.unknowns.clone())?;
+    let fit = fit::near(design, &claimed.u, rough.unknowns.clone())?;
     if claimed.is_estimated() {
-        let better = estimated(frame, &fit);
+        let better = estimated(design, &fit);
         return Ok((fit, better));
     }
     Ok((fit, claimed))
 }
 
 /// The noise that a model with effects in it leaves: size, growth with the reading, and correlation.
-pub fn refined(frame: &Frame<'_>, fit: &Fit) -> Claimed {
-    let mut claimed = spread_out(frame, fit);
-    claimed.correlated = correlation::estimate(frame, &fit.residuals, &claimed.u);
+pub fn refined(design: &Design<'_>, fit: &Fit) -> Claimed {
+    let mut claimed = spread_out(design, fit);
+    claimed.correlated = noise_correlation::estimate(design, &fit.residuals, &claimed.u);
     claimed
 }
 
@@ -125,24 +125,27 @@ pub fn refined(frame: &Frame<'_>, fit: &Fit) -> Claimed {
 ///
 /// # Errors
 /// When the model has no finite value there.
-pub fn stated(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
-    let values = frame.unknowns.iter().map(|unknown| {
+pub fn stated(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
+    let values = design.unknowns.iter().map(|unknown| {
         let known = unknown.start.or(unknown.prior.map(|(value, _)| value));
         known.unwrap_or(1.0)
     });
-    let fit = fit::at(frame, DVector::from_iterator(frame.unknowns.len(), values));
+    let fit = fit::at(
+        design,
+        DVector::from_iterator(design.unknowns.len(), values),
+    );
     let mut values = fit.linear.values.iter().flatten();
     if !values.all(|value| value.is_finite()) || !fit.jacobian.iter().all(|x| x.is_finite()) {
         return Err(NoFit::NoStart);
     }
-    let claimed = planned(frame, &fit);
+    let claimed = planned(design, &fit);
     Ok((fit, claimed))
 }
 
 /// The noise without data: what is claimed, or one.
-pub fn planned(frame: &Frame<'_>, fit: &Fit) -> Claimed {
-    claimed(frame, Some(fit)).unwrap_or(Claimed {
-        u: DVector::from_element(frame.observations(), 1.0),
+pub fn planned(design: &Design<'_>, fit: &Fit) -> Claimed {
+    claimed(design, Some(fit)).unwrap_or(Claimed {
+        u: DVector::from_element(design.observations(), 1.0),
         dof: f64::INFINITY,
         origin: Origin::Unknown,
         correlated: None,
@@ -152,8 +155,8 @@ pub fn planned(frame: &Frame<'_>, fit: &Fit) -> Claimed {
     })
 }
 
-fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
-    let case = frame.case;
+fn claimed(design: &Design<'_>, fit: Option<&Fit>) -> Option<Claimed> {
+    let case = design.case;
     let (variances, dof, origin): (Vec<Vec<f64>>, f64, Origin) = match &case.noise {
         NoiseClaim::Estimated => return None,
         NoiseClaim::Stated { u, dof, origin, .. } => {
@@ -199,11 +202,11 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
             )
         }
         NoiseClaim::Replicates(columns) => {
-            return replicated(frame, fit, &replicates::scatter(frame, columns)?);
+            return replicated(design, fit, &replicates::scatter(design, columns)?);
         }
     };
     let claimed = Claimed {
-        u: standard(frame, fit, |response| variances.get(response))?,
+        u: standard(design, fit, |response| variances.get(response))?,
         dof,
         origin,
         correlated: None,
@@ -213,10 +216,10 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
     };
     match &case.noise {
         NoiseClaim::AtRest { readings, .. } => {
-            Some(in_time(frame, fit, readings, &claimed).unwrap_or(claimed))
+            Some(in_time(design, fit, readings, &claimed).unwrap_or(claimed))
         }
         NoiseClaim::Stated { walk, .. } if walk.iter().any(|walk| *walk > 0.0) => {
-            Some(walking(frame, walk, &claimed).unwrap_or(claimed))
+            Some(walking(design, walk, &claimed).unwrap_or(claimed))
         }
         _ => Some(claimed),
     }
@@ -225,22 +228,22 @@ fn claimed(frame: &Frame<'_>, fit: Option<&Fit>) -> Option<Claimed> {
 /// Standard uncertainties of the observations with these variances of the rows of each response, and with
 /// what uncertain columns add; nothing where one is not positive.
 fn standard<'v>(
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     fit: Option<&Fit>,
     variances: impl Fn(usize) -> Option<&'v Vec<f64>>,
 ) -> Option<DVector<f64>> {
-    let case = frame.case;
-    let mut squares = frame.observed_column(|_| vec![0.0; case.rows]);
+    let case = design.case;
+    let mut squares = design.observed_column(|_| vec![0.0; case.rows]);
     for response in 0..case.responses.len() {
         let mut rows = variances(response)
             .cloned()
             .unwrap_or_else(|| vec![0.0; case.rows]);
-        add_columns(frame, fit, response, &mut rows);
-        for (block, members) in frame.blocks.iter().enumerate() {
+        add_columns(design, fit, response, &mut rows);
+        for (block, members) in design.blocks.iter().enumerate() {
             let n = members.len() as f64;
             // Independent rows: the variance of their mean.
             let sum: f64 = members.iter().map(|row| rows[*row]).sum();
-            squares[response * frame.blocks.len() + block] = sum / (n * n);
+            squares[response * design.blocks.len() + block] = sum / (n * n);
         }
     }
     let valid = squares
@@ -250,11 +253,11 @@ fn standard<'v>(
 }
 
 /// The noise that replicates of each response show.
-fn replicated(frame: &Frame<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> Option<Claimed> {
+fn replicated(design: &Design<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> Option<Claimed> {
     let growing = scatters.iter().filter(|scatter| scatter.growth.is_some());
     let draws = growing.map(|scatter| scatter.draws.len()).min();
     let draw = |at: usize| {
-        standard(frame, fit, |response| {
+        standard(design, fit, |response| {
             let scatter = scatters.get(response)?;
             Some(scatter.draws.get(at).unwrap_or(&scatter.variances))
         })
@@ -262,7 +265,7 @@ fn replicated(frame: &Frame<'_>, fit: Option<&Fit>, scatters: &[Scatter]) -> Opt
     let dof = scatters.iter().map(|scatter| scatter.dof);
     let uneven = scatters.iter().filter_map(|scatter| scatter.uneven);
     Some(Claimed {
-        u: standard(frame, fit, |response| {
+        u: standard(design, fit, |response| {
             Some(&scatters.get(response)?.variances)
         })?,
         dof: dof.fold(f64::INFINITY, f64::min),
@@ -282,14 +285,14 @@ const REST_DRAWS: usize = 24;
 
 /// The noise of a recording at rest with its course in time, where both recordings have a time.
 fn in_time(
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     fit: Option<&Fit>,
     readings: &[RestReadings],
     claimed: &Claimed,
 ) -> Option<Claimed> {
-    let case = frame.case;
-    let times = times(frame)?;
-    let counts: Vec<f64> = frame
+    let case = design.case;
+    let times = times(design)?;
+    let counts: Vec<f64> = design
         .blocks
         .iter()
         .map(|block| block.len() as f64)
@@ -317,12 +320,12 @@ fn in_time(
     let found = found?;
     // What uncertain columns add comes on top, row by row.
     let blocks = times.len();
-    let extra = DVector::from_fn(frame.observations(), |observation, _| {
-        let (response, block) = frame.place(observation);
+    let extra = DVector::from_fn(design.observations(), |observation, _| {
+        let (response, block) = design.place(observation);
         let mut rows = vec![0.0; case.rows];
-        add_columns(frame, fit, response, &mut rows);
+        add_columns(design, fit, response, &mut rows);
         let n = counts[block];
-        frame.blocks[block]
+        design.blocks[block]
             .iter()
             .map(|row| rows[*row])
             .sum::<f64>()
@@ -356,21 +359,21 @@ fn in_time(
 }
 
 /// Times of the blocks, h; nothing where no time was recorded.
-fn times(frame: &Frame<'_>) -> Option<Vec<f64>> {
-    let clock = frame.time();
-    let factor = hours(&frame.case.columns[clock.column?].unit, &frame.case.units)?;
-    let reduced = frame.reduced(&clock.values);
+fn times(design: &Design<'_>) -> Option<Vec<f64>> {
+    let clock = design.time();
+    let factor = hours(&design.case.columns[clock.column?].unit, &design.case.units)?;
+    let reduced = design.reduced(&clock.values);
     Some(reduced.iter().map(|t| t * factor).collect())
 }
 
 /// The claimed noise with a random walk beside it: cov = walk²·min(tᵢ, tⱼ), in hours since the first row.
-fn walking(frame: &Frame<'_>, walk: &[f64], claimed: &Claimed) -> Option<Claimed> {
-    let times = times(frame)?;
+fn walking(design: &Design<'_>, walk: &[f64], claimed: &Claimed) -> Option<Claimed> {
+    let times = times(design)?;
     let first = times.iter().copied().fold(f64::INFINITY, f64::min);
     let blocks = times.len();
     let covariance = |a: usize, b: usize| {
         let white = if a == b { claimed.u[a].powi(2) } else { 0.0 };
-        let ((response, i), (other, j)) = (frame.place(a), frame.place(b));
+        let ((response, i), (other, j)) = (design.place(a), design.place(b));
         if response != other {
             return white;
         }
@@ -390,10 +393,10 @@ fn walking(frame: &Frame<'_>, walk: &[f64], claimed: &Claimed) -> Option<Claimed
 }
 
 /// The effect of independent errors of the columns of the model.
-fn add_columns(frame: &Frame<'_>, fit: Option<&Fit>, response: usize, variances: &mut [f64]) {
+fn add_columns(design: &Design<'_>, fit: Option<&Fit>, response: usize, variances: &mut [f64]) {
     let Some(fit) = fit else { return };
-    let parameters = frame.case.parameters.len();
-    for (index, column) in frame.case.columns.iter().enumerate() {
+    let parameters = design.case.parameters.len();
+    for (index, column) in design.case.columns.iter().enumerate() {
         let Some(u) = column.u else { continue };
         let slopes = fit.linear.slopes[response].column(parameters + index);
         for (variance, slope) in variances.iter_mut().zip(slopes.iter()) {
@@ -416,27 +419,27 @@ fn counts(case: &Case) -> Vec<f64> {
 ///
 /// # Errors
 /// When the model cannot be fitted.
-pub fn settle_spread_out(frame: &Frame<'_>) -> Result<(Fit, Claimed), NoFit> {
-    let (fit, claimed) = settle(frame)?;
+pub fn settle_spread_out(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
+    let (fit, claimed) = settle(design)?;
     if !claimed.is_estimated() {
         return Ok((fit, claimed));
     }
-    let seen = spread_out(frame, &fit);
+    let seen = spread_out(design, &fit);
     if seen.growth.iter().all(Option::is_none) {
         return Ok((fit, claimed));
     }
-    let Ok(weighted) = fit::from(frame, &seen.u, fit.unknowns.clone()) else {
+    let Ok(weighted) = fit::from(design, &seen.u, fit.unknowns.clone()) else {
         return Ok((fit, seen));
     };
-    let claimed = spread_out(frame, &weighted);
+    let claimed = spread_out(design, &weighted);
     Ok((weighted, claimed))
 }
 
 /// The noise that a model leaves, where it grows with the reading.
-pub fn spread_out(frame: &Frame<'_>, fit: &Fit) -> Claimed {
-    let mut claimed = estimated(frame, fit);
-    let blocks = frame.blocks.len();
-    let found = spread::estimate(frame, fit);
+pub fn spread_out(design: &Design<'_>, fit: &Fit) -> Claimed {
+    let mut claimed = estimated(design, fit);
+    let blocks = design.blocks.len();
+    let found = noise_growth::estimate(design, fit);
     let draws = found.iter().flatten().map(|likely| likely.draws.len());
     claimed.draws = vec![claimed.u.clone(); draws.min().unwrap_or(0)];
     for (response, likely) in found.into_iter().enumerate() {
@@ -445,13 +448,13 @@ pub fn spread_out(frame: &Frame<'_>, fit: &Fit) -> Claimed {
             continue;
         };
         let rows = response * blocks;
-        let values = frame.reduced(&fit.linear.values[response]);
+        let values = design.reduced(&fit.linear.values[response]);
         let own = fit.residuals.rows(rows, blocks).into_owned();
         let plain = claimed.u.rows(rows, blocks).into_owned();
         let grown = |spread: &Spread| {
             let factors = values.iter().map(|value| spread.at(*value));
             let u = plain.component_mul(&DVector::from_iterator(blocks, factors));
-            let scale = scale(frame, &own.component_div(&u));
+            let scale = scale(design, &own.component_div(&u));
             u * scale
         };
         for (draw, spread) in claimed.draws.iter_mut().zip(&likely.draws) {
@@ -459,7 +462,7 @@ pub fn spread_out(frame: &Frame<'_>, fit: &Fit) -> Claimed {
         }
         let u = grown(&likely.best);
         let at_level = u[0] / likely.best.at(values[0]);
-        let unit = frame.case.responses[response].unit.typeset();
+        let unit = design.case.responses[response].unit.typeset();
         claimed.u.rows_mut(rows, blocks).copy_from(&u);
         claimed
             .growth
@@ -469,27 +472,27 @@ pub fn spread_out(frame: &Frame<'_>, fit: &Fit) -> Claimed {
 }
 
 /// Root mean square of the residuals of one response, which share the degrees of freedom of all.
-fn scale(frame: &Frame<'_>, residuals: &DVector<f64>) -> f64 {
-    let observations = frame.observations() as f64;
-    let freedom = (observations - frame.unknowns.len() as f64).max(1.0);
+fn scale(design: &Design<'_>, residuals: &DVector<f64>) -> f64 {
+    let observations = design.observations() as f64;
+    let freedom = (observations - design.unknowns.len() as f64).max(1.0);
     (residuals.norm_squared() / (residuals.len() as f64 * freedom / observations)).sqrt()
 }
 
 /// One standard uncertainty for each response, from the residuals.
-fn estimated(frame: &Frame<'_>, fit: &Fit) -> Claimed {
-    let blocks = frame.blocks.len();
-    let mut u = DVector::zeros(frame.observations());
-    for response in 0..frame.case.responses.len() {
+fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
+    let blocks = design.blocks.len();
+    let mut u = DVector::zeros(design.observations());
+    for response in 0..design.case.responses.len() {
         let own = fit.residuals.rows(response * blocks, blocks).into_owned();
-        let s = scale(frame, &own);
+        let s = scale(design, &own);
         // A perfect fit leaves nothing; any positive number serves.
         let s = if s > 0.0 { s } else { f64::MIN_POSITIVE.sqrt() };
         u.rows_mut(response * blocks, blocks).fill(s);
     }
-    let counts = counts(frame.case);
+    let counts = counts(design.case);
     if counts.iter().any(|n| *n != counts[0]) {
         let mean = counts.iter().sum::<f64>() / counts.len() as f64;
-        let reduced = frame.reduced(&counts);
+        let reduced = design.reduced(&counts);
         for (at, u) in u.iter_mut().enumerate() {
             *u *= (mean / reduced[at % blocks]).sqrt();
         }

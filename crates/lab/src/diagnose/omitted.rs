@@ -3,14 +3,14 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::adopted::Adopted;
+use super::candidates::baseline;
 use super::case::{Case, Role};
 use super::catalogue::modifiers::range;
-use super::catalogue::{Cell, Ground, Kind, Variation};
+use super::catalogue::{Cell, FittedModel, Kind, Variation};
+use super::declared_form;
+use super::design::Design;
 use super::evidence::{self, Baseline};
 use super::fit;
-use super::form;
-use super::frame::Frame;
-use super::inquiry::baseline;
 use super::noise::Claimed;
 use super::typical;
 
@@ -64,21 +64,21 @@ const VARIANTS: usize = 24;
 /// The lines of all candidates but those in `adopted`, the dearest first. `u` holds the standard
 /// uncertainties of the unknowns without them.
 pub(super) fn lines(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     declared: &Baseline,
     improved: Option<&Baseline>,
     adopted: &[usize],
     u: &[f64],
 ) -> Vec<Omitted> {
-    let scales = typical::full_scales(ground);
+    let scales = typical::full_scales(fitted);
     let line = |(index, number): (usize, usize), held: &[usize]| {
         let (cell, baselines) = (&cells[index], (declared, improved));
         let columns = cell.variants[number]
-            .columns(ground)
+            .columns(fitted)
             .remove_columns_at(held);
         let line = line(
-            ground,
+            fitted,
             cell,
             &cell.variants[number],
             columns,
@@ -97,7 +97,7 @@ pub(super) fn lines(
         .flat_map(|(index, cell)| {
             let step = cell.variants.len().div_ceil(VARIANTS).max(1);
             let variants = cell.variants.iter().enumerate().step_by(step);
-            let variants = variants.filter(|(_, variation)| acts(ground, cell, variation));
+            let variants = variants.filter(|(_, variation)| acts(fitted, cell, variation));
             variants.map(move |(number, _)| (index, number))
         })
         .filter_map(|place| line(place, &[]))
@@ -105,7 +105,7 @@ pub(super) fn lines(
     // What the declared model has is not left out.
     let unseen = every.iter().filter(|line| line.is_invisible());
     let unseen: Vec<(usize, usize)> = unseen.map(|line| (line.cell, line.variation)).collect();
-    let held = form::declared(ground, cells, &unseen);
+    let held = declared_form::declared(fitted, cells, &unseen);
     every = (every.into_iter())
         .filter_map(|own| match held.get(&(own.cell, own.variation)) {
             Some(held) => line((own.cell, own.variation), held),
@@ -132,14 +132,14 @@ pub(super) fn lines(
 
 /// Whether a variation is an effect of something that varies: an offset is what parameters are for, and two
 /// levels have no curvature.
-fn acts(ground: &Ground<'_>, cell: &Cell, variation: &Variation) -> bool {
+fn acts(fitted: &FittedModel<'_>, cell: &Cell, variation: &Variation) -> bool {
     /// A modifier that varies by less than this part of its size is an offset.
     const VARIES: f64 = 0.2;
     let steady = |modifier: &[f64]| {
         let (least, most) = range(modifier);
         most - least < VARIES * most.abs().max(least.abs())
     };
-    let case = ground.case();
+    let case = fitted.case();
     let along = case.column(&cell.place.along);
     let stimulus = along.filter(|column| case.columns[*column].role == Role::Stimulus);
     let two = stimulus
@@ -155,7 +155,7 @@ fn acts(ground: &Ground<'_>, cell: &Cell, variation: &Variation) -> bool {
 }
 
 fn line(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cell: &Cell,
     variation: &Variation,
     columns: DMatrix<f64>,
@@ -166,7 +166,7 @@ fn line(
     let columns = &unified.columns;
     let each = |j: usize| declared.visibility(&columns.column(j).into_owned());
     let visibility = (0..columns.ncols()).map(each).fold(1.0, f64::min);
-    let shift = typical::shift(ground, cell, variation, &unified, scales);
+    let shift = typical::shift(fitted, cell, variation, &unified, scales);
     let unknowns = declared.parameters();
     let cost = |baseline: &Baseline| {
         // Uniform between −shift and shift.
@@ -203,7 +203,7 @@ fn largest(gain: &DMatrix<f64>) -> Vec<f64> {
 /// What it costs that a slot has several explanations: for each unknown the root of Σ p·d², d being how
 /// far the other explanations move it from where the adopted one leaves it.
 pub(super) fn choice(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
     declared: &Baseline,
@@ -211,7 +211,7 @@ pub(super) fn choice(
 ) -> Vec<f64> {
     let moved = |alternative: &evidence::Alternative| -> Option<DVector<f64>> {
         let (cell, variation) = places[alternative.variants.first()?.atom];
-        let columns = cells[cell].variants[variation].columns(ground);
+        let columns = cells[cell].variants[variation].columns(fitted);
         let size = alternative
             .estimate
             .map(|x| if x.is_finite() { x } else { 0.0 });
@@ -239,25 +239,28 @@ pub(super) fn improved_baseline(
     claimed: &Claimed,
 ) -> Option<Baseline> {
     let extended = &adopted.extended.case;
-    let frame = Frame::new(extended);
+    let design = Design::new(extended);
     let estimates = adopted.unknowns.iter().chain(&adopted.coefficients);
     let value = |name: &str| {
         let found = estimates.clone().find(|estimate| estimate.name == name);
         found.map(|estimate| estimate.value)
     };
-    let values: Option<Vec<f64>> = frame.unknowns.iter().map(|u| value(&u.name)).collect();
-    let mut fit = fit::at(&frame, DVector::from_vec(values?));
-    let declared = Frame::new(case);
+    let values: Option<Vec<f64>> = design.unknowns.iter().map(|u| value(&u.name)).collect();
+    let mut fit = fit::at(&design, DVector::from_vec(values?));
+    let declared = Design::new(case);
     let known = declared.unknowns.iter().map(|u| u.name.as_str());
     let added = adopted.coefficients.iter().map(|c| c.name.as_str());
     let order: Option<Vec<usize>> = known
         .chain(added)
-        .map(|name| frame.unknowns.iter().position(|u| u.name == name))
+        .map(|name| design.unknowns.iter().position(|u| u.name == name))
         .collect();
     let order = order?;
-    let mut frame = frame;
-    frame.unknowns = order.iter().map(|at| frame.unknowns[*at].clone()).collect();
+    let mut design = design;
+    design.unknowns = order
+        .iter()
+        .map(|at| design.unknowns[*at].clone())
+        .collect();
     fit.jacobian = fit.jacobian.select_columns(&order);
     fit.unknowns = fit.unknowns.select_rows(&order);
-    baseline(&frame, &fit, claimed).ok()
+    baseline(&design, &fit, claimed).ok()
 }

@@ -5,12 +5,12 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
+use super::candidates::baseline;
 use super::case::Role;
 use super::confirm::degrees;
+use super::design::Design;
 use super::evidence::Fitted;
 use super::fit::Fit;
-use super::frame::Frame;
-use super::inquiry::baseline;
 use super::noise::Claimed;
 use crate::special::{chi_squared_sf, f_sf};
 
@@ -28,16 +28,16 @@ pub struct Confirmation {
 
 /// The first of the `added` coefficients, estimated from parts of the recording.
 pub(super) fn confirmation(
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     fit: &Fit,
     claimed: &Claimed,
     added: usize,
     fitted: &Fitted,
 ) -> Confirmation {
-    let first = frame.case.parameters.len() - added;
-    let (names, members): (Vec<String>, Vec<Vec<usize>>) = divided(frame).into_iter().unzip();
-    let at = frame.unknown_of(first, 0);
-    let apart = Apart::new(frame, fit, claimed, at, &members);
+    let first = design.case.parameters.len() - added;
+    let (names, members): (Vec<String>, Vec<Vec<usize>>) = divided(design).into_iter().unzip();
+    let at = design.unknown_of(first, 0);
+    let apart = Separability::new(design, fit, claimed, at, &members);
     let mut confirmation = Confirmation {
         promised: fitted.chi_squared,
         parts: Vec::new(),
@@ -50,7 +50,7 @@ pub(super) fn confirmation(
         return confirmation;
     }
     let chi_squared = fit.residuals.component_div(&claimed.u).norm_squared();
-    let dof = degrees(frame);
+    let dof = degrees(design);
     let scale = if claimed.is_estimated() {
         (chi_squared / dof.max(1.0)).sqrt()
     } else {
@@ -73,7 +73,7 @@ pub(super) fn confirmation(
 }
 
 /// An unknown with a value of its own in each part, beside everything that is common.
-struct Apart {
+struct Separability {
     /// The common value.
     start: f64,
     /// What is known beforehand of each value: information, and how strongly it pulls.
@@ -86,22 +86,22 @@ struct Apart {
     residuals: DVector<f64>,
 }
 
-impl Apart {
+impl Separability {
     /// Takes the unknown `at` apart, one for each list of observations.
     fn new(
-        frame: &Frame<'_>,
+        design: &Design<'_>,
         fit: &Fit,
         claimed: &Claimed,
         at: usize,
         members: &[Vec<usize>],
-    ) -> Option<Apart> {
-        let mut columns = DMatrix::zeros(frame.observations(), members.len());
+    ) -> Option<Separability> {
+        let mut columns = DMatrix::zeros(design.observations(), members.len());
         for (part, members) in members.iter().enumerate() {
             for observation in members {
                 columns[(*observation, part)] = fit.jacobian[(*observation, at)];
             }
         }
-        let mut common = Frame::new(frame.case);
+        let mut common = Design::new(design.case);
         let own = common.unknowns.remove(at);
         let known = own.prior.map_or((0.0, 0.0), |(value, u)| {
             (1.0 / (u * u), (value - fit.unknowns[at]) / (u * u))
@@ -116,7 +116,7 @@ impl Apart {
             let column = column.component_div(&claimed.u);
             column.norm_squared()
         });
-        Some(Apart {
+        Some(Separability {
             start: fit.unknowns[at],
             known,
             whole: whole.collect(),
@@ -183,39 +183,40 @@ fn spread(values: &DVector<f64>, covariance: &DMatrix<f64>) -> Option<f64> {
 }
 
 /// Parts of the observations: runs where there are a few, else halves.
-fn divided(frame: &Frame<'_>) -> Vec<(String, Vec<usize>)> {
-    let all = 0..frame.observations();
-    let runs = frame.case.with_role(Role::Run).find(|column| {
-        frame.case.columns[*column]
+fn divided(design: &Design<'_>) -> Vec<(String, Vec<usize>)> {
+    let all = 0..design.observations();
+    let runs = design.case.with_role(Role::Run).find(|column| {
+        design.case.columns[*column]
             .labels()
             .is_some_and(|labels| (2..=12).contains(&labels.levels.len()))
     });
     if let Some(column) = runs
-        && let Some(labels) = frame.case.columns[column].labels()
+        && let Some(labels) = design.case.columns[column].labels()
     {
         return (0..labels.levels.len())
             .map(|level| {
-                let inside =
-                    |o: &usize| labels.of_row[frame.blocks[frame.place(*o).1][0]] as usize == level;
+                let inside = |o: &usize| {
+                    labels.of_row[design.blocks[design.place(*o).1][0]] as usize == level
+                };
                 (
                     format!(
                         "{} {}",
-                        frame.case.columns[column].name, labels.levels[level]
+                        design.case.columns[column].name, labels.levels[level]
                     ),
                     all.clone().filter(inside).collect(),
                 )
             })
             .collect();
     }
-    let half = frame.blocks.len() / 2;
+    let half = design.blocks.len() / 2;
     vec![
         (
             "first half".to_owned(),
-            all.clone().filter(|o| frame.place(*o).1 < half).collect(),
+            all.clone().filter(|o| design.place(*o).1 < half).collect(),
         ),
         (
             "second half".to_owned(),
-            all.filter(|o| frame.place(*o).1 >= half).collect(),
+            all.filter(|o| design.place(*o).1 >= half).collect(),
         ),
     ]
 }
@@ -240,7 +241,7 @@ mod tests {
             (4 | 5, 1) | (6, 2) => 1.0,
             _ => 0.0,
         };
-        let apart = Apart {
+        let apart = Separability {
             start: 0.0,
             known: (0.0, 0.0),
             columns: baseline.project(&DMatrix::from_fn(7, 3, members)),
@@ -279,7 +280,7 @@ mod tests {
                 if row / 2 == part { level[part] } else { 0.0 }
             },
         );
-        let apart = Apart {
+        let apart = Separability {
             start: 0.0,
             known: (0.0, 0.0),
             columns: baseline.project(&columns),

@@ -5,19 +5,19 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::candidates::{baseline, question};
 use super::case::Case;
-use super::catalogue::{self, Cell, Ground, Kind};
+use super::catalogue::{self, Cell, FittedModel, Kind};
 use super::confirm::{Estimated, estimates};
-use super::contender::{self, Contender};
+use super::design::Design;
 use super::evidence::{self, Atom, Refusal, Shape};
+use super::explanation::{self, Explanation};
 use super::extra::{Extra, extras};
 use super::failure::Failure;
 use super::fit::Fit;
-use super::frame::Frame;
-use super::inquiry::{baseline, question};
-use super::longer::{Known, Recorded, examined};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
+use super::prolonged::{Known, Recorded, examined};
 use super::typical::{self, Unified};
 
 /// What an experiment can see and tell apart. Sizes of effects are the largest shifts of the output.
@@ -92,47 +92,47 @@ const VISIBLE: f64 = 0.01;
 /// # Errors
 /// When the model has no finite value or its parameters are not determined, or the work was stopped.
 pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Outlook, Failure> {
-    let frame = Frame::new(case);
-    let (fit, claimed, assumed) = assumed(&frame)?;
+    let design = Design::new(case);
+    let (fit, claimed, assumed) = assumed(&design)?;
     let fit = Fit {
-        residuals: DVector::zeros(frame.observations()),
+        residuals: DVector::zeros(design.observations()),
         ..fit
     };
-    let ground = Ground::new(&frame, &fit);
-    let cells = catalogue::cells(&ground);
-    let baseline = baseline(&frame, &fit, &claimed)?;
-    let (candidates, atoms, places) = question(&ground, &cells, &claimed, &baseline);
+    let fitted = FittedModel::new(&design, &fit);
+    let cells = catalogue::cells(&fitted);
+    let baseline = baseline(&design, &fit, &claimed)?;
+    let (candidates, atoms, places) = question(&fitted, &cells, &claimed, &baseline);
     let (atoms, places, unified) = named(&cells, atoms, places);
     step(progress, 0.1)?;
     let found = evidence::visibility(&baseline, &candidates, &atoms)?;
-    let effects = prospects(&ground, &cells, (&atoms, &places, &unified), &found);
-    let unknowns = estimates(&frame, &fit, &claimed, 1.0);
+    let effects = prospects(&fitted, &cells, (&atoms, &places, &unified), &found);
+    let unknowns = estimates(&design, &fit, &claimed, 1.0);
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
-    let omitted = omitted::lines(&ground, &cells, &baseline, None, &[], &u);
+    let omitted = omitted::lines(&fitted, &cells, &baseline, None, &[], &u);
     step(progress, 0.4)?;
     let pairs = pairs(&effects);
     let known = Known {
         case,
-        frame: &frame,
+        design: &design,
         fit: &fit,
         claimed: &claimed,
     };
     let recorded = Recorded {
         known: &known,
-        ground: &ground,
+        fitted: &fitted,
         baseline: &baseline,
     };
-    let contenders = Contenders {
+    let explanations = Explanations {
         sets: pairs
             .iter()
-            .map(|pair| contenders(&recorded, &cells, &effects, *pair))
+            .map(|pair| explanations(&recorded, &cells, &effects, *pair))
             .collect(),
         hidden: omitted.iter().filter(|line| line.is_invisible()).collect(),
     };
     let mut promises = Vec::new();
     let all = extras(case);
     for (at, extra) in all.iter().enumerate() {
-        promises.extend(contenders.promise(&recorded, &cells, extra));
+        promises.extend(explanations.promise(&recorded, &cells, extra));
         step(progress, 0.4 + 0.6 * (at + 1) as f64 / all.len() as f64)?;
     }
     let worth = |promise: &Promise| {
@@ -143,7 +143,7 @@ pub fn plan(case: &Case, progress: &dyn Fn(f64) -> ControlFlow<()>) -> Result<Ou
         relative: claimed.origin == noise::Origin::Unknown,
         noise: claimed,
         assumed,
-        observations: frame.observations(),
+        observations: design.observations(),
         unknowns,
         effects,
         classes: classes(&cells, &places, &found.classes),
@@ -163,15 +163,15 @@ fn step(progress: &dyn Fn(f64) -> ControlFlow<()>, share: f64) -> Result<(), Fai
 
 /// The model at the values that the case states; where it does not state all, at those that fit the
 /// outputs; where these are not recorded, at one.
-fn assumed(frame: &Frame<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> {
-    let open: Vec<String> = frame
+fn assumed(design: &Design<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> {
+    let open: Vec<String> = design
         .unknowns
         .iter()
         .filter(|unknown| unknown.start.is_none() && unknown.prior.is_none())
         .map(|unknown| unknown.name.clone())
         .collect();
-    if frame.case.is_recorded()
-        && let Ok((fit, claimed)) = noise::settle_spread_out(frame)
+    if design.case.is_recorded()
+        && let Ok((fit, claimed)) = noise::settle_spread_out(design)
     {
         let known = Claimed {
             dof: f64::INFINITY,
@@ -179,7 +179,7 @@ fn assumed(frame: &Frame<'_>) -> Result<(Fit, Claimed, Vec<String>), Failure> {
         };
         return Ok((fit, known, Vec::new()));
     }
-    let (fit, claimed) = noise::stated(frame)?;
+    let (fit, claimed) = noise::stated(design)?;
     Ok((fit, claimed, open))
 }
 
@@ -207,12 +207,12 @@ fn named(cells: &[Cell], atoms: Vec<Atom>, places: Places) -> (Vec<Atom>, Places
 
 /// One prospect for each candidate that has a visible variant.
 fn prospects(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     (atoms, places, unified): (&[Atom], &[(usize, usize)], &[Unified]),
     found: &evidence::Plan,
 ) -> Vec<Prospect> {
-    let scales = typical::full_scales(ground);
+    let scales = typical::full_scales(fitted);
     let mut prospects = Vec::new();
     for (cell, of) in cells.iter().enumerate() {
         let mut own: Vec<(&evidence::Seen, f64)> = found
@@ -236,7 +236,7 @@ fn prospects(
             rival: pair.map(|pair| (atoms[pair.rival].candidate, pair.cosine)),
             separable: pair.and_then(|pair| pair.separable),
             typical: typical::shift(
-                ground,
+                fitted,
                 of,
                 &of.variants[variation],
                 &unified[seen.atom],
@@ -287,21 +287,21 @@ fn pairs(effects: &[Prospect]) -> Vec<(usize, usize)> {
 }
 
 /// Both of a pair, with sizes that have the same strength in the experiment as it is.
-fn contenders(
+fn explanations(
     recorded: &Recorded<'_>,
     cells: &[Cell],
     effects: &[Prospect],
     (a, b): (usize, usize),
-) -> Vec<Contender> {
+) -> Vec<Explanation> {
     let of = |cell: usize| {
         let effect = effects.iter().find(|effect| effect.cell == cell)?;
         let variation = &cells[cell].variants[effect.variation];
-        let columns = variation.columns(recorded.ground);
+        let columns = variation.columns(recorded.fitted);
         let count = columns.ncols();
         let sum = recorded.baseline.project(&columns).column_sum().norm();
         let size = if sum > 0.0 { STRENGTH / sum } else { 0.0 };
         let sizes = DMatrix::from_element(count, 1, size);
-        Some(Contender::new(
+        Some(Explanation::new(
             recorded,
             &cells[cell],
             variation,
@@ -313,31 +313,32 @@ fn contenders(
 }
 
 /// What further measurements are asked for.
-struct Contenders<'o> {
-    sets: Vec<Vec<Contender>>,
+struct Explanations<'o> {
+    sets: Vec<Vec<Explanation>>,
     hidden: Vec<&'o Omitted>,
 }
 
-impl Contenders<'_> {
+impl Explanations<'_> {
     fn promise(&self, recorded: &Recorded<'_>, cells: &[Cell], extra: &Extra) -> Option<Promise> {
-        let asked: Vec<Contender> = self
+        let asked: Vec<Explanation> = self
             .hidden
             .iter()
             .map(|line| {
                 let variation = &cells[line.cell].variants[line.variation];
                 let sizes = DMatrix::from_element(variation.coefficients(), 1, 1.0);
-                Contender::new(recorded, &cells[line.cell], variation, &sizes, EVEN)
+                Explanation::new(recorded, &cells[line.cell], variation, &sizes, EVEN)
             })
             .collect();
-        let told =
-            |apart: Option<evidence::Apart>| apart.is_some_and(|apart| apart.least() >= SEPARATED);
+        let told = |apart: Option<evidence::Separability>| {
+            apart.is_some_and(|apart| apart.least() >= SEPARATED)
+        };
         let (aparts, shares): (Vec<bool>, Vec<Option<f64>>) =
-            examined(recorded, extra, |longer| {
+            examined(recorded, extra, |prolonged| {
                 let aparts = self
                     .sets
                     .iter()
-                    .map(|set| told(contender::apart(recorded, longer, set)));
-                let shares = asked.iter().map(|one| one.visibility(longer));
+                    .map(|set| told(explanation::apart(recorded, prolonged, set)));
+                let shares = asked.iter().map(|one| one.visibility(prolonged));
                 (aparts.collect(), shares.collect())
             })?;
         let resolved = aparts.iter().enumerate();

@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 use gumption_lanes::sampler::gamma_block;
 use gumption_lanes::{Block, Generator, LANES, level};
 
-use super::frame::Frame;
-use super::spread::{self, Growth, Spread};
+use super::design::Design;
+use super::noise_growth::{self, Growth, Spread};
 use crate::special::chi_squared_quantile;
 
 /// Gain in −2 ln L from which noise counts as growing: exceeded by chance in 5 % of recordings (one-sided,
@@ -49,19 +49,19 @@ struct Group {
 }
 
 /// The noise of each response; nothing where too few rows agree, or those that do show no scatter.
-pub(super) fn scatter(frame: &Frame<'_>, columns: &[usize]) -> Option<Vec<Scatter>> {
-    let rows = agreeing(frame, columns);
+pub(super) fn scatter(design: &Design<'_>, columns: &[usize]) -> Option<Vec<Scatter>> {
+    let rows = agreeing(design, columns);
     let dof: usize = rows.iter().map(|rows| rows.len() - 1).sum();
     if dof < 2 {
         return None;
     }
-    (0..frame.case.responses.len())
-        .map(|response| of_response(frame, response, &rows))
+    (0..design.case.responses.len())
+        .map(|response| of_response(design, response, &rows))
         .collect()
 }
 
-fn agreeing(frame: &Frame<'_>, columns: &[usize]) -> Vec<Vec<usize>> {
-    let case = frame.case;
+fn agreeing(design: &Design<'_>, columns: &[usize]) -> Vec<Vec<usize>> {
+    let case = design.case;
     let key = |row: usize| -> Vec<u64> {
         let of = columns.iter().map(|column| {
             match (
@@ -83,10 +83,10 @@ fn agreeing(frame: &Frame<'_>, columns: &[usize]) -> Vec<Vec<usize>> {
     groups.into_values().collect()
 }
 
-fn of_response(frame: &Frame<'_>, response: usize, rows: &[Vec<usize>]) -> Option<Scatter> {
-    let observed = frame.observed(response);
+fn of_response(design: &Design<'_>, response: usize, rows: &[Vec<usize>]) -> Option<Scatter> {
+    let observed = design.observed(response);
     let step = step(&observed);
-    let mut levels = vec![0.0; frame.case.rows];
+    let mut levels = vec![0.0; design.case.rows];
     let mut groups = Vec::new();
     for rows in rows {
         let level = rows.iter().map(|row| observed[*row]).sum::<f64>() / rows.len() as f64;
@@ -115,9 +115,9 @@ fn of_response(frame: &Frame<'_>, response: usize, rows: &[Vec<usize>]) -> Optio
     };
     let of_groups: Vec<f64> = groups.iter().map(|group| group.level).collect();
     let likely = (dof as usize >= LEAST)
-        .then(|| spread::likely(&of_groups, GAIN, |spread| misfit(&groups, spread)))
+        .then(|| noise_growth::likely(&of_groups, GAIN, |spread| misfit(&groups, spread)))
         .flatten();
-    let seed = frame.case.settings.seed;
+    let seed = design.case.settings.seed;
     let Some(likely) = likely else {
         return Some(Scatter {
             variances: at(&Spread::CONSTANT, pooled),
@@ -130,7 +130,7 @@ fn of_response(frame: &Frame<'_>, response: usize, rows: &[Vec<usize>]) -> Optio
     // The shape costs one degree of freedom.
     let left = dof - 1.0;
     let scale = |spread: &Spread| self::pooled(&groups, spread) * dof / left;
-    let unit = frame.case.responses[response].unit.typeset();
+    let unit = design.case.responses[response].unit.typeset();
     let count = likely.draws.len();
     let draw = |(index, spread): (usize, &Spread)| {
         // The two are open independently of each other: a step that meets every part of the distribution.
@@ -259,7 +259,7 @@ mod tests {
 
     fn found(groups: &[Group]) -> Option<spread::Likely> {
         let levels: Vec<f64> = groups.iter().map(|group| group.level).collect();
-        spread::likely(&levels, GAIN, |spread| misfit(groups, spread))
+        noise_growth::likely(&levels, GAIN, |spread| misfit(groups, spread))
     }
 
     #[test]

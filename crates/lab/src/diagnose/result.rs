@@ -10,8 +10,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::Case;
 use super::confirm::{self, Estimated};
+use super::design::{Design, UnknownKind};
 use super::fit;
-use super::frame::{Frame, UnknownKind};
 use super::omitted::Omitted;
 use super::run::Diagnosis;
 use crate::budget::writing::{key, quoted};
@@ -36,8 +36,8 @@ pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
         }
         None => (case, declared, declared.to_vec(), diagnosis.before.dof),
     };
-    let frame = Frame::new(model);
-    let results = results(&frame, estimates);
+    let design = Design::new(model);
+    let results = results(&design, estimates);
     let dof = if diagnosis.noise.is_estimated() {
         dof
     } else {
@@ -59,7 +59,7 @@ pub fn budget(case: &Case, diagnosis: &Diagnosis) -> String {
             quoted(&line.description)
         );
     }
-    text + &correlations(&frame, diagnosis, &all, &results)
+    text + &correlations(&design, diagnosis, &all, &results)
 }
 
 /// A parameter that is reported.
@@ -72,19 +72,19 @@ struct ResultOf<'r> {
     estimate: &'r Estimated,
 }
 
-fn results<'r>(frame: &Frame<'_>, estimates: &'r [Estimated]) -> Vec<ResultOf<'r>> {
+fn results<'r>(design: &Design<'_>, estimates: &'r [Estimated]) -> Vec<ResultOf<'r>> {
     let of = estimates
         .iter()
         .enumerate()
         .filter_map(|(place, estimate)| {
-            let unknown = frame.unknowns.iter().find(|u| u.name == estimate.name)?;
+            let unknown = design.unknowns.iter().find(|u| u.name == estimate.name)?;
             let UnknownKind::Parameter { parameter, .. } = unknown.kind else {
                 return None;
             };
             Some(ResultOf {
                 name: identifier(&estimate.name),
                 place,
-                unit: frame.case.parameters[parameter].unit.clone(),
+                unit: design.case.parameters[parameter].unit.clone(),
                 estimate,
             })
         });
@@ -219,20 +219,20 @@ fn unit_line(unit: &Unit) -> String {
 
 /// Correlations of the fitted parameters.
 fn correlations(
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     diagnosis: &Diagnosis,
     all: &[Estimated],
     results: &[ResultOf<'_>],
 ) -> String {
-    let place = |name: &str| frame.unknowns.iter().position(|u| u.name == name);
-    let mut values = DVector::zeros(frame.unknowns.len());
+    let place = |name: &str| design.unknowns.iter().position(|u| u.name == name);
+    let mut values = DVector::zeros(design.unknowns.len());
     for estimate in all {
         if let Some(at) = place(&estimate.name) {
             values[at] = estimate.value;
         }
     }
-    let fit = fit::at(frame, values);
-    let covariance: DMatrix<f64> = confirm::covariance(frame, &fit, &diagnosis.noise);
+    let fit = fit::at(design, values);
+    let covariance: DMatrix<f64> = confirm::covariance(design, &fit, &diagnosis.noise);
     let mut text = String::new();
     for (at, a) in results.iter().enumerate() {
         for b in &results[at + 1..] {

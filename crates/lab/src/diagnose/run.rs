@@ -4,21 +4,21 @@ use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::accidents;
 use super::adopted::{Adopted, adopt_named};
+use super::candidates::{Candidates, baseline, settings};
 use super::case::Case;
-use super::catalogue::{Cell, Finer, Ground};
+use super::catalogue::{Cell, Finer, FittedModel};
 use super::confirm::{self, Estimated, Quality, estimates};
+use super::design::Design;
 use super::evidence::{self, Examination, Located, TRACE, Verdict};
 use super::failure::Failure;
-use super::fit::{FittedModel, Trouble, Unsettled};
-use super::frame::Frame;
+use super::fit::{ModelVersion, Trouble, Unsettled};
 use super::held_out::{self, HeldOutQuality};
-use super::inquiry::{Inquiry, baseline, settings};
-use super::local;
-use super::longer::{Known, Recorded};
 use super::noise::{self, Claimed};
 use super::omitted::{self, Omitted};
-use super::place;
+use super::prolonged::{Known, Recorded};
+use super::regions;
 use super::separation::{self, Separating};
 
 /// Everything that a diagnosis found.
@@ -85,22 +85,22 @@ pub fn diagnose(
     case: &Case,
     progress: &dyn Fn(f64) -> ControlFlow<()>,
 ) -> Result<Diagnosis, Failure> {
-    let frame = Frame::new(case);
-    let (fit, mut claimed) = noise::settle_spread_out(&frame)?;
-    let white = baseline(&frame, &fit, &claimed)?;
+    let design = Design::new(case);
+    let (fit, mut claimed) = noise::settle_spread_out(&design)?;
+    let white = baseline(&design, &fit, &claimed)?;
     let settings = settings(case);
-    let mut inquiry = Inquiry::new(Ground::new(&frame, &fit), &claimed, &white);
+    let mut candidates = Candidates::new(FittedModel::new(&design, &fit), &claimed, &white);
     let part = |from: f64, to: f64| move |share: f64| progress(from + (to - from) * share);
     let first = if claimed.is_estimated() { 0.4 } else { 0.6 };
-    let (mut baseline, mut examination) = inquiry.ask(&claimed, &settings, &part(0.0, first))?;
+    let (mut baseline, mut examination) = candidates.ask(&claimed, &settings, &part(0.0, first))?;
     if claimed.is_estimated() && examination.verdict != Verdict::None {
         // Noise and effects are estimated in turn: what an effect explains is no noise.
         for round in 0..ROUNDS {
             let adopted = adopted_atoms(&examination);
-            claimed = inquiry.noise(&examination, &claimed);
+            claimed = candidates.noise(&examination, &claimed);
             let from = 0.4 + 0.1 * f64::from(round);
             let part = part(from, from + 0.1);
-            (baseline, examination) = inquiry.ask(&claimed, &settings, &part)?;
+            (baseline, examination) = candidates.ask(&claimed, &settings, &part)?;
             if adopted_atoms(&examination) == adopted {
                 break;
             }
@@ -109,34 +109,34 @@ pub fn diagnose(
     // Shapes that lie between the steps of a grid: closer and closer.
     let mut finer = Finer::default();
     for round in 0..REFINEMENTS {
-        if !inquiry.refine(&mut finer, &examination) {
+        if !candidates.refine(&mut finer, &examination) {
             break;
         }
-        inquiry = Inquiry::new(
-            Ground::new(&frame, &fit).refined(finer.clone()),
+        candidates = Candidates::new(
+            FittedModel::new(&design, &fit).refined(finer.clone()),
             &claimed,
             &white,
         );
         let from = 0.7 + 0.1 * f64::from(round);
-        (baseline, examination) = inquiry.ask(&claimed, &settings, &part(from, from + 0.05))?;
+        (baseline, examination) = candidates.ask(&claimed, &settings, &part(from, from + 0.05))?;
         if claimed.is_estimated() {
-            claimed = inquiry.noise(&examination, &claimed);
+            claimed = candidates.noise(&examination, &claimed);
             let part = part(from + 0.05, from + 0.1);
-            (baseline, examination) = inquiry.ask(&claimed, &settings, &part)?;
+            (baseline, examination) = candidates.ask(&claimed, &settings, &part)?;
         }
     }
-    let Inquiry {
-        ground,
+    let Candidates {
+        fitted,
         cells,
         places,
         ..
-    } = inquiry;
-    let nameless = local::nameless(&ground, &cells, &places, &examination);
+    } = candidates;
+    let nameless = accidents::nameless(&fitted, &cells, &places, &examination);
     examination.demote(&nameless);
     let located = if examination.verdict == Verdict::None {
         Vec::new()
     } else {
-        let mut levels = place::cells(&ground);
+        let mut levels = regions::cells(&fitted);
         let columns: Vec<DVector<f64>> = levels.iter().map(|cell| cell.column.clone()).collect();
         if !columns.is_empty() {
             let shares = white.visibilities(&DMatrix::from_columns(&columns));
@@ -149,20 +149,20 @@ pub fn diagnose(
             .map(|located| (levels[located.cell].clone(), located))
             .collect()
     };
-    let before = confirm::quality(&frame, &fit, &claimed, &claimed);
-    let mut unsettled: Vec<Unsettled> = fit.unsettled(FittedModel::Declared).into_iter().collect();
-    let adopted = match adopt_named(&ground, &cells, &places, &examination, &claimed) {
+    let before = confirm::quality(&design, &fit, &claimed, &claimed);
+    let mut unsettled: Vec<Unsettled> = fit.unsettled(ModelVersion::Declared).into_iter().collect();
+    let adopted = match adopt_named(&fitted, &cells, &places, &examination, &claimed) {
         Ok(adopted) => adopted,
         Err(why) => {
             unsettled.push(Unsettled {
-                model: FittedModel::Improved,
+                model: ModelVersion::Improved,
                 trouble: Trouble::NoFit(why),
             });
             None
         }
     };
     unsettled.extend((adopted.iter()).filter_map(|adopted| adopted.unsettled.clone()));
-    let unknowns = estimates(&frame, &fit, &claimed, before.scale);
+    let unknowns = estimates(&design, &fit, &claimed, before.scale);
     let improved = adopted
         .as_ref()
         .and_then(|adopted| omitted::improved_baseline(case, adopted, &claimed));
@@ -172,19 +172,19 @@ pub fn diagnose(
         .flat_map(|slot| slot.named.iter().map(|named| named.candidate))
         .collect();
     let choices = listed
-        .map(|slot| omitted::choice(&ground, &cells, &places, &baseline, slot))
+        .map(|slot| omitted::choice(&fitted, &cells, &places, &baseline, slot))
         .collect();
     let u: Vec<f64> = unknowns.iter().map(|unknown| unknown.u).collect();
-    let omitted = omitted::lines(&ground, &cells, &baseline, improved.as_ref(), &known, &u);
+    let omitted = omitted::lines(&fitted, &cells, &baseline, improved.as_ref(), &known, &u);
     let known = Known {
         case,
-        frame: &frame,
+        design: &design,
         fit: &fit,
         claimed: &claimed,
     };
     let held_out = held_out::held_out(
         &known,
-        &ground,
+        &fitted,
         &cells,
         &places,
         &unknowns,
@@ -192,7 +192,7 @@ pub fn diagnose(
     );
     let recorded = Recorded {
         known: &known,
-        ground: &ground,
+        fitted: &fitted,
         baseline: &baseline,
     };
     let separating = separation::separating(&recorded, &cells, &places, &examination);
@@ -203,7 +203,7 @@ pub fn diagnose(
         before,
         residuals: fit.residuals.clone(),
         adopted,
-        blocks: frame.blocks.clone(),
+        blocks: design.blocks.clone(),
         omitted,
         unsettled,
         separating,

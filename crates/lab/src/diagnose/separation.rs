@@ -1,10 +1,10 @@
 //! What further measurements tell apart.
 
 use super::catalogue::{Cell, Variation};
-use super::contender::{Contender, Outsider, likened, outsiders, sizes, standing};
-use super::evidence::{self, Apart, Examination, Prospects, Standing, Verdict, Worth};
+use super::evidence::{self, Examination, Prospects, Separability, Standing, Verdict, Worth};
+use super::explanation::{Explanation, Unlisted, likened, sizes, standing, unlisted};
 use super::extra::Extra;
-use super::longer::{Longer, Recorded, examined};
+use super::prolonged::{Prolonged, Recorded, examined};
 
 /// Explanations of one effect that a recording cannot tell apart, and what would.
 #[derive(Debug, Clone)]
@@ -21,7 +21,7 @@ pub struct Separating {
     pub extras: Vec<(Extra, Worth)>,
 }
 
-/// More contenders take long and help nobody.
+/// More explanations take long and help nobody.
 const CONTENDERS: usize = 6;
 /// Rivals of which more is left are told apart as it is.
 const CLOSE: f64 = 4.0;
@@ -46,7 +46,7 @@ pub(super) fn separating(
     let mut found = Vec::new();
     for (slot, of) in examination.slots.iter().enumerate() {
         let mut rivals = Vec::new();
-        let mut set: Vec<Contender> = Vec::new();
+        let mut set: Vec<Explanation> = Vec::new();
         for alternative in of.named.iter().take(CONTENDERS) {
             let variants: Vec<(&Variation, f64)> = (alternative.variants.iter())
                 .map(|variant| (of_atom(variant.atom).1, variant.share))
@@ -57,7 +57,7 @@ pub(super) fn separating(
             let cell = alternative.candidate;
             let sizes = sizes(&alternative.estimate, &alternative.covariance);
             let p = alternative.probability;
-            let one = Contender::new(recorded, &cells[cell], variation, &sizes, p);
+            let one = Explanation::new(recorded, &cells[cell], variation, &sizes, p);
             set.push(one.with(recorded, &variants));
             rivals.push(cell);
         }
@@ -77,7 +77,7 @@ pub(super) fn separating(
             .map(|alternative| alternative.probability)
             .sum();
         // Of what a list holds beside these nothing is promised.
-        let examined: f64 = set.iter().map(Contender::probability).sum();
+        let examined: f64 = set.iter().map(Explanation::probability).sum();
         let share = (examined / listed).min(1.0) * (1.0 - nameless);
         found.push((slot, rivals, kappa, set, share));
     }
@@ -96,7 +96,7 @@ pub(super) fn separating(
                 kappa,
                 share,
                 before: evidence::apart(&standing).ok()?,
-                outside: outsiders(recorded.ground, cells, recorded.baseline, &set, &standing),
+                outside: unlisted(recorded.fitted, cells, recorded.baseline, &set, &standing),
                 set,
             })
         })
@@ -104,8 +104,8 @@ pub(super) fn separating(
     let after: Vec<Option<Vec<Option<After>>>> = all
         .iter()
         .map(|extra| {
-            examined(recorded, extra, |longer| {
-                let after = lists.iter().map(|list| list.after(recorded, longer));
+            examined(recorded, extra, |prolonged| {
+                let after = lists.iter().map(|list| list.after(recorded, prolonged));
                 after.collect()
             })
         })
@@ -125,26 +125,26 @@ struct List {
     slot: usize,
     rivals: Vec<usize>,
     kappa: f64,
-    set: Vec<Contender>,
+    set: Vec<Explanation>,
     /// Probability that one of the set is right, if any name of the list is.
     share: f64,
-    before: Apart,
-    outside: Vec<Outsider>,
+    before: Separability,
+    outside: Vec<Unlisted>,
 }
 
 /// How the explanations of a list are apart with a further measurement, and for each the probability that
 /// another candidate comes to stand beside it.
 struct After {
-    apart: Apart,
+    apart: Separability,
     doubts: Vec<f64>,
 }
 
 impl List {
-    fn after(&self, recorded: &Recorded<'_>, longer: &Longer<'_>) -> Option<After> {
-        let standing = standing(recorded, longer, &self.set)?;
+    fn after(&self, recorded: &Recorded<'_>, prolonged: &Prolonged<'_>) -> Option<After> {
+        let standing = standing(recorded, prolonged, &self.set)?;
         let apart = evidence::apart(&standing).ok()?;
-        let (ground, baseline) = (&longer.ground, &longer.baseline);
-        let outside = outsiders(ground, &longer.cells, baseline, &self.set, &standing);
+        let (fitted, baseline) = (&prolonged.fitted, &prolonged.baseline);
+        let outside = unlisted(fitted, &prolonged.cells, baseline, &self.set, &standing);
         let mut doubts = vec![0.0_f64; self.set.len()];
         for one in &outside {
             let before = self.outside.iter().find(|other| other.is(one));
@@ -163,9 +163,9 @@ impl List {
     }
 
     fn judged(self, after: &[(&Extra, &After)]) -> Separating {
-        let aparts: Vec<&Apart> = after.iter().map(|(_, after)| &after.apart).collect();
+        let aparts: Vec<&Separability> = after.iter().map(|(_, after)| &after.apart).collect();
         let classes = classes(self.set.len(), &self.before, &aparts);
-        let probabilities: Vec<f64> = self.set.iter().map(Contender::probability).collect();
+        let probabilities: Vec<f64> = self.set.iter().map(Explanation::probability).collect();
         let worth = |after: &After| {
             let mut worth = after.apart.worth(&Prospects {
                 before: &self.before,
@@ -202,7 +202,7 @@ impl List {
 
 /// A number for each of so many explanations; the same for those that neither the recording nor any further
 /// measurement tells apart.
-fn classes(count: usize, before: &Apart, after: &[&Apart]) -> Vec<usize> {
+fn classes(count: usize, before: &Separability, after: &[&Separability]) -> Vec<usize> {
     let alike =
         |a: usize, b: usize| before.alike(a, b) && after.iter().all(|apart| apart.alike(a, b));
     let mut classes = Vec::new();

@@ -6,8 +6,8 @@ use nalgebra::DVector;
 
 use super::case::{Blocks, Case, Column, Data, Observed};
 use super::confirm;
+use super::design::Design;
 use super::fit::{Fit, NoFit};
-use super::frame::Frame;
 use super::noise::{self, Claimed};
 use crate::quantity::UnitTable;
 use crate::recording::Heading;
@@ -100,12 +100,12 @@ pub fn simulate(case: &Case, seed: u64) -> Result<Simulation, NoFit> {
     let mut by_row = case.clone();
     by_row.averaging.blocks = Blocks::Rows;
     by_row.averaging.settle = 0;
-    let frame = Frame::new(&by_row);
+    let design = Design::new(&by_row);
     let (fit, claimed) = match case.is_recorded() {
-        true => noise::settle_spread_out(&frame)?,
-        false => noise::stated(&frame)?,
+        true => noise::settle_spread_out(&design)?,
+        false => noise::stated(&design)?,
     };
-    let band = half_widths(&frame, &fit, &claimed);
+    let band = half_widths(&design, &fit, &claimed);
     let errors = drawn(&claimed, case, seed);
     let mut sheet = recorded(case);
     for (response, declared) in case.responses.iter().enumerate() {
@@ -159,10 +159,10 @@ fn drawn(claimed: &Claimed, case: &Case, seed: u64) -> DVector<f64> {
 }
 
 /// Half-widths of the band: noise and parameters together.
-fn half_widths(frame: &Frame<'_>, fit: &Fit, claimed: &Claimed) -> Vec<f64> {
-    let covariance = confirm::covariance(frame, fit, claimed);
+fn half_widths(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<f64> {
+    let covariance = confirm::covariance(design, fit, claimed);
     let factor = normal_two_sided_quantile(COVERAGE);
-    (0..frame.observations())
+    (0..design.observations())
         .map(|observation| {
             let slopes = fit.jacobian.row(observation).transpose();
             let of_model = slopes.dot(&(&covariance * &slopes));

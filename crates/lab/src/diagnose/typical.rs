@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Observed};
-use super::catalogue::{Cell, Ground, Node, Usual, Variation};
+use super::catalogue::{Cell, FittedModel, Node, Usual, Variation};
 use crate::quantity::UnitTable;
 
 /// Columns of a variation in units in which each shifts the output by one unit at most.
@@ -33,14 +33,14 @@ pub fn unified(columns: DMatrix<f64>) -> Option<Unified> {
 
 /// Full scale of each observation: what the case states for the output, else the largest value of the
 /// model, for points on a scale of temperature its range.
-pub fn full_scales(ground: &Ground<'_>) -> DVector<f64> {
-    let case = ground.case();
-    ground.frame.observed_column(|response| {
+pub fn full_scales(fitted: &FittedModel<'_>) -> DVector<f64> {
+    let case = fitted.case();
+    fitted.design.observed_column(|response| {
         let stated = match case.responses[response].observed {
             Observed::Column(column) => case.columns[column].full_scale,
             Observed::Constant(_) => None,
         };
-        let values = &ground.fit.linear.values[response];
+        let values = &fitted.fit.linear.values[response];
         let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
         let own = if case.responses[response].unit.is_point() {
@@ -54,13 +54,13 @@ pub fn full_scales(ground: &Ground<'_>) -> DVector<f64> {
 
 /// The largest shift of the output that would not surprise; nothing where nothing is known.
 pub fn shift(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cell: &Cell,
     variation: &Variation,
     unified: &Unified,
     full_scales: &DVector<f64>,
 ) -> Option<f64> {
-    let case = ground.case();
+    let case = fitted.case();
     // A shift by one unit at most, as a share of full scale.
     let share = (0..unified.columns.nrows())
         .filter(|row| full_scales[*row] > 0.0)

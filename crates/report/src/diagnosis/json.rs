@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::diagnose::case::Case;
 use crate::diagnose::evidence::{Alternative, Slot, State, Verdict};
 use crate::diagnose::{
-    Diagnosis, Estimated, FittedModel, Measure, Omitted, Prediction, Quality, Trouble, Unsettled,
+    Diagnosis, Estimated, Measure, ModelVersion, Omitted, Prediction, Quality, Trouble, Unsettled,
 };
 
 use super::statement::verdict;
@@ -110,8 +110,8 @@ pub(super) fn measure_json(measure: &Measure) -> Value {
 fn unsettled(case: &Case, found: &Unsettled, language: Language) -> Value {
     json!({
         "model": match found.model {
-            FittedModel::Declared => "declared",
-            FittedModel::Improved => "improved",
+            ModelVersion::Declared => "declared",
+            ModelVersion::Improved => "improved",
         },
         "trouble": match found.trouble {
             Trouble::NoMinimum { .. } => "no_minimum",

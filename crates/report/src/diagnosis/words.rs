@@ -6,7 +6,8 @@ use crate::diagnose::case::{Case, NoiseClaim};
 use crate::diagnose::catalogue::{Cell, Term, Variation, Words};
 use crate::diagnose::evidence::{Alternative, Refusal};
 use crate::diagnose::{
-    Claimed, Diagnosis, Estimated, Failure, FittedModel, Measure, NoFit, Origin, Trouble, Unsettled,
+    Claimed, Diagnosis, Estimated, Failure, Measure, ModelVersion, NoFit, Origin, Trouble,
+    Unsettled,
 };
 
 use super::labels::{formula_in, spoken};
@@ -387,8 +388,8 @@ pub(super) fn probability(p: f64) -> String {
 /// A fit on which a reader should not rely.
 pub(super) fn unsettled(case: &Case, found: &Unsettled, language: Language) -> String {
     let model = match found.model {
-        FittedModel::Declared => language.pick("the declared model", "所声明的模型"),
-        FittedModel::Improved => {
+        ModelVersion::Declared => language.pick("the declared model", "所声明的模型"),
+        ModelVersion::Improved => {
             language.pick("the model with the effects in it", "含上述效应的模型")
         }
     };

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::ground::Ground;
+use super::fitted::FittedModel;
 
 /// Part of a regressor that must be left when the parameters have absorbed what they can.
 const LEFT: f64 = 1e-3;
@@ -14,10 +14,10 @@ pub(super) struct Absorbed {
 }
 
 impl Absorbed {
-    pub(super) fn by_parameters(ground: &Ground<'_>) -> Absorbed {
+    pub(super) fn by_parameters(fitted: &FittedModel<'_>) -> Absorbed {
         /// Directions with a smaller part of the largest singular value are noise of the arithmetic.
         const LEAST: f64 = 1e-9;
-        let mut slopes = ground.fit.jacobian.clone();
+        let mut slopes = fitted.fit.jacobian.clone();
         if slopes.ncols() == 0 {
             return Absorbed { basis: slopes };
         }

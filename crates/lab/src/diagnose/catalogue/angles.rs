@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::building::{on_node, words};
-use super::ground::{Ground, Node, varies};
+use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{map, range};
 use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
 use crate::diagnose::case::Role;
@@ -14,53 +14,53 @@ use crate::quantity::UnitTable;
 pub(super) const HIGHEST: u32 = 4;
 
 /// Cells of the angles.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    angles(ground)
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    angles(fitted)
         .into_iter()
-        .flat_map(|column| of_angle(ground, column))
+        .flat_map(|column| of_angle(fitted, column))
         .collect()
 }
 
 /// Columns of angles that vary.
-pub(super) fn angles(ground: &Ground<'_>) -> Vec<usize> {
-    let angles = ground.case().with_role(Role::Angle);
+pub(super) fn angles(fitted: &FittedModel<'_>) -> Vec<usize> {
+    let angles = fitted.case().with_role(Role::Angle);
     angles
-        .filter(|c| ground.case().columns[*c].numbers().is_some_and(varies))
+        .filter(|c| fitted.case().columns[*c].numbers().is_some_and(varies))
         .collect()
 }
 
-fn of_angle(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
-    let name = ground.label(column);
-    let variants = harmonics(ground, column);
+fn of_angle(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
+    let name = fitted.label(column);
+    let variants = harmonics(fitted, column);
     // Harmonics are independent of one another: each is a candidate of its own.
     let each = |id: EffectId, node: Node| -> Vec<Cell> {
         let one = |variant: &(String, Vec<Modifier>)| {
-            let mut words = words(ground, name);
-            words.p = ground.name(node);
-            on_node(ground, id, words, name, node, vec![variant.clone()])
+            let mut words = words(fitted, name);
+            words.p = fitted.name(node);
+            on_node(fitted, id, words, name, node, vec![variant.clone()])
         };
         variants.iter().map(one).collect()
     };
     let mut cells = Vec::new();
     // Several outputs that an angle turns into one another have powers of their inputs for harmonics.
-    if !ground.in_model(column) || ground.case().responses.len() == 1 {
+    if !fitted.in_model(column) || fitted.case().responses.len() == 1 {
         cells.extend(each(EffectId::Periodic, Node::Output));
     }
-    if !ground.in_model(column) {
-        if ground.has_signal() {
+    if !fitted.in_model(column) {
+        if fitted.has_signal() {
             cells.extend(each(EffectId::PeriodicScale, Node::Gain));
         }
         return cells;
     }
     cells.extend(each(EffectId::Eccentricity, Node::Column(column)));
-    cells.extend(play(ground, column));
+    cells.extend(play(fitted, column));
     cells
 }
 
 /// Sine and cosine of the multiples of an angle that its positions can tell apart.
-fn harmonics(ground: &Ground<'_>, column: usize) -> Variants {
-    let name = ground.label(column);
-    let phi = radians(ground, column);
+fn harmonics(fitted: &FittedModel<'_>, column: usize) -> Variants {
+    let name = fitted.label(column);
+    let phi = radians(fitted, column);
     let (least, most) = range(&phi);
     let positions = positions(&phi);
     // A wave shows by half of it, and by two positions.
@@ -98,9 +98,9 @@ pub(super) fn positions(phi: &[f64]) -> usize {
 }
 
 /// The angle in radians; a number without a unit is one.
-pub(super) fn radians(ground: &Ground<'_>, column: usize) -> Vec<f64> {
-    let numbers = ground.numbers(column);
-    let unit = &ground.case().columns[column].unit;
+pub(super) fn radians(fitted: &FittedModel<'_>, column: usize) -> Vec<f64> {
+    let numbers = fitted.numbers(column);
+    let unit = &fitted.case().columns[column].unit;
     let conversion = UnitTable::default()
         .parse("rad")
         .ok()
@@ -112,9 +112,9 @@ pub(super) fn radians(ground: &Ground<'_>, column: usize) -> Vec<f64> {
 }
 
 /// Play of a worm or gear that is far smaller than the steps: the side from which an angle was reached.
-fn play(ground: &Ground<'_>, column: usize) -> Option<Cell> {
-    let name = ground.label(column);
-    let side = approach(ground, column);
+fn play(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
+    let name = fitted.label(column);
+    let side = approach(fitted, column);
     if !varies(&side) {
         return None;
     }
@@ -123,7 +123,7 @@ fn play(ground: &Ground<'_>, column: usize) -> Option<Cell> {
     let term = Term::new(Node::Column(column), modifier);
     Some(Cell::new(
         EffectId::Play,
-        words(ground, name),
+        words(fitted, name),
         Place {
             node: name.to_owned(),
             along: name.to_owned(),
@@ -134,9 +134,9 @@ fn play(ground: &Ground<'_>, column: usize) -> Option<Cell> {
 
 /// The side from which each angle was reached, +1 or −1. Between runs a head goes back behind the first
 /// angle, which no row shows: that one too is reached in the direction in which the run goes on.
-fn approach(ground: &Ground<'_>, column: usize) -> Vec<f64> {
-    let x = ground.numbers(column);
-    let starts = starts(ground);
+fn approach(fitted: &FittedModel<'_>, column: usize) -> Vec<f64> {
+    let x = fitted.numbers(column);
+    let starts = starts(fitted);
     let last = x.len() - 1;
     let mut side: Vec<f64> = vec![1.0; x.len()];
     for row in 0..x.len() {
@@ -155,26 +155,26 @@ fn approach(ground: &Ground<'_>, column: usize) -> Vec<f64> {
 }
 
 /// Rows in which a run begins.
-fn starts(ground: &Ground<'_>) -> Vec<usize> {
-    let run = ground.case().with_role(Role::Run).next();
-    let run = run.and_then(|c| ground.case().columns[c].labels());
+fn starts(fitted: &FittedModel<'_>) -> Vec<usize> {
+    let run = fitted.case().with_role(Role::Run).next();
+    let run = run.and_then(|c| fitted.case().columns[c].labels());
     let begins = |row: &usize| {
         *row == 0 || run.is_some_and(|labels| labels.of_row[*row] != labels.of_row[row - 1])
     };
-    (0..ground.rows()).filter(begins).collect()
+    (0..fitted.rows()).filter(begins).collect()
 }
 
 /// The angle that turns in one direction through every run, with the rows in which runs begin.
-pub(super) fn runs_of_turns(ground: &Ground<'_>) -> Option<(usize, Vec<usize>)> {
-    let turning: Vec<usize> = angles(ground)
+pub(super) fn runs_of_turns(fitted: &FittedModel<'_>) -> Option<(usize, Vec<usize>)> {
+    let turning: Vec<usize> = angles(fitted)
         .into_iter()
-        .filter(|c| ground.in_model(*c))
+        .filter(|c| fitted.in_model(*c))
         .collect();
-    let ([angle], true) = (&turning[..], ground.is_timed()) else {
+    let ([angle], true) = (&turning[..], fitted.is_timed()) else {
         return None;
     };
-    let x = ground.numbers(*angle);
-    let starts = starts(ground);
+    let x = fitted.numbers(*angle);
+    let starts = starts(fitted);
     let ends = starts[1..].iter().copied().chain([x.len()]);
     let steady = starts.iter().zip(ends).all(|(start, end)| {
         let steps: Vec<f64> = x[*start..end].windows(2).map(|w| w[1] - w[0]).collect();

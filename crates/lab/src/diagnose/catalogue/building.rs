@@ -1,31 +1,31 @@
 //! What the forms are built of: cells on the offset or on a node, their words, grids of time constants.
 
-use super::ground::{Ground, Node};
+use super::fitted::{FittedModel, Node};
 use super::modifiers::grid;
 use super::{Cell, EffectId, Modifier, Term, Variants, Variation, Words};
 use crate::diagnose::evidence::Place;
 
 /// A cell on the offset of the outputs: alike on all responses, and on each of them alone.
 pub(super) fn on_outputs(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     id: EffectId,
     words: Words,
     along: &str,
     variants: Variants,
 ) -> Cell {
-    on_node(ground, id, words, along, Node::Output, variants)
+    on_node(fitted, id, words, along, Node::Output, variants)
 }
 
 /// A cell on a node, with scopes over the responses.
 pub(super) fn on_node(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     id: EffectId,
     words: Words,
     along: &str,
     node: Node,
     variants: Variants,
 ) -> Cell {
-    let responses = &ground.case().responses;
+    let responses = &fitted.case().responses;
     let mut all = Vec::new();
     for (label, modifiers) in variants {
         let term = |response: Option<usize>| {
@@ -57,7 +57,7 @@ pub(super) fn on_node(
         id,
         words,
         Place {
-            node: ground.name(node),
+            node: fitted.name(node),
             along: along.to_owned(),
         },
         all,
@@ -65,10 +65,10 @@ pub(super) fn on_node(
 }
 
 /// Words for one column.
-pub(super) fn words(ground: &Ground<'_>, x: &str) -> Words {
+pub(super) fn words(fitted: &FittedModel<'_>, x: &str) -> Words {
     Words {
         x: x.to_owned(),
-        y: ground.output(),
+        y: fitted.output(),
         ..Words::default()
     }
 }
@@ -78,12 +78,17 @@ pub(super) fn on_output(modifier: Modifier) -> Term {
 }
 
 /// A cell on the offset, alike on all responses.
-pub(super) fn plain(ground: &Ground<'_>, id: EffectId, x: &str, variants: Vec<Variation>) -> Cell {
+pub(super) fn plain(
+    fitted: &FittedModel<'_>,
+    id: EffectId,
+    x: &str,
+    variants: Vec<Variation>,
+) -> Cell {
     Cell::new(
         id,
-        words(ground, x),
+        words(fitted, x),
         Place {
-            node: ground.name(Node::Output),
+            node: fitted.name(Node::Output),
             along: x.to_owned(),
         },
         variants,
@@ -91,9 +96,9 @@ pub(super) fn plain(ground: &Ground<'_>, id: EffectId, x: &str, variants: Vec<Va
 }
 
 /// Time constants from a fraction of the interval of the blocks to a fraction of the recording.
-pub(super) fn time_constants(ground: &Ground<'_>) -> Vec<f64> {
-    let span = ground.clock.span();
-    let blocks = ground.frame.blocks.len().max(2) as f64;
-    let least = (span / blocks * 0.5).max(ground.clock.interval() * 0.5);
+pub(super) fn time_constants(fitted: &FittedModel<'_>) -> Vec<f64> {
+    let span = fitted.clock.span();
+    let blocks = fitted.design.blocks.len().max(2) as f64;
+    let least = (span / blocks * 0.5).max(fitted.clock.interval() * 0.5);
     grid(least, span / 3.0, 1.7, 12)
 }

@@ -2,7 +2,7 @@
 //! squared, as a rate, inversely, and together.
 
 use super::building::{on_node, on_outputs, time_constants, words};
-use super::ground::{Ground, Node, varies};
+use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{centred, correlation, figure, lag, levels_of, map, map2, range};
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variants, Words};
@@ -16,48 +16,48 @@ const AIR: f64 = 0.2;
 const HIGHER: f64 = 0.3;
 
 /// Cells of the columns that may act although, or besides how, the model uses them.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
-    let numeric = ground.numeric();
+    let numeric = fitted.numeric();
     let conditions: Vec<usize> = numeric
         .iter()
         .copied()
-        .filter(|c| !ground.in_model(*c))
+        .filter(|c| !fitted.in_model(*c))
         .collect();
     for column in &conditions {
-        cells.extend(of_condition(ground, *column));
+        cells.extend(of_condition(fitted, *column));
     }
-    for column in conditions.iter().filter(|c| spreads(ground, **c)) {
-        cells.push(reciprocal(ground, *column));
+    for column in conditions.iter().filter(|c| spreads(fitted, **c)) {
+        cells.push(reciprocal(fitted, *column));
     }
     for (at, x) in conditions.iter().enumerate() {
         for z in &conditions[at + 1..] {
-            cells.extend(of_pair(ground, *x, *z));
+            cells.extend(of_pair(fitted, *x, *z));
         }
     }
     cells
 }
 
-fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
-    let label = ground.case().columns[column].name.clone();
-    let own = ground.centred(column);
-    let temperature = ground.is_temperature(column);
-    let stimulus = ground.case().columns[column].role == Role::Stimulus;
+fn of_condition(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
+    let label = fitted.case().columns[column].name.clone();
+    let own = fitted.centred(column);
+    let temperature = fitted.is_temperature(column);
+    let stimulus = fitted.case().columns[column].role == Role::Stimulus;
     let mut cells = Vec::new();
     let bias = match (temperature, stimulus) {
         (true, _) => EffectId::TempcoBias,
         (_, true) => EffectId::CrossSensitivity,
         _ => EffectId::Sensitivity,
     };
-    let on = |node: Node| delayed(ground, column, node, &own);
+    let on = |node: Node| delayed(fitted, column, node, &own);
     let linear = |delayed: &Variants| -> Variants {
-        let leading = leading(ground, column, &own);
+        let leading = leading(fitted, column, &own);
         delayed.iter().cloned().chain(leading).collect()
     };
     let delayed = on(Node::Output);
-    let words = words(ground, &label);
+    let words = words(fitted, &label);
     cells.push(on_outputs(
-        ground,
+        fitted,
         bias,
         words.clone(),
         &label,
@@ -70,22 +70,22 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             (variant.clone(), squares.collect())
         })
         .collect();
-    let square = square.into_iter().chain(squares(ground, column)).collect();
+    let square = square.into_iter().chain(squares(fitted, column)).collect();
     let second = if temperature {
         EffectId::TempcoQuadratic
     } else {
         EffectId::SensitivityQuadratic
     };
-    cells.push(on_outputs(ground, second, words.clone(), &label, square));
-    for (node, id) in scale_nodes(ground, temperature) {
+    cells.push(on_outputs(fitted, second, words.clone(), &label, square));
+    for (node, id) in scale_nodes(fitted, temperature) {
         let variants = linear(&on(node));
-        let mut cell = on_node(ground, id, words.clone(), &label, node, variants);
-        cell.words.p = ground.name(node);
+        let mut cell = on_node(fitted, id, words.clone(), &label, node, variants);
+        cell.words.p = fitted.name(node);
         cells.push(cell);
-        let squares = squares(ground, column);
+        let squares = squares(fitted, column);
         let words = cells[cells.len() - 1].words.clone();
         cells.push(on_node(
-            ground,
+            fitted,
             EffectId::SensitivityScaleQuadratic,
             words,
             &label,
@@ -93,27 +93,27 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             squares,
         ));
     }
-    if ground.is_timed() {
+    if fitted.is_timed() {
         let id = if temperature {
             EffectId::TemperatureRate
         } else {
             EffectId::SensitivityRate
         };
-        let variants = vec![(String::new(), vec![ground.rate(column)])];
-        cells.push(on_outputs(ground, id, words, &label, variants));
+        let variants = vec![(String::new(), vec![fitted.rate(column)])];
+        cells.push(on_outputs(fitted, id, words, &label, variants));
     }
-    if !stimulus && stands_for_temperature(ground, column) {
+    if !stimulus && stands_for_temperature(fitted, column) {
         let words = cells[0].words.clone();
         let id = EffectId::UnrecordedTemperature;
-        cells.push(on_outputs(ground, id, words, &label, linear(&delayed)));
+        cells.push(on_outputs(fitted, id, words, &label, linear(&delayed)));
     }
-    let odds = if stimulus || !is_of_air(ground, column) {
+    let odds = if stimulus || !is_of_air(fitted, column) {
         1.0
     } else {
         AIR
     };
     for cell in &mut cells {
-        shape(ground, cell);
+        shape(fitted, cell);
         cell.odds = match cell.effect.id {
             EffectId::UnrecordedTemperature => 1.0,
             _ if cell.effect.is_higher => odds * HIGHER,
@@ -124,39 +124,39 @@ fn of_condition(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
 }
 
 /// Whether a column is the pressure or the humidity of the air.
-fn is_of_air(ground: &Ground<'_>, column: usize) -> bool {
-    ground.case().columns[column].unit.symbol == "%" || ground.is_like(column, "Pa")
+fn is_of_air(fitted: &FittedModel<'_>, column: usize) -> bool {
+    fitted.case().columns[column].unit.symbol == "%" || fitted.is_like(column, "Pa")
 }
 
 /// Whether a condition changes slowly while no temperature was recorded: whatever went up and down with the
 /// room looks like it.
-fn stands_for_temperature(ground: &Ground<'_>, column: usize) -> bool {
+fn stands_for_temperature(fitted: &FittedModel<'_>, column: usize) -> bool {
     /// Mean square of successive differences over the variance, from which on a series is no slow one: for
     /// independent values it is 2 (von Neumann).
     const SLOW: f64 = 0.5;
-    let recorded = (0..ground.case().columns.len()).any(|c| ground.is_temperature(c));
-    let mut order: Vec<usize> = (0..ground.rows()).collect();
-    order.sort_by(|a, b| ground.clock.values[*a].total_cmp(&ground.clock.values[*b]));
-    let x = centred(ground.numbers(column));
+    let recorded = (0..fitted.case().columns.len()).any(|c| fitted.is_temperature(c));
+    let mut order: Vec<usize> = (0..fitted.rows()).collect();
+    order.sort_by(|a, b| fitted.clock.values[*a].total_cmp(&fitted.clock.values[*b]));
+    let x = centred(fitted.numbers(column));
     let squares: f64 = x.iter().map(|x| x * x).sum();
     let steps: f64 = (order.windows(2))
         .map(|pair| (x[pair[1]] - x[pair[0]]).powi(2))
         .sum();
-    !recorded && ground.is_timed() && steps < SLOW * squares
+    !recorded && fitted.is_timed() && steps < SLOW * squares
 }
 
 /// The square alone, and with a linear part; nothing where the numbers are the same up to their sign, or
 /// vary so little that the square is a line.
-fn squares(ground: &Ground<'_>, column: usize) -> Variants {
+fn squares(fitted: &FittedModel<'_>, column: usize) -> Variants {
     /// Through so many values a square with a line goes anyhow.
     const FEW: usize = 3;
-    let (x, label) = (ground.numbers(column), ground.label(column));
+    let (x, label) = (fitted.numbers(column), fitted.label(column));
     let square = map(x, |x| x * x);
     let is_line = correlation(&square, x).abs() > 0.995;
     if !varies(&square) || is_line {
         return Vec::new();
     }
-    let linear = Modifier::new(x.to_vec(), label, ground.step_unit(column));
+    let linear = Modifier::new(x.to_vec(), label, fitted.step_unit(column));
     let square = linear.square();
     let mut variants = vec![("square alone".to_owned(), vec![square.clone()])];
     if levels_of(x).len() > FEW {
@@ -167,15 +167,15 @@ fn squares(ground: &Ground<'_>, column: usize) -> Variants {
 
 /// The modifier without a lag, and with each of a series of time constants where it has to get through
 /// something first.
-fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &Modifier) -> Variants {
+fn delayed(fitted: &FittedModel<'_>, column: usize, node: Node, own: &Modifier) -> Variants {
     let mut variants = vec![(String::new(), vec![own.clone()])];
-    if ground.is_timed() && !ground.is_immediate(column) {
-        let unit = ground.time_unit();
-        let late = |tau: f64| lag(&ground.clock.values, &own.values, tau);
+    if fitted.is_timed() && !fitted.is_immediate(column) {
+        let unit = fitted.time_unit();
+        let late = |tau: f64| lag(&fitted.clock.values, &own.values, tau);
         let term = |tau: f64| Term::new(node, Modifier::unnamed(late(tau)));
-        for tau in ground
+        for tau in fitted
             .finer
-            .times(sharpened(ground, time_constants(ground), &term))
+            .times(sharpened(fitted, time_constants(fitted), &term))
         {
             let text = &own.text;
             let inner = text
@@ -194,19 +194,23 @@ fn delayed(ground: &Ground<'_>, column: usize, node: Node, own: &Modifier) -> Va
 
 /// The modifier and its rate of change, each with a size of its own: the sensor follows before or behind
 /// the instrument that shows the condition, by less than a lag can be told.
-fn leading(ground: &Ground<'_>, column: usize, own: &Modifier) -> Option<(String, Vec<Modifier>)> {
-    let late = ground.is_timed() && !ground.is_immediate(column);
+fn leading(
+    fitted: &FittedModel<'_>,
+    column: usize,
+    own: &Modifier,
+) -> Option<(String, Vec<Modifier>)> {
+    let late = fitted.is_timed() && !fitted.is_immediate(column);
     late.then(|| {
         (
             "with its rate of change".to_owned(),
-            vec![own.clone(), ground.rate(column)],
+            vec![own.clone(), fitted.rate(column)],
         )
     })
 }
 
 /// Notes the time constant of delayed variants.
-fn shape(ground: &Ground<'_>, cell: &mut Cell) {
-    let unit = ground.time_unit();
+fn shape(fitted: &FittedModel<'_>, cell: &mut Cell) {
+    let unit = fitted.time_unit();
     for variation in &mut cell.variants {
         let Some((_, rest)) = variation.label.split_once("τ = ") else {
             continue;
@@ -222,13 +226,13 @@ fn shape(ground: &Ground<'_>, cell: &mut Cell) {
 }
 
 /// The nodes that stand for the scale: parameters whose effect varies from row to row, or the whole signal.
-pub(super) fn scale_nodes(ground: &Ground<'_>, temperature: bool) -> Vec<(Node, EffectId)> {
+pub(super) fn scale_nodes(fitted: &FittedModel<'_>, temperature: bool) -> Vec<(Node, EffectId)> {
     let id = if temperature {
         EffectId::TempcoScale
     } else {
         EffectId::SensitivityScale
     };
-    if ground.has_signal() {
+    if fitted.has_signal() {
         vec![(Node::Gain, id)]
     } else {
         Vec::new()
@@ -236,69 +240,69 @@ pub(super) fn scale_nodes(ground: &Ground<'_>, temperature: bool) -> Vec<(Node, 
 }
 
 /// Whether a quantity with a true zero varies by so much that its inverse is no line.
-fn spreads(ground: &Ground<'_>, column: usize) -> bool {
+fn spreads(fitted: &FittedModel<'_>, column: usize) -> bool {
     const FACTOR: f64 = 2.0;
-    let (least, most) = range(ground.numbers(column));
-    let has_zero = ground.case().columns[column].unit.origin.is_none();
+    let (least, most) = range(fitted.numbers(column));
+    let has_zero = fitted.case().columns[column].unit.origin.is_none();
     has_zero && least > 0.0 && most > FACTOR * least
 }
 
-fn reciprocal(ground: &Ground<'_>, column: usize) -> Cell {
-    let label = ground.case().columns[column].name.clone();
+fn reciprocal(fitted: &FittedModel<'_>, column: usize) -> Cell {
+    let label = fitted.case().columns[column].name.clone();
     let modifier = Modifier::new(
-        map(ground.numbers(column), |x| 1.0 / x),
+        map(fitted.numbers(column), |x| 1.0 / x),
         format!("1/{label}"),
-        Unit::one().quotient(&ground.step_unit(column)),
+        Unit::one().quotient(&fitted.step_unit(column)),
     );
     let variants = vec![(String::new(), vec![modifier])];
-    let node = scale_or_offset(ground);
+    let node = scale_or_offset(fitted);
     on_node(
-        ground,
+        fitted,
         EffectId::Reciprocal,
-        words(ground, &label),
+        words(fitted, &label),
         &label,
         node,
         variants,
     )
 }
 
-fn scale_or_offset(ground: &Ground<'_>) -> Node {
-    if ground.has_signal() {
+fn scale_or_offset(fitted: &FittedModel<'_>) -> Node {
+    if fitted.has_signal() {
         Node::Gain
     } else {
         Node::Output
     }
 }
 
-fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
-    let name = |column: usize| ground.case().columns[column].name.clone();
+fn of_pair(fitted: &FittedModel<'_>, x: usize, z: usize) -> Vec<Cell> {
+    let name = |column: usize| fitted.case().columns[column].name.clone();
     let along = format!("{}, {}", name(x), name(z));
     let pair = Words {
         z: name(z),
-        ..words(ground, &name(x))
+        ..words(fitted, &name(x))
     };
     let mut cells = Vec::new();
-    if meet(ground, x, z) {
+    if meet(fitted, x, z) {
         cells.push(Cell {
             odds: HIGHER,
             ..on_outputs(
-                ground,
+                fitted,
                 EffectId::Interaction,
                 pair.clone(),
                 &along,
-                vec![(String::new(), vec![ground.centred_product(x, z)])],
+                vec![(String::new(), vec![fitted.centred_product(x, z)])],
             )
         });
     }
-    let (of_x, of_z) = (ground.numbers(x), ground.numbers(z));
-    let gas = [x, z].iter().any(|c| ground.is_like(*c, "Pa"));
-    let size = [x, z].iter().any(|c| ground.is_like(*c, "m"));
+    let (of_x, of_z) = (fitted.numbers(x), fitted.numbers(z));
+    let gas = [x, z].iter().any(|c| fitted.is_like(*c, "Pa"));
+    let size = [x, z].iter().any(|c| fitted.is_like(*c, "m"));
     let positive = range(of_x).0 > 0.0 && range(of_z).0 > 0.0;
-    if positive && (gas && size || spreads(ground, x) && spreads(ground, z)) {
+    if positive && (gas && size || spreads(fitted, x) && spreads(fitted, z)) {
         let inverse = Modifier::new(
             map2(of_x, of_z, |x, z| 1.0 / (x * z)),
             format!("(1/({}*{}))", name(x), name(z)),
-            Unit::one().quotient(&ground.step_unit(x).product(&ground.step_unit(z))),
+            Unit::one().quotient(&fitted.step_unit(x).product(&fitted.step_unit(z))),
         );
         let square = inverse.square();
         let id = if gas && size {
@@ -306,9 +310,9 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
         } else {
             EffectId::ReciprocalProduct
         };
-        let node = scale_or_offset(ground);
+        let node = scale_or_offset(fitted);
         cells.push(on_node(
-            ground,
+            fitted,
             id,
             pair,
             &along,
@@ -325,9 +329,9 @@ fn of_pair(ground: &Ground<'_>, x: usize, z: usize) -> Vec<Cell> {
 
 /// Whether the product of two conditions is likely to mean something: one of them is applied, or both are
 /// of the air.
-fn meet(ground: &Ground<'_>, x: usize, z: usize) -> bool {
-    let applied = |c: usize| ground.case().columns[c].role == Role::Stimulus;
-    let of_air = |c: usize| ground.is_temperature(c) || is_of_air(ground, c);
+fn meet(fitted: &FittedModel<'_>, x: usize, z: usize) -> bool {
+    let applied = |c: usize| fitted.case().columns[c].role == Role::Stimulus;
+    let of_air = |c: usize| fitted.is_temperature(c) || is_of_air(fitted, c);
     applied(x) || applied(z) || of_air(x) && of_air(z)
 }
 

@@ -7,7 +7,7 @@
 
 use super::angles::{angles, radians};
 use super::building::words;
-use super::ground::{Ground, Node, varies};
+use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{largest, map2};
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 use crate::diagnose::case::Role;
@@ -16,30 +16,30 @@ use crate::diagnose::evidence::Place;
 type Vector = [f64; 3];
 
 /// Cells of sensors that turn about directions of their own.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let Some(directions) = directions(ground) else {
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let Some(directions) = directions(fitted) else {
         return Vec::new();
     };
-    angles(ground)
+    angles(fitted)
         .into_iter()
-        .filter(|angle| !ground.in_model(*angle))
-        .flat_map(|angle| Turning::new(ground, directions, angle).cells())
+        .filter(|angle| !fitted.in_model(*angle))
+        .flat_map(|angle| Turning::new(fitted, directions, angle).cells())
         .collect()
 }
 
 /// Three columns that are a unit vector in every row, for three outputs.
-fn directions(ground: &Ground<'_>) -> Option<[usize; 3]> {
-    if ground.case().responses.len() != 3 {
+fn directions(fitted: &FittedModel<'_>) -> Option<[usize; 3]> {
+    if fitted.case().responses.len() != 3 {
         return None;
     }
-    let candidates: Vec<usize> = ground
+    let candidates: Vec<usize> = fitted
         .numeric()
         .into_iter()
-        .filter(|c| ground.case().columns[*c].role == Role::Stimulus)
+        .filter(|c| fitted.case().columns[*c].role == Role::Stimulus)
         .collect();
     let is_unit = |triple: &[usize]| {
-        (0..ground.rows()).all(|row| {
-            let squares = triple.iter().map(|c| ground.numbers(*c)[row].powi(2));
+        (0..fitted.rows()).all(|row| {
+            let squares = triple.iter().map(|c| fitted.numbers(*c)[row].powi(2));
             (squares.sum::<f64>() - 1.0).abs() < 1e-3
         })
     };
@@ -48,7 +48,7 @@ fn directions(ground: &Ground<'_>) -> Option<[usize; 3]> {
 }
 
 struct Turning<'g> {
-    ground: &'g Ground<'g>,
+    fitted: &'g FittedModel<'g>,
     angle: usize,
     psi: Vec<f64>,
     /// Direction of the axis in each row.
@@ -58,9 +58,9 @@ struct Turning<'g> {
 }
 
 impl<'g> Turning<'g> {
-    fn new(ground: &'g Ground<'_>, directions: [usize; 3], angle: usize) -> Turning<'g> {
-        let axis: Vec<Vector> = (0..ground.rows())
-            .map(|row| directions.map(|c| ground.numbers(c)[row]))
+    fn new(fitted: &'g FittedModel<'_>, directions: [usize; 3], angle: usize) -> Turning<'g> {
+        let axis: Vec<Vector> = (0..fitted.rows())
+            .map(|row| directions.map(|c| fitted.numbers(c)[row]))
             .collect();
         let mut mounts: Vec<Vector> = Vec::new();
         for direction in &axis {
@@ -69,9 +69,9 @@ impl<'g> Turning<'g> {
             }
         }
         Turning {
-            ground,
+            fitted,
             angle,
-            psi: radians(ground, angle),
+            psi: radians(fitted, angle),
             axis,
             mounts,
         }
@@ -93,7 +93,7 @@ impl<'g> Turning<'g> {
                 Variation::of(*label, terms)
             })
             .collect();
-        let responses = &self.ground.case().responses;
+        let responses = &self.fitted.case().responses;
         let each: Vec<Vec<Term>> = (0..responses.len()).map(|a| self.alone(a)).collect();
         for (response, terms) in responses.iter().zip(&each) {
             fields.push(Variation::of(response.name.clone(), terms.clone()));
@@ -113,12 +113,12 @@ impl<'g> Turning<'g> {
     }
 
     fn cell(&self, id: EffectId, variants: Vec<Variation>) -> Cell {
-        let name = self.ground.label(self.angle);
+        let name = self.fitted.label(self.angle);
         Cell::new(
             id,
-            words(self.ground, name),
+            words(self.fitted, name),
             Place {
-                node: self.ground.name(Node::Output),
+                node: self.fitted.name(Node::Output),
                 along: name.to_owned(),
             },
             variants,
@@ -129,15 +129,15 @@ impl<'g> Turning<'g> {
     fn rate(&self) -> Vec<f64> {
         let along = |row: usize| {
             (0..3)
-                .map(|a| self.ground.signal(a)[row] * self.axis[row][a])
+                .map(|a| self.fitted.signal(a)[row] * self.axis[row][a])
                 .sum()
         };
-        (0..self.ground.rows()).map(along).collect()
+        (0..self.fitted.rows()).map(along).collect()
     }
 
     /// A field across the axis that all outputs sense alike, times something.
     fn common(&self, sense: f64, times: impl Fn(usize) -> f64) -> Vec<Term> {
-        let name = self.ground.label(self.angle);
+        let name = self.fitted.label(self.angle);
         let mut all = Vec::new();
         for (number, mount) in self.mounts.iter().enumerate() {
             let first = perpendicular(mount);
@@ -165,7 +165,7 @@ impl<'g> Turning<'g> {
 
     fn tied(&self, component: impl Fn(usize, usize) -> f64, text: &str) -> Vec<Term> {
         let terms = (0..3).map(|a| {
-            let modifier: Vec<f64> = (0..self.ground.rows())
+            let modifier: Vec<f64> = (0..self.fitted.rows())
                 .map(|row| component(a, row))
                 .collect();
             Term::new(Node::Output, Modifier::number(modifier, text)).on(a)
@@ -179,7 +179,7 @@ impl<'g> Turning<'g> {
 
     /// A field that one output senses.
     fn alone(&self, a: usize) -> Vec<Term> {
-        let name = self.ground.label(self.angle);
+        let name = self.fitted.label(self.angle);
         let mut terms = Vec::new();
         let own: Vec<f64> = self.axis.iter().map(|axis| axis[a]).collect();
         if varies(&own) {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::angles::angles;
 use super::building::words;
-use super::ground::{Ground, Node};
+use super::fitted::{FittedModel, Node};
 use super::levels::{indicator, present};
 use super::modifiers::{map, range};
 use super::{Cell, EffectId, Modifier, Term, Variation};
@@ -22,48 +22,48 @@ const COSINES: usize = 8;
 const LEAST: usize = 3;
 
 /// One smooth curve for each column and for the time, levels of what has few values, and scatter.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
     let mut nodes = vec![Node::Output];
-    if ground.has_signal() {
+    if fitted.has_signal() {
         nodes.push(Node::Gain);
     }
-    let turning: Vec<usize> = angles(ground)
+    let turning: Vec<usize> = angles(fitted)
         .into_iter()
-        .filter(|c| ground.in_model(*c))
+        .filter(|c| fitted.in_model(*c))
         .collect();
-    for (name, course) in courses(ground) {
+    for (name, course) in courses(fitted) {
         for node in &nodes {
-            cells.extend(smooth(ground, *node, &name, &course));
+            cells.extend(smooth(fitted, *node, &name, &course));
         }
     }
-    for column in ground.numeric() {
-        cells.extend(values(ground, Node::Output, column));
+    for column in fitted.numeric() {
+        cells.extend(values(fitted, Node::Output, column));
     }
     // Smooth errors of an angle are harmonics, which have names.
     for column in &turning {
-        cells.extend(values(ground, Node::Column(*column), *column));
+        cells.extend(values(fitted, Node::Column(*column), *column));
     }
     let on_angles: Vec<Node> = turning.iter().map(|c| Node::Column(*c)).collect();
-    for column in 0..ground.case().columns.len() {
-        let role = ground.case().columns[column].role;
+    for column in 0..fitted.case().columns.len() {
+        let role = fitted.case().columns[column].role;
         // What has a name on offset and scale has none on an angle.
         let named = matches!(
             role,
             Role::Run | Role::Factor | Role::Axis | Role::Direction
         );
-        let place = role == Role::Position && super::levels::is_place(ground);
+        let place = role == Role::Position && super::levels::is_place(fitted);
         let unnamed = match () {
             () if named => &[][..],
             () if place => &nodes[..1],
             () => &nodes[..],
         };
         for node in unnamed.iter().chain(&on_angles) {
-            cells.extend(labels(ground, *node, column));
+            cells.extend(labels(fitted, *node, column));
         }
     }
-    if !matches!(ground.case().noise, NoiseClaim::Estimated) {
-        let mut scatter = generic(ground, EffectId::Scatter, Node::Output, "row", &[]);
+    if !matches!(fitted.case().noise, NoiseClaim::Estimated) {
+        let mut scatter = generic(fitted, EffectId::Scatter, Node::Output, "row", &[]);
         scatter.place.along = String::new();
         cells.push(scatter);
     }
@@ -71,21 +71,21 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 }
 
 /// What a smooth curve may follow.
-fn courses(ground: &Ground<'_>) -> Vec<(String, Vec<f64>)> {
-    let columns = ground.numeric().into_iter().chain(angles(ground));
+fn courses(fitted: &FittedModel<'_>) -> Vec<(String, Vec<f64>)> {
+    let columns = fitted.numeric().into_iter().chain(angles(fitted));
     let named = |column| {
         (
-            ground.label(column).to_owned(),
-            ground.numbers(column).to_vec(),
+            fitted.label(column).to_owned(),
+            fitted.numbers(column).to_vec(),
         )
     };
-    let time = ground.clock.column.map_or_else(
+    let time = fitted.clock.column.map_or_else(
         || "row".to_owned(),
-        |column| ground.label(column).to_owned(),
+        |column| fitted.label(column).to_owned(),
     );
     columns
         .map(named)
-        .chain([(time, ground.clock.values.clone())])
+        .chain([(time, fitted.clock.values.clone())])
         .collect()
 }
 
@@ -99,9 +99,9 @@ fn distinct(x: &[f64]) -> Vec<f64> {
 /// A feature: what it multiplies, and the variance of its coefficient relative to the others.
 type Feature = (Vec<f64>, f64);
 
-fn smooth(ground: &Ground<'_>, node: Node, name: &str, course: &[f64]) -> Option<Cell> {
+fn smooth(fitted: &FittedModel<'_>, node: Node, name: &str, course: &[f64]) -> Option<Cell> {
     let features = waves(course);
-    (features.len() >= LEAST).then(|| generic(ground, EffectId::Smooth, node, name, &features))
+    (features.len() >= LEAST).then(|| generic(fitted, EffectId::Smooth, node, name, &features))
 }
 
 /// Cosines over the range of a course, fewer where it has few values.
@@ -119,41 +119,41 @@ fn waves(course: &[f64]) -> Vec<Feature> {
 }
 
 /// A value of its own at each value of a column that comes again and again.
-fn values(ground: &Ground<'_>, node: Node, column: usize) -> Option<Cell> {
-    let x = ground.numbers(column);
+fn values(fitted: &FittedModel<'_>, node: Node, column: usize) -> Option<Cell> {
+    let x = fitted.numbers(column);
     let values = distinct(x);
     let features: Vec<Feature> = values
         .iter()
         .map(|value| (map(x, |x| f64::from(u8::from(x == *value))), 1.0))
         .collect();
-    let few = values.len() >= 4 && values.len() * 2 <= ground.frame.blocks.len();
-    few.then(|| at_levels(ground, node, ground.label(column), &features))
+    let few = values.len() >= 4 && values.len() * 2 <= fitted.design.blocks.len();
+    few.then(|| at_levels(fitted, node, fitted.label(column), &features))
 }
 
 /// A value of its own at each label.
-fn labels(ground: &Ground<'_>, node: Node, column: usize) -> Option<Cell> {
-    let labels = ground.case().columns[column].labels()?;
+fn labels(fitted: &FittedModel<'_>, node: Node, column: usize) -> Option<Cell> {
+    let labels = fitted.case().columns[column].labels()?;
     let levels = present(labels);
-    if levels.len() < 2 || levels.len() * 2 > ground.frame.blocks.len() {
+    if levels.len() < 2 || levels.len() * 2 > fitted.design.blocks.len() {
         return None;
     }
     let features: Vec<Feature> = levels
         .iter()
         .map(|level| (indicator(labels, *level), 1.0))
         .collect();
-    let name = ground.label(column);
-    Some(at_levels(ground, node, name, &features))
+    let name = fitted.label(column);
+    Some(at_levels(fitted, node, name, &features))
 }
 
 /// A value of its own at every level, or at a single one.
-fn at_levels(ground: &Ground<'_>, node: Node, name: &str, features: &[Feature]) -> Cell {
+fn at_levels(fitted: &FittedModel<'_>, node: Node, name: &str, features: &[Feature]) -> Cell {
     /// More levels are not looked at one by one.
     const MOST: usize = 24;
-    let mut cell = generic(ground, EffectId::Levels, node, name, features);
+    let mut cell = generic(fitted, EffectId::Levels, node, name, features);
     if (3..=MOST).contains(&features.len()) {
         for feature in features {
             let single = generic(
-                ground,
+                fitted,
                 EffectId::Levels,
                 node,
                 name,
@@ -166,12 +166,15 @@ fn at_levels(ground: &Ground<'_>, node: Node, name: &str, features: &[Feature]) 
 }
 
 /// A smooth curve over the signal of each of some responses: errors of shape that no power has.
-pub(super) fn over_signals(ground: &Ground<'_>, signals: &[(usize, &[f64])]) -> Vec<Variation> {
+pub(super) fn over_signals(
+    fitted: &FittedModel<'_>,
+    signals: &[(usize, &[f64])],
+) -> Vec<Variation> {
     let own = signals
         .iter()
         .map(|(response, signal)| (*response, waves(signal)));
     let own: Vec<_> = own.filter(|(_, waves)| waves.len() >= LEAST).collect();
-    let name = |response: usize| ground.case().responses[response].name.as_str();
+    let name = |response: usize| fitted.case().responses[response].name.as_str();
     let each = own
         .iter()
         .map(|one| (name(one.0), std::slice::from_ref(one)));
@@ -200,7 +203,7 @@ fn unnamed(label: &str, terms: Vec<Term>, spectrum: Vec<f64>) -> Variation {
 
 /// On one response, and on each of them in its own way; an error of a column reaches all.
 fn generic(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     id: EffectId,
     node: Node,
     along: &str,
@@ -209,7 +212,7 @@ fn generic(
     let term = |(modifier, _): &Feature| Term::new(node, Modifier::unnamed(modifier.clone()));
     let variances = features.iter().map(|(_, variance)| *variance);
     let on = |response: usize| features.iter().map(move |f| term(f).on(response));
-    let responses = &ground.case().responses;
+    let responses = &fitted.case().responses;
     let mut variants = Vec::new();
     let mut add = |label: &str, terms: Vec<Term>, spectrum: Vec<f64>| {
         variants.push(unnamed(label, terms, spectrum));
@@ -228,13 +231,13 @@ fn generic(
         let spectrum = responses.iter().flat_map(|_| variances.clone()).collect();
         add("", terms, spectrum);
     }
-    let mut words = words(ground, along);
-    words.p = ground.name(node);
+    let mut words = words(fitted, along);
+    words.p = fitted.name(node);
     Cell::new(
         id,
         words,
         Place {
-            node: ground.name(node),
+            node: fitted.name(node),
             along: along.to_owned(),
         },
         variants,

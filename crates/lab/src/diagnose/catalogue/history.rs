@@ -1,7 +1,7 @@
 //! What depends on the way by which a value was reached: hysteresis and backlash.
 
 use super::building::{on_output, plain};
-use super::ground::{Ground, Node, varies};
+use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{
     direction, figure, five_digits, grid, map, map2, play, range, typical_step,
 };
@@ -9,20 +9,20 @@ use super::{Cell, EffectId, Modifier, Term, Variation};
 use crate::diagnose::case::Role;
 
 /// Cells of one column that is an input.
-pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
-    let (x, label) = (ground.numbers(column), ground.label(column));
+pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
+    let (x, label) = (fitted.numbers(column), fitted.label(column));
     if !comes_back(x) {
         return Vec::new();
     }
     let way = direction(x);
     let mut cells = vec![plain(
-        ground,
+        fitted,
         EffectId::Hysteresis,
         label,
-        loops(ground, column, &way),
+        loops(fitted, column, &way),
     )];
     let (least, most) = range(x);
-    let unit = ground.case().columns[column].unit.typeset();
+    let unit = fitted.case().columns[column].unit.typeset();
     let step = typical_step(x);
     let widths = grid((most - least) * 1e-3, (most - least) * 0.3, 3.0, 6);
     let widths = widths
@@ -31,7 +31,7 @@ pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         .filter(|width| *width < 2.0 * step || step == 0.0);
     let variants = widths.map(|width| {
         let modifier = map2(&play(x, width), x, |played, x| (played - x) / width);
-        let shown = ground.figure(column, width);
+        let shown = fitted.figure(column, width);
         let text = format!("(play({label}, {shown}) - {label})/({shown})");
         let term = Term::new(Node::Column(column), Modifier::number(modifier, text));
         Variation::one(format!("gap {width} {unit}", width = figure(width)), term)
@@ -41,26 +41,26 @@ pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         .filter(|v| varies(&v.terms[0].modifier.values))
         .collect();
     if step < 0.3 * (most - least)
-        && ground.case().columns[column].role == Role::Stimulus
+        && fitted.case().columns[column].role == Role::Stimulus
         && !wide.is_empty()
     {
-        cells.push(plain(ground, EffectId::Play, label, wide));
+        cells.push(plain(fitted, EffectId::Play, label, wide));
     }
     cells
 }
 
 /// Shapes of a loop: a constant offset between both ways, a loop that is closed at both ends of the range
 /// and widest between them, and the same on one of the ways only.
-fn loops(ground: &Ground<'_>, column: usize, way: &[f64]) -> Vec<Variation> {
-    let (x, label) = (ground.numbers(column), ground.label(column));
+fn loops(fitted: &FittedModel<'_>, column: usize, way: &[f64]) -> Vec<Variation> {
+    let (x, label) = (fitted.numbers(column), fitted.label(column));
     let (least, most) = range(x);
     let half = five_digits((most - least) / 2.0);
     let wide = map(x, |x| (x - least) * (most - x) / (half * half));
     let shape = format!(
         "{}*({} - {label})/({})^2",
-        ground.less(column, least),
-        ground.figure(column, most),
-        ground.figure(column, half)
+        fitted.less(column, least),
+        fitted.figure(column, most),
+        fitted.figure(column, half)
     );
     let direction = format!("direction({label})");
     // Falling values with the opposite sign: no mixture of the two with sizes of one sign is a parabola
@@ -88,22 +88,22 @@ fn loops(ground: &Ground<'_>, column: usize, way: &[f64]) -> Vec<Variation> {
         .into_iter()
         .map(|(variant, modifier, text)| (variant, Modifier::number(modifier, text)))
         .map(|(variant, modifier)| Variation::one(variant, on_output(modifier)));
-    simple.chain(plays(ground, column)).collect()
+    simple.chain(plays(fitted, column)).collect()
 }
 
 /// Inner friction (Prandtl, Ishlinskii): the output stays behind by a play, or by several of growing width
 /// together. The first way from rest has no loop yet, which a direction alone cannot say.
-fn plays(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
+fn plays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     /// Widths as parts of the range.
     const WIDTHS: [f64; 5] = [0.05, 0.15, 0.3, 0.5, 0.75];
-    let (x, label) = (ground.numbers(column), ground.label(column));
+    let (x, label) = (fitted.numbers(column), fitted.label(column));
     let (least, most) = range(x);
     let width = |part: f64| five_digits(part * (most - least));
     let behind = |part: f64| {
         let modifier = map2(x, &play(x, width(part)), |x, played| x - played);
-        let shown = ground.figure(column, width(part));
+        let shown = fitted.figure(column, width(part));
         let text = format!("({label} - play({label}, {shown}))");
-        Modifier::new(modifier, text, ground.step_unit(column))
+        Modifier::new(modifier, text, fitted.step_unit(column))
     };
     let single = WIDTHS.map(|part| {
         let width = format!("width {} % of the range", 100.0 * part);
@@ -114,12 +114,12 @@ fn plays(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
         sum = map2(&sum, &behind(part).values, |sum, one| sum + one);
     }
     let mean = map(&sum, |sum| sum / WIDTHS.len() as f64);
-    let all = WIDTHS.map(|part| ground.figure(column, width(part)));
+    let all = WIDTHS.map(|part| fitted.figure(column, width(part)));
     let text = format!(
         "mean of ({label} - play({label}, w)) over w = {}",
         all.join(", ")
     );
-    let mean = Modifier::new(mean, text, ground.step_unit(column));
+    let mean = Modifier::new(mean, text, fitted.step_unit(column));
     let even = Variation::one("several widths", on_output(mean));
     let apart = WIDTHS.iter().skip(1).step_by(2);
     let apart = apart.map(|part| on_output(behind(*part)));

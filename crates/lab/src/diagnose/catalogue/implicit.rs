@@ -1,23 +1,23 @@
 //! Models that hold a constant against several columns, such as |a| = g for a triad at rest.
 
 use super::building::words;
-use super::ground::{Ground, Node};
+use super::fitted::{FittedModel, Node};
 use super::modifiers::{map, range, rounded};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 use crate::quantity::Unit;
 
 /// Disturbances of each column that the model uses.
-pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
+pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
     let term = |column: usize, modifier: Modifier| Term::new(Node::Column(column), modifier);
     let cell = |id: EffectId, variants: Vec<Variation>| {
-        let names: Vec<&str> = used.iter().map(|c| ground.label(*c)).collect();
+        let names: Vec<&str> = used.iter().map(|c| fitted.label(*c)).collect();
         let joined = names.join(", ");
         Cell::new(
             id,
             Words {
                 p: joined.clone(),
-                ..words(ground, &joined)
+                ..words(fitted, &joined)
             },
             Place {
                 node: "axes".into(),
@@ -31,22 +31,22 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
     for (at, x) in used.iter().enumerate() {
         for z in &used[at + 1..] {
             pairs.push((
-                format!("{} with {}", ground.label(*x), ground.label(*z)),
-                term(*x, ground.centred(*z)),
+                format!("{} with {}", fitted.label(*x), fitted.label(*z)),
+                term(*x, fitted.centred(*z)),
             ));
         }
     }
     cells.push(cell(EffectId::CrossAxis, singles_and_all(pairs)));
     let own = used.iter().map(|column| {
-        let label = ground.label(*column).to_owned();
-        let x = ground.numbers(*column).to_vec();
-        let own = Modifier::new(x, &label, ground.step_unit(*column));
+        let label = fitted.label(*column).to_owned();
+        let x = fitted.numbers(*column).to_vec();
+        let own = Modifier::new(x, &label, fitted.step_unit(*column));
         (label, term(*column, own))
     });
     let mut scales = cell(EffectId::AxisScale, singles_and_all(own.collect()));
-    let absorbed = super::absorbed::Absorbed::by_parameters(ground);
+    let absorbed = super::absorbed::Absorbed::by_parameters(fitted);
     scales.variants.retain(|variation| {
-        let columns = variation.columns(ground);
+        let columns = variation.columns(fitted);
         let mut columns = columns.column_iter();
         columns.all(|column| absorbed.leaves(&column.into_owned()))
     });
@@ -59,12 +59,12 @@ pub(super) fn cells(ground: &Ground<'_>, used: &[usize]) -> Vec<Cell> {
     ];
     for (id, [before, after], power, law) in laws {
         let own = used.iter().map(|column| {
-            let centre = mean_of_range(ground.numbers(*column));
-            let modifier = map(ground.numbers(*column), |x| law(x - centre));
-            let text = format!("{before}{}{after}", ground.less(*column, centre));
-            let unit = ground.step_unit(*column).powr(power, 1);
+            let centre = mean_of_range(fitted.numbers(*column));
+            let modifier = map(fitted.numbers(*column), |x| law(x - centre));
+            let text = format!("{before}{}{after}", fitted.less(*column, centre));
+            let unit = fitted.step_unit(*column).powr(power, 1);
             let modifier = Modifier::new(modifier, text, unit.unwrap_or_else(Unit::one));
-            (ground.label(*column).to_owned(), term(*column, modifier))
+            (fitted.label(*column).to_owned(), term(*column, modifier))
         });
         cells.push(cell(id, singles_and_all(own.collect())));
     }

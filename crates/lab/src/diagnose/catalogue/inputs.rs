@@ -5,8 +5,8 @@
 //! of the output. Here it is a part of the largest signal, so that all sizes are parts of the range.
 
 use super::building::time_constants;
+use super::fitted::{FittedModel, Node, varies};
 use super::generics::over_signals;
-use super::ground::{Ground, Node, varies};
 use super::history::comes_back;
 use super::modifiers::{
     correlation, creeps, figure, five_digits, held_lag, lag, largest, map, map2, play_from, range,
@@ -18,29 +18,29 @@ use crate::diagnose::evidence::Place;
 use crate::quantity::Unit;
 
 /// Cells of the inputs of all axes; none where a column is the input.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let inputs = inputs(ground);
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let inputs = inputs(fitted);
     if inputs.is_empty() {
         return Vec::new();
     }
-    let mut cells = powers(ground, &inputs);
-    cells.extend(limits(ground, &inputs));
-    cells.extend(products(ground, &inputs));
-    cells.extend(memory(ground, &inputs));
+    let mut cells = powers(fitted, &inputs);
+    cells.extend(limits(fitted, &inputs));
+    cells.extend(products(fitted, &inputs));
+    cells.extend(memory(fitted, &inputs));
     cells.retain(|cell| !cell.variants.is_empty());
     cells
 }
 
 /// What follows the inputs smoothly and has no name.
-pub(super) fn unnamed(ground: &Ground<'_>) -> Option<Cell> {
-    let inputs = inputs(ground);
+pub(super) fn unnamed(fitted: &FittedModel<'_>) -> Option<Cell> {
+    let inputs = inputs(fitted);
     let signals: Vec<(usize, &[f64])> = inputs.iter().map(|i| (i.response, &i.own[..])).collect();
-    let variants = over_signals(ground, &signals);
+    let variants = over_signals(fitted, &signals);
     let words = Words {
-        p: ground.name(Node::Output),
-        ..words(ground, &inputs)
+        p: fitted.name(Node::Output),
+        ..words(fitted, &inputs)
     };
-    (!variants.is_empty()).then(|| Cell::new(EffectId::Smooth, words, place(ground), variants))
+    (!variants.is_empty()).then(|| Cell::new(EffectId::Smooth, words, place(fitted), variants))
 }
 
 /// What a response takes in.
@@ -56,24 +56,24 @@ struct Input {
     came: Vec<Option<(f64, f64)>>,
 }
 
-fn inputs(ground: &Ground<'_>) -> Vec<Input> {
-    let case = ground.case();
+fn inputs(fitted: &FittedModel<'_>) -> Vec<Input> {
+    let case = fitted.case();
     // What goes on with the time is a drift of the source, not an input of an axis.
     let times = case
         .with_role(Role::Time)
         .chain(case.with_role(Role::Order));
-    let columns: Vec<usize> = ground.numeric().into_iter().chain(times).collect();
+    let columns: Vec<usize> = fitted.numeric().into_iter().chain(times).collect();
     let of_response = |response: usize| {
-        let signal = ground.signal(response);
-        let is_column = columns.iter().any(|c| ground.takes_in(response, *c));
-        let formed = !ground.is_implicit(response) && varies(signal) && !is_column;
-        let Signal { parts, text } = Signal::new(ground, response);
+        let signal = fitted.signal(response);
+        let is_column = columns.iter().any(|c| fitted.takes_in(response, *c));
+        let formed = !fitted.is_implicit(response) && varies(signal) && !is_column;
+        let Signal { parts, text } = Signal::new(fitted, response);
         formed.then(|| Input {
             response,
             text,
             own: parts,
-            others: others(ground, response),
-            came: came(ground, response),
+            others: others(fitted, response),
+            came: came(fitted, response),
         })
     };
     (0..case.responses.len()).filter_map(of_response).collect()
@@ -81,16 +81,16 @@ fn inputs(ground: &Ground<'_>) -> Vec<Input> {
 
 /// Where a head turns in one direction through each run, it goes back behind the first angle before the run,
 /// so that this one too is reached like the others; no row shows that.
-fn came(ground: &Ground<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
-    let Some((angle, starts)) = super::angles::runs_of_turns(ground) else {
+fn came(fitted: &FittedModel<'_>, response: usize) -> Vec<Option<(f64, f64)>> {
+    let Some((angle, starts)) = super::angles::runs_of_turns(fitted) else {
         return Vec::new();
     };
-    let (x, t) = (ground.numbers(angle), &ground.clock.values);
-    let size = size(ground.signal(response));
-    let mut came = vec![None; ground.rows()];
+    let (x, t) = (fitted.numbers(angle), &fitted.clock.values);
+    let size = size(fitted.signal(response));
+    let mut came = vec![None; fitted.rows()];
     for first in starts {
         let behind = 2.0 * x[first] - x[first + 1];
-        let signal = ground.signal_at(response, first, angle, behind);
+        let signal = fitted.signal_at(response, first, angle, behind);
         came[first] = Some((signal / size, t[first + 1] - t[first]));
     }
     came
@@ -105,9 +105,9 @@ pub(super) struct Signal {
 }
 
 impl Signal {
-    pub(super) fn new(ground: &Ground<'_>, response: usize) -> Signal {
-        let signal = ground.signal(response);
-        let unit = ground.case().responses[response].unit.difference();
+    pub(super) fn new(fitted: &FittedModel<'_>, response: usize) -> Signal {
+        let signal = fitted.signal(response);
+        let unit = fitted.case().responses[response].unit.difference();
         let part = part(signal, "signal", &unit);
         Signal {
             parts: part.values,
@@ -134,31 +134,31 @@ fn part(x: &[f64], name: &str, unit: &Unit) -> Modifier {
 
 /// Inputs of the other axes: where one angle turns the sensor, the slope of the signal by it; else what
 /// the other coefficients of the model multiply.
-fn others(ground: &Ground<'_>, response: usize) -> Vec<Modifier> {
-    let case = ground.case();
+fn others(fitted: &FittedModel<'_>, response: usize) -> Vec<Modifier> {
+    let case = fitted.case();
     let angles: Vec<usize> = case
         .with_role(Role::Angle)
-        .filter(|c| ground.in_model(*c))
+        .filter(|c| fitted.in_model(*c))
         .collect();
     if let [angle] = angles[..] {
-        let slope = ground.slope(Node::Column(angle), response);
-        let name = format!("dsignal/d{}", ground.label(angle));
-        let unit = ground.case().responses[response]
+        let slope = fitted.slope(Node::Column(angle), response);
+        let name = format!("dsignal/d{}", fitted.label(angle));
+        let unit = fitted.case().responses[response]
             .unit
-            .quotient(&ground.step_unit(angle));
+            .quotient(&fitted.step_unit(angle));
         return vec![part(&slope, &name, &unit)];
     }
-    let signal = ground.signal(response);
+    let signal = fitted.signal(response);
     let is_other = |parameter: &usize| {
         /// What correlates so far with the signal is the input of the own axis.
         const OWN: f64 = 0.9;
-        let slope = ground.slope(Node::Parameter(*parameter), response);
+        let slope = fitted.slope(Node::Parameter(*parameter), response);
         varies(&slope) && correlation(&slope, signal).abs() < OWN
     };
     (0..case.parameters.len())
         .filter(is_other)
         .map(|parameter| {
-            let slope = ground.slope(Node::Parameter(parameter), response);
+            let slope = fitted.slope(Node::Parameter(parameter), response);
             let name = format!("dsignal/d{}", case.parameters[parameter].name);
             let unit = &case.parameters[parameter].unit;
             part(&slope, &name, &case.responses[response].unit.quotient(unit))
@@ -187,8 +187,8 @@ impl<'l> Shaped<'l> {
 }
 
 /// A cell whose effect may be on one axis, or on all of them, on each with a size of its own.
-fn cell(ground: &Ground<'_>, inputs: &[Input], id: EffectId, laws: Vec<Shaped<'_>>) -> Cell {
-    let case = ground.case();
+fn cell(fitted: &FittedModel<'_>, inputs: &[Input], id: EffectId, laws: Vec<Shaped<'_>>) -> Cell {
+    let case = fitted.case();
     let mut variants = Vec::new();
     for Shaped { label, shape, law } in laws {
         let terms = |input: &Input| -> Vec<Term> {
@@ -219,40 +219,40 @@ fn cell(ground: &Ground<'_>, inputs: &[Input], id: EffectId, laws: Vec<Shaped<'_
             add("", inputs.iter().flat_map(terms).collect());
         }
     }
-    let (words, place) = (words(ground, inputs), place(ground));
+    let (words, place) = (words(fitted, inputs), place(fitted));
     Cell::new(id, words, place, variants)
 }
 
-fn words(ground: &Ground<'_>, inputs: &[Input]) -> Words {
-    let name = |input: &Input| ground.case().responses[input.response].name.as_str();
+fn words(fitted: &FittedModel<'_>, inputs: &[Input]) -> Words {
+    let name = |input: &Input| fitted.case().responses[input.response].name.as_str();
     let names: Vec<&str> = inputs.iter().map(name).collect();
     Words {
         x: format!("signal({})", names.join(", ")),
-        y: ground.output(),
+        y: fitted.output(),
         ..Words::default()
     }
 }
 
-fn place(ground: &Ground<'_>) -> Place {
+fn place(fitted: &FittedModel<'_>) -> Place {
     Place {
-        node: ground.name(Node::Output),
-        along: along(ground),
+        node: fitted.name(Node::Output),
+        along: along(fitted),
     }
 }
 
 /// The columns that inputs are formed from.
-fn along(ground: &Ground<'_>) -> String {
-    let columns = &ground.case().columns;
+fn along(fitted: &FittedModel<'_>) -> String {
+    let columns = &fitted.case().columns;
     let forms =
-        |c: &usize| matches!(columns[*c].role, Role::Stimulus | Role::Angle) && ground.in_model(*c);
+        |c: &usize| matches!(columns[*c].role, Role::Stimulus | Role::Angle) && fitted.in_model(*c);
     let names: Vec<&str> = (0..columns.len())
         .filter(forms)
-        .map(|c| ground.label(c))
+        .map(|c| fitted.label(c))
         .collect();
     names.join(", ")
 }
 
-fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
+fn powers(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     type Power = (EffectId, [&'static str; 2], fn(f64) -> f64);
     let laws: [Power; 3] = [
         (EffectId::Quadratic, ["", "^2"], |s| s * s),
@@ -264,7 +264,7 @@ fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
             let text = format!("{before}{}{after}", input.text);
             vec![Modifier::number(map(&input.own, law), text)]
         };
-        cell(ground, inputs, id, vec![Shaped::plain("", law)])
+        cell(fitted, inputs, id, vec![Shaped::plain("", law)])
     };
     let mut cells: Vec<Cell> = laws.into_iter().map(one).collect();
     // Small inputs are other axes' inputs that leak in: they have no sign of their own.
@@ -276,12 +276,12 @@ fn powers(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
         };
         Shaped::plain(&format!("within {} %", 100.0 * width), law)
     });
-    cells.push(cell(ground, inputs, EffectId::ZeroStep, steps.into()));
+    cells.push(cell(fitted, inputs, EffectId::ZeroStep, steps.into()));
     cells
 }
 
 /// The end of the range on both sides, and on one.
-fn limits(ground: &Ground<'_>, inputs: &[Input]) -> Option<Cell> {
+fn limits(fitted: &FittedModel<'_>, inputs: &[Input]) -> Option<Cell> {
     /// Sizes of the input below which its end cannot be seen to bend.
     const LEVELS: usize = 6;
     let sizes = inputs.iter().map(|input| levels(&input.own)).max()?;
@@ -297,7 +297,7 @@ fn limits(ground: &Ground<'_>, inputs: &[Input]) -> Option<Cell> {
             vec![Modifier::number(modifier, text)]
         }),
     });
-    Some(cell(ground, inputs, EffectId::Saturation, knees.into()))
+    Some(cell(fitted, inputs, EffectId::Saturation, knees.into()))
 }
 
 /// Different sizes, to a hundredth of the largest.
@@ -309,7 +309,7 @@ fn levels(x: &[f64]) -> usize {
 }
 
 /// Products with the inputs of other axes, and their squares.
-fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
+fn products(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     /// A product that is never larger than this is a leak of one axis into the other.
     const LEAK: f64 = 0.05;
     let product = |input: &Input, other: &Modifier| {
@@ -357,23 +357,23 @@ fn products(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
     });
     let squared = squared.collect();
     vec![
-        cell(ground, inputs, EffectId::CrossProduct, crossed),
-        cell(ground, inputs, EffectId::CrossSquare, squared),
+        cell(fitted, inputs, EffectId::CrossProduct, crossed),
+        cell(fitted, inputs, EffectId::CrossSquare, squared),
     ]
 }
 
 /// What depends on the inputs before: relaxation, late reading, hysteresis.
-fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
+fn memory(fitted: &FittedModel<'_>, inputs: &[Input]) -> Vec<Cell> {
     let mut cells = Vec::new();
     if inputs.iter().any(|input| comes_back(&input.own)) {
-        cells.push(cell(ground, inputs, EffectId::Hysteresis, loops()));
+        cells.push(cell(fitted, inputs, EffectId::Hysteresis, loops()));
     }
-    if !ground.is_timed() {
+    if !fitted.is_timed() {
         return cells;
     }
-    let t = ground.clock.values.clone();
-    let unit = ground.time_unit();
-    let scales = time_constants(ground);
+    let t = fitted.clock.values.clone();
+    let unit = fitted.time_unit();
+    let scales = time_constants(fitted);
     let lacks = |input: &Input, tau: f64| {
         let own = &input.own;
         let late = if creeps(own) {
@@ -390,7 +390,7 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
         Modifier::number(modifier, text)
     };
     let lacks = &lacks;
-    let singles = ground.finer.times(scales.clone());
+    let singles = fitted.finer.times(scales.clone());
     let single = singles.iter().map(|tau| Shaped {
         label: format!("τ = {} {unit}", figure(*tau)),
         shape: Some(("τ", *tau, unit.clone())),
@@ -403,20 +403,20 @@ fn memory(ground: &Ground<'_>, inputs: &[Input]) -> Vec<Cell> {
         law: Box::new(move |input: &Input| vec![lacks(input, *tau), lacks(input, 4.0 * tau)]),
     });
     cells.push(cell(
-        ground,
+        fitted,
         inputs,
         EffectId::Lag,
         single.chain(double).collect(),
     ));
     let skew = |input: &Input| {
-        let per_time = Unit::one().quotient(&ground.clock_unit());
+        let per_time = Unit::one().quotient(&fitted.clock_unit());
         let text = format!("d{}/dt", input.text);
         let modifier = Modifier::new(rate(&t, &input.own), text, per_time);
         let moving = creeps(&input.own);
         moving.then_some(modifier).into_iter().collect()
     };
     let skew = vec![Shaped::plain("", skew)];
-    cells.push(cell(ground, inputs, EffectId::TimingSkew, skew));
+    cells.push(cell(fitted, inputs, EffectId::TimingSkew, skew));
     cells
 }
 

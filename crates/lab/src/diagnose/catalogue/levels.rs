@@ -1,34 +1,34 @@
 //! Levels of factors: runs, instruments, operators, mounts, directions.
 
 use super::building::{on_node, words};
-use super::ground::{Ground, Node};
+use super::fitted::{FittedModel, Node};
 use super::modifiers::map;
 use super::{Cell, EffectId, Modifier, Variants};
 use crate::diagnose::case::Role;
 use crate::recording::Labels;
 
 /// Cells of the columns of labels.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
     let mut cells = Vec::new();
-    for column in &ground.case().columns {
+    for column in &fitted.case().columns {
         let Some(labels) = column.labels() else {
             continue;
         };
         let levels = present(labels);
-        if levels.len() < 2 || levels.len() * 3 > 2 * ground.frame.blocks.len() {
+        if levels.len() < 2 || levels.len() * 3 > 2 * fitted.design.blocks.len() {
             continue;
         }
         match column.role {
-            Role::Direction => cells.extend(directions(ground, &column.name, labels, &levels)),
-            Role::Position if is_place(ground) => {
-                let all = shifts(ground, &column.name, labels, &levels, column.role);
+            Role::Direction => cells.extend(directions(fitted, &column.name, labels, &levels)),
+            Role::Position if is_place(fitted) => {
+                let all = shifts(fitted, &column.name, labels, &levels, column.role);
                 let scales = all
                     .into_iter()
                     .filter(|c| c.effect.id == EffectId::LevelScale);
                 cells.extend(scales);
             }
             role @ (Role::Run | Role::Factor | Role::Axis) => {
-                cells.extend(shifts(ground, &column.name, labels, &levels, role));
+                cells.extend(shifts(fitted, &column.name, labels, &levels, role));
             }
             _ => {}
         }
@@ -38,11 +38,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 
 /// Whether positions are places where one and the same stimulus acts, as on the pan of a balance or over an
 /// aperture, rather than attitudes of an inertial sensor.
-pub(super) fn is_place(ground: &Ground<'_>) -> bool {
-    let case = ground.case();
+pub(super) fn is_place(fitted: &FittedModel<'_>) -> bool {
+    let case = fitted.case();
     let stimuli = case.with_role(Role::Stimulus).count();
     let turned = case.with_role(Role::Angle).next().is_some();
-    stimuli == 1 && !turned && ground.has_signal()
+    stimuli == 1 && !turned && fitted.has_signal()
 }
 
 /// Levels that occur in the rows that are left.
@@ -68,7 +68,7 @@ fn text(labels: &Labels, level: u32) -> &str {
 
 /// Every level has a value of its own; or only one has; or all from one on, in the order of the recording.
 fn shifts(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     name: &str,
     labels: &Labels,
     levels: &[u32],
@@ -112,10 +112,10 @@ fn shifts(
     ];
     nodes
         .into_iter()
-        .filter(|(node, _)| *node == Node::Output || ground.has_signal())
+        .filter(|(node, _)| *node == Node::Output || fitted.has_signal())
         .map(|(node, id)| {
-            let words = words(ground, name);
-            let mut cell = on_node(ground, id, words, name, node, variants.clone());
+            let words = words(fitted, name);
+            let mut cell = on_node(fitted, id, words, name, node, variants.clone());
             // Each variant on all outputs, and on each of them.
             let scopes = cell.variants.len() / weights.len();
             for (number, variation) in cell.variants.iter_mut().enumerate() {
@@ -147,7 +147,7 @@ fn changes(name: &str, labels: &Labels, levels: &[u32]) -> Variants {
         .collect()
 }
 
-fn directions(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) -> Vec<Cell> {
+fn directions(fitted: &FittedModel<'_>, name: &str, labels: &Labels, levels: &[u32]) -> Vec<Cell> {
     let last = indicator(labels, levels[levels.len() - 1]);
     let modifier = map(&last, |x| 2.0 * x - 1.0);
     let variants: Variants = vec![(
@@ -155,9 +155,9 @@ fn directions(ground: &Ground<'_>, name: &str, labels: &Labels, levels: &[u32]) 
         vec![Modifier::number(modifier, format!("direction({name})"))],
     )];
     vec![on_node(
-        ground,
+        fitted,
         EffectId::Hysteresis,
-        words(ground, name),
+        words(fitted, name),
         name,
         Node::Output,
         variants,

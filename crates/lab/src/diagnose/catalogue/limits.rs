@@ -2,7 +2,7 @@
 //! nothing happens.
 
 use super::building::{on_node, on_output, plain, words};
-use super::ground::{Ground, Node, varies};
+use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{figure, figure_to, five_digits, largest, levels_of, map, range, rounded};
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
@@ -14,28 +14,28 @@ const KNEE: f64 = 1e-6;
 const LABEL: f64 = 1e-4;
 
 /// Cells of one column that is an input.
-pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
+pub(super) fn cells(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     /// Fewer values show no bend.
     const VALUES: usize = 6;
-    let x = ground.numbers(column);
+    let x = fitted.numbers(column);
     let mut cells = Vec::new();
-    if ground.passes_zero(column) {
-        cells.push(dead_band(ground, column));
+    if fitted.passes_zero(column) {
+        cells.push(dead_band(fitted, column));
     }
     if levels_of(x).len() < VALUES {
         return cells;
     }
-    let ends = plateaus(ground, column);
+    let ends = plateaus(fitted, column);
     if ends.is_empty() {
-        if ground.passes_zero(column) {
-            cells.push(soft_limit(ground, column));
+        if fitted.passes_zero(column) {
+            cells.push(soft_limit(fitted, column));
         }
-        cells.push(kink(ground, column));
+        cells.push(kink(fitted, column));
     } else {
         cells.push(plain(
-            ground,
+            fitted,
             EffectId::Saturation,
-            ground.label(column),
+            fitted.label(column),
             ends,
         ));
     }
@@ -43,9 +43,9 @@ pub(super) fn cells(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
 }
 
 /// A step at zero, and bands of several widths around it.
-fn dead_band(ground: &Ground<'_>, column: usize) -> Cell {
-    let (x, name) = (ground.numbers(column), ground.label(column));
-    let unit = ground.case().columns[column].unit.typeset();
+fn dead_band(fitted: &FittedModel<'_>, column: usize) -> Cell {
+    let (x, name) = (fitted.numbers(column), fitted.label(column));
+    let unit = fitted.case().columns[column].unit.typeset();
     let most = largest(x);
     let step = (
         String::new(),
@@ -57,16 +57,16 @@ fn dead_band(ground: &Ground<'_>, column: usize) -> Cell {
     let bands = [0.05, 0.1, 0.2].map(|share| {
         let width = five_digits(share * most);
         let modifier = map(x, |x| (x / width).clamp(-1.0, 1.0));
-        let text = format!("clamp({name}/({}), -1, 1)", ground.figure(column, width));
+        let text = format!("clamp({name}/({}), -1, 1)", fitted.figure(column, width));
         (
             format!("within {width} {unit}"),
             vec![Modifier::number(modifier, text)],
         )
     });
     let variants: Variants = [step].into_iter().chain(bands).collect();
-    let words = words(ground, name);
+    let words = words(fitted, name);
     on_node(
-        ground,
+        fitted,
         EffectId::ZeroStep,
         words,
         name,
@@ -76,63 +76,63 @@ fn dead_band(ground: &Ground<'_>, column: usize) -> Cell {
 }
 
 /// Both ends bend alike.
-fn soft_limit(ground: &Ground<'_>, column: usize) -> Cell {
-    let (x, name) = (ground.numbers(column), ground.label(column));
-    let unit = ground.case().columns[column].unit.typeset();
+fn soft_limit(fitted: &FittedModel<'_>, column: usize) -> Cell {
+    let (x, name) = (fitted.numbers(column), fitted.label(column));
+    let unit = fitted.case().columns[column].unit.typeset();
     let most = largest(x);
     let beyond = |limit: f64| {
         let modifier = map(x, |x| -(x.abs() - limit).max(0.0) * x.signum());
-        let shown = ground.figure(column, rounded(limit, KNEE * most));
+        let shown = fitted.figure(column, rounded(limit, KNEE * most));
         let text = format!("-sign({name})*max(abs({name}) - {shown}, 0)");
-        on_output(Modifier::new(modifier, text, ground.step_unit(column)))
+        on_output(Modifier::new(modifier, text, fitted.step_unit(column)))
     };
     let limits = [0.5, 0.6, 0.7, 0.8, 0.9].map(|share| share * most);
-    let limits = ground
+    let limits = fitted
         .finer
-        .levels(sharpened(ground, limits.into(), &beyond));
+        .levels(sharpened(fitted, limits.into(), &beyond));
     let variants = limits.into_iter().map(|limit| {
         let label = format!("above {} {unit}", figure(limit));
         Variation::one(label, beyond(limit)).shaped("x₀", limit, &unit)
     });
-    plain(ground, EffectId::Saturation, name, variants.collect())
+    plain(fitted, EffectId::Saturation, name, variants.collect())
 }
 
 /// Another slope from one value on.
-fn kink(ground: &Ground<'_>, column: usize) -> Cell {
+fn kink(fitted: &FittedModel<'_>, column: usize) -> Cell {
     /// Parts into which the range is divided.
     const PARTS: usize = 16;
-    let x = ground.numbers(column);
-    let unit = ground.case().columns[column].unit.typeset();
+    let x = fitted.numbers(column);
+    let unit = fitted.case().columns[column].unit.typeset();
     let (least, most) = range(x);
     let knees = (1..PARTS).map(|part| least + part as f64 / PARTS as f64 * (most - least));
-    let knees = ground.finer.levels(knees.collect());
+    let knees = fitted.finer.levels(knees.collect());
     let variants = knees.into_iter().map(|at| {
         let modifier = map(x, |x| (x - at).max(0.0));
         let shown = figure_to(at, LABEL * (most - least));
-        let beyond = ground.beyond(column, rounded(at, KNEE * (most - least)));
+        let beyond = fitted.beyond(column, rounded(at, KNEE * (most - least)));
         let text = format!("max({beyond}, 0)");
-        let modifier = Modifier::new(modifier, text, ground.step_unit(column));
+        let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
         Variation::one(format!("at {shown} {unit}"), on_output(modifier)).shaped("x₀", at, &unit)
     });
     plain(
-        ground,
+        fitted,
         EffectId::Kink,
-        ground.label(column),
+        fitted.label(column),
         variants.collect(),
     )
 }
 
 /// Ends of the range at which the readings pile up at one value although the model moves on: what is
 /// missing there is the whole of the signal beyond the knee.
-fn plateaus(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
-    let x = ground.numbers(column);
+fn plateaus(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
+    let x = fitted.numbers(column);
     let mut order: Vec<usize> = (0..x.len()).collect();
     order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
     let mut variants = Vec::new();
-    for response in 0..ground.case().responses.len() {
-        variants.extend(at_end(ground, column, response, &order, "above"));
+    for response in 0..fitted.case().responses.len() {
+        variants.extend(at_end(fitted, column, response, &order, "above"));
         order.reverse();
-        variants.extend(at_end(ground, column, response, &order, "below"));
+        variants.extend(at_end(fitted, column, response, &order, "below"));
         order.reverse();
     }
     variants
@@ -140,7 +140,7 @@ fn plateaus(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
 
 /// Knees before the plateau at the end of an order of the rows.
 fn at_end(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     column: usize,
     response: usize,
     order: &[usize],
@@ -148,16 +148,16 @@ fn at_end(
 ) -> Vec<Variation> {
     /// Knees that are tried within the last step before the plateau.
     const KNEES: usize = 8;
-    let (x, name) = (ground.numbers(column), ground.label(column));
+    let (x, name) = (fitted.numbers(column), fitted.label(column));
     let Some(first) = plateau(
-        &ground.frame.observed(response),
-        ground.signal(response),
+        &fitted.design.observed(response),
+        fitted.signal(response),
         x,
         order,
     ) else {
         return Vec::new();
     };
-    let unit = ground.case().columns[column].unit.typeset();
+    let unit = fitted.case().columns[column].unit.typeset();
     let (least, most) = range(x);
     let (inside, outside) = (x[order[first - 1]], x[order[first]]);
     let away = (outside - inside).signum();
@@ -167,13 +167,13 @@ fn at_end(
         let shown = figure_to(knee, LABEL * (most - least));
         let at = rounded(knee, KNEE * (most - least));
         let text = match side {
-            "above" => format!("-max({}, 0)", ground.beyond(column, at)),
-            _ => format!("-max({} - {name}, 0)", ground.figure(column, at)),
+            "above" => format!("-max({}, 0)", fitted.beyond(column, at)),
+            _ => format!("-max({} - {name}, 0)", fitted.figure(column, at)),
         };
-        let modifier = Modifier::new(modifier, text, ground.step_unit(column));
+        let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
         let term: Term = on_output(modifier);
         let label = format!("{side} {shown} {unit}");
-        let (label, term) = match &ground.case().responses[..] {
+        let (label, term) = match &fitted.case().responses[..] {
             [_] => (label, term),
             many => (
                 format!("{}, {label}", many[response].name),

@@ -12,7 +12,7 @@
 //! | `building` | what the forms are built of: cells, words, grids of time constants |
 //! | `absorbed` | what the parameters take away from a regressor |
 //! | `sharp` | grids of time constants and knees, with the best value exactly |
-//! | `ground` | slopes of the nodes, and which columns can be what |
+//! | `fitted` | the fitted model: slopes of the nodes, and which columns can be what |
 //! | `response`, `powers`, `limits`, `history` | what a stimulus does otherwise than declared |
 //! | `inputs` | the same for what an axis takes in, where the model forms it from several columns |
 //! | `implicit` | the same where the model holds a constant against several columns |
@@ -33,8 +33,8 @@ mod cross;
 mod effect;
 mod fields;
 mod finer;
+mod fitted;
 mod generics;
-mod ground;
 mod heating;
 mod history;
 mod implicit;
@@ -59,7 +59,7 @@ use nalgebra::{DMatrix, DVector};
 
 pub use effect::{Effect, EffectId, Kind, Pattern, Text, Usual, effects};
 pub use finer::Finer;
-pub use ground::{Ground, Node};
+pub use fitted::{FittedModel, Node};
 
 use super::case::Case;
 use super::evidence;
@@ -307,42 +307,42 @@ impl Variation {
     }
 
     /// Observations × coefficients: derivatives of the outputs by the coefficients.
-    pub fn columns(&self, ground: &Ground<'_>) -> DMatrix<f64> {
+    pub fn columns(&self, fitted: &FittedModel<'_>) -> DMatrix<f64> {
         let mut columns: Vec<DVector<f64>> = Vec::new();
         for term in &self.terms {
-            let column = ground.column(term);
+            let column = fitted.column(term);
             match columns.last_mut() {
                 Some(last) if term.tied => *last += column,
                 _ => columns.push(column),
             }
         }
         if columns.is_empty() {
-            return DMatrix::zeros(ground.frame.observations(), 0);
+            return DMatrix::zeros(fitted.design.observations(), 0);
         }
         DMatrix::from_columns(&columns)
     }
 }
 
 /// All candidates of the catalogue that this case can have, without those that the user excludes.
-pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let mut cells = response::cells(ground);
-    cells.extend(inputs::cells(ground));
-    cells.extend(cross::cells(ground));
-    cells.extend(fields::cells(ground));
-    cells.extend(conditions::cells(ground));
-    cells.extend(zero::cells(ground));
-    cells.extend(time::cells(ground));
-    cells.extend(waves::cells(ground));
-    cells.extend(levels::cells(ground));
-    cells.extend(parameters::cells(ground));
-    cells.extend(angles::cells(ground));
-    cells.extend(rows::cells(ground));
-    cells.extend(readout::cells(ground));
-    cells.extend(stuck::cells(ground));
-    cells.extend(stem::cells(ground));
-    cells.extend(heating::cells(ground));
-    cells.extend(user::cells(ground));
-    let settings = &ground.frame.case.settings;
+pub fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let mut cells = response::cells(fitted);
+    cells.extend(inputs::cells(fitted));
+    cells.extend(cross::cells(fitted));
+    cells.extend(fields::cells(fitted));
+    cells.extend(conditions::cells(fitted));
+    cells.extend(zero::cells(fitted));
+    cells.extend(time::cells(fitted));
+    cells.extend(waves::cells(fitted));
+    cells.extend(levels::cells(fitted));
+    cells.extend(parameters::cells(fitted));
+    cells.extend(angles::cells(fitted));
+    cells.extend(rows::cells(fitted));
+    cells.extend(readout::cells(fitted));
+    cells.extend(stuck::cells(fitted));
+    cells.extend(stem::cells(fitted));
+    cells.extend(heating::cells(fitted));
+    cells.extend(user::cells(fitted));
+    let settings = &fitted.design.case.settings;
     let wanted = |cell: &Cell| {
         let effect = cell.effect;
         let named = |word: &String| *word == effect.id.as_str() || *word == effect.family;
@@ -354,9 +354,9 @@ pub fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     };
     cells.retain(|cell| !cell.variants.is_empty() && wanted(cell));
     let mut cells = distinct(cells);
-    ground.finer.prune(&mut cells);
-    cells.extend(generics::cells(ground));
-    cells.extend(inputs::unnamed(ground));
+    fitted.finer.prune(&mut cells);
+    cells.extend(generics::cells(fitted));
+    cells.extend(inputs::unnamed(fitted));
     cells
 }
 

@@ -2,7 +2,7 @@
 //! and scale have chapters of their own; this is about time constants, exponents, angles, coefficients.
 
 use super::building::{on_node, words};
-use super::ground::{Ground, Node, varies};
+use super::fitted::{FittedModel, Node, varies};
 use super::levels::{indicator, present};
 use super::modifiers::largest;
 use super::{Cell, EffectId, Modifier};
@@ -12,27 +12,27 @@ use crate::diagnose::case::Role;
 const MOST: usize = 4;
 
 /// Cells of the parameters that are neither an offset nor the scale.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let shaping = shaping(ground);
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let shaping = shaping(fitted);
     if shaping.len() > MOST {
         return Vec::new();
     }
     shaping
         .into_iter()
-        .flat_map(|parameter| of_parameter(ground, Node::Parameter(parameter)))
+        .flat_map(|parameter| of_parameter(fitted, Node::Parameter(parameter)))
         .collect()
 }
 
 /// Parameters with a slope that is neither constant nor in proportion to the signal.
-fn shaping(ground: &Ground<'_>) -> Vec<usize> {
-    if ground.case().responses.len() != 1 || ground.is_implicit(0) {
+fn shaping(fitted: &FittedModel<'_>) -> Vec<usize> {
+    if fitted.case().responses.len() != 1 || fitted.is_implicit(0) {
         return Vec::new();
     }
-    let signal = ground.signal(0);
-    (0..ground.case().parameters.len())
+    let signal = fitted.signal(0);
+    (0..fitted.case().parameters.len())
         .filter(|parameter| {
-            let shared = ground.case().parameters[*parameter].per.is_none();
-            let slope = ground.slope(Node::Parameter(*parameter), 0);
+            let shared = fitted.case().parameters[*parameter].per.is_none();
+            let slope = fitted.slope(Node::Parameter(*parameter), 0);
             shared && varies(&slope) && !proportional(&slope, signal)
         })
         .collect()
@@ -46,41 +46,41 @@ fn proportional(a: &[f64], b: &[f64]) -> bool {
     ab * ab >= (1.0 - TRACE) * aa * bb
 }
 
-fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
-    let case = ground.case();
+fn of_parameter(fitted: &FittedModel<'_>, node: Node) -> Vec<Cell> {
+    let case = fitted.case();
     let mut cells = Vec::new();
     let mut add = |id: EffectId, along: &str, modifiers: Vec<Modifier>| {
         let variants = vec![(String::new(), modifiers)];
-        let mut cell = on_node(ground, id, words(ground, along), along, node, variants);
-        cell.words.p = ground.name(node);
+        let mut cell = on_node(fitted, id, words(fitted, along), along, node, variants);
+        cell.words.p = fitted.name(node);
         cells.push(cell);
     };
-    for column in ground.numeric() {
-        if ground.in_model(column) {
+    for column in fitted.numeric() {
+        if fitted.in_model(column) {
             continue;
         }
         let name = &case.columns[column].name;
         add(
             EffectId::ParameterSensitivity,
             name,
-            vec![ground.centred(column)],
+            vec![fitted.centred(column)],
         );
     }
-    if ground.clock.column.is_some() {
-        let along = ground.along_time();
+    if fitted.clock.column.is_some() {
+        let along = fitted.along_time();
         add(
             EffectId::ParameterDrift,
             &along,
-            vec![ground.centred_time()],
+            vec![fitted.centred_time()],
         );
     }
-    let turns = turns_an_angle(ground, node);
+    let turns = turns_an_angle(fitted, node);
     for column in case.columns.iter().filter(|_| !turns) {
         let Some(labels) = column.labels() else {
             continue;
         };
         let levels = present(labels);
-        let few = levels.len() >= 2 && levels.len() * 4 <= ground.frame.blocks.len();
+        let few = levels.len() >= 2 && levels.len() * 4 <= fitted.design.blocks.len();
         if !few || !matches!(column.role, Role::Run | Role::Factor | Role::Direction) {
             continue;
         }
@@ -100,12 +100,12 @@ fn of_parameter(ground: &Ground<'_>, node: Node) -> Vec<Cell> {
 
 /// Whether a parameter does what an error of an angle does, in some mounts or in all: from run to run that
 /// error is a competitor of its own.
-fn turns_an_angle(ground: &Ground<'_>, node: Node) -> bool {
+fn turns_an_angle(fitted: &FittedModel<'_>, node: Node) -> bool {
     /// Where the angle does less than this part of the most it does, nothing can be compared.
     const LITTLE: f64 = 0.1;
-    let slope = ground.slope(node, 0);
+    let slope = fitted.slope(node, 0);
     let is_of = |angle: usize| {
-        let by_angle = ground.slope(Node::Column(angle), 0);
+        let by_angle = fitted.slope(Node::Column(angle), 0);
         let least = LITTLE * largest(&by_angle);
         let ratios = slope.iter().zip(&by_angle);
         let ratios = ratios.filter(|(_, a)| a.abs() > least).map(|(s, a)| s / a);
@@ -119,6 +119,6 @@ fn turns_an_angle(ground: &Ground<'_>, node: Node) -> bool {
         kinds.dedup();
         kinds.len() <= 2
     };
-    let angles = ground.case().with_role(Role::Angle);
-    angles.filter(|c| ground.in_model(*c)).any(is_of)
+    let angles = fitted.case().with_role(Role::Angle);
+    angles.filter(|c| fitted.in_model(*c)).any(is_of)
 }

@@ -2,7 +2,7 @@
 //! offset, its slope and its further coefficients keep their meaning beside the new term.
 
 use super::absorbed::Absorbed;
-use super::ground::{Ground, Node, varies};
+use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{crosses_zero, map, mean, middle, range, rounded};
 use super::{Modifier, Term};
 
@@ -15,20 +15,20 @@ pub(super) struct Power {
 }
 
 /// The square and the cube of a column.
-pub(super) fn of(ground: &Ground<'_>, column: usize) -> [Power; 2] {
-    let lines = absorbs(ground, column, 1);
+pub(super) fn of(fitted: &FittedModel<'_>, column: usize) -> [Power; 2] {
+    let lines = absorbs(fitted, column, 1);
     let [searched, zero] = match lines {
-        true => [search_zero(ground, column), own_zero(ground, column)],
-        false => [free_zero(ground, column); 2],
+        true => [search_zero(fitted, column), own_zero(fitted, column)],
+        false => [free_zero(fitted, column); 2],
     };
     // A power about another zero differs by the lower powers.
-    let squares = lines && absorbs(ground, column, 2);
-    let near = is_within(ground.numbers(column), zero, FAR);
+    let squares = lines && absorbs(fitted, column, 2);
+    let near = is_within(fitted.numbers(column), zero, FAR);
     [(2, lines), (3, squares)].map(|(exponent, absorbed)| Power {
-        searched: about(ground, column, searched, exponent),
+        searched: about(fitted, column, searched, exponent),
         written: match absorbed && near {
-            true => about(ground, column, zero, exponent),
-            false => about(ground, column, searched, exponent),
+            true => about(fitted, column, zero, exponent),
+            false => about(fitted, column, searched, exponent),
         },
     })
 }
@@ -44,45 +44,45 @@ fn is_within(x: &[f64], zero: f64, part: f64) -> bool {
 }
 
 /// Numbers about the middle lie at right angles to constant and slope.
-fn search_zero(ground: &Ground<'_>, column: usize) -> f64 {
-    let x = ground.numbers(column);
+fn search_zero(fitted: &FittedModel<'_>, column: usize) -> f64 {
+    let x = fitted.numbers(column);
     if crosses_zero(x) { 0.0 } else { middle(x) }
 }
 
-fn about(ground: &Ground<'_>, column: usize, zero: f64, exponent: i32) -> Modifier {
-    let unit = ground.step_unit(column);
+fn about(fitted: &FittedModel<'_>, column: usize, zero: f64, exponent: i32) -> Modifier {
+    let unit = fitted.step_unit(column);
     let unit = (1..exponent).fold(unit.clone(), |power, _| power.product(&unit));
-    let values = map(ground.numbers(column), |x| (x - zero).powi(exponent));
-    let text = format!("{}^{exponent}", ground.less(column, zero));
+    let values = map(fitted.numbers(column), |x| (x - zero).powi(exponent));
+    let text = format!("{}^{exponent}", fitted.less(column, zero));
     Modifier::new(values, text, unit)
 }
 
 /// Whether the powers of a column up to an exponent are free parameters of every output.
-fn absorbs(ground: &Ground<'_>, column: usize, exponent: i32) -> bool {
-    let case = ground.case();
+fn absorbs(fitted: &FittedModel<'_>, column: usize, exponent: i32) -> bool {
+    let case = fitted.case();
     if case.parameters.iter().any(|p| p.prior.is_some()) {
         return false;
     }
-    let absorbed = Absorbed::by_parameters(ground);
-    let centre = middle(ground.numbers(column));
+    let absorbed = Absorbed::by_parameters(fitted);
+    let centre = middle(fitted.numbers(column));
     let powers: Vec<Modifier> = (0..=exponent)
-        .map(|exponent| about(ground, column, centre, exponent))
+        .map(|exponent| about(fitted, column, centre, exponent))
         .collect();
     (0..case.responses.len()).all(|response| {
         powers.iter().all(|power| {
             let term = Term::new(Node::Output, power.clone()).on(response);
-            !absorbed.leaves(&ground.column(&term))
+            !absorbed.leaves(&fitted.column(&term))
         })
     })
 }
 
 /// Where the offset of the model is its value: the zero of a line by which a parameter multiplies, 20 °C in
 /// `R = R_20*(1 + alpha*(T - 20 '°C'))`; that nearest to the recording, if there are several.
-fn own_zero(ground: &Ground<'_>, column: usize) -> f64 {
-    let x = ground.numbers(column);
+fn own_zero(fitted: &FittedModel<'_>, column: usize) -> f64 {
+    let x = fitted.numbers(column);
     let (least, most) = range(x);
-    let zeros = (0..ground.case().parameters.len()).filter_map(|parameter| {
-        let slope = ground.slope(Node::Parameter(parameter), 0);
+    let zeros = (0..fitted.case().parameters.len()).filter_map(|parameter| {
+        let slope = fitted.slope(Node::Parameter(parameter), 0);
         zero_of_line(x, &slope)
     });
     let zeros: Vec<f64> = zeros
@@ -124,13 +124,13 @@ fn zero_of_line(x: &[f64], y: &[f64]) -> Option<f64> {
 
 /// Without offset and slope in the model: the zero of the quantity, unless its scale begins anywhere or the
 /// recording is far from it.
-fn free_zero(ground: &Ground<'_>, column: usize) -> f64 {
+fn free_zero(fitted: &FittedModel<'_>, column: usize) -> f64 {
     /// Range over largest value.
     const NEAR: f64 = 0.2;
-    let has_zero = !ground.case().columns[column].unit.is_point();
-    match has_zero && is_within(ground.numbers(column), 0.0, NEAR) {
+    let has_zero = !fitted.case().columns[column].unit.is_point();
+    match has_zero && is_within(fitted.numbers(column), 0.0, NEAR) {
         true => 0.0,
-        false => search_zero(ground, column),
+        false => search_zero(fitted, column),
     }
 }
 

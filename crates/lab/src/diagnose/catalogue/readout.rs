@@ -1,41 +1,41 @@
 //! What the readout and the protocol do: rounding to a step, outputs in the wrong line.
 
 use super::building::{on_output, plain};
-use super::ground::{Ground, varies};
+use super::fitted::{FittedModel, varies};
 use super::{Cell, EffectId, Modifier, Variation, tied};
 
 /// Cells of the readout.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let mut cells: Vec<Cell> = (0..ground.case().responses.len())
-        .filter_map(|response| quantisation(ground, response))
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let mut cells: Vec<Cell> = (0..fitted.case().responses.len())
+        .filter_map(|response| quantisation(fitted, response))
         .collect();
-    cells.extend(shifted(ground));
+    cells.extend(shifted(fitted));
     cells
 }
 
 /// Rounding of the model's output to the step in which readings come: an error of known size.
-fn quantisation(ground: &Ground<'_>, response: usize) -> Option<Cell> {
-    let observed = ground.frame.observed(response);
-    if ground.is_implicit(response) || ground.frame.blocks.len() < ground.rows() {
+fn quantisation(fitted: &FittedModel<'_>, response: usize) -> Option<Cell> {
+    let observed = fitted.design.observed(response);
+    if fitted.is_implicit(response) || fitted.design.blocks.len() < fitted.rows() {
         return None;
     }
     let step = step(&observed)?;
-    let model = &ground.fit.linear.values[response];
+    let model = &fitted.fit.linear.values[response];
     let modifier: Vec<f64> = model
         .iter()
         .map(|y| (y / step).round() * step - y)
         .collect();
-    let name = &ground.case().responses[response].name;
-    let unit = ground.case().responses[response].unit.typeset();
+    let name = &fitted.case().responses[response].name;
+    let unit = fitted.case().responses[response].unit.typeset();
     let shown = super::modifiers::figure(step);
     let term = on_output(Modifier::new(
         modifier,
         format!("(round({name}/{shown})*{shown} - {name})"),
-        ground.case().responses[response].unit.difference(),
+        fitted.case().responses[response].unit.difference(),
     ));
     let label = format!("step {shown} {unit}");
     let mut cell = plain(
-        ground,
+        fitted,
         EffectId::Quantisation,
         name,
         vec![Variation::one(label, term.on(response))],
@@ -68,17 +68,17 @@ fn step(readings: &[f64]) -> Option<f64> {
 }
 
 /// Every output stands one row too late or too early.
-fn shifted(ground: &Ground<'_>) -> Option<Cell> {
-    let single = ground.frame.blocks.iter().all(|rows| rows.len() == 1);
-    if !single || !ground.has_signal() || ground.rows() < 8 {
+fn shifted(fitted: &FittedModel<'_>) -> Option<Cell> {
+    let single = fitted.design.blocks.iter().all(|rows| rows.len() == 1);
+    if !single || !fitted.has_signal() || fitted.rows() < 8 {
         return None;
     }
-    let last = ground.rows() - 1;
+    let last = fitted.rows() - 1;
     let variant = |label: &str, other: &dyn Fn(usize) -> usize| {
-        let terms = (0..ground.case().responses.len()).map(|response| {
-            let model = &ground.fit.linear.values[response];
+        let terms = (0..fitted.case().responses.len()).map(|response| {
+            let model = &fitted.fit.linear.values[response];
             let modifier = (0..=last).map(|row| model[other(row)] - model[row]);
-            let unit = ground.case().responses[response].unit.difference();
+            let unit = fitted.case().responses[response].unit.difference();
             let text = format!("outputs {label}");
             on_output(Modifier::new(modifier.collect(), text, unit)).on(response)
         });
@@ -89,7 +89,7 @@ fn shifted(ground: &Ground<'_>) -> Option<Cell> {
         variant("one row late", &|row| row.saturating_sub(1)),
         variant("one row early", &|row| (row + 1).min(last)),
     ];
-    Some(plain(ground, EffectId::Shifted, "row", variants))
+    Some(plain(fitted, EffectId::Shifted, "row", variants))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! lag.
 
 use super::building::{on_node, on_output, on_outputs, time_constants, words};
-use super::ground::{Ground, Node};
+use super::fitted::{FittedModel, Node};
 use super::modifiers::{
     creeps, delayed, figure, five_digits, grid, late, levels_of, map, map2, mean, range, rate,
 };
@@ -13,31 +13,31 @@ use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
 
 /// Cells of the columns that the model uses.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let used: Vec<usize> = ground
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let used: Vec<usize> = fitted
         .numeric()
         .into_iter()
-        .filter(|c| ground.in_model(*c))
+        .filter(|c| fitted.in_model(*c))
         .collect();
-    let implicit = (0..ground.case().responses.len()).all(|r| ground.is_implicit(r));
+    let implicit = (0..fitted.case().responses.len()).all(|r| fitted.is_implicit(r));
     if implicit {
-        return super::implicit::cells(ground, &used);
+        return super::implicit::cells(fitted, &used);
     }
     // A factor of a product is not what an axis takes in; it may act on the offset all the same.
     let (direct, factors): (Vec<usize>, Vec<usize>) =
-        used.iter().partition(|column| ground.is_direct(**column));
-    let mut cells = aside(ground, &factors);
-    cells.extend(factors.iter().flat_map(|c| bends(ground, *c)));
+        used.iter().partition(|column| fitted.is_direct(**column));
+    let mut cells = aside(fitted, &factors);
+    cells.extend(factors.iter().flat_map(|c| bends(fitted, *c)));
     for column in &direct {
-        cells.extend(powers(ground, *column));
-        cells.extend(exponent(ground, *column));
-        cells.extend(super::limits::cells(ground, *column));
-        cells.extend(dynamics(ground, *column));
-        cells.extend(super::history::cells(ground, *column));
+        cells.extend(powers(fitted, *column));
+        cells.extend(exponent(fitted, *column));
+        cells.extend(super::limits::cells(fitted, *column));
+        cells.extend(dynamics(fitted, *column));
+        cells.extend(super::history::cells(fitted, *column));
     }
     for (at, x) in direct.iter().enumerate() {
         for z in &direct[at + 1..] {
-            cells.push(interaction(ground, *x, *z));
+            cells.push(interaction(fitted, *x, *z));
         }
     }
     cells
@@ -45,45 +45,45 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 
 /// What factors of products do by themselves: those of one unit are components of one vector, such as
 /// the direction of gravity in a gyroscope.
-fn aside(ground: &Ground<'_>, factors: &[usize]) -> Vec<Cell> {
+fn aside(fitted: &FittedModel<'_>, factors: &[usize]) -> Vec<Cell> {
     let mut vectors: Vec<Vec<usize>> = Vec::new();
-    let unit = |column: usize| &ground.case().columns[column].unit;
+    let unit = |column: usize| &fitted.case().columns[column].unit;
     // The angle of a mount turns other things; by itself it does nothing.
-    for column in factors.iter().filter(|c| !ground.is_angle(**c)) {
+    for column in factors.iter().filter(|c| !fitted.is_angle(**c)) {
         match vectors.iter_mut().find(|v| unit(v[0]) == unit(*column)) {
             Some(vector) => vector.push(*column),
             None => vectors.push(vec![*column]),
         }
     }
     let of_vector = |vector: &Vec<usize>| {
-        let names: Vec<&str> = vector.iter().map(|c| name(ground, *c)).collect();
+        let names: Vec<&str> = vector.iter().map(|c| name(fitted, *c)).collect();
         let names = names.join(", ");
-        let each = vector.iter().map(|column| ground.centred(*column));
-        let id = match ground.case().columns[vector[0]].role {
-            _ if ground.is_temperature(vector[0]) => EffectId::TempcoBias,
+        let each = vector.iter().map(|column| fitted.centred(*column));
+        let id = match fitted.case().columns[vector[0]].role {
+            _ if fitted.is_temperature(vector[0]) => EffectId::TempcoBias,
             Role::Stimulus => EffectId::CrossSensitivity,
             _ => EffectId::Sensitivity,
         };
         let variants = vec![(String::new(), each.collect())];
-        on_outputs(ground, id, words(ground, &names), &names, variants)
+        on_outputs(fitted, id, words(fitted, &names), &names, variants)
     };
     vectors.iter().map(of_vector).collect()
 }
 
 /// Another exponent, where the model is a power of a quantity other than the first and has no zero besides:
 /// the flow through an orifice, light at a distance, radiation of a hot body.
-fn exponent(ground: &Ground<'_>, column: usize) -> Option<Cell> {
+fn exponent(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     /// Exponents so near to one another are the same.
     const SAME: f64 = 1e-3;
     /// Below it a quantity only corrects the output.
     const WEAK: f64 = 0.1;
-    let x = ground.numbers(column);
-    let one_output = ground.case().responses.len() == 1 && ground.constant_terms(0).is_empty();
+    let x = fitted.numbers(column);
+    let one_output = fitted.case().responses.len() == 1 && fitted.constant_terms(0).is_empty();
     if !one_output || range(x).0 <= 0.0 {
         return None;
     }
-    let slope = ground.slope(Node::Column(column), 0);
-    let powers: Vec<f64> = (x.iter().zip(&slope).zip(ground.signal(0)))
+    let slope = fitted.slope(Node::Column(column), 0);
+    let powers: Vec<f64> = (x.iter().zip(&slope).zip(fitted.signal(0)))
         .map(|((x, slope), y)| x * slope / y)
         .collect();
     let (least, most) = range(&powers);
@@ -91,15 +91,15 @@ fn exponent(ground: &Ground<'_>, column: usize) -> Option<Cell> {
     if !steady || (least - 1.0).abs() < SAME || least.abs() < WEAK {
         return None;
     }
-    let label = name(ground, column);
+    let label = name(fitted, column);
     let middle = five_digits(libm::exp(mean(&map(x, libm::log))));
     let modifier = map(x, |x| libm::log(x / middle));
-    let text = format!("ln({label}/({}))", ground.figure(column, middle));
+    let text = format!("ln({label}/({}))", fitted.figure(column, middle));
     let variants = vec![(String::new(), vec![Modifier::number(modifier, text)])];
     Some(on_node(
-        ground,
+        fitted,
         EffectId::Exponent,
-        words(ground, label),
+        words(fitted, label),
         label,
         Node::Gain,
         variants,
@@ -108,74 +108,74 @@ fn exponent(ground: &Ground<'_>, column: usize) -> Option<Cell> {
 
 /// Curvature of the response to a factor of a product of quantities of different kinds, such as current times
 /// field: each of them may bend by itself. Direction cosines and switches do not.
-fn bends(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
+fn bends(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     /// Through fewer values a cube goes anyhow.
     const VALUES: usize = 5;
-    let columns = &ground.case().columns;
-    let used = |c: &usize| ground.in_model(*c) && columns[*c].role == Role::Stimulus;
+    let columns = &fitted.case().columns;
+    let used = |c: &usize| fitted.in_model(*c) && columns[*c].role == Role::Stimulus;
     let has_cosines = (0..columns.len())
         .filter(used)
         .any(|c| columns[c].unit.is_one());
-    let x = ground.numbers(column);
-    let one_output = ground.case().responses.len() == 1;
-    if has_cosines || !one_output || ground.is_angle(column) || levels_of(x).len() < VALUES {
+    let x = fitted.numbers(column);
+    let one_output = fitted.case().responses.len() == 1;
+    if has_cosines || !one_output || fitted.is_angle(column) || levels_of(x).len() < VALUES {
         return Vec::new();
     }
     let size = five_digits(super::modifiers::largest(x));
-    let label = name(ground, column);
+    let label = name(fitted, column);
     let power = |id: EffectId, exponent: i32| {
         let modifier = map(x, |x| x * (x / size).powi(exponent - 1));
-        let shown = ground.figure(column, size);
+        let shown = fitted.figure(column, size);
         let text = match exponent {
             2 => format!("{label}*({label}/({shown}))"),
             _ => format!("{label}*({label}/({shown}))^{}", exponent - 1),
         };
-        let modifier = Modifier::new(modifier, text, ground.step_unit(column));
+        let modifier = Modifier::new(modifier, text, fitted.step_unit(column));
         let variants = vec![(String::new(), vec![modifier])];
         let node = Node::Column(column);
-        on_node(ground, id, words(ground, label), label, node, variants)
+        on_node(fitted, id, words(fitted, label), label, node, variants)
     };
     vec![power(EffectId::Quadratic, 2), power(EffectId::Cubic, 3)]
 }
 
-fn name<'g>(ground: &'g Ground<'_>, column: usize) -> &'g str {
-    ground.label(column)
+fn name<'g>(fitted: &'g FittedModel<'_>, column: usize) -> &'g str {
+    fitted.label(column)
 }
 
-fn powers(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
-    let second = if ground.is_temperature(column) {
+fn powers(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
+    let second = if fitted.is_temperature(column) {
         EffectId::TempcoQuadratic
     } else {
         EffectId::Quadratic
     };
-    let [square, cube] = super::powers::of(ground, column);
+    let [square, cube] = super::powers::of(fitted, column);
     let mut cells = vec![
-        power(ground, column, second, square),
-        power(ground, column, EffectId::Cubic, cube),
+        power(fitted, column, second, square),
+        power(fitted, column, EffectId::Cubic, cube),
     ];
-    let (x, label) = (ground.numbers(column), name(ground, column));
-    if ground.passes_zero(column) {
+    let (x, label) = (fitted.numbers(column), name(fitted, column));
+    if fitted.passes_zero(column) {
         let text = format!("abs({label})");
-        let modulus = Modifier::new(map(x, f64::abs), text, ground.step_unit(column));
+        let modulus = Modifier::new(map(x, f64::abs), text, fitted.step_unit(column));
         let variants = vec![(String::new(), vec![modulus])];
-        let words = words(ground, label);
+        let words = words(fitted, label);
         cells.push(on_outputs(
-            ground,
+            fitted,
             EffectId::Asymmetry,
             words,
             label,
             variants,
         ));
-    } else if !ground.is_temperature(column) {
-        cells[0].variants.extend(levelling(ground, column));
+    } else if !fitted.is_temperature(column) {
+        cells[0].variants.extend(levelling(fitted, column));
     }
     cells
 }
 
-fn power(ground: &Ground<'_>, column: usize, id: EffectId, power: Power) -> Cell {
-    let label = name(ground, column);
+fn power(fitted: &FittedModel<'_>, column: usize, id: EffectId, power: Power) -> Cell {
+    let label = name(fitted, column);
     let variants = vec![(String::new(), vec![power.searched])];
-    let mut cell = on_outputs(ground, id, words(ground, label), label, variants);
+    let mut cell = on_outputs(fitted, id, words(fitted, label), label, variants);
     for variation in &mut cell.variants {
         let terms = std::mem::take(&mut variation.terms).into_iter();
         variation.terms = terms
@@ -186,17 +186,17 @@ fn power(ground: &Ground<'_>, column: usize, id: EffectId, power: Power) -> Cell
 }
 
 /// A square that levels off, as counting losses of a dead time do, and detectors near their limit.
-fn levelling(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
+fn levelling(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
     /// Where the loss is a half, in units of the largest value.
     const HALF: [f64; 3] = [0.5, 1.0, 3.0];
-    let (x, label) = (ground.numbers(column), name(ground, column));
+    let (x, label) = (fitted.numbers(column), name(fitted, column));
     let most = super::modifiers::largest(x);
     let of = |part: f64| {
         let half = five_digits(part * most);
         let modifier = map(x, |x| x * x / (1.0 + x.abs() / half));
-        let shown = ground.figure(column, half);
+        let shown = fitted.figure(column, half);
         let text = format!("{label}^2/(1 + abs({label})/({shown}))");
-        let unit = ground.step_unit(column);
+        let unit = fitted.step_unit(column);
         let modifier = Modifier::new(modifier, text, unit.product(&unit));
         Variation::one(
             format!("levelling off, half at {shown}"),
@@ -216,18 +216,18 @@ fn least_share(x: &[f64]) -> f64 {
     least / most
 }
 
-fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
+fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     /// How many times slower the slower of two bodies is.
     const APART: [f64; 2] = [4.0, 12.0];
-    if !ground.is_timed() {
+    if !fitted.is_timed() {
         return Vec::new();
     }
-    let slowest = ground.clock.span();
-    let (x, label) = (ground.numbers(column), name(ground, column));
-    let t = &ground.clock.values;
-    let unit = ground.time_unit();
+    let slowest = fitted.clock.span();
+    let (x, label) = (fitted.numbers(column), name(fitted, column));
+    let t = &fitted.clock.values;
+    let unit = fitted.time_unit();
     let node = Node::Column(column);
-    let id = if ground.is_temperature(column) {
+    let id = if fitted.is_temperature(column) {
         EffectId::TemperatureLag
     } else {
         EffectId::Lag
@@ -237,11 +237,11 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
         let text = format!("(lag({label}, {tau} {unit}) - {label})", tau = figure(tau));
         Term::new(
             node,
-            Modifier::new(modifier, text, ground.step_unit(column)),
+            Modifier::new(modifier, text, fitted.step_unit(column)),
         )
     };
-    let scales = sharpened(ground, time_constants(ground), &lacks);
-    let singles = ground.finer.times(scales.clone());
+    let scales = sharpened(fitted, time_constants(fitted), &lacks);
+    let singles = fitted.finer.times(scales.clone());
     let single = singles.iter().map(|tau| {
         let label = format!("τ = {} {unit}", figure(*tau));
         Variation::one(label, lacks(*tau)).shaped("τ", *tau, &unit)
@@ -255,7 +255,7 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
             Variation::of(label, vec![lacks(*tau), lacks(slow)])
         })
     });
-    let free = best_pair(ground, &scales, &lacks).map(|(quick, slow)| {
+    let free = best_pair(fitted, &scales, &lacks).map(|(quick, slow)| {
         let label = format!("τ = {} and {} {unit}", figure(quick), figure(slow));
         Variation::of(label, vec![lacks(quick), lacks(slow)])
     });
@@ -264,7 +264,7 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let unbalanced = scales.iter().filter(|_| creeps(x)).map(|tau| {
         let shown = figure(*tau);
         let start = map(t, |t| libm::exp(-(t - began) / tau));
-        let since = ground.time_less(began);
+        let since = fitted.time_less(began);
         let text = format!("exp(-{since}/({shown} {unit}))");
         let start = Term::new(node, Modifier::number(start, text));
         let label = format!("τ = {shown} {unit}, not in balance at the start");
@@ -273,18 +273,18 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
     let variants = single.chain(double).chain(free).chain(unbalanced);
     let lagged = Cell::new(
         id,
-        words(ground, label),
+        words(fitted, label),
         Place {
             node: label.to_owned(),
             along: "time".into(),
         },
         variants.collect(),
     );
-    let instant = Variation::one("", Term::new(node, ground.rate(column)));
-    let (id, delays) = if ground.is_temperature(column) {
+    let instant = Variation::one("", Term::new(node, fitted.rate(column)));
+    let (id, delays) = if fitted.is_temperature(column) {
         (EffectId::TemperatureRate, Vec::new())
     } else {
-        (EffectId::TimingSkew, delays(ground, column))
+        (EffectId::TimingSkew, delays(fitted, column))
     };
     let skew = Cell {
         effect: id.entry(),
@@ -300,18 +300,18 @@ fn dynamics(ground: &Ground<'_>, column: usize) -> Vec<Cell> {
 
 /// Delays of more than a part of the interval, in which a course bends: the course as it was then, and its
 /// rate for what the delay differs from that.
-fn delays(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
-    let (x, label) = (ground.numbers(column), name(ground, column));
-    let t = &ground.clock.values;
-    let unit = ground.time_unit();
-    let longest = (20.0 * ground.clock.interval()).min(ground.clock.span() / 20.0);
-    let sizes = grid(ground.clock.interval(), longest, 1.6, 8);
+fn delays(fitted: &FittedModel<'_>, column: usize) -> Vec<Variation> {
+    let (x, label) = (fitted.numbers(column), name(fitted, column));
+    let t = &fitted.clock.values;
+    let unit = fitted.time_unit();
+    let longest = (20.0 * fitted.clock.interval()).min(fitted.clock.span() / 20.0);
+    let sizes = grid(fitted.clock.interval(), longest, 1.6, 8);
     let both = sizes.iter().flat_map(|size| [*size, -size]);
     let variants = both.map(|delay| {
         let then = delayed(t, x, delay);
         let shown = format!("{label}(t - {} {unit})", figure(delay));
         let moved = map2(&then, x, |then, now| then - now);
-        let (own, per_time) = (ground.step_unit(column), ground.rate(column).unit);
+        let (own, per_time) = (fitted.step_unit(column), fitted.rate(column).unit);
         let moved = Modifier::new(moved, format!("({shown} - {label})"), own);
         let rate = Modifier::new(rate(t, &then), format!("d{shown}/dt"), per_time);
         let terms = [moved, rate].map(|m| Term::new(Node::Column(column), m));
@@ -321,15 +321,15 @@ fn delays(ground: &Ground<'_>, column: usize) -> Vec<Variation> {
     variants.collect()
 }
 
-fn interaction(ground: &Ground<'_>, x: usize, z: usize) -> Cell {
-    let variants = vec![(String::new(), vec![ground.centred_product(x, z)])];
-    let (x, z) = (name(ground, x).to_owned(), name(ground, z).to_owned());
+fn interaction(fitted: &FittedModel<'_>, x: usize, z: usize) -> Cell {
+    let variants = vec![(String::new(), vec![fitted.centred_product(x, z)])];
+    let (x, z) = (name(fitted, x).to_owned(), name(fitted, z).to_owned());
     let words = Words {
         z: z.clone(),
-        ..words(ground, &x)
+        ..words(fitted, &x)
     };
     on_outputs(
-        ground,
+        fitted,
         EffectId::Interaction,
         words,
         &format!("{x}, {z}"),

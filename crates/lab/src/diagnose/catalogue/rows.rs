@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::absorbed::Absorbed;
 use super::building::{on_output, plain};
-use super::ground::{Ground, Node};
+use super::fitted::{FittedModel, Node};
 use super::{Cell, EffectId, Modifier, Term, Variation, tied};
 use crate::diagnose::evidence::Place;
 
@@ -18,25 +18,25 @@ const UNDETERMINED: f64 = 1e-6;
 const WORST: usize = 6;
 
 /// Cells of single rows; where rows are averaged, of single means.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let blocks = &ground.frame.blocks;
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let blocks = &fitted.design.blocks;
     if blocks.len() > MOST || blocks.len() < 5 {
         return Vec::new();
     }
     let outliers = blocks.iter().map(|rows| {
-        let terms = (0..ground.case().responses.len()).map(|response| {
+        let terms = (0..fitted.case().responses.len()).map(|response| {
             on_output(Modifier::number(
-                only(ground, rows, 1.0),
+                only(fitted, rows, 1.0),
                 format!("[{}]", named(rows)),
             ))
             .on(response)
         });
         Variation::of(named(rows), terms.collect())
     });
-    let mut cells = vec![plain(ground, EffectId::Outlier, "row", outliers.collect())];
-    if blocks.len() == ground.rows() && ground.has_signal() && blocks.len() <= MOST / 2 {
-        cells.push(swapped(ground));
-        cells.push(reversed(ground));
+    let mut cells = vec![plain(fitted, EffectId::Outlier, "row", outliers.collect())];
+    if blocks.len() == fitted.rows() && fitted.has_signal() && blocks.len() <= MOST / 2 {
+        cells.push(swapped(fitted));
+        cells.push(reversed(fitted));
     }
     cells
 }
@@ -48,8 +48,8 @@ fn named(rows: &[usize]) -> String {
     }
 }
 
-fn only(ground: &Ground<'_>, rows: &[usize], value: f64) -> Vec<f64> {
-    let mut modifier = vec![0.0; ground.rows()];
+fn only(fitted: &FittedModel<'_>, rows: &[usize], value: f64) -> Vec<f64> {
+    let mut modifier = vec![0.0; fitted.rows()];
     for row in rows {
         modifier[*row] = value;
     }
@@ -57,9 +57,9 @@ fn only(ground: &Ground<'_>, rows: &[usize], value: f64) -> Vec<f64> {
 }
 
 /// Rows with each other's output: successive ones, and among those that agree worst with the others any two.
-fn swapped(ground: &Ground<'_>) -> Cell {
-    let deleted = Deleted::new(ground);
-    let rows = ground.rows();
+fn swapped(fitted: &FittedModel<'_>) -> Cell {
+    let deleted = Deleted::new(fitted);
+    let rows = fitted.rows();
     let mut pairs: BTreeSet<[usize; 2]> = (1..rows).map(|row| [row - 1, row]).collect();
     let worst = deleted.worst();
     pairs.extend(
@@ -77,19 +77,19 @@ fn swapped(ground: &Ground<'_>) -> Cell {
             let mut modifier = vec![0.0; rows];
             modifier[first] = step;
             modifier[second] = -step;
-            let unit = ground.case().responses[response].unit.difference();
+            let unit = fitted.case().responses[response].unit.difference();
             let text = format!("exchange of {label}");
             on_output(Modifier::new(modifier, text, unit)).on(response)
         });
         // All responses of a row are exchanged together: one coefficient.
         Variation::of(label.clone(), tied(terms.collect()))
     });
-    plain(ground, EffectId::Swapped, "row", variants.collect())
+    plain(fitted, EffectId::Swapped, "row", variants.collect())
 }
 
 /// The model fitted without single rows, which may have bent the fit; all rows alike.
 struct Deleted<'g, 'f> {
-    ground: &'g Ground<'f>,
+    fitted: &'g FittedModel<'f>,
     absorbed: Absorbed,
     /// What the parameters leave of the residuals; what is still to be recorded has none.
     rest: DVector<f64>,
@@ -98,13 +98,13 @@ struct Deleted<'g, 'f> {
 }
 
 impl<'g, 'f> Deleted<'g, 'f> {
-    fn new(ground: &'g Ground<'f>) -> Self {
-        let absorbed = Absorbed::by_parameters(ground);
+    fn new(fitted: &'g FittedModel<'f>) -> Self {
+        let absorbed = Absorbed::by_parameters(fitted);
         let known = |r: f64| if r.is_finite() { r } else { 0.0 };
-        let residuals = ground.fit.residuals.map(known);
+        let residuals = fitted.fit.residuals.map(known);
         let rest = absorbed.rest(&residuals);
         Deleted {
-            ground,
+            fitted,
             absorbed,
             taken: residuals - &rest,
             rest,
@@ -112,8 +112,8 @@ impl<'g, 'f> Deleted<'g, 'f> {
     }
 
     fn places(&self, rows: &[usize]) -> Vec<usize> {
-        let responses = self.ground.case().responses.len();
-        let of = |response| (rows.iter()).map(move |row| response * self.ground.rows() + row);
+        let responses = self.fitted.case().responses.len();
+        let of = |response| (rows.iter()).map(move |row| response * self.fitted.rows() + row);
         (0..responses).flat_map(of).collect()
     }
 
@@ -134,8 +134,8 @@ impl<'g, 'f> Deleted<'g, 'f> {
         let places = self.places(rows);
         let bent = self.bent(&places);
         let values = places.iter().zip(&bent).map(|(place, bent)| {
-            let (response, row) = (place / self.ground.rows(), place % self.ground.rows());
-            self.ground.fit.linear.values[response][row] + self.taken[*place] - bent
+            let (response, row) = (place / self.fitted.rows(), place % self.fitted.rows());
+            self.fitted.fit.linear.values[response][row] + self.taken[*place] - bent
         });
         let values: Vec<f64> = values.collect();
         values.chunks(rows.len()).map(<[f64]>::to_vec).collect()
@@ -143,7 +143,7 @@ impl<'g, 'f> Deleted<'g, 'f> {
 
     /// The rows that are farthest from what the others say, ascending.
     fn worst(&self) -> Vec<usize> {
-        let rows = self.ground.rows();
+        let rows = self.fitted.rows();
         let mut squares = vec![0.0; rows];
         let distances: Vec<Vec<f64>> = (0..rows)
             .map(|row| {
@@ -153,7 +153,7 @@ impl<'g, 'f> Deleted<'g, 'f> {
                 of.map(|(place, bent)| self.rest[*place] + bent).collect()
             })
             .collect();
-        for response in 0..self.ground.case().responses.len() {
+        for response in 0..self.fitted.case().responses.len() {
             let own = || distances.iter().map(|of| of[response] * of[response]);
             let whole: f64 = own().sum();
             for (square, d) in squares.iter_mut().zip(own()).filter(|_| whole > 0.0) {
@@ -169,14 +169,14 @@ impl<'g, 'f> Deleted<'g, 'f> {
 }
 
 /// Labels for which the whole signal may have the wrong sign.
-fn reversed(ground: &Ground<'_>) -> Cell {
+fn reversed(fitted: &FittedModel<'_>) -> Cell {
     let mut variants = Vec::new();
-    for column in &ground.case().columns {
+    for column in &fitted.case().columns {
         let Some(labels) = column.labels() else {
             continue;
         };
         let levels = super::levels::present(labels);
-        if levels.len() < 2 || levels.len() * 3 > 2 * ground.frame.blocks.len() {
+        if levels.len() < 2 || levels.len() * 3 > 2 * fitted.design.blocks.len() {
             continue;
         }
         for level in levels {
@@ -194,9 +194,9 @@ fn reversed(ground: &Ground<'_>) -> Cell {
     }
     Cell::new(
         EffectId::Polarity,
-        super::building::words(ground, EffectId::Polarity.as_str()),
+        super::building::words(fitted, EffectId::Polarity.as_str()),
         Place {
-            node: ground.name(Node::Gain),
+            node: fitted.name(Node::Gain),
             along: "level".into(),
         },
         variants,

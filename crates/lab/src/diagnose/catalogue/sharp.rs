@@ -5,35 +5,35 @@ use nalgebra::DVector;
 
 use super::Term;
 use super::absorbed::Absorbed;
-use super::ground::Ground;
+use super::fitted::FittedModel;
 
 /// Ratio of variances from which on an effect shows.
 const SHOWS: f64 = 16.0;
 
 /// What the residuals say of regressors.
 struct Residuals<'g, 'f> {
-    ground: &'g Ground<'f>,
+    fitted: &'g FittedModel<'f>,
     absorbed: Absorbed,
     rest: DVector<f64>,
 }
 
 impl<'g, 'f> Residuals<'g, 'f> {
     /// Outputs of several axes have laws of their own and are left alone.
-    fn of(ground: &'g Ground<'f>) -> Option<Residuals<'g, 'f>> {
-        if ground.case().responses.len() != 1 {
+    fn of(fitted: &'g FittedModel<'f>) -> Option<Residuals<'g, 'f>> {
+        if fitted.case().responses.len() != 1 {
             return None;
         }
-        let absorbed = Absorbed::by_parameters(ground);
-        let rest = absorbed.rest(&ground.fit.residuals);
+        let absorbed = Absorbed::by_parameters(fitted);
+        let rest = absorbed.rest(&fitted.fit.residuals);
         Some(Residuals {
-            ground,
+            fitted,
             absorbed,
             rest,
         })
     }
 
     fn power(&self, term: &Term) -> f64 {
-        power(&self.absorbed, &self.rest, &self.ground.column(term))
+        power(&self.absorbed, &self.rest, &self.fitted.column(term))
     }
 
     fn shows(&self, power: f64) -> bool {
@@ -46,14 +46,14 @@ impl<'g, 'f> Residuals<'g, 'f> {
 
 /// Moves the value next to the best one onto it, where an effect of this kind shows at all.
 pub(super) fn sharpened(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     mut grid: Vec<f64>,
     term: &dyn Fn(f64) -> Term,
 ) -> Vec<f64> {
     if grid.len() < 2 || grid.iter().any(|value| *value <= 0.0) {
         return grid;
     }
-    let Some(residuals) = Residuals::of(ground) else {
+    let Some(residuals) = Residuals::of(fitted) else {
         return grid;
     };
     let power = |value: f64| residuals.power(&term(value));
@@ -69,8 +69,11 @@ pub(super) fn sharpened(
 }
 
 /// The best of many terms, where an effect of this kind shows at all.
-pub(super) fn best(ground: &Ground<'_>, terms: &mut dyn Iterator<Item = Term>) -> Option<usize> {
-    let residuals = Residuals::of(ground)?;
+pub(super) fn best(
+    fitted: &FittedModel<'_>,
+    terms: &mut dyn Iterator<Item = Term>,
+) -> Option<usize> {
+    let residuals = Residuals::of(fitted)?;
     let powers: Vec<f64> = terms.map(|term| residuals.power(&term)).collect();
     let best = largest_at(&powers);
     powers
@@ -82,16 +85,16 @@ pub(super) fn best(ground: &Ground<'_>, terms: &mut dyn Iterator<Item = Term>) -
 /// The two values of a grid of which the terms together explain the residuals best, where they do so clearly
 /// better than one alone.
 pub(super) fn best_pair(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     grid: &[f64],
     term: &dyn Fn(f64) -> Term,
 ) -> Option<(f64, f64)> {
     /// Values nearer to one another are one.
     const APART: f64 = 2.5;
-    let residuals = Residuals::of(ground)?;
+    let residuals = Residuals::of(fitted)?;
     let rests: Vec<DVector<f64>> = grid
         .iter()
-        .map(|value| residuals.absorbed.rest(&ground.column(&term(*value))))
+        .map(|value| residuals.absorbed.rest(&fitted.column(&term(*value))))
         .collect();
     let single = |at: usize| along(&rests[at], &residuals.rest);
     let alone = (0..grid.len()).map(single).fold(0.0, f64::max);

@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::building::{on_output, plain};
-use super::ground::{Ground, Node, varies};
+use super::fitted::{FittedModel, Node, varies};
 use super::modifiers::{range, typical_step};
 use super::{Cell, EffectId, Modifier, Variation};
 
@@ -14,30 +14,30 @@ const ROWS: usize = 5;
 const STRETCHES: usize = 4;
 
 /// One cell with a variant for each stretch in which an output stands still.
-pub(super) fn cells(ground: &Ground<'_>) -> Option<Cell> {
-    let case = ground.case();
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Option<Cell> {
+    let case = fitted.case();
     let whole = case.parameters.iter().all(|p| p.per.is_none());
-    if !whole || ground.rows() < 4 * ROWS {
+    if !whole || fitted.rows() < 4 * ROWS {
         return None;
     }
     let variants = (0..case.responses.len())
-        .filter(|response| !ground.is_implicit(*response))
-        .flat_map(|response| of_response(ground, response))
+        .filter(|response| !fitted.is_implicit(*response))
+        .flat_map(|response| of_response(fitted, response))
         .collect();
-    Some(plain(ground, EffectId::Stuck, "row", variants))
+    Some(plain(fitted, EffectId::Stuck, "row", variants))
 }
 
-fn of_response(ground: &Ground<'_>, response: usize) -> Vec<Variation> {
-    let observed = ground.frame.observed(response);
+fn of_response(fitted: &FittedModel<'_>, response: usize) -> Vec<Variation> {
+    let observed = fitted.design.observed(response);
     let mut found: Vec<(usize, usize)> = stretches(&observed)
         .into_iter()
-        .filter(|(first, last)| moves_on(ground, response, &observed, *first, *last))
+        .filter(|(first, last)| moves_on(fitted, response, &observed, *first, *last))
         .collect();
     found.sort_by_key(|(first, last)| std::cmp::Reverse(last - first));
     let held = found.into_iter().take(STRETCHES);
-    let unit = ground.case().responses[response].unit.difference();
+    let unit = fitted.case().responses[response].unit.difference();
     held.filter_map(|(first, last)| {
-        let model = beside(ground, response, &observed, first, last)?;
+        let model = beside(fitted, response, &observed, first, last)?;
         let modifier: Vec<f64> = (0..observed.len())
             .map(|row| match (first..last).contains(&row) {
                 true => observed[first] - model[row],
@@ -74,7 +74,7 @@ fn stretches(observed: &[f64]) -> Vec<(usize, usize)> {
 /// Whether the model moves in a stretch by far more than residuals change from row to row, and by more than
 /// the step in which readings come.
 fn moves_on(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     response: usize,
     observed: &[f64],
     first: usize,
@@ -84,7 +84,7 @@ fn moves_on(
     const FAR: f64 = 6.0;
     /// So many steps.
     const STEPS: f64 = 3.0;
-    let model = &ground.fit.linear.values[response];
+    let model = &fitted.fit.linear.values[response];
     let residuals: Vec<f64> = (observed.iter().zip(model)).map(|(y, m)| y - m).collect();
     let (least, most) = range(&model[first..last]);
     let mut values = observed.to_vec();
@@ -97,15 +97,15 @@ fn moves_on(
 
 /// The model as the other rows have it.
 fn beside(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     response: usize,
     observed: &[f64],
     first: usize,
     last: usize,
 ) -> Option<Vec<f64>> {
-    let model = &ground.fit.linear.values[response];
-    let slopes: Vec<Vec<f64>> = (0..ground.case().parameters.len())
-        .map(|parameter| ground.slope(Node::Parameter(parameter), response))
+    let model = &fitted.fit.linear.values[response];
+    let slopes: Vec<Vec<f64>> = (0..fitted.case().parameters.len())
+        .map(|parameter| fitted.slope(Node::Parameter(parameter), response))
         .filter(|slope| varies(slope) || slope.iter().any(|s| *s != 0.0))
         .collect();
     if slopes.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::building::{on_node, words};
 use super::conditions::single;
-use super::ground::{Ground, Node};
+use super::fitted::{FittedModel, Node};
 use super::modifiers::{figure, grid, map, range};
 use super::sharp::{self, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variants};
@@ -13,26 +13,26 @@ use crate::quantity::Unit;
 const MOST_STEPS: usize = 80;
 
 /// Cells of the time, or of the order of the rows.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let t = &ground.clock.values;
-    let span = ground.clock.span();
-    if ground.frame.blocks.len() < 6 || span <= 0.0 {
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let t = &fitted.clock.values;
+    let span = fitted.clock.span();
+    if fitted.design.blocks.len() < 6 || span <= 0.0 {
         return Vec::new();
     }
-    let along = ground.along_time();
+    let along = fitted.along_time();
     let (start, _) = range(t);
     let since = map(t, |t| t - start);
-    let began = ground.time_less(start);
+    let began = fitted.time_less(start);
     // Rows of factors without a time may stand in any order.
-    let factors = ground
+    let factors = fitted
         .case()
         .columns
         .iter()
         .any(|column| matches!(column.role, Role::Run | Role::Factor));
-    if (factors && ground.clock.column.is_none()) || !ground.is_ordered() {
+    if (factors && fitted.clock.column.is_none()) || !fitted.is_ordered() {
         return Vec::new();
     }
-    let nodes = if ground.has_signal() {
+    let nodes = if fitted.has_signal() {
         vec![Node::Output, Node::Gain]
     } else {
         vec![Node::Output]
@@ -41,52 +41,52 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
     let mut add = |ids: &[EffectId], variants: Variants, symbol: Option<&'static str>| {
         for (node, id) in nodes.iter().zip(ids) {
             let mut cell = on_node(
-                ground,
+                fitted,
                 *id,
-                words(ground, &along),
+                words(fitted, &along),
                 &along,
                 *node,
                 variants.clone(),
             );
-            cell.words.p = ground.name(*node);
+            cell.words.p = fitted.name(*node);
             if let Some(symbol) = symbol {
-                shaped(ground, &mut cell, symbol);
+                shaped(fitted, &mut cell, symbol);
             }
             cells.push(cell);
         }
     };
-    let steady = single("", ground.centred_time());
+    let steady = single("", fitted.centred_time());
     let scales = grid(
-        (span * 3e-3).max(ground.clock.interval()),
+        (span * 3e-3).max(fitted.clock.interval()),
         span / 3.0,
         2.2,
         7,
     );
     let mut drifts = steady;
-    if ground.is_timed() {
+    if fitted.is_timed() {
         let slowing = |scale: f64| {
             let modifier = map(&since, |t| libm::log1p(t / scale));
             Term::new(Node::Output, Modifier::unnamed(modifier))
         };
-        let scales = sharpened(ground, scales.clone(), &slowing);
-        drifts.extend(curved(ground, &since, &began, &ground.finer.times(scales)));
+        let scales = sharpened(fitted, scales.clone(), &slowing);
+        drifts.extend(curved(fitted, &since, &began, &fitted.finer.times(scales)));
     }
     add(&[EffectId::Drift, EffectId::DriftScale], drifts, Some("t₀"));
     add(
         &[EffectId::Step, EffectId::StepScale],
-        steps(ground, &along),
+        steps(fitted, &along),
         None,
     );
-    if ground.is_timed() {
-        let unit = ground.time_unit();
+    if fitted.is_timed() {
+        let unit = fitted.time_unit();
         let decay = |tau: f64| {
             let modifier = map(&since, |t| libm::exp(-t / tau));
             let text = format!("exp(-{began}/({} {unit}))", figure(tau));
             Modifier::number(modifier, text)
         };
         let warming = |tau: f64| Term::new(Node::Output, decay(tau));
-        let scales = sharpened(ground, scales, &warming);
-        let singles = ground.finer.times(scales.clone());
+        let scales = sharpened(fitted, scales, &warming);
+        let singles = fitted.finer.times(scales.clone());
         let single = singles.iter().map(|tau| {
             let label = format!("τ = {} {unit}", figure(*tau));
             (label, vec![decay(*tau)])
@@ -106,7 +106,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             (EffectId::Season, 365.2422 * 86_400.0, 0.75, 60.0),
             (EffectId::Daily, 86_400.0, 1.0, 60.0),
         ] {
-            let Some(period) = ground.seconds().map(|second| period / second) else {
+            let Some(period) = fitted.seconds().map(|second| period / second) else {
                 continue;
             };
             if span >= least * period && span <= most * period {
@@ -130,8 +130,8 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
 
 /// Drifts that are not steady: bent, and slowing down with the logarithm of time, as where many processes
 /// relax, or with its root, as where something diffuses.
-fn curved(ground: &Ground<'_>, since: &[f64], began: &str, scales: &[f64]) -> Variants {
-    let unit = ground.time_unit();
+fn curved(fitted: &FittedModel<'_>, since: &[f64], began: &str, scales: &[f64]) -> Variants {
+    let unit = fitted.time_unit();
     let logarithms = scales.iter().map(|scale| {
         let shown = figure(*scale);
         (
@@ -142,18 +142,18 @@ fn curved(ground: &Ground<'_>, since: &[f64], began: &str, scales: &[f64]) -> Va
             )],
         )
     });
-    let per_root = ground.clock_unit().powr(1, 2).unwrap_or_else(Unit::one);
+    let per_root = fitted.clock_unit().powr(1, 2).unwrap_or_else(Unit::one);
     let root = Modifier::new(map(since, libm::sqrt), format!("sqrt({began})"), per_root);
     let root = ("with the root of time".to_owned(), vec![root]);
-    let linear = ground.centred_time();
+    let linear = fitted.centred_time();
     let square = linear.square();
     let bent = ("bent".to_owned(), vec![linear, square]);
     logarithms.chain([root, bent]).collect()
 }
 
 /// Notes the continuous parameter that stands in the labels.
-fn shaped(ground: &Ground<'_>, cell: &mut Cell, symbol: &'static str) {
-    let unit = ground.time_unit();
+fn shaped(fitted: &FittedModel<'_>, cell: &mut Cell, symbol: &'static str) {
+    let unit = fitted.time_unit();
     for variation in &mut cell.variants {
         // Two time constants are not one.
         let single = !variation.label.contains(" and ");
@@ -167,15 +167,15 @@ fn shaped(ground: &Ground<'_>, cell: &mut Cell, symbol: &'static str) {
 }
 
 /// Steps before each block, or before some of them evenly.
-fn steps(ground: &Ground<'_>, along: &str) -> Variants {
-    let blocks = &ground.frame.blocks;
+fn steps(fitted: &FittedModel<'_>, along: &str) -> Variants {
+    let blocks = &fitted.design.blocks;
     let stride = blocks.len().div_ceil(MOST_STEPS);
-    let t = &ground.clock.values;
-    let unit = ground.time_unit();
+    let t = &fitted.clock.values;
+    let unit = fitted.time_unit();
     let at = |block: usize| {
         let first = blocks[block][0];
-        let modifier = (0..ground.rows()).map(|row| if row >= first { 1.0 } else { 0.0 });
-        let label = match ground.clock.column {
+        let modifier = (0..fitted.rows()).map(|row| if row >= first { 1.0 } else { 0.0 });
+        let label = match fitted.clock.column {
             Some(_) => format!("at {along} = {} {unit}", figure(t[first])),
             None => format!("at row {}", first + 1),
         };
@@ -187,29 +187,33 @@ fn steps(ground: &Ground<'_>, along: &str) -> Variants {
             )],
         )
     };
-    let begins = |block: &usize| begins(ground, blocks[*block][0]);
+    let begins = |block: &usize| begins(fitted, blocks[*block][0]);
     let first = stride.max(2);
     let scanned = (first..blocks.len().saturating_sub(1)).step_by(stride);
     let mut variants: Variants = scanned.filter(|block| !begins(block)).map(at).collect();
-    variants.extend(between(ground, along, stride));
+    variants.extend(between(fitted, along, stride));
     variants
 }
 
 /// Whether a run begins with a row: a shift there has the name of the run.
-fn begins(ground: &Ground<'_>, row: usize) -> bool {
-    let labels = ground.case().columns.iter().filter_map(|c| c.labels());
-    let blocks = ground.frame.blocks.len();
+fn begins(fitted: &FittedModel<'_>, row: usize) -> bool {
+    let labels = fitted.case().columns.iter().filter_map(|c| c.labels());
+    let blocks = fitted.design.blocks.len();
     labels
         .filter(|labels| labels.levels.len() * 3 < 2 * blocks)
         .any(|labels| row > 0 && labels.of_row[row] != labels.of_row[row - 1])
 }
 
 /// The best row for a step, where blocks are skipped or hold several rows; nothing where the others have it.
-fn between(ground: &Ground<'_>, along: &str, stride: usize) -> Option<(String, Vec<Modifier>)> {
-    let blocks = &ground.frame.blocks;
+fn between(
+    fitted: &FittedModel<'_>,
+    along: &str,
+    stride: usize,
+) -> Option<(String, Vec<Modifier>)> {
+    let blocks = &fitted.design.blocks;
     let from = |row: usize| -> Vec<f64> {
         let after = |at: usize| f64::from(u8::from(at >= row));
-        (0..ground.rows()).map(after).collect()
+        (0..fitted.rows()).map(after).collect()
     };
     let term = |row: usize| Term::new(Node::Output, Modifier::unnamed(from(row)));
     let whole = blocks.iter().all(|rows| rows.len() == 1);
@@ -219,20 +223,20 @@ fn between(ground: &Ground<'_>, along: &str, stride: usize) -> Option<(String, V
     let starts: Vec<usize> = (2..blocks.len() - 1)
         .map(|block| blocks[block][0])
         .collect();
-    let best = sharp::best(ground, &mut starts.iter().map(|row| term(*row)))?;
+    let best = sharp::best(fitted, &mut starts.iter().map(|row| term(*row)))?;
     let near = starts[best.saturating_sub(1)]..starts[(best + 1).min(starts.len() - 1)];
-    let row = near.start + sharp::best(ground, &mut near.map(term))?;
+    let row = near.start + sharp::best(fitted, &mut near.map(term))?;
     // Next to the beginning of a run it is the run that differs.
     let reach = stride * blocks[0].len();
-    let around = row.saturating_sub(reach)..(row + reach + 1).min(ground.rows());
-    if { around }.any(|row| begins(ground, row)) {
+    let around = row.saturating_sub(reach)..(row + reach + 1).min(fitted.rows());
+    if { around }.any(|row| begins(fitted, row)) {
         return None;
     }
-    let label = match ground.clock.column {
+    let label = match fitted.clock.column {
         Some(_) => format!(
             "at {along} = {} {}",
-            figure(ground.clock.values[row]),
-            ground.time_unit()
+            figure(fitted.clock.values[row]),
+            fitted.time_unit()
         ),
         None => format!("at row {}", row + 1),
     };

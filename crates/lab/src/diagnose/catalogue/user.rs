@@ -1,12 +1,12 @@
 //! Explanations of the user's own.
 
-use super::ground::{Ground, Node};
+use super::fitted::{FittedModel, Node};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
 
 /// One cell for each candidate of the case.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let case = ground.case();
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let case = fitted.case();
     let build = |candidate: &crate::diagnose::case::UserCandidate| {
         let node = match &candidate.node {
             None => Node::Output,
@@ -19,7 +19,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             .map(|row| {
                 candidate
                     .equations
-                    .value(0, &ground.frame.symbols(row, &ground.fit.unknowns))
+                    .value(0, &fitted.design.symbols(row, &fitted.fit.unknowns))
             })
             .collect();
         Cell {
@@ -27,11 +27,11 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             words: Words {
                 x: candidate.name.clone(),
                 z: candidate.formula.clone(),
-                y: ground.output(),
-                p: ground.name(node),
+                y: fitted.output(),
+                p: fitted.name(node),
             },
             place: Place {
-                node: ground.name(node),
+                node: fitted.name(node),
                 along: candidate.name.clone(),
             },
             variants: vec![Variation::one(

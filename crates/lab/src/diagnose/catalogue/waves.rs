@@ -5,7 +5,7 @@
 use std::f64::consts::TAU;
 
 use super::building::{on_outputs, words};
-use super::ground::Ground;
+use super::fitted::FittedModel;
 use super::modifiers::{correlation, figure, map, range, rounded};
 use super::{Cell, EffectId, Modifier, Variants};
 use crate::diagnose::case::Role;
@@ -34,54 +34,54 @@ struct Course {
 }
 
 /// One cell for each course.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let mut cells: Vec<Cell> = courses(ground)
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let mut cells: Vec<Cell> = courses(fitted)
         .iter()
-        .filter_map(|course| wave(ground, course))
+        .filter_map(|course| wave(fitted, course))
         .collect();
-    let turning = super::angles::angles(ground).into_iter();
-    cells.extend(turning.filter_map(|column| lines(ground, column)));
+    let turning = super::angles::angles(fitted).into_iter();
+    cells.extend(turning.filter_map(|column| lines(fitted, column)));
     cells
 }
 
-fn courses(ground: &Ground<'_>) -> Vec<Course> {
-    let case = ground.case();
+fn courses(fitted: &FittedModel<'_>) -> Vec<Course> {
+    let case = fitted.case();
     // Where a stimulus or an angle went on with the time, a wave is one over that.
     let goes_on = |column: &usize| {
         matches!(case.columns[*column].role, Role::Stimulus | Role::Angle)
-            && correlation(ground.numbers(*column), &ground.clock.values).abs() > 0.999
+            && correlation(fitted.numbers(*column), &fitted.clock.values).abs() > 0.999
     };
     let called = |column: usize| {
         let name = &case.columns[column].name;
-        match ground.is_timed() && goes_on(&column) {
-            true => format!("{name} ({})", ground.along_time()),
+        match fitted.is_timed() && goes_on(&column) {
+            true => format!("{name} ({})", fitted.along_time()),
             false => name.clone(),
         }
     };
     let mut courses: Vec<Course> = (0..case.columns.len())
-        .filter(|column| case.columns[*column].role == Role::Stimulus && ground.in_model(*column))
+        .filter(|column| case.columns[*column].role == Role::Stimulus && fitted.in_model(*column))
         .map(|column| Course {
             name: case.columns[column].name.clone(),
             words: called(column),
-            unit: ground.unit(column),
+            unit: fitted.unit(column),
             column: Some(column),
-            values: ground.numbers(column).to_vec(),
+            values: fitted.numbers(column).to_vec(),
         })
         .collect();
-    if ground.is_ordered() && !(0..case.columns.len()).any(|column| goes_on(&column)) {
+    if fitted.is_ordered() && !(0..case.columns.len()).any(|column| goes_on(&column)) {
         courses.push(Course {
-            name: ground.along_time(),
-            words: ground.along_time(),
-            unit: ground.time_unit(),
+            name: fitted.along_time(),
+            words: fitted.along_time(),
+            unit: fitted.time_unit(),
             column: None,
-            values: ground.clock.values.clone(),
+            values: fitted.clock.values.clone(),
         });
     }
     courses
 }
 
-fn wave(ground: &Ground<'_>, course: &Course) -> Option<Cell> {
-    let blocks = ground.frame.reduced(&course.values);
+fn wave(fitted: &FittedModel<'_>, course: &Course) -> Option<Cell> {
+    let blocks = fitted.design.reduced(&course.values);
     let (least, most) = range(&blocks);
     let mut distinct = blocks.clone();
     distinct.sort_by(f64::total_cmp);
@@ -100,11 +100,11 @@ fn wave(ground: &Ground<'_>, course: &Course) -> Option<Cell> {
     let mut frequencies: Vec<f64> = (0..=count)
         .map(|k| (FEWEST_PERIODS + step * k as f64) / span)
         .collect();
-    move_to_peaks(ground, &blocks, &mut frequencies, step / span);
+    move_to_peaks(fitted, &blocks, &mut frequencies, step / span);
     let least = rounded(least, 1e-4 * span);
     let began = match course.column {
-        Some(column) => ground.less(column, least),
-        None => ground.time_less(least),
+        Some(column) => fitted.less(column, least),
+        None => fitted.time_less(least),
     };
     let variants: Variants = frequencies
         .iter()
@@ -124,9 +124,9 @@ fn wave(ground: &Ground<'_>, course: &Course) -> Option<Cell> {
         })
         .collect();
     Some(on_outputs(
-        ground,
+        fitted,
         EffectId::Wave,
-        words(ground, &course.words),
+        words(fitted, &course.words),
         &course.name,
         variants,
     ))
@@ -151,16 +151,16 @@ fn set_points(ascending: &[f64]) -> usize {
 
 /// Whole numbers of waves per turn, beyond those of wobble and eccentricity, as far as the positions on the
 /// circle tell them apart.
-fn lines(ground: &Ground<'_>, column: usize) -> Option<Cell> {
+fn lines(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     /// Fewer positions are those of a test in steps, not of a scan of a graduation.
     const POSITIONS: usize = 64;
-    let phi = super::angles::radians(ground, column);
+    let phi = super::angles::radians(fitted, column);
     let positions = super::angles::positions(&phi);
     let (least, most) = range(&phi);
-    if positions < POSITIONS || ground.frame.blocks.len() < ground.rows() {
+    if positions < POSITIONS || fitted.design.blocks.len() < fitted.rows() {
         return None;
     }
-    let name = ground.label(column);
+    let name = fitted.label(column);
     let shows = |k: &u32| f64::from(*k) * (most - least) > FEWEST_PERIODS * TAU;
     let last = u32::try_from((positions - 1) / 2).ok()?;
     let variants: Variants = (super::angles::HIGHEST + 1..=last)
@@ -174,14 +174,14 @@ fn lines(ground: &Ground<'_>, column: usize) -> Option<Cell> {
             (format!("{k} per turn"), terms)
         })
         .collect();
-    let words = words(ground, name);
-    Some(on_outputs(ground, EffectId::Wave, words, name, variants))
+    let words = words(fitted, name);
+    Some(on_outputs(fitted, EffectId::Wave, words, name, variants))
 }
 
 /// Moves the frequencies next to the highest peaks of the residuals' spectrum onto them: a line between two
 /// frequencies of the grid would leave a part of itself to further explanations.
-fn move_to_peaks(ground: &Ground<'_>, x: &[f64], frequencies: &mut [f64], step: f64) {
-    let power = |frequency: f64| power(ground, x, frequency);
+fn move_to_peaks(fitted: &FittedModel<'_>, x: &[f64], frequencies: &mut [f64], step: f64) {
+    let power = |frequency: f64| power(fitted, x, frequency);
     let heights: Vec<f64> = frequencies.iter().map(|f| power(*f)).collect();
     let mut peaks: Vec<usize> = (0..heights.len())
         .filter(|k| {
@@ -214,7 +214,7 @@ fn summit(power: impl Fn(f64) -> f64, start: f64, reach: f64) -> f64 {
 
 /// Power of the residuals at a frequency: the sum of squares that a sine and a cosine take away (Lomb and
 /// Scargle), over all responses.
-fn power(ground: &Ground<'_>, x: &[f64], frequency: f64) -> f64 {
+fn power(fitted: &FittedModel<'_>, x: &[f64], frequency: f64) -> f64 {
     let first = x[0];
     let waves: Vec<(f64, f64)> = x
         .iter()
@@ -233,7 +233,7 @@ fn power(ground: &Ground<'_>, x: &[f64], frequency: f64) -> f64 {
     if determinant <= 1e-6 * ss * cc {
         return 0.0;
     }
-    let residuals = ground.fit.residuals.as_slice();
+    let residuals = fitted.fit.residuals.as_slice();
     residuals
         .chunks(x.len())
         .map(|of_response| {

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beside::{Beside, Rest};
 use super::closed_form::log_sum;
 use super::findings::{Confusion, Slot};
 use super::fit::{Estimate, estimate};
 use super::null::{Recordings, Simulated};
 use super::question::{Kind, Question};
+use super::remainders::{Remainder, Remainders};
 use super::space::{Frame, Residual, Space};
 
 /// Explanations that are simulated for each slot.
@@ -59,7 +59,7 @@ pub(super) fn confusions(
 /// All named blocks beside the rest of a set, and errors to add to an effect.
 struct Bench<'a> {
     space: &'a Space,
-    beside: Beside<'a>,
+    beside: Remainders<'a>,
     recordings: &'a Recordings,
     /// Components of the errors along the directions of all blocks, beside the set.
     errors: DMatrix<f64>,
@@ -74,7 +74,7 @@ impl<'a> Bench<'a> {
         simulated: &'a Simulated,
     ) -> Bench<'a> {
         let recordings = simulated.chunk(0);
-        let beside = Beside::new(space, question, rest);
+        let beside = Remainders::new(space, question, rest);
         let set = &recordings.errors * &rest.basis;
         let mut errors = recordings.components.clone();
         beside.reduce(&mut errors, &set);
@@ -140,8 +140,8 @@ impl<'a> Bench<'a> {
     }
 
     /// Named blocks that explain the effect nearly as well as the best does: the others are never chosen.
-    fn near(&self, along: &DVector<f64>) -> Vec<&Rest> {
-        let fits: Vec<(f64, &Rest)> = (self.beside.rests.iter())
+    fn near(&self, along: &DVector<f64>) -> Vec<&Remainder> {
+        let fits: Vec<(f64, &Remainder)> = (self.beside.rests.iter())
             .filter(|rest| rest.kind == Kind::Named)
             .map(|rest| (self.beside.components(rest, along).norm_squared(), rest))
             .collect();

@@ -21,7 +21,7 @@ pub fn determined(baseline: &Baseline, columns: &DMatrix<f64>) -> Vec<usize> {
 }
 
 /// Orthonormal directions of visible columns, from their lengths with what the parameters absorb, and which
-/// columns have one. Beside a column that shows, one of which a trace is left is not free.
+/// columns have one. Remainders a column that shows, one of which a trace is left is not free.
 pub(super) fn own(columns: DMatrix<f64>, mut lengths: Vec<f64>) -> (DMatrix<f64>, Vec<usize>) {
     let shares = columns.column_iter().zip(&lengths);
     let shares: Vec<f64> = shares

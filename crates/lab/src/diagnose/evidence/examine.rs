@@ -9,14 +9,14 @@ use super::closed_form::Scale;
 use super::confusion::confusions;
 use super::findings::{Examination, Fitted, Invisible, Slot, State, Verdict};
 use super::fit::fitted;
-use super::guard::{Again, Rivalry, leftover, unlisted};
-use super::kin;
+use super::look_alikes;
 use super::null::Simulated;
 use super::question::{Question, Shape};
 use super::refusal::Refusal;
 use super::search::{Search, search};
 use super::slots::{Member, contest, slot};
 use super::space::Space;
+use super::unlisted::{Restated, Rivalry, leftover, unlisted};
 
 /// Up to this probability of generics the named set stands.
 const NAMED_STANDS: f64 = 0.3;
@@ -63,7 +63,7 @@ pub fn examine(
     let again = search
         .complete
         .as_ref()
-        .map_or_else(Again::default, |set| Again::of(&space, question, set));
+        .map_or_else(Restated::default, |set| Restated::of(&space, question, set));
     search.discount(&again);
     let generic_probability = search.generic_probability();
     let explanation = explanation(&search, generic_probability);
@@ -212,7 +212,7 @@ fn slots(
     question: &Question,
     search: &Search,
     explanation: &Explanation,
-    again: &Again,
+    again: &Restated,
 ) -> Vec<Slot> {
     let (named, generic) = (&explanation.named[..], explanation.generic);
     let members = named
@@ -243,7 +243,7 @@ fn slots(
     let order: Vec<usize> = (slots.iter().filter(has_name))
         .filter_map(|(block, _)| *block)
         .collect();
-    let shapes = kin::shapes(space, question, &order);
+    let shapes = look_alikes::shapes(space, question, &order);
     for (block, slot) in &mut slots {
         if block.is_some_and(|block| shapes.contains(&block)) {
             slot.state = State::Unexplained;

@@ -2,11 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beside::Beside;
 use super::closed_form::Scale;
 use super::directions::without;
 use super::findings::{Fitted, Rival};
 use super::question::{Kind, Question, Shape};
+use super::remainders::Remainders;
 use super::space::{Frame, Space};
 use crate::special::normal_cdf;
 
@@ -67,7 +67,7 @@ pub(super) fn nearest(
 ) -> Option<Rival> {
     let own = space.blocks[block].candidate;
     let whole = estimate.visible.norm_squared();
-    let beside = Beside::new(space, question, rest);
+    let beside = Remainders::new(space, question, rest);
     // Beside the set already, so that nothing has to be taken out.
     let components = space.directions.tr_mul(&estimate.visible);
     beside

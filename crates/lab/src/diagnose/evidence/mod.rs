@@ -13,6 +13,13 @@
 //! Mathematically z lives in m = n − p dimensions; it is kept as a vector of n whose component
 //! along Q is zero, which gives the same inner products and costs no basis of the complement.
 //!
+//! # Words
+//!
+//! An *atom* is one variant of a candidate; a *block* is an atom as orthonormal directions in the space of z; a
+//! *frame* is an orthonormal basis of a set of blocks; a *remainder* is what is left of a block beside a frame; a
+//! *ladder* holds the eigenvalues of a smooth discrepancy. A *slot* is an effect that was found, with the
+//! candidates that may stand for it; a *generic* is a competitor without a name.
+//!
 //! # Chapters
 //!
 //! | chapter | holds |
@@ -26,17 +33,17 @@
 //! | `closed_form` | Bayes factors |
 //! | `directions` | columns as directions: what of them is visible, and which are free beside others |
 //! | `space` | atoms as directions in the space of z, and sets of them |
-//! | `beside` | all directions beside a set |
+//! | `remainders` | all directions beside a set |
 //! | `null` | simulated recordings that the model alone explains |
-//! | `gate` | the test whether an effect is left |
+//! | `detection` | the test whether an effect is left |
 //! | `pairs` | two effects that mask each other |
 //! | `search` | the set of effects that explains a recording |
 //! | `slots` | which candidates could stand for each effect |
 //! | `choice` | what sizes owe to the choice between explanations of the others |
 //! | `selection` | what sizes owe to having been found |
 //! | `fit` | estimates, strength, distance to rivals |
-//! | `kin` | effects that are the shape of another, aliases, mixtures |
-//! | `guard` | effects outside the catalogue that look like what is in it |
+//! | `look_alikes` | effects that are the shape of another, aliases, mixtures |
+//! | `unlisted` | effects outside the catalogue that look like what is in it |
 //! | `confusion` | how often names are confused, by simulation |
 //! | `locate` | where the mismatch sits |
 //! | `plan` | without data: what an experiment can see and tell apart |
@@ -49,18 +56,16 @@
 )]
 
 mod baseline;
-mod beside;
 mod choice;
 mod closed_form;
 mod confusion;
+mod detection;
 mod directions;
 mod examine;
 mod findings;
 mod fit;
-mod gate;
-mod guard;
-mod kin;
 mod locate;
+mod look_alikes;
 mod noise;
 mod null;
 mod omitted;
@@ -68,11 +73,13 @@ mod pairs;
 mod plan;
 mod question;
 mod refusal;
+mod remainders;
 mod search;
 mod selection;
 mod separate;
 mod slots;
 mod space;
+mod unlisted;
 
 pub use baseline::{Baseline, Prior};
 pub use directions::{TRACE, determined, left, left_beside};
@@ -87,4 +94,4 @@ pub use omitted::omitted;
 pub use plan::{Pair, Plan, Seen, visibility};
 pub use question::{Atom, Candidate, Kind, Place, Question, Settings, Shape};
 pub use refusal::Refusal;
-pub use separate::{Apart, Prospects, Standing, Worth, apart, doubt};
+pub use separate::{Prospects, Separability, Standing, Worth, apart, doubt};

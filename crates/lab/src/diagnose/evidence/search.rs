@@ -3,16 +3,16 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use super::beside::Beside;
 use super::closed_form::log_sum;
+use super::detection;
 use super::findings::Level;
-use super::gate;
-use super::guard::Again;
 use super::null::Simulated;
 use super::pairs::Pairs;
 use super::question::{Kind, Question};
 use super::refusal::Refusal;
+use super::remainders::Remainders;
 use super::space::Space;
+use super::unlisted::Restated;
 
 /// Logarithm of the odds by which a pair has to beat the best single effect for the search to go on
 /// although nothing stands out beside the single effect.
@@ -63,7 +63,7 @@ pub(super) fn search(
         let Some(best) = beam.first().and_then(|(_, set)| space.frame(set)) else {
             break;
         };
-        let outcome = gate::test(
+        let outcome = detection::test(
             space,
             question,
             &best,
@@ -125,7 +125,7 @@ fn extend(
         .take(question.settings.beam)
         .filter_map(|(_, set)| space.frame(set));
     for frame in frames {
-        let beside = Beside::new(space, question, &frame);
+        let beside = Remainders::new(space, question, &frame);
         let observed = beside.observed();
         for rest in &beside.rests {
             let Some(score) = beside.score(rest, &observed) else {
@@ -205,7 +205,7 @@ impl Search {
     }
 
     /// Takes from the odds of sets with generics what these lose.
-    pub(super) fn discount(&mut self, again: &Again) {
+    pub(super) fn discount(&mut self, again: &Restated) {
         for set in &mut self.visited {
             set.score -= set.generic.map_or(0.0, |generic| again.discount(generic));
         }

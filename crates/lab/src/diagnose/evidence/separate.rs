@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::directions::left;
 use super::findings::ALONE;
-use super::kin::stays;
+use super::look_alikes::stays;
 use super::refusal::Refusal;
 use crate::special::normal_cdf;
 
@@ -32,7 +32,7 @@ impl Standing {
 
 /// How far rival explanations are apart in a design.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Apart {
+pub struct Separability {
     /// What the second leaves of the first, for each of the effects that this may have.
     left: Vec<Vec<Vec<f64>>>,
     /// Whether the second stays on the list of the first whatever the odds say.
@@ -58,7 +58,7 @@ pub struct Worth {
 #[derive(Debug, Clone, Copy)]
 pub struct Prospects<'p> {
     /// How far they are apart in it.
-    pub before: &'p Apart,
+    pub before: &'p Separability,
     /// Their posterior probabilities.
     pub probabilities: &'p [f64],
     /// A number for each; those that no measurement tells apart share one, and are not asked to be.
@@ -80,7 +80,7 @@ const SAME: f64 = 0.01;
 /// # Errors
 ///
 /// Fewer than two contenders, or matrices that do not belong together.
-pub fn apart(contenders: &[Standing]) -> Result<Apart, Refusal> {
+pub fn apart(contenders: &[Standing]) -> Result<Separability, Refusal> {
     let Some(first) = contenders.first().filter(|_| contenders.len() > 1) else {
         return Err(Refusal::Sizes { what: "contenders" });
     };
@@ -104,7 +104,7 @@ pub fn apart(contenders: &[Standing]) -> Result<Apart, Refusal> {
         let own = |left: &Vec<f64>| left[a * draws..(a + 1) * draws].to_vec();
         by_rival.iter().map(own).collect()
     };
-    Ok(Apart {
+    Ok(Separability {
         left: (0..contenders.len()).map(of).collect(),
         stays: contenders
             .iter()
@@ -119,7 +119,7 @@ pub fn apart(contenders: &[Standing]) -> Result<Apart, Refusal> {
     })
 }
 
-impl Apart {
+impl Separability {
     /// Whether two explanations say the same here.
     pub fn alike(&self, a: usize, b: usize) -> bool {
         self.left[a][b][0] <= SAME * self.whole[a][0]
@@ -244,7 +244,7 @@ mod tests {
         .map(|effect| baseline.project(&DMatrix::from_columns(&[effect])))
     }
 
-    fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Apart {
+    fn held(columns: &[DMatrix<f64>], sizes: &[f64]) -> Separability {
         let of = |column: &DMatrix<f64>| Standing {
             effects: column * DMatrix::from_row_slice(1, sizes.len(), sizes),
             variants: vec![column.clone()],

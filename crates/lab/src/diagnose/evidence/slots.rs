@@ -4,15 +4,15 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beside::{Beside, Rest};
 use super::closed_form::log_sum;
 use super::findings::{ALONE, Alternative, Slot, State, Variant};
 use super::fit::{estimate, nearest};
-use super::guard::Again;
-use super::kin;
+use super::look_alikes;
 use super::question::{Kind, Question};
+use super::remainders::{Remainder, Remainders};
 use super::search::Search;
 use super::space::{Frame, Space};
+use super::unlisted::Restated;
 
 /// Probability of a credible list.
 const CREDIBLE: f64 = 0.95;
@@ -39,7 +39,7 @@ pub(super) fn slot(
     named: &[usize],
     generic: Option<usize>,
     member: Member,
-    again: &Again,
+    again: &Restated,
 ) -> Slot {
     let (rest, fixed) = match member {
         Member::Named(block) => {
@@ -103,12 +103,12 @@ pub(super) fn replacements(
     rest: &Frame,
     generic: Option<usize>,
 ) -> Vec<(usize, f64)> {
-    let beside = Beside::new(space, question, rest);
+    let beside = Remainders::new(space, question, rest);
     if let Some(generic) = generic {
         return beside.scores_with(generic);
     }
     let observed = beside.observed();
-    let score = |one: &Rest| Some((one.block, beside.score(one, &observed)?));
+    let score = |one: &Remainder| Some((one.block, beside.score(one, &observed)?));
     beside.rests.iter().filter_map(score).collect()
 }
 
@@ -168,7 +168,7 @@ fn listed(space: &Space, question: &Question, rest: &Frame, ranked: Vec<Ranked>)
     let Some(winner) = ranked.first().map(|first| first.blocks[0].0) else {
         return ranked;
     };
-    let kin = kin::listed(
+    let kin = look_alikes::listed(
         space,
         question,
         rest,

@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::frame::Frame;
+use super::design::Design;
 
 /// Larger matrices take too long.
 const MOST: usize = 500;
@@ -35,17 +35,17 @@ struct Point {
 
 /// The correlation that residuals show, if they do; `scale` is the standard uncertainty of each.
 pub(super) fn estimate(
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     residuals: &DVector<f64>,
     scale: &DVector<f64>,
 ) -> Option<Correlated> {
-    let clock = frame.time();
-    let count = frame.observations();
+    let clock = design.time();
+    let count = design.observations();
     if clock.column.is_none() || !(LEAST..=MOST).contains(&count) {
         return None;
     }
-    let blocks = frame.blocks.len();
-    let times = frame.reduced(&clock.values);
+    let blocks = design.blocks.len();
+    let times = design.reduced(&clock.values);
     let standardised = residuals.component_div(scale);
     let span = clock.span();
     let interval = span / blocks as f64;
@@ -75,7 +75,7 @@ pub(super) fn estimate(
     let full = |point: &Point| {
         block_diagonal(
             &kernel(&times, point.time_constant, point.share),
-            frame.case.responses.len(),
+            design.case.responses.len(),
         )
     };
     Some(Correlated {

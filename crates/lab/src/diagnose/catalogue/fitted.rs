@@ -4,8 +4,8 @@ use nalgebra::DVector;
 
 use super::{Finer, Modifier, Term};
 use crate::diagnose::case::{Case, Role};
+use crate::diagnose::design::{Clock, Design};
 use crate::diagnose::fit::Fit;
-use crate::diagnose::frame::{Clock, Frame};
 use crate::quantity::{Unit, UnitTable};
 
 /// A quantity of the model that can be disturbed.
@@ -23,9 +23,9 @@ pub enum Node {
 
 /// The fitted model, on which effects act.
 #[derive(Debug)]
-pub struct Ground<'f> {
+pub struct FittedModel<'f> {
     /// The rows.
-    pub frame: &'f Frame<'f>,
+    pub design: &'f Design<'f>,
     /// The fitted model.
     pub fit: &'f Fit,
     /// When rows were recorded.
@@ -36,35 +36,35 @@ pub struct Ground<'f> {
     signal: Vec<Vec<f64>>,
 }
 
-impl<'f> Ground<'f> {
+impl<'f> FittedModel<'f> {
     /// Forms the signal of each response.
-    pub fn new(frame: &'f Frame<'f>, fit: &'f Fit) -> Ground<'f> {
-        let responses = 0..frame.case.responses.len();
-        Ground {
-            frame,
+    pub fn new(design: &'f Design<'f>, fit: &'f Fit) -> FittedModel<'f> {
+        let responses = 0..design.case.responses.len();
+        FittedModel {
+            design,
             fit,
-            clock: frame.time(),
+            clock: design.time(),
             finer: Finer::default(),
             signal: responses
-                .map(|response| signal(frame, fit, response))
+                .map(|response| signal(design, fit, response))
                 .collect(),
         }
     }
 
     /// With values between those of the grids.
     #[must_use]
-    pub fn refined(self, finer: Finer) -> Ground<'f> {
-        Ground { finer, ..self }
+    pub fn refined(self, finer: Finer) -> FittedModel<'f> {
+        FittedModel { finer, ..self }
     }
 
     /// The case.
     pub fn case(&self) -> &'f Case {
-        self.frame.case
+        self.design.case
     }
 
     /// Rows of the recording.
     pub fn rows(&self) -> usize {
-        self.frame.case.rows
+        self.design.case.rows
     }
 
     /// What the model gives besides constant terms.
@@ -75,7 +75,7 @@ impl<'f> Ground<'f> {
     /// The signal of a response in a row, if a column had another value there.
     pub fn signal_at(&self, response: usize, row: usize, column: usize, value: f64) -> f64 {
         let case = self.case();
-        let mut symbols = self.frame.symbols(row, &self.fit.unknowns);
+        let mut symbols = self.design.symbols(row, &self.fit.unknowns);
         let there = case.equations.value(response, &symbols);
         symbols[case.parameters.len() + column] = value;
         let other = case.equations.value(response, &symbols);
@@ -98,7 +98,7 @@ impl<'f> Ground<'f> {
 
     /// The regressor of a term.
     pub fn column(&self, term: &Term) -> DVector<f64> {
-        self.frame.observed_column(|response| {
+        self.design.observed_column(|response| {
             if term.response.is_some_and(|only| only != response) {
                 return vec![0.0; self.rows()];
             }
@@ -332,7 +332,7 @@ impl<'f> Ground<'f> {
     /// not sorted by a stimulus.
     pub fn is_ordered(&self) -> bool {
         let sorted = |column: &usize| {
-            let numbers = self.frame.reduced(self.numbers(*column));
+            let numbers = self.design.reduced(self.numbers(*column));
             numbers.windows(2).all(|pair| pair[0] <= pair[1])
                 || numbers.windows(2).all(|pair| pair[0] >= pair[1])
         };
@@ -366,7 +366,7 @@ impl<'f> Ground<'f> {
 
     /// Parameters that are added to the model as they stand.
     pub fn constant_terms(&self, response: usize) -> Vec<usize> {
-        constant_terms(self.frame, self.fit, response)
+        constant_terms(self.design, self.fit, response)
     }
 
     /// Whether the signal of any response varies so much that its scale is something else than an offset.
@@ -397,18 +397,18 @@ pub fn varies(numbers: &[f64]) -> bool {
 }
 
 /// The model less its constant terms: those in which a parameter alone is added.
-fn signal(frame: &Frame<'_>, fit: &Fit, response: usize) -> Vec<f64> {
+fn signal(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<f64> {
     let mut signal = fit.linear.values[response].clone();
-    for parameter in constant_terms(frame, fit, response) {
+    for parameter in constant_terms(design, fit, response) {
         for (row, value) in signal.iter_mut().enumerate() {
-            *value -= fit.unknowns[frame.unknown_of(parameter, row)];
+            *value -= fit.unknowns[design.unknown_of(parameter, row)];
         }
     }
     signal
 }
 
-fn constant_terms(frame: &Frame<'_>, fit: &Fit, response: usize) -> Vec<usize> {
+fn constant_terms(design: &Design<'_>, fit: &Fit, response: usize) -> Vec<usize> {
     let slopes = &fit.linear.slopes[response];
     let constant = |parameter: &usize| slopes.column(*parameter).iter().all(|slope| *slope == 1.0);
-    (0..frame.case.parameters.len()).filter(constant).collect()
+    (0..design.case.parameters.len()).filter(constant).collect()
 }

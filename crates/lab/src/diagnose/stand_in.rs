@@ -3,21 +3,21 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::candidates::{baseline, question};
 use super::case::Case;
-use super::catalogue::{self, Ground};
-use super::compare::Pick;
+use super::catalogue::{self, FittedModel};
+use super::design::Design;
 use super::evidence::Shape;
 use super::failure::Failure;
-use super::frame::Frame;
-use super::inquiry::{baseline, question};
 use super::noise;
+use super::opinions::Pick;
 
 /// A direction of which less than this (squared) is left adds nothing.
 const DEPENDENT: f64 = 1e-6;
 
 /// A variant of a candidate, and how well it can stand in.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Likeness {
+pub struct StandIn {
     /// The candidate.
     pub pick: Pick,
     /// What distinguishes the variant.
@@ -36,20 +36,20 @@ pub struct Likeness {
 ///
 /// # Errors
 /// When the model cannot be fitted.
-pub fn likenesses(
+pub fn stand_ins(
     case: &Case,
     trace: &DVector<f64>,
     others: &[DVector<f64>],
-) -> Result<Vec<Likeness>, Failure> {
-    let frame = Frame::new(case);
-    if frame.observations() != trace.len() {
+) -> Result<Vec<StandIn>, Failure> {
+    let design = Design::new(case);
+    if design.observations() != trace.len() {
         return Ok(Vec::new());
     }
-    let (fit, claimed) = noise::settle(&frame)?;
-    let ground = Ground::new(&frame, &fit);
-    let cells = catalogue::cells(&ground);
-    let baseline = baseline(&frame, &fit, &claimed)?;
-    let (_, atoms, places) = question(&ground, &cells, &claimed, &baseline);
+    let (fit, claimed) = noise::settle(&design)?;
+    let fitted = FittedModel::new(&design, &fit);
+    let cells = catalogue::cells(&fitted);
+    let baseline = baseline(&design, &fit, &claimed)?;
+    let (_, atoms, places) = question(&fitted, &cells, &claimed, &baseline);
     let seen = |column: &DVector<f64>| {
         let column = DMatrix::from_column_slice(column.len(), 1, column.as_slice());
         baseline.project(&column).column(0).into_owned()
@@ -90,7 +90,7 @@ pub fn likenesses(
             }
             _ => None,
         };
-        (!own.is_empty()).then(|| Likeness {
+        (!own.is_empty()).then(|| StandIn {
             pick: Pick {
                 id: cell.effect.id,
                 along: cell.place.along.clone(),

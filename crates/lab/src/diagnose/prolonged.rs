@@ -2,19 +2,19 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::candidates::baseline;
 use super::case::{Case, NoiseClaim};
-use super::catalogue::{self, Cell, Ground};
+use super::catalogue::{self, Cell, FittedModel};
+use super::design::Design;
 use super::evidence::Baseline;
 use super::extra::Extra;
 use super::fit::{self, Fit};
-use super::frame::Frame;
-use super::inquiry::baseline;
 use super::noise::{self, Claimed};
 
 /// What is known of a case before a further measurement.
 pub(super) struct Known<'k> {
     pub case: &'k Case,
-    pub frame: &'k Frame<'k>,
+    pub design: &'k Design<'k>,
     pub fit: &'k Fit,
     pub claimed: &'k Claimed,
 }
@@ -22,13 +22,13 @@ pub(super) struct Known<'k> {
 /// A recording with what its residuals are examined by.
 pub(super) struct Recorded<'r> {
     pub known: &'r Known<'r>,
-    pub ground: &'r Ground<'r>,
+    pub fitted: &'r FittedModel<'r>,
     pub baseline: &'r Baseline,
 }
 
 /// The recording together with a further measurement.
-pub(super) struct Longer<'l> {
-    pub ground: Ground<'l>,
+pub(super) struct Prolonged<'l> {
+    pub fitted: FittedModel<'l>,
     pub cells: Vec<Cell>,
     pub baseline: Baseline,
 }
@@ -37,37 +37,37 @@ pub(super) struct Longer<'l> {
 pub(super) fn examined<R>(
     recorded: &Recorded<'_>,
     extra: &Extra,
-    examine: impl FnOnce(&Longer<'_>) -> R,
+    examine: impl FnOnce(&Prolonged<'_>) -> R,
 ) -> Option<R> {
     let known = recorded.known;
     let case = known.case.followed_by(&extra.rows);
-    let mut frame = Frame::new(&case);
-    frame.blocks = blocks(known, extra);
-    let fit = fit::at(&frame, unknowns(known, &frame));
+    let mut design = Design::new(&case);
+    design.blocks = blocks(known, extra);
+    let fit = fit::at(&design, unknowns(known, &design));
     if !fit.jacobian.iter().all(|x| x.is_finite()) {
         return None;
     }
     let fit = Fit {
-        residuals: DVector::zeros(frame.observations()),
+        residuals: DVector::zeros(design.observations()),
         ..fit
     };
-    let ground = Ground::new(&frame, &fit).refined(recorded.ground.finer.clone());
-    let cells = catalogue::cells(&ground);
-    let noise = noise_of(known, &frame, &fit, known.frame.blocks.len());
-    let baseline = baseline(&frame, &fit, &noise).ok()?;
-    Some(examine(&Longer {
-        ground,
+    let fitted = FittedModel::new(&design, &fit).refined(recorded.fitted.finer.clone());
+    let cells = catalogue::cells(&fitted);
+    let noise = noise_of(known, &design, &fit, known.design.blocks.len());
+    let baseline = baseline(&design, &fit, &noise).ok()?;
+    Some(examine(&Prolonged {
+        fitted,
         cells,
         baseline,
     }))
 }
 
-impl Longer<'_> {
+impl Prolonged<'_> {
     /// The observations of the recording alone.
     pub(super) fn recorded(&self, recorded: &Recorded<'_>, columns: &DMatrix<f64>) -> DMatrix<f64> {
-        let frame = self.ground.frame;
-        let (own, all) = (recorded.known.frame.blocks.len(), frame.blocks.len());
-        let places: Vec<usize> = (0..frame.case.responses.len())
+        let design = self.fitted.design;
+        let (own, all) = (recorded.known.design.blocks.len(), design.blocks.len());
+        let places: Vec<usize> = (0..design.case.responses.len())
             .flat_map(|response| (0..own).map(move |block| response * all + block))
             .collect();
         columns.select_rows(&places)
@@ -77,14 +77,14 @@ impl Longer<'_> {
 /// The blocks of the recording, and after them those that the further rows have by themselves.
 fn blocks(known: &Known<'_>, extra: &Extra) -> Vec<Vec<usize>> {
     let alone = known.case.with(&extra.rows);
-    let further = Frame::new(&alone).blocks.into_iter();
+    let further = Design::new(&alone).blocks.into_iter();
     let further = further.map(|rows| rows.into_iter().map(|row| row + known.case.rows).collect());
-    known.frame.blocks.iter().cloned().chain(further).collect()
+    known.design.blocks.iter().cloned().chain(further).collect()
 }
 
 /// Values of the unknowns in another design; a label that is new there begins with the value of the first.
-pub(super) fn unknowns(known: &Known<'_>, frame: &Frame<'_>) -> DVector<f64> {
-    let own = &known.frame.unknowns;
+pub(super) fn unknowns(known: &Known<'_>, design: &Design<'_>) -> DVector<f64> {
+    let own = &known.design.unknowns;
     let value = |name: &str| {
         let stem = name.split('[').next().unwrap_or(name);
         let same = own.iter().position(|unknown| unknown.name == name);
@@ -94,29 +94,29 @@ pub(super) fn unknowns(known: &Known<'_>, frame: &Frame<'_>) -> DVector<f64> {
         };
         same.or_else(alike).map_or(0.0, |at| known.fit.unknowns[at])
     };
-    let values = frame.unknowns.iter().map(|unknown| value(&unknown.name));
-    DVector::from_iterator(frame.unknowns.len(), values)
+    let values = design.unknowns.iter().map(|unknown| value(&unknown.name));
+    DVector::from_iterator(design.unknowns.len(), values)
 }
 
 /// The noise of another design, of which so many blocks at the beginning are those of the recording: what is
 /// claimed, or for each response what the rows at hand have.
 pub(super) fn noise_of(
     known: &Known<'_>,
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     fit: &Fit,
     recorded: usize,
 ) -> Claimed {
     match &known.case.noise {
         NoiseClaim::Stated { .. } | NoiseClaim::AtRest { .. } | NoiseClaim::PerRow(_) => {
-            noise::planned(frame, fit)
+            noise::planned(design, fit)
         }
         NoiseClaim::Estimated | NoiseClaim::Replicates(_) => {
-            let (own, blocks) = (known.frame.blocks.len(), frame.blocks.len());
+            let (own, blocks) = (known.design.blocks.len(), design.blocks.len());
             let rms = |response: usize| {
                 let part = known.claimed.u.rows(response * own, own);
                 (part.norm_squared() / own as f64).sqrt()
             };
-            let u = DVector::from_fn(frame.observations(), |at, _| {
+            let u = DVector::from_fn(design.observations(), |at, _| {
                 let (response, block) = (at / blocks, at % blocks);
                 if block < recorded {
                     known.claimed.u[response * own + block]

@@ -10,12 +10,12 @@ use nalgebra::{DMatrix, DVector};
 use super::case::{Blocks, Case, Data, Observed, Role, interval};
 use crate::quantity::Unit;
 
-/// Longer recordings in time are averaged in blocks, unless the case says otherwise.
+/// Prolonged recordings in time are averaged in blocks, unless the case says otherwise.
 const MOST_BLOCKS: usize = 400;
 
 /// The numbers of a case.
 #[derive(Debug)]
-pub struct Frame<'c> {
+pub struct Design<'c> {
     /// The case.
     pub case: &'c Case,
     /// Rows of each block.
@@ -65,9 +65,9 @@ pub struct Linear {
     pub slopes: Vec<DMatrix<f64>>,
 }
 
-impl<'c> Frame<'c> {
+impl<'c> Design<'c> {
     /// Numbers the unknowns and forms the blocks.
-    pub fn new(case: &'c Case) -> Frame<'c> {
+    pub fn new(case: &'c Case) -> Design<'c> {
         let mut unknowns = Vec::new();
         let mut first = Vec::new();
         for (index, parameter) in case.parameters.iter().enumerate() {
@@ -102,7 +102,7 @@ impl<'c> Frame<'c> {
                 });
             }
         }
-        Frame {
+        Design {
             case,
             blocks: blocks(case),
             unknowns,

@@ -9,10 +9,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beside::Beside;
 use super::directions::{joined, left, orthonormal, without};
 use super::fit::Estimate;
 use super::question::{Kind, Question};
+use super::remainders::Remainders;
 use super::space::{Block, Form, Frame, Space};
 
 /// Explanations whose directions have a cosine of more than 0.995 are one: squared …
@@ -44,7 +44,7 @@ pub(super) fn listed(
     winner: usize,
     estimate: &Estimate,
 ) -> Vec<usize> {
-    let beside = Beside::new(space, question, rest);
+    let beside = Remainders::new(space, question, rest);
     let along = space.directions.tr_mul(&estimate.visible);
     let whole = estimate.visible.norm_squared();
     let own = &space.blocks[winner];

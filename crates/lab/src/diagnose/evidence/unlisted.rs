@@ -9,13 +9,13 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::beside::Beside;
 use super::closed_form::Scale;
+use super::detection::combined;
 use super::directions::{joined, without};
 use super::fit::estimate;
-use super::gate::combined;
 use super::null::{Simulated, side_by_side};
 use super::question::{Kind, Question};
+use super::remainders::Remainders;
 use super::space::{Block, Form, Frame, Residual, Space, smooth};
 
 /// Simulated recordings behind a probability.
@@ -192,13 +192,13 @@ pub(super) fn leftover(
 ///
 /// For each of them, how many effects of the set it says again.
 #[derive(Debug, Default)]
-pub(super) struct Again(BTreeMap<usize, usize>);
+pub(super) struct Restated(BTreeMap<usize, usize>);
 
-impl Again {
+impl Restated {
     /// Those that hold an effect of a set nearly whole and explain nothing beside the set.
-    pub(super) fn of(space: &Space, question: &Question, named: &[usize]) -> Again {
+    pub(super) fn of(space: &Space, question: &Question, named: &[usize]) -> Restated {
         let Some(frame) = space.frame(named) else {
-            return Again::default();
+            return Restated::default();
         };
         let effects: Vec<DVector<f64>> = named
             .iter()
@@ -208,7 +208,7 @@ impl Again {
                 estimate(space, question, &rest, *block).visible
             })
             .collect();
-        let beside = Beside::new(space, question, &frame);
+        let beside = Remainders::new(space, question, &frame);
         let observed = beside.observed();
         let says_more = |generic: usize| {
             let rest = beside.rests.iter().find(|rest| rest.block == generic);
@@ -228,7 +228,7 @@ impl Again {
             (index, effects.iter().filter(holds).count())
         });
         let again = again.filter(|(generic, held)| *held > 0 && !says_more(*generic));
-        Again(again.collect())
+        Restated(again.collect())
     }
 
     /// What is taken from the logarithm of the odds of a block.

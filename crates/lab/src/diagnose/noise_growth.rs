@@ -8,8 +8,8 @@
 use nalgebra::DVector;
 
 use super::case::{Observed, Role};
+use super::design::Design;
 use super::fit::Fit;
-use super::frame::Frame;
 
 /// Degrees of freedom of the distribution of the differences.
 const TAILS: f64 = 4.0;
@@ -129,9 +129,9 @@ fn drawn(tried: &[(Spread, f64)], least: f64) -> Vec<Spread> {
 }
 
 /// How the noise of each response grows; `None` where it does not, as far as can be seen.
-pub(super) fn estimate(frame: &Frame<'_>, fit: &Fit) -> Vec<Option<Likely>> {
-    (0..frame.case.responses.len())
-        .map(|response| of_response(frame, fit, response))
+pub(super) fn estimate(design: &Design<'_>, fit: &Fit) -> Vec<Option<Likely>> {
+    (0..design.case.responses.len())
+        .map(|response| of_response(design, fit, response))
         .collect()
 }
 
@@ -141,17 +141,17 @@ struct Difference {
     size: f64,
 }
 
-fn of_response(frame: &Frame<'_>, fit: &Fit, response: usize) -> Option<Likely> {
+fn of_response(design: &Design<'_>, fit: &Fit, response: usize) -> Option<Likely> {
     if matches!(
-        frame.case.responses[response].observed,
+        design.case.responses[response].observed,
         Observed::Constant(_)
     ) {
         return None;
     }
-    let values = frame.reduced(&fit.linear.values[response]);
-    let first = response * frame.blocks.len();
-    let residuals = fit.residuals.rows(first, frame.blocks.len()).into_owned();
-    let differences = differences(frame, &values, &residuals);
+    let values = design.reduced(&fit.linear.values[response]);
+    let first = response * design.blocks.len();
+    let residuals = fit.residuals.rows(first, design.blocks.len()).into_owned();
+    let differences = differences(design, &values, &residuals);
     if differences.len() < LEAST {
         return None;
     }
@@ -191,9 +191,9 @@ fn scale(squares: &[f64]) -> f64 {
     scale
 }
 
-fn differences(frame: &Frame<'_>, values: &[f64], residuals: &DVector<f64>) -> Vec<Difference> {
+fn differences(design: &Design<'_>, values: &[f64], residuals: &DVector<f64>) -> Vec<Difference> {
     let mut all = Vec::new();
-    for mut group in groups(frame) {
+    for mut group in groups(design) {
         group.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
         for three in group.windows(3) {
             let [low, middle, high] = [three[0], three[1], three[2]];
@@ -222,14 +222,14 @@ fn differences(frame: &Frame<'_>, values: &[f64], residuals: &DVector<f64>) -> V
 }
 
 /// Blocks with the same labels.
-fn groups(frame: &Frame<'_>) -> Vec<Vec<usize>> {
-    let labelled = frame.case.columns.iter().filter_map(|column| {
+fn groups(design: &Design<'_>) -> Vec<Vec<usize>> {
+    let labelled = design.case.columns.iter().filter_map(|column| {
         let kind = matches!(column.role, Role::Run | Role::Factor | Role::Axis);
         column.labels().filter(|_| kind)
     });
     let labelled: Vec<_> = labelled.collect();
     let mut groups = std::collections::BTreeMap::<Vec<u32>, Vec<usize>>::new();
-    for (block, rows) in frame.blocks.iter().enumerate() {
+    for (block, rows) in design.blocks.iter().enumerate() {
         let key = labelled.iter().map(|labels| labels.of_row[rows[0]]);
         groups.entry(key.collect()).or_default().push(block);
     }

@@ -7,21 +7,21 @@ use nalgebra::{DMatrix, DVector};
 
 use super::adopt::{self, Free};
 use super::case::Case;
-use super::catalogue::{self, Cell, Finer, Ground, Variation};
+use super::catalogue::{self, Cell, Finer, FittedModel, Variation};
+use super::design::Design;
 use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Fitted, Prior, Question, Refusal, Shape, TRACE,
 };
 use super::failure::Failure;
 use super::fit::{self, Fit, NoFit};
-use super::frame::Frame;
 use super::noise::{self, Claimed};
 
 /// λ from which on it matters that the parameter of an effect lies between the steps of its grid.
 const CLEAR: f64 = 15.0;
 
 /// Candidates, asked of a recording.
-pub(super) struct Inquiry<'f> {
-    pub(super) ground: Ground<'f>,
+pub(super) struct Candidates<'f> {
+    pub(super) fitted: FittedModel<'f>,
     pub(super) cells: Vec<Cell>,
     candidates: Vec<Candidate>,
     atoms: Vec<Atom>,
@@ -29,12 +29,16 @@ pub(super) struct Inquiry<'f> {
     pub(super) places: Vec<(usize, usize)>,
 }
 
-impl<'f> Inquiry<'f> {
-    pub(super) fn new(ground: Ground<'f>, claimed: &Claimed, white: &Baseline) -> Inquiry<'f> {
-        let cells = catalogue::cells(&ground);
-        let (candidates, atoms, places) = question(&ground, &cells, claimed, white);
-        Inquiry {
-            ground,
+impl<'f> Candidates<'f> {
+    pub(super) fn new(
+        fitted: FittedModel<'f>,
+        claimed: &Claimed,
+        white: &Baseline,
+    ) -> Candidates<'f> {
+        let cells = catalogue::cells(&fitted);
+        let (candidates, atoms, places) = question(&fitted, &cells, claimed, white);
+        Candidates {
+            fitted,
             cells,
             candidates,
             atoms,
@@ -49,7 +53,7 @@ impl<'f> Inquiry<'f> {
         settings: &evidence::Settings,
         progress: &dyn Fn(f64) -> ControlFlow<()>,
     ) -> Result<(Baseline, Examination), Failure> {
-        let baseline = baseline(self.ground.frame, self.ground.fit, claimed)?;
+        let baseline = baseline(self.fitted.design, self.fitted.fit, claimed)?;
         loop {
             let question = Question {
                 baseline: &baseline,
@@ -71,15 +75,15 @@ impl<'f> Inquiry<'f> {
     /// The noise that is left when the named effects are in the model.
     pub(super) fn noise(&self, examination: &Examination, claimed: &Claimed) -> Claimed {
         let adopted = adopted_fit(
-            &self.ground,
+            &self.fitted,
             &self.cells,
             &self.places,
             examination,
             claimed,
         );
         match adopted {
-            Ok(Some((extended, fit))) => noise::refined(&Frame::new(&extended.case), &fit),
-            Ok(None) | Err(_) => noise::refined(self.ground.frame, self.ground.fit),
+            Ok(Some((extended, fit))) => noise::refined(&Design::new(&extended.case), &fit),
+            Ok(None) | Err(_) => noise::refined(self.fitted.design, self.fitted.fit),
         }
     }
 
@@ -115,18 +119,18 @@ pub(super) fn settings(case: &Case) -> evidence::Settings {
 
 /// The recording reduced to its residuals.
 pub(super) fn baseline(
-    frame: &Frame<'_>,
+    design: &Design<'_>,
     fit: &Fit,
     claimed: &Claimed,
 ) -> Result<Baseline, Refusal> {
-    let known: Vec<(usize, (f64, f64))> = frame
+    let known: Vec<(usize, (f64, f64))> = design
         .unknowns
         .iter()
         .enumerate()
         .filter_map(|(at, unknown)| Some((at, unknown.prior?)))
         .collect();
     let mut prior = Prior {
-        jacobian: DMatrix::zeros(known.len(), frame.unknowns.len()),
+        jacobian: DMatrix::zeros(known.len(), design.unknowns.len()),
         residuals: DVector::zeros(known.len()),
     };
     for (row, (at, (value, u))) in known.iter().enumerate() {
@@ -138,7 +142,7 @@ pub(super) fn baseline(
 
 /// Candidates and atoms, and the cell and variation of each atom.
 pub(super) fn question(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     claimed: &Claimed,
     baseline: &Baseline,
@@ -159,7 +163,7 @@ pub(super) fn question(
         let before = atoms.len();
         let shapes: Vec<(usize, Shape)> = (cell.variants.iter().enumerate())
             .filter_map(|(number, variation)| {
-                let columns = variation.columns(ground);
+                let columns = variation.columns(fitted);
                 Some((number, shape(columns, variation, claimed)?))
             })
             .collect();
@@ -244,55 +248,55 @@ fn shape(columns: DMatrix<f64>, variation: &Variation, claimed: &Claimed) -> Opt
 /// # Errors
 /// When the model with the effects cannot be fitted.
 pub(super) fn adopted_fit(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
     examination: &Examination,
     claimed: &Claimed,
 ) -> Result<Option<(adopt::Extended, Fit)>, NoFit> {
-    let fitted = examination.fitted.as_ref();
-    let Some(fitted) = fitted.filter(|fitted| !fitted.atoms.is_empty()) else {
+    let found = examination.fitted.as_ref();
+    let Some(found) = found.filter(|found| !found.atoms.is_empty()) else {
         return Ok(None);
     };
-    let Some((mut extended, open)) = with_effects(ground, cells, places, fitted, claimed) else {
+    let Some((mut extended, open)) = with_effects(fitted, cells, places, found, claimed) else {
         return Ok(None);
     };
     // Levels within those of a parameter, such as runs of one specimen: what they have in common is the
     // parameter's.
     adopt::scattered(&mut extended, |effect| open.contains(&effect));
-    if let Ok(fit) = refit(ground, &extended, claimed) {
+    if let Ok(fit) = refit(fitted, &extended, claimed) {
         return Ok(Some((extended, fit)));
     }
     adopt::scattered(&mut extended, |_| true);
-    let fit = refit(ground, &extended, claimed)?;
+    let fit = refit(fitted, &extended, claimed)?;
     Ok(Some((extended, fit)))
 }
 
 /// The model with the named effects in it, and those of them that the recording does not determine.
 fn with_effects(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
-    fitted: &Fitted,
+    found: &Fitted,
     claimed: &Claimed,
 ) -> Option<(adopt::Extended, Vec<usize>)> {
-    let baseline = baseline(ground.frame, ground.fit, claimed).ok()?;
-    let mut sizes = fitted.coefficients.as_slice();
+    let baseline = baseline(fitted.design, fitted.fit, claimed).ok()?;
+    let mut sizes = found.coefficients.as_slice();
     let mut effects = Vec::new();
-    for atom in &fitted.atoms {
+    for atom in &found.atoms {
         let variation = &cells[places[*atom].0].variants[places[*atom].1];
         let (own, rest) = sizes.split_at_checked(variation.coefficients())?;
-        effects.push(Free::of(ground, &baseline, variation, own));
+        effects.push(Free::of(fitted, &baseline, variation, own));
         sizes = rest;
     }
-    let open = undetermined(ground, &baseline, &effects);
-    Some((adopt::extended(ground, effects)?, open))
+    let open = undetermined(fitted, &baseline, &effects);
+    Some((adopt::extended(fitted, effects)?, open))
 }
 
 /// Effects with coefficients that the recording does not determine beside the parameters and one another.
-fn undetermined(ground: &Ground<'_>, baseline: &Baseline, effects: &[Free]) -> Vec<usize> {
+fn undetermined(fitted: &FittedModel<'_>, baseline: &Baseline, effects: &[Free]) -> Vec<usize> {
     let columns: Vec<DMatrix<f64>> = (effects.iter())
-        .map(|free| free.variation.columns(ground))
+        .map(|free| free.variation.columns(fitted))
         .collect();
     let all: Vec<_> = columns.iter().flat_map(|own| own.column_iter()).collect();
     if all.is_empty() {
@@ -305,10 +309,14 @@ fn undetermined(ground: &Ground<'_>, baseline: &Baseline, effects: &[Free]) -> V
     open.map(|(_, effect)| effect).collect()
 }
 
-fn refit(ground: &Ground<'_>, extended: &adopt::Extended, claimed: &Claimed) -> Result<Fit, NoFit> {
-    let frame = Frame::new(&extended.case);
-    let start = adopt::start(ground, &frame, &extended.effects);
-    fit::near(&frame, &claimed.u, start)
+fn refit(
+    fitted: &FittedModel<'_>,
+    extended: &adopt::Extended,
+    claimed: &Claimed,
+) -> Result<Fit, NoFit> {
+    let design = Design::new(&extended.case);
+    let start = adopt::start(fitted, &design, &extended.effects);
+    fit::near(&design, &claimed.u, start)
 }
 
 /// Candidates of a known size (a reversal, an exchange) that would have to have another size here.

@@ -3,22 +3,22 @@
 
 use super::case::Role;
 use super::catalogue::modifiers::{figure_to, range};
-use super::catalogue::{Ground, Modifier, Node, Term};
+use super::catalogue::{FittedModel, Modifier, Node, Term};
 use super::evidence::Cell;
 
 /// Parts into which the range of a column, or the recording, is divided.
 const PARTS: usize = 10;
 
 /// All cells of the scan.
-pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
-    let case = ground.case();
+pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
+    let case = fitted.case();
     let mut nodes = vec![Node::Output];
-    if ground.has_signal() {
+    if fitted.has_signal() {
         nodes.push(Node::Gain);
     }
     nodes.extend(
         case.with_role(Role::Angle)
-            .filter(|c| ground.in_model(*c))
+            .filter(|c| fitted.in_model(*c))
             .map(Node::Column),
     );
     let mut regions: Vec<(String, String, Vec<f64>)> = Vec::new();
@@ -37,7 +37,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
             regions.extend(ranges(&column.name, &column.unit.typeset(), numbers));
         }
     }
-    regions.extend(spans(ground));
+    regions.extend(spans(fitted));
     let mut cells = Vec::new();
     for node in nodes {
         for (factor, level, inside) in &regions {
@@ -49,7 +49,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
                 } else {
                     term
                 };
-                let name = ground.name(node);
+                let name = fitted.name(node);
                 let node = if responses > 1 {
                     format!("{name} of {}", case.responses[response].name)
                 } else {
@@ -59,7 +59,7 @@ pub(super) fn cells(ground: &Ground<'_>) -> Vec<Cell> {
                     node,
                     factor: factor.clone(),
                     level: level.clone(),
-                    column: ground.column(&term),
+                    column: fitted.column(&term),
                 });
             }
         }
@@ -134,21 +134,21 @@ fn extent((least, most): (f64, f64), step: f64, unit: &str) -> String {
 }
 
 /// Successive parts of the recording.
-fn spans(ground: &Ground<'_>) -> Vec<(String, String, Vec<f64>)> {
-    let blocks = &ground.frame.blocks;
+fn spans(fitted: &FittedModel<'_>) -> Vec<(String, String, Vec<f64>)> {
+    let blocks = &fitted.design.blocks;
     let parts = PARTS.min(blocks.len());
-    let t = &ground.clock.values;
-    let unit = ground.time_unit();
+    let t = &fitted.clock.values;
+    let unit = fitted.time_unit();
     let part = |at: usize| {
         let members = &blocks[at * blocks.len() / parts..(at + 1) * blocks.len() / parts];
         let (first, last) = (
             members[0][0],
             *members[members.len() - 1].last().unwrap_or(&0),
         );
-        let inside = (0..ground.rows()).map(|row| f64::from(u8::from(row >= first && row <= last)));
-        match ground.clock.column {
+        let inside = (0..fitted.rows()).map(|row| f64::from(u8::from(row >= first && row <= last)));
+        match fitted.clock.column {
             Some(column) => (
-                ground.case().columns[column].name.clone(),
+                fitted.case().columns[column].name.clone(),
                 extent((t[first], t[last]), step(t), &unit),
                 inside.collect(),
             ),

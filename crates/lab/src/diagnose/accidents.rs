@@ -2,7 +2,7 @@
 //! effect of its own, which no catalogue names; a jump that is taken back is something that came and went;
 //! and a wave in time beside stronger effects is what their shape leaves.
 
-use super::catalogue::{Cell, Ground, Pattern};
+use super::catalogue::{Cell, FittedModel, Pattern};
 use super::evidence::{Examination, Slot, State};
 
 /// So many of them are no accidents any more.
@@ -12,7 +12,7 @@ const VALUES: usize = 5;
 
 /// Slots of single rows, jumps, or levels that have no name because of the others.
 pub(super) fn nameless(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     places: &[(usize, usize)],
     examination: &Examination,
@@ -47,7 +47,7 @@ pub(super) fn nameless(
     };
     if let [one, other] = outliers[..]
         && let (Some(a), Some(b)) = (row(one), row(other))
-        && share_a_level(ground, a, b)
+        && share_a_level(fitted, a, b)
     {
         found.extend(outliers);
     }
@@ -59,7 +59,7 @@ pub(super) fn nameless(
     }
     let in_time = |slot: &usize| {
         let first = examination.slots[*slot].named.first();
-        first.is_some_and(|one| cells[one.candidate].place.along == ground.along_time())
+        first.is_some_and(|one| cells[one.candidate].place.along == fitted.along_time())
     };
     // The strongest stands first.
     found.extend(
@@ -88,8 +88,8 @@ fn undone(one: &Slot, other: &Slot) -> bool {
 }
 
 /// Whether two rows have the same value of a column in which rows differ.
-fn share_a_level(ground: &Ground<'_>, a: usize, b: usize) -> bool {
-    ground.case().columns.iter().any(|column| {
+fn share_a_level(fitted: &FittedModel<'_>, a: usize, b: usize) -> bool {
+    fitted.case().columns.iter().any(|column| {
         let values: Vec<f64> = match (column.labels(), column.numbers()) {
             (Some(labels), _) => labels
                 .of_row

@@ -1,12 +1,12 @@
 //! What other methods in common use would say of a case, with the same candidates.
 
+use super::candidates::{baseline, question, settings};
 use super::case::Case;
-use super::catalogue::{self, EffectId, Ground};
+use super::catalogue::{self, EffectId, FittedModel};
+use super::design::Design;
 use super::evidence::Question;
 use super::failure::Failure;
-use super::frame::Frame;
-use super::inquiry::{baseline, question, settings};
-use super::{noise, rivals};
+use super::{noise, other_methods};
 
 /// A name that a method gives.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,12 +31,12 @@ pub struct Opinion {
 /// # Errors
 /// When the model cannot be fitted.
 pub fn opinions(case: &Case) -> Result<Vec<Opinion>, Failure> {
-    let frame = Frame::new(case);
-    let (fit, claimed) = noise::settle(&frame)?;
-    let ground = Ground::new(&frame, &fit);
-    let cells = catalogue::cells(&ground);
-    let baseline = baseline(&frame, &fit, &claimed)?;
-    let (candidates, atoms, _) = question(&ground, &cells, &claimed, &baseline);
+    let design = Design::new(case);
+    let (fit, claimed) = noise::settle(&design)?;
+    let fitted = FittedModel::new(&design, &fit);
+    let cells = catalogue::cells(&fitted);
+    let baseline = baseline(&design, &fit, &claimed)?;
+    let (candidates, atoms, _) = question(&fitted, &cells, &claimed, &baseline);
     let question = Question {
         baseline: &baseline,
         candidates: &candidates,
@@ -54,7 +54,7 @@ pub fn opinions(case: &Case) -> Result<Vec<Opinion>, Failure> {
             .collect(),
     };
     Ok(vec![
-        opinion("forward-bic", rivals::forward_bic(&question)),
-        opinion("w-test", rivals::w_test(&question)),
+        opinion("forward-bic", other_methods::forward_bic(&question)),
+        opinion("w-test", other_methods::w_test(&question)),
     ])
 }

@@ -11,10 +11,10 @@ use nalgebra::DMatrix;
 
 use super::case::{Blocks, Case, Data, Role, Rows};
 use super::catalogue::modifiers::range;
-use super::catalogue::{self, Cell, Ground};
+use super::catalogue::{self, Cell, FittedModel};
+use super::design::Design;
 use super::evidence;
 use super::fit;
-use super::frame::Frame;
 use crate::recording::Labels;
 
 /// Part of the recorded range by which inputs go beyond it.
@@ -24,17 +24,17 @@ const ROUNDING: f64 = 1e-12;
 
 /// Columns of variations, given as cell and variation, that the declared model has already.
 pub(super) fn declared(
-    ground: &Ground<'_>,
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     wanted: &[(usize, usize)],
 ) -> BTreeMap<(usize, usize), Vec<usize>> {
     if wanted.is_empty() {
         return BTreeMap::new();
     }
-    let case = elsewhere(ground);
-    let frame = Frame::new(&case);
-    let fit = fit::at(&frame, ground.fit.unknowns.clone());
-    let there = Ground::new(&frame, &fit).refined(ground.finer.clone());
+    let case = elsewhere(fitted);
+    let design = Design::new(&case);
+    let fit = fit::at(&design, fitted.fit.unknowns.clone());
+    let there = FittedModel::new(&design, &fit).refined(fitted.finer.clone());
     let others = catalogue::cells(&there);
     let of = wanted.iter().filter_map(|(cell, variation)| {
         let own = &cells[*cell];
@@ -66,12 +66,12 @@ fn held(others: &DMatrix<f64>, columns: &DMatrix<f64>) -> Vec<usize> {
 }
 
 /// The case with inputs that nothing ties to one another, within its range and somewhat beyond.
-fn elsewhere(ground: &Ground<'_>) -> Case {
+fn elsewhere(fitted: &FittedModel<'_>) -> Case {
     /// Rows for each unknown, and at least.
     const EACH: usize = 8;
     const LEAST: usize = 200;
-    let case = ground.case();
-    let count = (EACH * ground.frame.unknowns.len()).max(LEAST);
+    let case = fitted.case();
+    let count = (EACH * fitted.design.unknowns.len()).max(LEAST);
     let data = case.columns.iter().enumerate().map(|(at, column)| {
         let shares = uniform(at as u64, count);
         match &column.data {

@@ -13,18 +13,18 @@ use super::question::{Kind, Question};
 use super::space::{Form, Frame, NEAR, Residual, Space, principal};
 
 /// Every block that may join a set, beside it.
-pub(super) struct Beside<'s> {
+pub(super) struct Remainders<'s> {
     space: &'s Space,
     frame: &'s Frame,
     /// A = FᵀU for the directions of all blocks.
     along: DMatrix<f64>,
     /// What is left of z when the set is adopted.
     pub(super) residual: Residual,
-    pub(super) rests: Vec<Rest>,
+    pub(super) rests: Vec<Remainder>,
 }
 
 /// A block beside a set.
-pub(super) struct Rest {
+pub(super) struct Remainder {
     /// Index of the block in the space.
     pub(super) block: usize,
     pub(super) kind: Kind,
@@ -33,8 +33,8 @@ pub(super) struct Rest {
     turn: DMatrix<f64>,
 }
 
-impl<'s> Beside<'s> {
-    pub(super) fn new(space: &'s Space, question: &Question, frame: &'s Frame) -> Beside<'s> {
+impl<'s> Remainders<'s> {
+    pub(super) fn new(space: &'s Space, question: &Question, frame: &'s Frame) -> Remainders<'s> {
         let along = frame.basis.tr_mul(&space.directions);
         let rest = |index: usize| {
             let block = &space.blocks[index];
@@ -55,7 +55,7 @@ impl<'s> Beside<'s> {
                 }
             };
             let idle = turn.nrows() == 0 && !matches!(form, Form::Scatter);
-            (!idle).then_some(Rest {
+            (!idle).then_some(Remainder {
                 block: index,
                 kind: block.kind(),
                 form,
@@ -63,7 +63,7 @@ impl<'s> Beside<'s> {
             })
         };
         let rests = (0..space.blocks.len()).filter_map(rest).collect();
-        Beside {
+        Remainders {
             space,
             frame,
             residual: space.residual(frame),
@@ -87,7 +87,7 @@ impl<'s> Beside<'s> {
     }
 
     /// Components along the directions of a rest, of a vector with these components along all.
-    pub(super) fn components(&self, rest: &Rest, all: &DVector<f64>) -> DVector<f64> {
+    pub(super) fn components(&self, rest: &Remainder, all: &DVector<f64>) -> DVector<f64> {
         let own = self.space.places(rest.block);
         if rest.turn.nrows() == 0 {
             return DVector::zeros(0);
@@ -96,13 +96,13 @@ impl<'s> Beside<'s> {
     }
 
     /// The same for recordings one per row: a column for each direction.
-    pub(super) fn turned(&self, rest: &Rest, recordings: &DMatrix<f64>) -> DMatrix<f64> {
+    pub(super) fn turned(&self, rest: &Remainder, recordings: &DMatrix<f64>) -> DMatrix<f64> {
         let own = recordings.columns_range(self.space.places(rest.block));
         self.turned_own(rest, &own.into_owned())
     }
 
-    /// As [`Beside::turned`], with the components along the directions of the block alone.
-    pub(super) fn turned_own(&self, rest: &Rest, own: &DMatrix<f64>) -> DMatrix<f64> {
+    /// As [`Remainders::turned`], with the components along the directions of the block alone.
+    pub(super) fn turned_own(&self, rest: &Remainder, own: &DMatrix<f64>) -> DMatrix<f64> {
         if rest.turn.nrows() == 0 {
             return DMatrix::zeros(own.nrows(), 0);
         }
@@ -110,7 +110,12 @@ impl<'s> Beside<'s> {
     }
 
     /// Adds the squared components of recordings, one per row, along the directions of a rest.
-    pub(super) fn add_squares(&self, rest: &Rest, recordings: &DMatrix<f64>, sums: &mut [f64]) {
+    pub(super) fn add_squares(
+        &self,
+        rest: &Remainder,
+        recordings: &DMatrix<f64>,
+        sums: &mut [f64],
+    ) {
         let first = self.space.places(rest.block).start;
         let lanes = recordings.nrows();
         let column =
@@ -137,12 +142,12 @@ impl<'s> Beside<'s> {
     }
 
     /// Logarithm of the prior odds of a rest.
-    pub(super) fn log_odds(&self, rest: &Rest) -> f64 {
+    pub(super) fn log_odds(&self, rest: &Remainder) -> f64 {
         self.space.blocks[rest.block].log_odds
     }
 
     /// Score of the set with a block more; `None` where the residuals have no room for it.
-    pub(super) fn score(&self, rest: &Rest, observed: &DVector<f64>) -> Option<f64> {
+    pub(super) fn score(&self, rest: &Remainder, observed: &DVector<f64>) -> Option<f64> {
         let space = self.space;
         let components = self.components(rest, observed);
         let own = space.blocks[rest.block].log_odds;
@@ -181,7 +186,7 @@ impl<'s> Beside<'s> {
         let along = self.along.columns_range(own.clone());
         cross.gemm_tr(-1.0, &along.into_owned(), &self.along, 1.0);
         let gram = cross.columns_range(own.clone()).into_owned();
-        let with = |rest: &Rest| {
+        let with = |rest: &Remainder| {
             let score = self.score(rest, &observed)?;
             let components = self.components(rest, &observed);
             let fit = components.norm_squared();
@@ -208,7 +213,7 @@ impl<'s> Beside<'s> {
     }
 }
 
-impl Rest {
+impl Remainder {
     /// Directions beside the set.
     pub(super) fn directions(&self) -> usize {
         self.turn.nrows()

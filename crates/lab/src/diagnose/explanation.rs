@@ -2,14 +2,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::catalogue::{Cell, EffectId, Ground, Pattern, Variation, Words};
-use super::evidence::{self, Apart, Baseline, Standing};
-use super::longer::{Longer, Recorded};
+use super::catalogue::{Cell, EffectId, FittedModel, Pattern, Variation, Words};
+use super::evidence::{self, Baseline, Separability, Standing};
+use super::prolonged::{Prolonged, Recorded};
 use crate::special::normal_quantile;
 
 /// An explanation among others for the same mismatch.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Contender {
+pub struct Explanation {
     /// Identifier of the effect.
     id: EffectId,
     /// What its texts speak of.
@@ -36,7 +36,7 @@ struct Likely {
 /// Sizes and shapes for which a promise is formed.
 const DRAWS: usize = 40;
 
-impl Contender {
+impl Explanation {
     /// A variation of a cell with coefficients; those that are not finite count as zero.
     pub(super) fn new(
         recorded: &Recorded<'_>,
@@ -44,10 +44,10 @@ impl Contender {
         variation: &Variation,
         sizes: &DMatrix<f64>,
         probability: f64,
-    ) -> Contender {
+    ) -> Explanation {
         let sizes = sizes.map(|x| if x.is_finite() { x } else { 0.0 });
-        let columns = variation.columns(recorded.ground);
-        Contender {
+        let columns = variation.columns(recorded.fitted);
+        Explanation {
             id: cell.effect.id,
             words: cell.words.clone(),
             repeats: cell.effect.repeats,
@@ -65,7 +65,7 @@ impl Contender {
         mut self,
         recorded: &Recorded<'_>,
         variations: &[(&Variation, f64)],
-    ) -> Contender {
+    ) -> Explanation {
         let Some(first) = self.likely.first_mut() else {
             return self;
         };
@@ -84,7 +84,7 @@ impl Contender {
             let own = seen.columns(begin, end - begin).into_owned();
             let columns = recorded
                 .baseline
-                .project(&variation.columns(recorded.ground));
+                .project(&variation.columns(recorded.fitted));
             likely.push(Likely {
                 label: variation.label.clone(),
                 shape: value(variation),
@@ -102,14 +102,14 @@ impl Contender {
     }
 
     /// Share of it that the parameters do not absorb in another design.
-    pub(super) fn visibility(&self, longer: &Longer<'_>) -> Option<f64> {
-        let shares = longer.baseline.visibilities(&self.columns(longer)?);
+    pub(super) fn visibility(&self, prolonged: &Prolonged<'_>) -> Option<f64> {
+        let shares = prolonged.baseline.visibilities(&self.columns(prolonged)?);
         Some(shares.into_iter().fold(1.0, f64::min))
     }
 
     /// How it stands in the recording.
     pub(super) fn before(&self, recorded: &Recorded<'_>, cells: &[Cell]) -> Standing {
-        let variants = self.variants(recorded.ground, cells).into_iter();
+        let variants = self.variants(recorded.fitted, cells).into_iter();
         let seen = |columns: DMatrix<f64>| visible(recorded.baseline, columns);
         Standing {
             effects: side_by_side(self.likely.iter().map(|likely| likely.seen.clone())),
@@ -122,15 +122,15 @@ impl Contender {
     pub(super) fn standing(
         &self,
         recorded: &Recorded<'_>,
-        longer: &Longer<'_>,
+        prolonged: &Prolonged<'_>,
     ) -> Option<Standing> {
-        let variants = self.variants(&longer.ground, &longer.cells);
+        let variants = self.variants(&prolonged.fitted, &prolonged.cells);
         let before: Vec<DMatrix<f64>> = variants
             .iter()
             .map(|columns| {
                 recorded
                     .baseline
-                    .project(&longer.recorded(recorded, columns))
+                    .project(&prolonged.recorded(recorded, columns))
             })
             .collect();
         /// A variant that leaves more of the effect (squared) is another one.
@@ -144,25 +144,25 @@ impl Contender {
             });
             let (left, whole, sizes) = ranked.min_by(|a, b| a.0.total_cmp(&b.0))?;
             let same = left <= MOST_LEFT * likely.seen.norm_squared();
-            same.then(|| longer.baseline.project(&(whole * sizes)))
+            same.then(|| prolonged.baseline.project(&(whole * sizes)))
         });
         let effects: Option<Vec<DMatrix<f64>>> = effects.collect();
         let variants = variants.iter().cloned();
         Some(Standing {
             effects: side_by_side(effects?.into_iter()),
             variants: variants
-                .filter_map(|columns| visible(&longer.baseline, columns))
+                .filter_map(|columns| visible(&prolonged.baseline, columns))
                 .collect(),
             repeats: self.repeats,
         })
     }
 
     /// Columns of all variants that it has among some cells.
-    fn variants(&self, ground: &Ground<'_>, cells: &[Cell]) -> Vec<DMatrix<f64>> {
+    fn variants(&self, fitted: &FittedModel<'_>, cells: &[Cell]) -> Vec<DMatrix<f64>> {
         let alike = cells.iter().filter(|cell| self.is(cell));
         alike
             .flat_map(|cell| &cell.variants)
-            .map(|variation| variation.columns(ground))
+            .map(|variation| variation.columns(fitted))
             .filter(|columns| columns.ncols() > 0 && columns.iter().all(|x| x.is_finite()))
             .collect()
     }
@@ -174,9 +174,9 @@ impl Contender {
 
     /// The columns of its variation in another design. A grid that follows the rows may have another step
     /// there: what is nearest to it, or else its middle, then stands for it.
-    fn columns(&self, longer: &Longer<'_>) -> Option<DMatrix<f64>> {
+    fn columns(&self, prolonged: &Prolonged<'_>) -> Option<DMatrix<f64>> {
         let own = self.likely.first()?;
-        let cell = longer.cells.iter().find(|cell| self.is(cell))?;
+        let cell = prolonged.cells.iter().find(|cell| self.is(cell))?;
         let same = cell.variants.iter().find(|v| v.label == own.label);
         let nearest = || {
             let own = own.shape?;
@@ -190,7 +190,7 @@ impl Contender {
         let columns = same
             .or_else(nearest)
             .or_else(middle)?
-            .columns(&longer.ground);
+            .columns(&prolonged.fitted);
         columns.iter().all(|x| x.is_finite()).then_some(columns)
     }
 }
@@ -202,21 +202,21 @@ fn value(variation: &Variation) -> Option<f64> {
 /// How explanations stand in another design; nothing where one of them is none there.
 pub(super) fn standing(
     recorded: &Recorded<'_>,
-    longer: &Longer<'_>,
-    set: &[Contender],
+    prolonged: &Prolonged<'_>,
+    set: &[Explanation],
 ) -> Option<Vec<Standing>> {
     set.iter()
-        .map(|one| one.standing(recorded, longer))
+        .map(|one| one.standing(recorded, prolonged))
         .collect()
 }
 
 /// How far explanations are apart in another design.
 pub(super) fn apart(
     recorded: &Recorded<'_>,
-    longer: &Longer<'_>,
-    set: &[Contender],
-) -> Option<Apart> {
-    evidence::apart(&standing(recorded, longer, set)?).ok()
+    prolonged: &Prolonged<'_>,
+    set: &[Explanation],
+) -> Option<Separability> {
+    evidence::apart(&standing(recorded, prolonged, set)?).ok()
 }
 
 /// The sizes with which columns come nearest to effects.
@@ -294,20 +294,22 @@ fn side_by_side(parts: impl Iterator<Item = DMatrix<f64>>) -> DMatrix<f64> {
     DMatrix::from_columns(&columns)
 }
 
-/// A variation that does what a contender does, as far as it can.
+/// A variation that does what an explanation does, as far as it can.
 pub(super) fn likened(
     recorded: &Recorded<'_>,
-    contender: &Contender,
+    explanation: &Explanation,
     cell: &Cell,
     variation: &Variation,
-) -> Option<Contender> {
-    let seen = &contender.likely.first()?.seen;
+) -> Option<Explanation> {
+    let seen = &explanation.likely.first()?.seen;
     let columns = recorded
         .baseline
-        .project(&variation.columns(recorded.ground));
+        .project(&variation.columns(recorded.fitted));
     let sizes = fitted(&columns, seen)?;
     // It is not in the list: less probable than whatever is.
-    Some(Contender::new(recorded, cell, variation, &sizes, UNLISTED))
+    Some(Explanation::new(
+        recorded, cell, variation, &sizes, UNLISTED,
+    ))
 }
 
 /// The most that an explanation has which is not listed.
@@ -318,7 +320,7 @@ const FAR: f64 = 8.0;
 
 /// What a candidate that is not in a list leaves of each explanation of it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Outsider {
+pub(super) struct Unlisted {
     id: EffectId,
     words: Words,
     /// κ of each.
@@ -327,22 +329,22 @@ pub(super) struct Outsider {
     pub stays: Vec<bool>,
 }
 
-impl Outsider {
+impl Unlisted {
     /// Whether both are the same candidate.
-    pub(super) fn is(&self, other: &Outsider) -> bool {
+    pub(super) fn is(&self, other: &Unlisted) -> bool {
         self.id == other.id && self.words == other.words
     }
 }
 
 /// All candidates that are not in a list: named ones whose size is free. Single rows and waves of any
 /// period come near to anything a little, and seldom stand for it.
-pub(super) fn outsiders(
-    ground: &Ground<'_>,
+pub(super) fn unlisted(
+    fitted: &FittedModel<'_>,
     cells: &[Cell],
     baseline: &Baseline,
-    set: &[Contender],
+    set: &[Explanation],
     standing: &[Standing],
-) -> Vec<Outsider> {
+) -> Vec<Unlisted> {
     let effects = standing.iter().map(|one| one.effects.column(0));
     let effects = DMatrix::from_columns(&effects.collect::<Vec<_>>());
     let counts = |cell: &&Cell| {
@@ -355,7 +357,7 @@ pub(super) fn outsiders(
         let columns = cell
             .variants
             .iter()
-            .map(|variation| variation.columns(ground));
+            .map(|variation| variation.columns(fitted));
         let finite = columns.filter(|c| c.ncols() > 0 && c.iter().all(|x| x.is_finite()));
         let seen: Vec<DMatrix<f64>> = finite.filter_map(|c| visible(baseline, c)).collect();
         let kappas = evidence::left(&effects, seen.iter().cloned());
@@ -363,7 +365,7 @@ pub(super) fn outsiders(
             .iter()
             .zip(standing)
             .map(|(kappa, one)| *kappa < FAR && !cell.effect.repeats && one.keeps(&seen));
-        Outsider {
+        Unlisted {
             id: cell.effect.id,
             words: cell.words.clone(),
             stays: near.collect(),

@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 
 use gumption_lanes::LANES;
 
-use super::beside::Beside;
 use super::null::{Recordings, Simulated, side_by_side};
 use super::pairs::Pairs;
 use super::question::{Kind, Question};
+use super::remainders::Remainders;
 use super::space::{Frame, Space};
 
 /// Draws after which a p-value far above the limit is good enough.
@@ -110,7 +110,7 @@ pub(super) fn combined(observed: [f64; 2], draws: &[[f64; 2]]) -> f64 {
 
 /// All blocks that may be left beside a set, side by side.
 struct Panel<'a> {
-    beside: Beside<'a>,
+    beside: Remainders<'a>,
     frame: &'a Frame,
     /// Named rests that differ in their directions only: the best of them is the one with the best fit.
     classes: Vec<Vec<usize>>,
@@ -119,7 +119,7 @@ struct Panel<'a> {
 
 impl<'a> Panel<'a> {
     fn new(space: &'a Space, question: &Question, frame: &'a Frame) -> Panel<'a> {
-        let beside = Beside::new(space, question, frame);
+        let beside = Remainders::new(space, question, frame);
         let mut classes: BTreeMap<(usize, u64), Vec<usize>> = BTreeMap::new();
         let mut generics = Vec::new();
         for (index, rest) in beside.rests.iter().enumerate() {

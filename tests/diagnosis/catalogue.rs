@@ -4,7 +4,7 @@ use crate::common;
 use std::fmt::Write;
 
 use gumption::diagnose::case::{Case, Purpose};
-use gumption::diagnose::likenesses;
+use gumption::diagnose::stand_ins;
 use nalgebra::DVector;
 use serde_json::Value;
 
@@ -206,7 +206,7 @@ fn a_known_trace_is_held_beside_every_candidate() {
         |f: fn(f64, f64) -> f64| DVector::from_iterator(40, course.iter().map(|(t, x)| f(*t, *x)));
     let (slope, square) = (trace(|t, _| 3.0 * t), trace(|_, x| 0.5 * x * x));
     let nearest = |trace: &DVector<f64>, others: &[DVector<f64>]| {
-        let all = likenesses(&case, trace, others).unwrap();
+        let all = stand_ins(&case, trace, others).unwrap();
         all.into_iter().min_by(|a, b| {
             (a.coefficients, a.left)
                 .partial_cmp(&(b.coefficients, b.left))
@@ -225,12 +225,12 @@ fn a_known_trace_is_held_beside_every_candidate() {
     assert!(curve.left < 1e-6, "{curve:?}");
     // What the declared parameters or the others hold has no likeness.
     assert!(
-        likenesses(&case, &slope, std::slice::from_ref(&slope))
+        stand_ins(&case, &slope, std::slice::from_ref(&slope))
             .unwrap()
             .is_empty()
     );
     assert!(
-        likenesses(&case, &trace(|_, x| 4.0 * x), &[])
+        stand_ins(&case, &trace(|_, x| 4.0 * x), &[])
             .unwrap()
             .is_empty()
     );

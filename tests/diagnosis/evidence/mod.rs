@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use bench::Bench;
 use grade::{Grade, Open, Share, grade, grade_open, grade_several};
 use gumption::diagnose::evidence::{State, Verdict};
-use gumption::diagnose::rivals::{forward_bic, w_test};
+use gumption::diagnose::other_methods::{forward_bic, w_test};
 use nalgebra::DVector;
 
 /// Alarms and unique names among recordings of nothing.

@@ -25,7 +25,7 @@ use gumption::challenge::study::{
 };
 use gumption::challenge::{Further, SealedCase};
 use gumption::diagnose::case::{Case, Purpose};
-use gumption::diagnose::{Failure, Likeness, Opinion, Pick, diagnose, opinions, stand_ins};
+use gumption::diagnose::{Failure, Opinion, Pick, StandIn, diagnose, opinions, stand_ins};
 use gumption::report::{self, Language, diagnosis_failure};
 
 struct Options {
@@ -324,7 +324,7 @@ fn twins(
         let mut others = traces.clone();
         let own = others.remove(at);
         let all = stand_ins(case, &own, &others)?;
-        let (own, wrong): (Vec<&Likeness>, Vec<&Likeness>) =
+        let (own, wrong): (Vec<&StandIn>, Vec<&StandIn>) =
             all.iter().partition(|likeness| right(&likeness.pick));
         let best = own.iter().min_by(|a, b| a.left.total_cmp(&b.left));
         let coefficients = best.map_or(USUAL, |best| best.coefficients);
@@ -379,10 +379,10 @@ fn judged(sealed: &SealedCase, opinion: &Opinion) -> (String, String) {
 }
 
 /// Size of a name less that of its variant in the twin run, in half-widths of its 95 % interval.
-fn deviation(all: &[Likeness], name: &Name) -> Option<f64> {
+fn deviation(all: &[StandIn], name: &Name) -> Option<f64> {
     let label = &name.variants.first()?.label;
     let is_it =
-        |l: &&Likeness| l.pick.id == name.id && l.pick.along == name.along && l.label == *label;
+        |l: &&StandIn| l.pick.id == name.id && l.pick.along == name.along && l.label == *label;
     let size = all.iter().find(is_it)?.size?;
     let half_width = name.coverage_factor? * (*name.u.first()?)?;
     Some(((*name.size.first()?)? - size) / half_width)
@@ -390,7 +390,7 @@ fn deviation(all: &[Likeness], name: &Name) -> Option<f64> {
 
 fn name(pick: &Pick) -> Name {
     Name {
-        id: pick.id.clone(),
+        id: pick.id.to_string(),
         family: String::new(),
         node: String::new(),
         along: pick.along.clone(),

@@ -257,7 +257,7 @@ mod tests {
         (0..20).map(of).collect()
     }
 
-    fn found(groups: &[Group]) -> Option<spread::Likely> {
+    fn found(groups: &[Group]) -> Option<noise_growth::Likely> {
         let levels: Vec<f64> = groups.iter().map(|group| group.level).collect();
         noise_growth::likely(&levels, GAIN, |spread| misfit(groups, spread))
     }

@@ -83,6 +83,10 @@ impl Model {
             .zip(&self.scales)
             .map(|(column, scale)| (dot(column, &self.projected) / scale).powi(2));
         let mut high = gradient.sum::<f64>().sqrt() / region;
+        if !high.is_finite() {
+            // Numbers near the end of the range: no step is known to be short enough.
+            return (vec![f64::NAN; step.len()], 0.0);
+        }
         if high == 0.0 {
             high = f64::MIN_POSITIVE / region.min(0.1);
         }

@@ -381,8 +381,9 @@ fn judged(sealed: &SealedCase, opinion: &Opinion) -> (String, String) {
 /// Size of a name less that of its variant in the twin run, in half-widths of its 95 % interval.
 fn deviation(all: &[StandIn], name: &Name) -> Option<f64> {
     let label = &name.variants.first()?.label;
-    let is_it =
-        |l: &&StandIn| l.pick.id == name.id.as_str() && l.pick.along == name.along && l.label == *label;
+    let is_it = |l: &&StandIn| {
+        l.pick.id == name.id.as_str() && l.pick.along == name.along && l.label == *label
+    };
     let size = all.iter().find(is_it)?.size?;
     let half_width = name.coverage_factor? * (*name.u.first()?)?;
     Some(((*name.size.first()?)? - size) / half_width)

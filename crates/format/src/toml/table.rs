@@ -363,17 +363,19 @@ macro_rules! table {
 }
 pub use table;
 
-/// Defines a choice of words, each with its documentation; further spellings after `|`.
+/// Defines a choice of words, each with its documentation; further spellings after `|`. Further traits may be derived.
 #[macro_export]
 macro_rules! words {
     (
         $( #[doc = $doc:literal] )+
+        $( #[derive($($derive:path),+)] )?
         $name:ident {
             $( $( #[doc = $word_doc:literal] )+ $variant:ident $word:literal $( | $alias:literal )*, )+
         }
     ) => {
         $( #[doc = $doc] )+
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        $( #[derive($($derive),+)] )?
         pub enum $name {
             $( $( #[doc = $word_doc] )+ $variant, )+
         }

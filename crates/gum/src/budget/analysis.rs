@@ -6,6 +6,7 @@ use crate::statistics::{Nested, OneWay, OutlierTest, Policy, Ratio, Suspect, Ver
 
 /// An analysis of the readings behind one component.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Analysis {
     /// Name of the component, unique: `V`, or `V.repeatability` beside others.
     pub name: String,
@@ -51,6 +52,7 @@ pub struct Statistics {
 
 /// One-way analysis of variance, and what followed from it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Anova {
     /// The table.
     pub table: OneWay,
@@ -64,6 +66,7 @@ pub struct Anova {
 
 /// Nested analysis of variance, and what followed from it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct NestedAnova {
     /// The table.
     pub table: Nested,
@@ -77,6 +80,7 @@ pub struct NestedAnova {
 
 /// A test of the most outlying reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Outlier {
     /// Which test.
     pub test: OutlierTest,

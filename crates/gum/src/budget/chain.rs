@@ -99,6 +99,7 @@ impl Ensemble {
 
 /// A result of another file that an input of this one takes over.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct TakenResult {
     /// The input.
     pub input: String,
@@ -116,6 +117,7 @@ pub struct TakenResult {
 
 /// The part of a budget that comes from other files.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Chain {
     /// The budget's own file and row.
     pub own: Option<Part>,

@@ -14,6 +14,7 @@ use crate::quantity::Unit;
 
 /// A file that was accepted.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Loaded {
     /// What the file says besides numbers.
     pub heading: Heading,

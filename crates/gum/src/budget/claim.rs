@@ -1,6 +1,8 @@
 //! Claims: the figures that somebody's certificate or publication states, each with the tolerance that its
 //! digits imply.
 
+use gumption_format::toml::words;
+
 use crate::quantity::Unit;
 
 /// What somebody states about one measurand; compared, never used.
@@ -30,18 +32,6 @@ impl Claim {
             .find(|figure| figure.what == *what)
             .map(|figure| figure.value)
     }
-}
-
-/// How well the source of a claim is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
-pub enum Confidence {
-    /// Inputs and figures stand in a source that was read.
-    #[default]
-    High,
-    /// Recalled, or quoted by a third party.
-    Medium,
-    /// Recalled in part: shown, but no verdict depends on it.
-    Low,
 }
 
 /// The method that a claim is about.
@@ -114,6 +104,7 @@ pub enum Figure {
 /// A figure that an analysis found, such as the residual standard deviation of a fit, under the name by which
 /// claims and machines refer to it.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct NamedFigure {
     /// `OWNER.figure`, such as `calibration.residual_sd`.
     pub name: String,
@@ -125,10 +116,10 @@ pub struct NamedFigure {
 
 impl NamedFigure {
     /// The smallest integer J ≥ 100/(1 − p) of an adaptive run (JCGM 101, 7.9.4 b).
-    pub const LEAST_BATCH: &str = "monte_carlo.J";
+    pub(crate) const LEAST_BATCH: &str = "monte_carlo.J";
 
     /// M, the trials in a batch of an adaptive run: J, and at least 10 000 (JCGM 101, 7.9.4 b).
-    pub const BATCH: &str = "monte_carlo.M";
+    pub(crate) const BATCH: &str = "monte_carlo.M";
 
     /// The name of the numerical tolerance δ of a measurand when this many digits of u(y) are meaningful
     /// (JCGM 101, 7.9.2).
@@ -150,4 +141,17 @@ pub enum Part {
     Sensitivity,
     /// |c|·u, in the unit of the measurand.
     Contribution,
+}
+
+words! {
+    /// How well the source of a claim is known.
+    #[derive(serde::Serialize)]
+    Confidence {
+        /// Inputs and figures stand in a source that was read.
+        High "high",
+        /// Recalled, or quoted by a third party.
+        Medium "medium",
+        /// Recalled in part: shown, but no verdict depends on it.
+        Low "low",
+    }
 }

@@ -1,5 +1,6 @@
 //! Inputs, and the components that doubt them.
 
+use gumption_format::toml::words;
 use nalgebra::DMatrix;
 
 use crate::distribution::Distribution;
@@ -29,15 +30,6 @@ pub struct Term {
     pub component: usize,
     /// Change of the input per unit of the component (1 for the input's own components).
     pub coefficient: f64,
-}
-
-/// How a standard uncertainty was found (GUM 2.3.2, 2.3.3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Evaluation {
-    /// From a statistical analysis of readings.
-    TypeA,
-    /// By other means.
-    TypeB,
 }
 
 /// Who has a component.
@@ -123,4 +115,14 @@ pub enum Law {
         /// Correlation of the latent standard normal variables.
         latent: DMatrix<f64>,
     },
+}
+
+words! {
+    /// How a standard uncertainty was found (GUM 2.3.2, 2.3.3).
+    Evaluation {
+        /// From a statistical analysis of readings.
+        TypeA "A",
+        /// By other means.
+        TypeB "B",
+    }
 }

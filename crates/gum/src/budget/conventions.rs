@@ -1,5 +1,7 @@
 //! Conventions on which guides differ, and settings of the Monte Carlo method.
 
+use gumption_format::toml::words;
+
 use crate::quantity::{Rounding, RoundingRule};
 
 /// The conventions on which guides differ, after profile and overrides.
@@ -62,37 +64,6 @@ pub enum CoverageRule {
     Fixed(f64),
 }
 
-/// The distribution of an output in which one or two contributions dominate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum OutputShape {
-    /// The convolution of the dominant contributions with a normal remainder: k has the stated
-    /// probability.
-    #[default]
-    Convolution,
-    /// The dominant contributions alone, applied to the whole of u(y): the published figures of
-    /// EA-4/02 S9 and S10.
-    DominantAlone,
-}
-
-/// How effective degrees of freedom that are no integer enter t_p(ν_eff).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum DofRule {
-    /// Cut to the next lower integer (GUM G.4.1 and H.1.6, EA-4/02 appendix E, JJF 1059.1, M3003).
-    #[default]
-    Truncated,
-    /// As they are, which is the exact form of the interpolation that GUM G.4.1 also allows.
-    Real,
-}
-
-/// What a t-distributed input's stated u is in the Monte Carlo method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum TScale {
-    /// u is the scale parameter (JCGM 101 6.4.9).
-    Scale,
-    /// u is the standard deviation (NIST Uncertainty Machine, TN 1900).
-    StandardDeviation,
-}
-
 /// How the Monte Carlo method is run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MonteCarloSettings {
@@ -104,16 +75,6 @@ pub struct MonteCarloSettings {
     pub points: Points,
     /// Whether Sobol' sensitivity indices are wanted, too.
     pub indices: bool,
-}
-
-/// What the trials of the Monte Carlo method are made of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Points {
-    /// Random numbers, as JCGM 101 has it.
-    #[default]
-    Random,
-    /// Scrambled Sobol' points wherever they are far more accurate, else random numbers.
-    QuasiRandom,
 }
 
 /// How many trials.
@@ -141,15 +102,6 @@ pub enum Trials {
     },
 }
 
-/// The two adaptive procedures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-pub enum Adaptive {
-    /// JCGM 101 7.9.4.
-    Jcgm101,
-    /// Two-stage (Stein) procedure of Wübbeler, Harris, Cox and Elster (2010).
-    Stein,
-}
-
 /// How a statement writes result and uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StatementForm {
@@ -157,4 +109,57 @@ pub enum StatementForm {
     PlusMinus,
     /// `y = … unit, U = … unit, k = …` (JJF 1059.1 5.3; a lone uncertainty carries no sign).
     Apart,
+}
+
+words! {
+    /// The distribution of an output in which one or two contributions dominate.
+    OutputShape {
+        /// The convolution of the dominant contributions with a normal remainder: k has the stated
+        /// probability.
+        Convolution "convolution",
+        /// The dominant contributions alone, applied to the whole of u(y): the published figures of
+        /// EA-4/02 S9 and S10.
+        DominantAlone "dominant",
+    }
+}
+
+words! {
+    /// How effective degrees of freedom that are no integer enter t_p(ν_eff).
+    DofRule {
+        /// Cut to the next lower integer (GUM G.4.1 and H.1.6, EA-4/02 appendix E, JJF 1059.1, M3003).
+        Truncated "truncated",
+        /// As they are, which is the exact form of the interpolation that GUM G.4.1 also allows.
+        Real "real",
+    }
+}
+
+words! {
+    /// What a t-distributed input's stated u is in the Monte Carlo method.
+    TScale {
+        /// u is the scale parameter (JCGM 101 6.4.9).
+        Scale "scale",
+        /// u is the standard deviation (NIST Uncertainty Machine, TN 1900).
+        StandardDeviation "standard-deviation",
+    }
+}
+
+words! {
+    /// What the trials of the Monte Carlo method are made of.
+    Points {
+        /// Random numbers, as JCGM 101 has it.
+        Random "random",
+        /// Scrambled Sobol' points wherever they are far more accurate, else random numbers.
+        QuasiRandom "quasi-random",
+    }
+}
+
+words! {
+    /// The two adaptive procedures.
+    #[derive(serde::Serialize)]
+    Adaptive {
+        /// Two-stage (Stein) procedure of Wübbeler, Harris, Cox and Elster (2010).
+        Stein "stein",
+        /// JCGM 101 7.9.4.
+        Jcgm101 "jcgm101",
+    }
 }

@@ -27,6 +27,7 @@ impl Interval {
 
 /// A conformity assessment (JCGM 106).
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Conformity {
     /// What its figures are called after: the measurand, or a name of its own.
     pub name: String,
@@ -46,7 +47,7 @@ pub struct Conformity {
 
 impl Conformity {
     /// What its figures are called.
-    pub const FIGURES: [&str; 13] = [
+    pub(crate) const FIGURES: [&str; 13] = [
         "p_c",
         "p_c_measurement",
         "p_c_monte_carlo",
@@ -101,6 +102,7 @@ pub enum Guard {
 
 /// Characteristic limits of a measurand that is not negative (ISO 11929).
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Detection {
     /// Index of the measurand.
     pub measurand: usize,
@@ -120,7 +122,7 @@ pub struct Detection {
 
 impl Detection {
     /// What its figures are called.
-    pub const FIGURES: [&str; 13] = [
+    pub(crate) const FIGURES: [&str; 13] = [
         "u_of_zero",
         "decision_threshold",
         "detection_limit",

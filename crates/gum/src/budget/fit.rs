@@ -58,6 +58,7 @@ pub struct Fit {
 
 /// A column of observed data.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct FitColumn {
     /// As the formula calls it.
     pub name: String,
@@ -76,6 +77,7 @@ pub struct FitColumn {
 
 /// A parameter of a fit.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct FitParameter {
     /// As the formula calls it.
     pub name: String,

@@ -5,6 +5,7 @@ use crate::quantity::Rounding;
 
 /// A named set of conventions.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Profile {
     /// As the file names it.
     pub name: &'static str,

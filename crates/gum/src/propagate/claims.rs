@@ -6,6 +6,7 @@ use super::result::{Clause8, Evaluation, MeasurandResult};
 
 /// One claimed figure against one obtained figure.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Comparison {
     /// What is compared, with the claimed number and its tolerance.
     pub claimed: ClaimedFigure,

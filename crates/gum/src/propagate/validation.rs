@@ -13,7 +13,7 @@ const STABLE: f64 = 0.2;
 ///
 /// c is u rounded, so that 9.96 with two digits is 10·10⁰ and not 99·10⁻¹. Zero when u is zero
 /// or not finite: then no difference can be called negligible.
-pub fn numerical_tolerance(u: f64, digits: u8) -> f64 {
+pub(crate) fn numerical_tolerance(u: f64, digits: u8) -> f64 {
     if !(u.is_finite() && u > 0.0) {
         return 0.0;
     }
@@ -34,7 +34,7 @@ pub fn numerical_tolerance(u: f64, digits: u8) -> f64 {
 ///
 /// u(y) is that of the GUM; where it is zero, as with a vanishing sensitivity, that of Monte Carlo,
 /// since nothing would be compared otherwise.
-pub fn validate(gum: &Gum, mc: &MonteCarlo) -> [Validation; 2] {
+pub(crate) fn validate(gum: &Gum, mc: &MonteCarlo) -> [Validation; 2] {
     let half_width = gum.coverage.half_width_for_p;
     let d_low = (gum.estimate - half_width - mc.symmetric[0]).abs();
     let d_high = (gum.estimate + half_width - mc.symmetric[1]).abs();
@@ -80,7 +80,7 @@ fn end(difference: f64, error: f64, delta: f64) -> Clause8 {
 }
 
 /// About how many trials in place of `trials` would make the ends stable enough for the verdict.
-pub fn trials_needed(of: &Validation, trials: u64) -> u64 {
+pub(crate) fn trials_needed(of: &Validation, trials: u64) -> u64 {
     let times = (ERRORS * of.error / (STABLE * of.delta)).powi(2).max(2.0);
     let needed = trials as f64 * times;
     // Rounded up to one digit: an order of magnitude is all that is meant.
@@ -89,7 +89,7 @@ pub fn trials_needed(of: &Validation, trials: u64) -> u64 {
 }
 
 /// The verdict at the digits that are reported.
-pub fn at(both: &[Validation; 2], digits: u8) -> &Validation {
+pub(crate) fn at(both: &[Validation; 2], digits: u8) -> &Validation {
     let [two, one] = both;
     if digits < 2 { one } else { two }
 }

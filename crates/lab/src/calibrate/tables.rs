@@ -56,7 +56,7 @@ table! {
         model: String,
         /// One equation for each response: `U = K*omega*(1 + e_rate) + b`.
         equations: List<String>,
-        /// Conventions on which guides differ: GUM (default), EA, JJF, JJF-up, NIST, UKAS or S1.
+        /// Name of a profile, the conventions on which guides differ (`gumption explain profiles`); GUM when left out.
         profile: String,
         /// Changes to single conventions of the profile.
         conventions: ConventionsTable,

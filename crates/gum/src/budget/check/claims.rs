@@ -4,9 +4,7 @@ use super::checker::Checker;
 use super::entries::entries;
 use super::register::Register;
 use crate::budget::faults::{CLAIM, LIMITS, NOT_POSITIVE, UNKNOWN_NAME};
-use crate::budget::tables::{
-    ClaimTable, ConfidenceWord, FileTable, InputClaimTable, MethodWord, ToleranceTable,
-};
+use crate::budget::tables::{ClaimTable, FileTable, InputClaimTable, MethodWord, ToleranceTable};
 use crate::budget::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 use crate::fault::{Fault, nearest};
 use crate::quantity::{Decimal, Unit};
@@ -133,11 +131,10 @@ impl Checker<'_> {
                 Some(MethodWord::MonteCarlo) => ClaimedMethod::MonteCarlo,
             },
             figures: reading.figures,
-            confidence: match table.confidence.as_ref().map(|word| word.value) {
-                None | Some(ConfidenceWord::High) => Confidence::High,
-                Some(ConfidenceWord::Medium) => Confidence::Medium,
-                Some(ConfidenceWord::Low) => Confidence::Low,
-            },
+            confidence: table
+                .confidence
+                .as_ref()
+                .map_or(Confidence::High, |word| word.value),
             digits: table.digits.as_ref().map(correct_digits),
             reference: table.reference.as_ref().map(|text| text.value.clone()),
             note: table.note.as_ref().map(|text| text.value.clone()),

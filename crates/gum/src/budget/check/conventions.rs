@@ -4,14 +4,10 @@ use super::checker::Checker;
 use crate::budget::faults::{CONVENTIONS, NOT_POSITIVE, PROBABILITY, TRIALS};
 use crate::budget::profile::{PROFILES, profile_named};
 use crate::budget::tables::{
-    ConventionsTable, FactorWord, FileTable, FreedomWord, MonteCarloTable, PointsWord,
-    ProcedureWord, ResolutionWord, RoundingWord, ShapeWord, TScaleWord,
+    ConventionsTable, FactorWord, FileTable, MonteCarloTable, ResolutionWord, RoundingWord,
 };
 use crate::budget::variants::TrialsEntry;
-use crate::budget::{
-    Adaptive, Conventions, CoverageRule, DofRule, MonteCarloSettings, OutputShape, Points, TScale,
-    Trials,
-};
+use crate::budget::{Adaptive, Conventions, CoverageRule, MonteCarloSettings, Points, Trials};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Rounding;
 use gumption_format::toml::Stated;
@@ -140,16 +136,10 @@ fn choices(table: &ConventionsTable, conventions: &mut Conventions) {
         conventions.state_probability = true;
     }
     if let Some(shape) = &table.output_distribution {
-        conventions.output_shape = match shape.value {
-            ShapeWord::Convolution => OutputShape::Convolution,
-            ShapeWord::Dominant => OutputShape::DominantAlone,
-        };
+        conventions.output_shape = shape.value;
     }
     if let Some(freedom) = &table.degrees_of_freedom {
-        conventions.degrees_of_freedom = match freedom.value {
-            FreedomWord::Truncated => DofRule::Truncated,
-            FreedomWord::Real => DofRule::Real,
-        };
+        conventions.degrees_of_freedom = freedom.value;
     }
     if let Some(rounding) = &table.rounding {
         conventions.rounding = match rounding.value {
@@ -159,10 +149,7 @@ fn choices(table: &ConventionsTable, conventions: &mut Conventions) {
         };
     }
     if let Some(scale) = &table.t_scale {
-        conventions.t_scale = match scale.value {
-            TScaleWord::Scale => TScale::Scale,
-            TScaleWord::StandardDeviation => TScale::StandardDeviation,
-        };
+        conventions.t_scale = scale.value;
     }
 }
 
@@ -204,10 +191,10 @@ impl Checker<'_> {
             .as_ref()
             .map_or(&none, |stated| &stated.value);
         let seed = table.seed.as_ref().map_or(1, |seed| seed.value);
-        let points = match table.points.as_ref().map(|word| word.value) {
-            Some(PointsWord::QuasiRandom) => Points::QuasiRandom,
-            Some(PointsWord::Random) | None => Points::Random,
-        };
+        let points = table
+            .points
+            .as_ref()
+            .map_or(Points::Random, |word| word.value);
         let trials = match &table.trials {
             Some(Stated {
                 value: TrialsEntry::Adaptive,
@@ -264,10 +251,10 @@ impl Checker<'_> {
     }
 
     fn adaptive(&mut self, table: &MonteCarloTable) -> Trials {
-        let procedure = match table.procedure.as_ref().map(|word| word.value) {
-            Some(ProcedureWord::Jcgm101) => Adaptive::Jcgm101,
-            Some(ProcedureWord::Stein) | None => Adaptive::Stein,
-        };
+        let procedure = table
+            .procedure
+            .as_ref()
+            .map_or(Adaptive::Stein, |word| word.value);
         let digits = match table.digits.as_ref().map(|digits| digits.value) {
             Some(1) => 1,
             Some(2) | None => 2,

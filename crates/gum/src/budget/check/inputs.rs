@@ -7,7 +7,7 @@ use super::draft::{Context, Draft, Location, show};
 use super::entries::entries;
 use super::register::{InputEntry, Register, blank};
 use super::type_a::all_equal;
-use super::ways::{Way, expectation, locates};
+use super::ways::{Way, expectation};
 use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_WAYS};
 use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
@@ -239,7 +239,7 @@ impl Checker<'_> {
         let mut found: Vec<(f64, Range<usize>)> = Vec::new();
         for entry in list
             .iter()
-            .filter(|entry| locates(entry.way) && !single(entry.table))
+            .filter(|entry| entry.way.locates() && !single(entry.table))
         {
             let context = Context {
                 owner: name,

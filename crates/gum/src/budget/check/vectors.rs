@@ -4,7 +4,7 @@ use super::checker::Checker;
 use super::draft::{Context, Draft, Location, show};
 use super::inputs::{Entry, Piece, single};
 use super::register::{Register, element_name};
-use super::ways::{Way, locates};
+use super::ways::Way;
 use crate::budget::Owner;
 use crate::budget::faults::VECTOR;
 use crate::budget::tables::{ComponentTable, InputTable};
@@ -378,7 +378,7 @@ fn is_common(table: &ComponentTable) -> bool {
 fn states_one_estimate(entry: &Entry<'_>) -> bool {
     let listed = entry.table.readings.as_ref();
     let by_element = listed.is_some_and(|stated| matches!(stated.value, Numbers::Lists(_)));
-    locates(entry.way) && !single(entry.table) && !by_element && entry.way != Way::Distribution
+    entry.way.locates() && !single(entry.table) && !by_element && entry.way != Way::Distribution
 }
 
 fn one_estimate(name: &str, entry: &Entry<'_>) -> Fault {

@@ -6,32 +6,73 @@ use super::checker::Checker;
 use super::draft::{Context, Core, Draft, Kind, Location, show};
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::faults::{MISSING_KEY, MODIFIER, NO_DOUBT, TWO_WAYS};
-use crate::budget::tables::{CertificateTable, ComponentTable, TypeWord};
+use crate::budget::tables::{CertificateTable, ComponentTable};
 use crate::budget::{Certificate, Evaluation, Follows};
 use crate::distribution::Distribution as Shape;
 use crate::fault::Fault;
 
-/// How a component states its uncertainty.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Way {
-    U,
-    HalfWidth,
-    Limits,
-    PlusMinus,
-    Certificate,
-    Readings,
-    Groups,
-    GroupSummary,
-    Pooled,
-    Specification,
-    Step,
-    Bits,
-    Source,
-    Sample,
-    Distribution,
-    Count,
-    Successes,
-    ResidualOf,
+/// Declares the ways in which a component can state its uncertainty: the key that states it, what the component is called
+/// in the budget table where the file gives it no name, whether the way determines the estimate by itself, and which other
+/// keys go with it.
+macro_rules! ways {
+    ($($name:ident $key:literal $label:literal $($locates:ident)? [$($with:ident)*],)*) => {
+        /// How a component states its uncertainty.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub(super) enum Way {
+            $($name,)*
+        }
+
+        impl Way {
+            /// The way that a key states.
+            fn of(key: &str) -> Option<Way> {
+                match key {
+                    $($key => Some(Way::$name),)*
+                    _ => None,
+                }
+            }
+
+            fn label(self) -> &'static str {
+                match self {
+                    $(Way::$name => $label,)*
+                }
+            }
+
+            /// Whether the way determines the estimate by itself.
+            pub(super) fn locates(self) -> bool {
+                match self {
+                    $(Way::$name => !stringify!($($locates)?).is_empty(),)*
+                }
+            }
+
+            /// Whether a modifier goes with it.
+            fn goes_with(self, modifier: &str) -> bool {
+                match self {
+                    $(Way::$name => [$(stringify!($with)),*].contains(&modifier),)*
+                }
+            }
+        }
+    };
+}
+
+ways! {
+    U "u" "standard uncertainty" [beta d distribution dof reliability relative type gum_u common],
+    HalfWidth "half_width" "limits" [beta d p distribution dof reliability relative type gum_u common],
+    Limits "limits" "limits" locates [beta d p distribution dof reliability type gum_u],
+    PlusMinus "plus" "limits" [beta d distribution dof reliability relative type gum_u common],
+    Certificate "certificate" "certificate" [beta d distribution dof reliability relative type gum_u common],
+    Readings "readings" "repeatability" locates [of pooled autocorrelated significance outlier_test],
+    Groups "groups" "groups" locates [of between significance],
+    GroupSummary "group_summary" "groups" locates [of between significance],
+    Pooled "pooled" "repeatability" [relative of pooled common],
+    Specification "specification" "specification" [beta d p distribution dof reliability type gum_u common],
+    Step "step" "resolution" [dof reliability gum_u common],
+    Bits "bits" "quantisation" [range dof reliability gum_u common],
+    Source "source" "source" [relative sensitivity],
+    Sample "sample" "sample" locates [type gum_u],
+    Distribution "distribution" "distribution" locates [beta d distribution dof reliability type gum_u common],
+    Count "count" "count" locates [prior],
+    Successes "successes" "proportion" locates [prior trials],
+    ResidualOf "residual_of" "scatter of a reading" [of],
 }
 
 use Way::{
@@ -39,179 +80,62 @@ use Way::{
     Readings, ResidualOf, Sample, Source, Specification, Step, Successes, U,
 };
 
-/// Which ways a modifier goes with, and what to say otherwise.
-const MODIFIERS: [(&str, &[Way], &str); 20] = [
-    (
-        "prior",
-        &[Count, Successes],
-        "`prior` goes with `count` or `successes`",
-    ),
-    ("range", &[Bits], "`range` goes with `bits`"),
-    ("trials", &[Successes], "`trials` goes with `successes`"),
-    (
-        "beta",
-        SHAPED,
-        "`beta` goes with distribution = \"trapezoidal\"",
-    ),
+/// Keys that go with some ways only, and what to say where they stand with others.
+const MODIFIERS: [(&str, &str); 20] = [
+    ("prior", "`prior` goes with `count` or `successes`"),
+    ("range", "`range` goes with `bits`"),
+    ("trials", "`trials` goes with `successes`"),
+    ("beta", "`beta` goes with distribution = \"trapezoidal\""),
     (
         "d",
-        SHAPED,
         "`d` goes with distribution = \"curvilinear-trapezoid\"",
     ),
     (
         "p",
-        &[HalfWidth, Limits, Specification],
         "`p` goes with a normal `half_width`; inside a certificate write certificate = { U = …, p = … }",
     ),
     (
         "distribution",
-        SHAPED,
         "the distribution follows from the way the uncertainty is stated",
     ),
     (
         "dof",
-        WITH_DOF,
         "the degrees of freedom follow from the way the uncertainty is stated",
     ),
     (
         "reliability",
-        WITH_DOF,
         "the degrees of freedom follow from the way the uncertainty is stated",
     ),
     (
         "relative",
-        &[U, HalfWidth, PlusMinus, Way::Certificate, Source, Pooled],
         "`relative` goes with `u`, `half_width`, `plus` and `minus`, `certificate` or `source`",
     ),
     (
         "of",
-        &[Readings, Groups, GroupSummary, Pooled, ResidualOf],
         "`of` goes with `readings`, `groups`, `pooled` or `residual_of`",
     ),
     (
         "pooled",
-        &[Readings, Pooled],
         "`pooled` takes the place of the scatter of `readings`",
     ),
-    (
-        "autocorrelated",
-        &[Readings],
-        "`autocorrelated` goes with `readings`",
-    ),
-    (
-        "between",
-        &[Groups, GroupSummary],
-        "`between` goes with `groups` or `group_summary`",
-    ),
+    ("autocorrelated", "`autocorrelated` goes with `readings`"),
+    ("between", "`between` goes with `groups` or `group_summary`"),
     (
         "significance",
-        &[Readings, Groups, GroupSummary],
         "`significance` goes with `groups`, or with `readings` and their `outlier_test`",
     ),
-    (
-        "outlier_test",
-        &[Readings],
-        "`outlier_test` goes with `readings`",
-    ),
+    ("outlier_test", "`outlier_test` goes with `readings`"),
     (
         "type",
-        WITH_TYPE,
         "the type follows from the way the uncertainty is stated",
     ),
-    ("sensitivity", &[Source], "`sensitivity` goes with `source`"),
-    (
-        "gum_u",
-        WITH_GUM_U,
-        "`gum_u` goes with a distribution of known shape",
-    ),
+    ("sensitivity", "`sensitivity` goes with `source`"),
+    ("gum_u", "`gum_u` goes with a distribution of known shape"),
     (
         "common",
-        WITH_COMMON,
         "the component cannot be shared by the elements of a vector",
     ),
 ];
-
-const SHAPED: &[Way] = &[
-    U,
-    HalfWidth,
-    Limits,
-    PlusMinus,
-    Way::Certificate,
-    Specification,
-    Distribution,
-];
-const WITH_DOF: &[Way] = &[
-    U,
-    HalfWidth,
-    Limits,
-    PlusMinus,
-    Way::Certificate,
-    Specification,
-    Step,
-    Bits,
-    Distribution,
-];
-const WITH_TYPE: &[Way] = &[
-    U,
-    HalfWidth,
-    Limits,
-    PlusMinus,
-    Way::Certificate,
-    Specification,
-    Distribution,
-    Sample,
-];
-const WITH_GUM_U: &[Way] = &[
-    U,
-    HalfWidth,
-    Limits,
-    PlusMinus,
-    Way::Certificate,
-    Specification,
-    Distribution,
-    Sample,
-    Step,
-    Bits,
-];
-const WITH_COMMON: &[Way] = &[
-    U,
-    HalfWidth,
-    PlusMinus,
-    Way::Certificate,
-    Specification,
-    Step,
-    Bits,
-    Distribution,
-    Pooled,
-];
-
-/// What each way is called in the budget table when the file gives the component no name.
-fn label(way: Way) -> &'static str {
-    match way {
-        U => "standard uncertainty",
-        HalfWidth | Limits | PlusMinus => "limits",
-        Way::Certificate => "certificate",
-        Readings | Pooled => "repeatability",
-        Groups | GroupSummary => "groups",
-        Specification => "specification",
-        Step => "resolution",
-        Bits => "quantisation",
-        Source => "source",
-        Sample => "sample",
-        Distribution => "distribution",
-        Count => "count",
-        Successes => "proportion",
-        ResidualOf => "scatter of a reading",
-    }
-}
-
-/// Whether the way determines the estimate by itself.
-pub(super) fn locates(way: Way) -> bool {
-    matches!(
-        way,
-        Limits | Readings | Groups | GroupSummary | Sample | Distribution | Count | Successes
-    )
-}
 
 fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)> {
     let full = matches!(
@@ -224,26 +148,11 @@ fn stated_ways(table: &ComponentTable) -> Vec<(Way, &'static str, Range<usize>)>
         .is_some_and(|c| c.value.present.iter().any(|(key, _)| *key == "U"));
     let has = |wanted: &str| table.present.iter().any(|(key, _)| *key == wanted);
     let way = |key: &str| match key {
-        "u" => Some(U),
-        "half_width" => Some(HalfWidth),
-        "limits" => Some(Limits),
-        "plus" => Some(PlusMinus),
         "minus" if !has("plus") => Some(PlusMinus),
-        "certificate" if expanded => Some(Way::Certificate),
-        "readings" => Some(Readings),
-        "groups" => Some(Groups),
-        "group_summary" => Some(GroupSummary),
-        "pooled" if !has("readings") => Some(Pooled),
-        "specification" => Some(Specification),
-        "step" => Some(Step),
-        "bits" => Some(Bits),
-        "source" => Some(Source),
-        "sample" => Some(Sample),
-        "distribution" if full => Some(Distribution),
-        "count" => Some(Count),
-        "successes" => Some(Successes),
-        "residual_of" => Some(ResidualOf),
-        _ => None,
+        "certificate" if !expanded => None,
+        "pooled" if has("readings") => None,
+        "distribution" if !full => None,
+        _ => Way::of(key),
     };
     table
         .present
@@ -325,11 +234,10 @@ impl Checker<'_> {
         way_span: &Range<usize>,
     ) {
         for (key, span) in &table.present {
-            let Some((_, ways, help)) = MODIFIERS.iter().find(|(modifier, ..)| modifier == key)
-            else {
+            let Some((_, help)) = MODIFIERS.iter().find(|(modifier, _)| modifier == key) else {
                 continue;
             };
-            if !ways.contains(&way) && *key != way_key {
+            if !way.goes_with(key) && *key != way_key {
                 self.report(
                     Fault::new(
                         MODIFIER,
@@ -418,14 +326,13 @@ impl Checker<'_> {
         self.limits_without_freedom(&core, context);
         let name = table.name.as_ref().map(|name| name.value.clone());
         Some(Draft {
-            label: name.unwrap_or_else(|| label(way).to_string()),
+            label: name.unwrap_or_else(|| way.label().to_string()),
             named: table.name.as_ref().map(|name| name.span.clone()),
             distribution: core.distribution,
             u: core.u,
             dof: core.dof,
             evaluation: match table.kind.as_ref().map(|word| word.value) {
-                Some(TypeWord::A) => Evaluation::TypeA,
-                Some(TypeWord::B) => Evaluation::TypeB,
+                Some(stated) => stated,
                 None if matches!(kind, Kind::Repeatability | Kind::Scatter(_)) => Evaluation::TypeA,
                 None => Evaluation::TypeB,
             },

@@ -1,6 +1,7 @@
 //! What somebody's certificate says.
 
 use super::list::List;
+use crate::budget::claim::Confidence;
 use gumption_format::toml::{Amount, Named};
 use gumption_format::toml::{table, words};
 
@@ -42,7 +43,7 @@ table! {
         /// Correct significant digits that every figure of the claim must have, in place of tolerances.
         digits: u64,
         /// How well the stated figures are known; with "low" they are shown and decide nothing.
-        confidence: ConfidenceWord,
+        confidence: Confidence,
         /// Largest differences that still agree, where half a unit of the last stated digit is too little.
         tolerance: ToleranceTable,
         /// Who says so.
@@ -61,18 +62,6 @@ words! {
         SecondOrder "second-order",
         /// Propagation of distributions.
         MonteCarlo "Monte Carlo",
-    }
-}
-
-words! {
-    /// How well the figures of a claim are known.
-    ConfidenceWord {
-        /// Inputs and figures stand in a source that was read.
-        High "high",
-        /// Recalled, or quoted by a third party.
-        Medium "medium",
-        /// Recalled in part.
-        Low "low",
     }
 }
 

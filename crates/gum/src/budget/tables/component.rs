@@ -1,6 +1,7 @@
 //! One reason to doubt a quantity, in every way of stating it.
 
 use super::list::List;
+use crate::budget::components::Evaluation;
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::variants::{Amounts, Groups, Numbers, ReadingsOf};
 use gumption_format::toml::{Amount, Date, Dof, OneOrMany};
@@ -24,7 +25,7 @@ table! {
         /// Way: expanded uncertainty from a certificate; without `U`, the certificate behind another way.
         certificate: CertificateTable,
         /// Whether a stated u was evaluated from readings (Type A) or otherwise.
-        kind as "type": TypeWord,
+        kind as "type": Evaluation,
         /// Way: repeated readings, in the unit of the input, as a list or from a CSV file; of a vector, one list for each element.
         readings: Numbers,
         /// Way: readings in groups (days, laboratories), one list for each; in subgroups of groups, lists of lists; or from a CSV file.
@@ -87,16 +88,6 @@ table! {
         gum_u: Amount,
         /// Where the number comes from.
         reference: String,
-    }
-}
-
-words! {
-    /// How a standard uncertainty was evaluated.
-    TypeWord {
-        /// By a statistical analysis of readings.
-        A "A",
-        /// By other means.
-        B "B",
     }
 }
 

@@ -1,5 +1,6 @@
 //! Conventions of the evaluation, and how the Monte Carlo method is run.
 
+use crate::budget::conventions::{Adaptive, DofRule, OutputShape, Points, TScale};
 use crate::budget::variants::TrialsEntry;
 use gumption_format::toml::{table, words};
 
@@ -13,15 +14,15 @@ table! {
         /// The rule from which the coverage factor follows.
         coverage_factor_from: FactorWord,
         /// What is taken for the output's distribution where one or two components dominate it.
-        output_distribution: ShapeWord,
+        output_distribution: OutputShape,
         /// How effective degrees of freedom that are no whole number enter t.
-        degrees_of_freedom: FreedomWord,
+        degrees_of_freedom: DofRule,
         /// Significant digits of the expanded uncertainty: 1 or 2.
         digits: u64,
         /// How numbers are rounded.
         rounding: RoundingWord,
         /// What the stated u of a t-distributed input is in the Monte Carlo method.
-        t_scale: TScaleWord,
+        t_scale: TScale,
         /// Resolution and repeatability of the same input: both, or only the larger.
         resolution: ResolutionWord,
     }
@@ -40,26 +41,6 @@ words! {
 }
 
 words! {
-    /// The distribution of an output that one or two components dominate.
-    ShapeWord {
-        /// The dominant components and a normal remainder together.
-        Convolution "convolution",
-        /// The dominant components alone, as in EA-4/02 S9 and S10.
-        Dominant "dominant",
-    }
-}
-
-words! {
-    /// Effective degrees of freedom that are no whole number.
-    FreedomWord {
-        /// Cut to the next lower whole number.
-        Truncated "truncated",
-        /// Used as they are.
-        Real "real",
-    }
-}
-
-words! {
     /// How digits are dropped.
     RoundingWord {
         /// To nearest, ties to even.
@@ -68,16 +49,6 @@ words! {
         HalfUp "half-up",
         /// Always away from zero.
         Up "up",
-    }
-}
-
-words! {
-    /// What u is for a t distribution.
-    TScaleWord {
-        /// The scale parameter.
-        Scale "scale",
-        /// The standard deviation.
-        StandardDeviation "standard-deviation",
     }
 }
 
@@ -97,7 +68,7 @@ table! {
         /// Number of trials, or "adaptive". When left out 1000000, or 10000000 where these leave the verdict of JCGM 101 clause 8 open.
         trials: TrialsEntry,
         /// Adaptive procedure.
-        procedure: ProcedureWord,
+        procedure: Adaptive,
         /// Adaptive: significant digits of u to be stable (1 or 2).
         digits: u64,
         /// Adaptive: give up after so many trials.
@@ -105,28 +76,8 @@ table! {
         /// Seed of the random numbers; the same seed gives the same result everywhere.
         seed: u64,
         /// What trials are made of. Quasi-random points are run until the results are stable, as adaptive trials are, and give way to random ones where they are not far more accurate.
-        points: PointsWord,
+        points: Points,
         /// Give Sobol' sensitivity indices, too: the part of the variance that each input makes alone, and takes part in.
         indices: bool,
-    }
-}
-
-words! {
-    /// What trials are made of.
-    PointsWord {
-        /// Random numbers (JCGM 101).
-        Random "random",
-        /// Scrambled Sobol' points.
-        QuasiRandom "quasi-random",
-    }
-}
-
-words! {
-    /// The adaptive procedures.
-    ProcedureWord {
-        /// Two-stage procedure of Stein.
-        Stein "stein",
-        /// JCGM 101 7.9.4.
-        Jcgm101 "jcgm101",
     }
 }

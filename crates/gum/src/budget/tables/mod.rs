@@ -43,7 +43,7 @@ table! {
         source: Sources,
         /// Anything the reader should know.
         note: String,
-        /// Conventions on which guides differ: GUM (default), EA, JJF, JJF-up, NIST, UKAS or S1.
+        /// Name of a profile, the conventions on which guides differ (`gumption explain profiles`); GUM when left out.
         profile: String,
         /// Statements that every measurand sees: intermediate quantities, functions, measurands themselves.
         model: String,

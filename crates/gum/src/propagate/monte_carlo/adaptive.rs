@@ -52,13 +52,13 @@ pub(super) struct Target {
 }
 
 /// J, the smallest whole number ≥ 100/(1 − p), JCGM 101 7.9.4 b).
-pub fn least_batch(p: f64) -> u64 {
+pub(crate) fn least_batch(p: f64) -> u64 {
     // A quotient that should be whole may come out a little above: 100/(1 − 0.95) = 2000.0000000000018.
     (100.0 / (1.0 - p) * (1.0 - 1e-12)).ceil() as u64
 }
 
 /// Trials of a batch, JCGM 101 7.9.4 b): max(J, 10⁴).
-pub fn batch_size(p: f64) -> u64 {
+pub(crate) fn batch_size(p: f64) -> u64 {
     least_batch(p).max(10_000)
 }
 

@@ -10,7 +10,7 @@ use crate::propagate::options::Workers;
 
 /// For every output and interval the fraction of its finite trials inside, with the limits; `None` where no
 /// trial is finite. The trials are those of a run with this seed, drawn again.
-pub fn fractions(
+pub(crate) fn fractions(
     budget: &Budget,
     (seed, trials): (u64, u64),
     asked: &[(usize, Interval)],

@@ -38,7 +38,7 @@ const PIECES: u64 = 64;
 const FIRST_CHUNK: u64 = 1 << 50;
 
 /// The indices of all measurands, on `threads` threads; the result does not depend on their number.
-pub fn indices(
+pub(crate) fn indices(
     budget: &Budget,
     seed: u64,
     gum: &[FirstOrder],

@@ -57,18 +57,18 @@ use super::options::Workers;
 use super::result::{AdaptiveRun, Histogram, MonteCarlo, Quasi, Run};
 use crate::budget::{Budget, MonteCarloSettings, Points, Trials};
 use adaptive::Target;
-pub use adaptive::{batch_size, least_batch};
+pub(super) use adaptive::{batch_size, least_batch};
 use collect::{Collector, Held, Plan};
 use decisive_cells::Wanted;
 pub use draws::draws;
 use engine::{Layout, Source};
 use existence::{Tail, Verdict};
-pub use fractions::fractions;
+pub(super) use fractions::fractions;
 use heavy_components::HeavyComponent;
-pub use indices::indices;
+pub(super) use indices::indices;
 use interval::{Around, Ordered, Ranked, Ranks};
 use moments::{Moments, Pivot};
-pub use outcome::{FirstOrder, Outcome};
+pub(super) use outcome::{FirstOrder, Outcome};
 use resolve::{Redraw, Resolved};
 use thread_pool::ThreadPool;
 
@@ -76,7 +76,7 @@ use thread_pool::ThreadPool;
 ///
 /// # Errors
 /// [`EvaluationError::AllTrialsFailed`] when an output has fewer than two finite values.
-pub fn run(
+pub(super) fn run(
     budget: &Budget,
     settings: &MonteCarloSettings,
     gum: &[FirstOrder],

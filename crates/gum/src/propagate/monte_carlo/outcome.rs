@@ -6,14 +6,14 @@ use crate::propagate::result::{MissingMoments, MonteCarlo, Regions, Run};
 
 /// What the GUM found for one output; moments are formed about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FirstOrder {
+pub(crate) struct FirstOrder {
     pub estimate: f64,
     pub u: f64,
 }
 
 /// What Monte Carlo found for a budget.
 #[derive(Debug, Clone)]
-pub struct Outcome {
+pub(crate) struct Outcome {
     pub run: Run,
     /// One per output.
     pub outputs: Vec<MonteCarlo>,

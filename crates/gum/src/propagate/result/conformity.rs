@@ -4,6 +4,7 @@ use crate::budget::Interval;
 
 /// What a conformity assessment found.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct ConformityResult {
     /// The measured value on which the verdict rests: the reported estimate.
     pub estimate: f64,
@@ -40,6 +41,7 @@ pub enum Verdict {
 
 /// Knowledge of the item that was measured.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Conformance {
     /// Conformance probability p_c, with the knowledge of the process where there is some (JCGM 106 clause 7);
     /// `None` where process and measurement exclude one another.
@@ -54,6 +56,7 @@ pub struct Conformance {
 
 /// Risks over all items of a process (JCGM 106 clause 9).
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct GlobalRisk {
     /// Probability that an item conforms.
     pub in_tolerance: f64,

@@ -4,6 +4,7 @@ use crate::budget::Detection;
 
 /// What was found for one measurand.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct DetectionResult {
     /// The primary result y.
     pub estimate: f64,
@@ -36,6 +37,7 @@ impl DetectionResult {
 
 /// Decision threshold and detection limit.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct CharacteristicLimits {
     /// ũ(0): u of a measurement of nothing.
     pub u_of_zero: f64,
@@ -70,6 +72,7 @@ impl DetectionLimit {
 
 /// The result, truncated at zero.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct BestEstimate {
     /// ŷ.
     pub value: f64,

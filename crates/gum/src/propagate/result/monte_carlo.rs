@@ -56,6 +56,7 @@ pub struct Run {
 
 /// What an adaptive run reached.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct AdaptiveRun {
     /// Which procedure.
     pub procedure: Adaptive,

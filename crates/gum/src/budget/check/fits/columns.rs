@@ -8,7 +8,7 @@ use super::super::entries::entries;
 use super::super::inputs::{Entry, Piece, single};
 use super::super::register::{Register, SourceEntry};
 use super::super::vectors::of_element;
-use super::super::ways::{Way, locates};
+use super::super::ways::Way;
 use crate::budget::Owner;
 use crate::budget::faults::{
     FIT, FIT_COLUMNS, FIT_ERRORS, MISSING_KEY, NOT_POSITIVE, TWO_WAYS, VECTOR,
@@ -295,7 +295,7 @@ impl Checker<'_> {
         if entry.way == Way::Source {
             return self.fit_source(name, entry, column, register);
         }
-        if locates(entry.way) && !single(entry.table) && entry.way != Way::Distribution {
+        if entry.way.locates() && !single(entry.table) && entry.way != Way::Distribution {
             let message =
                 format!("this component would state one estimate for all values of {name}");
             return self.refuse(

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use gumption::challenge::grade::{self, Refused};
-use gumption::report::Language;
 
+use super::form::Form;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -15,18 +15,13 @@ pub(super) struct Args {
     /// What `gumption diagnose --json` printed
     #[arg(long, value_name = "FILE")]
     diagnosis: PathBuf,
-    /// Print JSON
-    #[arg(long)]
-    json: bool,
-    /// Language: en or zh
-    #[arg(long, value_name = "LANG", default_value = "en")]
-    lang: Language,
+    #[command(flatten)]
+    form: Form,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
     match graded(args) {
-        Ok(graded) if args.json => output::print(&format!("{:#}\n", grade::json(&graded))),
-        Ok(graded) => output::print(&grade::text(&graded, args.lang)),
+        Ok(graded) => args.form.write(&grade::document(&graded, args.form.lang)),
         Err(refused) => output::complain(&words(&refused)),
     }
 }

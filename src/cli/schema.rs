@@ -1,6 +1,6 @@
 //! `gumption schema`: JSON Schema for editors and for readers of what the program writes.
 
-use gumption::{budget, calibrate, diagnose, report};
+use gumption::{budget, calibrate, challenge, diagnose, report};
 
 use super::{Outcome, output};
 
@@ -25,6 +25,8 @@ enum Which {
     Case,
     /// The output of `gumption allan --json`
     Allan,
+    /// The output of `gumption grade --json`
+    Grade,
     /// The output of `gumption verify --json`
     Verification,
 }
@@ -37,6 +39,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Calibration => calibrate::schema(),
         Which::Case => diagnose::case::schema(),
         Which::Allan => report::allan_schema(),
+        Which::Grade => challenge::grade::grade_schema(),
         Which::Verification => report::verification_schema(),
     };
     output::print(&format!("{schema:#}\n"))

@@ -1,7 +1,6 @@
 //! What tests of cases share: a folder for each, the program in it, and what a diagnosis names.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::Value;
 
@@ -14,11 +13,9 @@ pub fn folder(name: &str) -> PathBuf {
 
 /// Runs the program in a folder; what it prints, or what it complains of.
 pub fn gumption(folder: &Path, arguments: &[&str]) -> (bool, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+    let output = super::program()
         .current_dir(folder)
         .args(arguments)
-        .env("NO_COLOR", "1")
-        .env("COLUMNS", "100")
         .output()
         .expect("the program runs");
     let text = if output.status.success() {

@@ -6,7 +6,16 @@ pub mod cases;
 pub mod evaluation;
 mod files;
 
+use std::process::Command;
+
 pub use files::{assert_fresh, files, relative, root, stale};
+
+/// The program, without colours and on a page of 100 columns.
+pub fn program() -> Command {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_gumption"));
+    program.env("NO_COLOR", "1").env("COLUMNS", "100");
+    program
+}
 
 /// Numbers that look random and are the same everywhere: sums of twelve uniform ones, less six.
 pub struct Noise(pub u64);

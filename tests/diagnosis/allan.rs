@@ -1,7 +1,7 @@
 //! `gumption allan` on recordings of known noise.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 /// A folder of its own, which goes when the test is over.
 struct Folder(PathBuf);
@@ -27,7 +27,7 @@ impl Drop for Folder {
 }
 
 fn allan(path: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_gumption"))
+    crate::common::program()
         .arg("allan")
         .arg(path)
         .args(arguments)

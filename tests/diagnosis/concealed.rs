@@ -3,9 +3,10 @@
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
-use gumption::challenge::grade::{Answer, Finding, Graded, grade};
+use crate::common;
+use gumption::challenge::grade::{Answer, Finding, Graded, grade, grade_schema};
 use gumption::challenge::study::{Ablation, Advice, Decision, Request, Trial, decision, request};
 use gumption::challenge::{Further, NoiseKnowledge, Scenario, SealedCase};
 use gumption::diagnose::case::{Case, Purpose};
@@ -20,10 +21,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_gumption"))
-        .args(arguments)
-        .output()
-        .unwrap()
+    common::program().args(arguments).output().unwrap()
 }
 
 fn text(path: &Path) -> String {
@@ -198,4 +196,15 @@ fn strong_effects_are_named_or_listed() {
         );
         assert!(graded.wrong_names.is_empty(), "{graded:?}");
     }
+}
+
+#[test]
+fn the_schema_of_a_grade_is_fresh() {
+    let path = common::root().join("docs/grade.schema.json");
+    let schema = format!("{:#}\n", grade_schema());
+    common::assert_fresh(
+        &common::stale(&path, &schema)
+            .into_iter()
+            .collect::<Vec<_>>(),
+    );
 }

@@ -5,18 +5,15 @@
 use crate::common;
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::process::Command;
 
 use gumption::budget;
 use gumption::propagate::{self, MonteCarloChoice, Options};
 
 /// What the program prints on a page of 100 columns.
 fn gumption(arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+    let output = common::program()
         .current_dir(common::root())
         .args(arguments)
-        .env("NO_COLOR", "1")
-        .env("COLUMNS", "100")
         .output()
         .expect("the program runs");
     assert!(

@@ -1,7 +1,5 @@
 //! The same file gives the same bits with every instruction set and every number of threads.
 
-use std::process::Command;
-
 /// As `gumption_lanes::level::name` writes them; those that this processor does not have are passed over and
 /// give the best one's result, which is the same anyway.
 const INSTRUCTION_SETS: [&str; 5] = ["SSE2", "SSE4.2", "AVX2", "AVX-512", "NEON"];
@@ -10,7 +8,7 @@ const INSTRUCTION_SETS: [&str; 5] = ["SSE2", "SSE4.2", "AVX2", "AVX-512", "NEON"
 const TRIALS: &str = "600000";
 
 fn evaluation(file: &str, instruction_set: &str, threads: &str) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+    let output = crate::common::program()
         .args([
             "eval",
             file,

@@ -3,14 +3,13 @@
 
 use crate::common;
 use std::path::Path;
-use std::process::Command;
 
 use crate::common::evaluation::{close, evaluate};
 use gumption::budget;
 use gumption::propagate::{self, Basis, Evaluation, FindingKind, MonteCarloChoice, Options};
 
 fn gumption(arguments: &[&str], path: &Path) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+    let output = common::program()
         .current_dir(common::root())
         .args(arguments)
         .arg(common::relative(path))

@@ -11,7 +11,7 @@ fn an_interrupted_run_writes_no_file() {
     let budget = folder.join("budget.toml");
     let text = "title = \"Long\"\n[measurand.Y]\nmodel = \"a * b\"\n[input]\na = { value = 1, u = 0.1 }\nb = { value = 2, u = 0.1 }\n";
     std::fs::write(&budget, text).expect("a file");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_gumption"))
+    let mut child = crate::common::program()
         .arg("eval")
         .arg(&budget)
         .args(["--trials", "1e12", "--threads", "1", "--output"])

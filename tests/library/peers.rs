@@ -1,7 +1,7 @@
 //! Silent mistakes that other programs for measurement uncertainty were seen to make. Each test is named after
 //! the mistake and shows that it is refused here, or that the figures are right.
 
-use std::process::{Command, Output};
+use std::process::Output;
 
 use crate::common::evaluation::{close, evaluate, gum, only, refusal, sampled};
 use gumption::propagate::Freedom;
@@ -13,12 +13,11 @@ fn program(name: &str, text: &str, arguments: &[&str]) -> (Output, std::path::Pa
     std::fs::create_dir_all(&folder).expect("a writable folder");
     let file = folder.join("budget.toml");
     std::fs::write(&file, text).expect("a writable file");
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+    let output = crate::common::program()
         .current_dir(&folder)
         .arg("eval")
         .arg("budget.toml")
         .args(arguments)
-        .env("NO_COLOR", "1")
         .output()
         .expect("the program runs");
     (output, folder)

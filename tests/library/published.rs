@@ -4,12 +4,12 @@
 use crate::common;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 use gumption::verify::LIBRARY;
 
 fn gumption(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_gumption"))
+    common::program()
         .args(arguments)
         .env_remove("SOURCE_DATE_EPOCH")
         .output()
@@ -148,7 +148,7 @@ fn the_same_run_gives_the_same_dossier() {
     let file = claiming(&place, "[claim]\nvalue = 1\n");
     let dossier = |name: &str| {
         let report = place.join(name);
-        let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+        let output = common::program()
             .args(["verify", &file, "--report"])
             .arg(&report)
             .env("SOURCE_DATE_EPOCH", "1767225600")

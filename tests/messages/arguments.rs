@@ -3,7 +3,7 @@
 
 use crate::common;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 /// Nothing that is refused may keep the user waiting.
@@ -68,11 +68,9 @@ impl Folder {
     /// Runs the program in the folder; gives exit code and everything that it says.
     fn run(&self, arguments: &[&str]) -> (i32, String) {
         let start = Instant::now();
-        let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+        let output = common::program()
             .current_dir(&self.0)
             .args(arguments)
-            .env("NO_COLOR", "1")
-            .env("COLUMNS", "100")
             .stdin(Stdio::null())
             .output()
             .expect("the program runs");

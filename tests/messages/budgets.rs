@@ -3,7 +3,6 @@
 
 use crate::common;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// Runs the program on a bad file, as a user would, from the folder of the file.
 fn message(path: &Path) -> (i32, String) {
@@ -14,10 +13,9 @@ fn message(path: &Path) -> (i32, String) {
 
 /// Exit code, and all that the program says.
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+    let output = common::program()
         .current_dir(folder)
         .args(arguments)
-        .env("NO_COLOR", "1")
         .output()
         .expect("the program runs");
     let shown = format!(

@@ -1,7 +1,6 @@
 //! What must not matter: units, threads; and what a seed and a tolerance promise.
 
 use std::path::Path;
-use std::process::Command;
 
 use crate::common::evaluation::{close, close_ends, evaluate, only, sampled};
 use gumption::budget::Adaptive;
@@ -85,7 +84,7 @@ fn threads_do_not_matter() {
     let file =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("budgets/length/gauge-block-gum-s1-9-5.toml");
     let run = |threads: &str, seed: &str| {
-        let output = Command::new(env!("CARGO_BIN_EXE_gumption"))
+        let output = crate::common::program()
             .args([
                 "eval",
                 "--json",

@@ -6,20 +6,20 @@
 //! | `vocabulary` | whether a name is right for a physics |
 //! | `place` | whether axis and moment are right |
 //! | `score` | what was found, missed, made up, and the points |
-//! | `text` | the same in words |
+//! | `document` | the same as a document |
 
 mod answer;
+mod document;
 mod place;
 mod score;
-mod text;
 mod vocabulary;
 
 use std::path::{Path, PathBuf};
 
 pub use answer::{Answer, AnsweredEffect, Name, Quality, State};
+pub use document::{document, grade_schema};
 pub use place::located;
 pub use score::{Finding, Graded, GradedEffect, grade, grade_names};
-pub use text::{json, text};
 pub use vocabulary::accepts;
 
 use super::files::{CASE, CaseFile};

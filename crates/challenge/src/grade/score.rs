@@ -1,15 +1,12 @@
 //! What was found, missed and made up, and the points for it.
 
-use serde::Serialize;
-
 use super::answer::{Answer, AnsweredEffect, Name, State};
 use super::vocabulary::accepts;
 use crate::effect::Physics;
 use crate::truth::{TrueEffect, Truth};
 
 /// What became of a concealed effect.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Finding {
     /// Named, and nothing else.
     Unique,
@@ -22,7 +19,7 @@ pub enum Finding {
 }
 
 /// A concealed effect and what became of it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GradedEffect {
     /// The truth.
     pub truth: TrueEffect,
@@ -40,7 +37,7 @@ pub struct GradedEffect {
 }
 
 /// A graded diagnosis.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Graded {
     /// The scenario.
     pub scenario: String,

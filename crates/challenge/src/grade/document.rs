@@ -1,0 +1,233 @@
+//! A graded diagnosis as a document.
+
+use gumption_format::document::{Block, Cell, ColumnKind, Document, Table};
+use gumption_format::machine::{self, Machine, Number, record};
+use serde_json::Value;
+
+use super::score::{Finding, Graded, GradedEffect};
+use crate::report::Language;
+use crate::truth::TrueEffect;
+
+/// The document of a graded diagnosis.
+pub fn document(graded: &Graded, language: Language) -> Document {
+    Document::new(&form(graded), language, blocks(graded, language))
+}
+
+/// JSON Schema of the output of `gumption grade --json`.
+pub fn grade_schema() -> Value {
+    machine::schema::<GradeJson<'_>>("gumption grade --json")
+}
+
+record! {
+    /// A diagnosis held against the truth of a sealed case.
+    GradeJson<'a> {
+        /// The scenario.
+        scenario: &'a str,
+        /// The verdict of the diagnosis.
+        verdict: &'a str,
+        /// Every concealed effect.
+        effects: Vec<EffectJson>,
+        /// Unique names for which there is nothing, with their posterior probabilities.
+        wrong_names: Vec<WrongNameJson<'a>>,
+        /// Lists without anything that is there.
+        wrong_lists: Vec<Vec<String>>,
+        /// Something was found where nothing is concealed.
+        false_alarm: bool,
+        /// Points of the prediction: a quarter if half of what can be gained is gained.
+        prediction_points: Number,
+        /// All points.
+        points: Number,
+        /// The most that could have been reached.
+        attainable: Number,
+    }
+
+    /// A concealed effect and what became of it.
+    EffectJson {
+        /// The truth.
+        truth: TruthJson,
+        /// What became of it: unique, listed, unexplained, missed.
+        finding: &'static str,
+        /// Names in the list, where it is in one.
+        listed: Option<usize>,
+        /// A unique name was asserted although the recording cannot tell it from another.
+        overclaimed: bool,
+        /// Posterior probability of the right name, where it was named.
+        probability: Option<Number>,
+        /// Estimate of the size less its true value, over the standard uncertainty.
+        deviation: Option<Number>,
+        /// Points.
+        points: Number,
+    }
+
+    /// A concealed effect.
+    TruthJson {
+        /// What it is.
+        physics: String,
+        /// Its size: a fraction of full scale per unit of what it follows, or radians.
+        size: Number,
+        /// Whether a diagnosis can be expected to name it.
+        nameable: bool,
+        /// Visible strength λ, in standard deviations.
+        lambda: Number,
+        /// What is left of λ beside the other effects of the case.
+        lambda_beside: Number,
+        /// Separability κ: what is left after the nearest rival.
+        kappa: Number,
+    }
+
+    /// A name for which there is nothing.
+    WrongNameJson<'a> {
+        /// Identifier of the catalogue.
+        id: &'a str,
+        /// Posterior probability.
+        probability: Number,
+    }
+}
+
+impl Machine for GradeJson<'_> {
+    const KIND: &'static str = "grade";
+    const VERSION: u32 = 2;
+}
+
+fn form(graded: &Graded) -> GradeJson<'_> {
+    GradeJson {
+        scenario: &graded.scenario,
+        verdict: &graded.verdict,
+        effects: graded.effects.iter().map(effect_form).collect(),
+        wrong_names: graded
+            .wrong_names
+            .iter()
+            .map(|(id, probability)| WrongNameJson {
+                id,
+                probability: Number(*probability),
+            })
+            .collect(),
+        wrong_lists: graded.wrong_lists.clone(),
+        false_alarm: graded.false_alarm,
+        prediction_points: Number(graded.prediction_points),
+        points: Number(graded.points),
+        attainable: Number(graded.attainable),
+    }
+}
+
+fn effect_form(effect: &GradedEffect) -> EffectJson {
+    let (finding, listed) = match effect.finding {
+        Finding::Unique => ("unique", None),
+        Finding::Listed(count) => ("listed", Some(count)),
+        Finding::Unexplained => ("unexplained", None),
+        Finding::Missed => ("missed", None),
+    };
+    EffectJson {
+        truth: truth_form(&effect.truth),
+        finding,
+        listed,
+        overclaimed: effect.overclaimed,
+        probability: effect.probability.map(Number),
+        deviation: effect.deviation.map(Number),
+        points: Number(effect.points),
+    }
+}
+
+fn truth_form(truth: &TrueEffect) -> TruthJson {
+    TruthJson {
+        physics: truth.physics.name(),
+        size: Number(truth.size),
+        nameable: truth.nameable,
+        lambda: Number(truth.lambda),
+        lambda_beside: Number(truth.lambda_beside),
+        kappa: Number(truth.kappa),
+    }
+}
+
+fn blocks(graded: &Graded, language: Language) -> Vec<Block> {
+    let pick = |english: &str, chinese: &str| language.pick(english, chinese).to_owned();
+    let mut blocks = vec![Block::Fields(vec![
+        (pick("concealed", "隐藏情形"), graded.scenario.clone()),
+        (
+            pick("verdict of the diagnosis", "诊断结论"),
+            graded.verdict.clone(),
+        ),
+    ])];
+    if !graded.effects.is_empty() {
+        blocks.push(Block::Table(effects(graded, language)));
+    }
+    let mut sentences = Vec::new();
+    for (name, probability) in &graded.wrong_names {
+        sentences.push(language.pick(
+            format!("wrong name {name} (posterior {probability:.3}): −1"),
+            format!("错误名称 {name}（后验概率 {probability:.3}）：−1"),
+        ));
+    }
+    for list in &graded.wrong_lists {
+        let list = list.join(" | ");
+        sentences.push(language.pick(
+            format!("list without anything that is there: {list}"),
+            format!("列表中无真实效应：{list}"),
+        ));
+    }
+    if graded.false_alarm {
+        sentences.push(pick(
+            "alarm where nothing is concealed: −1",
+            "无隐藏效应却报警：−1",
+        ));
+    }
+    if graded.prediction_points > 0.0 {
+        let points = graded.prediction_points;
+        sentences.push(language.pick(
+            format!("prediction improved: +{points}"),
+            format!("预测得到改进：+{points}"),
+        ));
+    }
+    if !sentences.is_empty() {
+        blocks.push(Block::List(sentences));
+    }
+    blocks.push(Block::Closing(vec![format!(
+        "{}: {:.2} / {:.2}",
+        pick("points", "得分"),
+        graded.points,
+        graded.attainable
+    )]));
+    blocks
+}
+
+fn effects(graded: &Graded, language: Language) -> Table {
+    let mut table = Table::new([
+        (language.pick("effect", "效应"), ColumnKind::Names),
+        ("λ", ColumnKind::Numbers),
+        ("κ", ColumnKind::Numbers),
+        (language.pick("finding", "诊断"), ColumnKind::Wrapped),
+        (language.pick("points", "得分"), ColumnKind::Numbers),
+    ]);
+    for effect in &graded.effects {
+        table.push(vec![
+            Cell::from(effect.truth.physics.name()),
+            Cell::from(format!("{:.1}", effect.truth.lambda_beside)),
+            Cell::from(format!("{:.1}", effect.truth.kappa)),
+            Cell::from(finding(effect, language)),
+            Cell::from(format!("{:+.2}", effect.points)),
+        ]);
+    }
+    table
+}
+
+fn finding(effect: &GradedEffect, language: Language) -> String {
+    let finding = match effect.finding {
+        Finding::Unique => language.pick("named", "已唯一命名").to_owned(),
+        Finding::Listed(count) => language.pick(
+            format!("in a list of {count}"),
+            format!("在 {count} 个名称的列表中"),
+        ),
+        Finding::Unexplained => language
+            .pick("reported without a name", "报告为未解释")
+            .to_owned(),
+        Finding::Missed => language.pick("not found", "未发现").to_owned(),
+    };
+    if !effect.overclaimed {
+        return finding;
+    }
+    finding
+        + language.pick(
+            ", though another name gives the same recording",
+            "，但另有名称可给出同样的记录",
+        )
+}

@@ -4,6 +4,8 @@ mod keys;
 mod pages;
 
 use gumption::budget::KeyRow;
+use gumption::distribution::Kind;
+use gumption::distribution::stating::Word;
 use gumption::fault::{Code, nearest};
 use gumption::{budget, calibrate, diagnose, distribution, equations, model, quantity, recording};
 
@@ -234,7 +236,6 @@ fn topics() -> Vec<Topic> {
         title: c.title.to_string(),
         text: c.text.to_string(),
     }));
-    let shapes = shapes();
     topics.extend(distribution::KINDS.iter().map(|kind| {
         Topic {
             section: Section::Distributions,
@@ -248,7 +249,7 @@ fn topics() -> Vec<Topic> {
                 kind.expectation,
                 kind.variance,
                 kind.source,
-                in_a_file(kind.key, &shapes, &rows)
+                in_a_file(kind, &rows)
             ),
         }
     }));
@@ -281,49 +282,34 @@ fn owned(words: &[&str]) -> Vec<String> {
     words.iter().map(|word| (*word).to_string()).collect()
 }
 
-/// The shapes that go with a width stated in another way, as the schema of budget files lists them.
-fn shapes() -> Vec<String> {
-    let schema = budget::schema();
-    let words = schema
-        .pointer("/properties/input/additionalProperties/properties/distribution/oneOf/0/enum");
-    let words = words.and_then(|words| words.as_array());
-    words
-        .into_iter()
-        .flatten()
-        .filter_map(|word| Some(word.as_str()?.to_string()))
-        .collect()
-}
-
 /// How a budget file states a distribution.
-fn in_a_file(kind: &str, shapes: &[String], rows: &[KeyRow]) -> String {
-    let doc = |table: &str, key: &str| {
-        rows.iter()
-            .find(|row| row.table == table && row.key == key)
-            .map(|row| row.doc.as_str())
-    };
+fn in_a_file(kind: &Kind, rows: &[KeyRow]) -> String {
     let mut ways = Vec::new();
-    if shapes.iter().any(|shape| shape == kind) {
-        ways.push(format!(
-            "  distribution = \"{kind}\", beside half_width, limits, u or certificate"
-        ));
+    let mut entries = distribution::REGISTRY.iter();
+    if let Some(entry) = entries.find(|entry| entry.kind == kind) {
+        let key = kind.key;
+        if entry.word != Word::None {
+            ways.push(format!(
+                "  distribution = \"{key}\", beside half_width, limits, u or certificate"
+            ));
+        }
+        if !entry.parameters.is_empty() {
+            let parameters = entry.parameters_in_words();
+            ways.push(format!(
+                "  distribution = {{ {key} = {{ … }} }}, with {parameters}"
+            ));
+            let widest = entry.parameters.iter().map(|rule| rule.key.len()).max();
+            let width = widest.unwrap_or_default();
+            let rules = entry.parameters.iter();
+            ways.extend(rules.map(|rule| format!("    {:width$}  {}", rule.key, rule.meaning)));
+        }
     }
-    if let Some(doc) = doc("input.NAME.distribution", kind) {
-        ways.push(format!(
-            "  distribution = {{ {kind} = {{ … }} }}, with {}",
-            doc.split_once(": ")
-                .map_or(doc, |(_, parameters)| parameters)
-        ));
-    }
-    let count = match kind {
-        "empirical" => Some("sample"),
-        "poisson" => Some("count"),
-        "binomial" => Some("successes"),
-        _ => None,
-    };
-    ways.extend(count.and_then(|key| {
+    ways.extend(kind.stated_by.and_then(|key| {
+        let mut rows = rows.iter();
+        let row = rows.find(|row| row.table == "input.NAME" && row.key == key)?;
         Some(format!(
             "  {key} = …: {}",
-            doc("input.NAME", key)?.trim_start_matches("Way: ")
+            row.doc.trim_start_matches("Way: ")
         ))
     }));
     format!("In a budget file:\n{}", ways.join("\n"))

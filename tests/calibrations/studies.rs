@@ -242,7 +242,7 @@ const ALLOWED: f64 = 5.0;
 /// The errors of a doubt in every point.
 fn drawn(doubt: &Doubt, experiment: &Experiment, random: &mut StdRng) -> Vec<f64> {
     let one = |random: &mut StdRng| match &doubt.distribution {
-        Shape::Uniform { lower, upper } => Uniform::new_inclusive(*lower, *upper)
+        Shape::Uniform(limits) => Uniform::new_inclusive(limits.lower, limits.upper)
             .expect("a width")
             .sample(random),
         _ => Normal::new(0.0, doubt.u).expect("a width").sample(random),

@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch, f64x8};
 
 use crate::elementary::INTEGER;
-use crate::sift::{FEW, Stretch};
+use crate::separate::{FEW, Stretch};
 use crate::{Block, LANES};
 
 /// Bins of a [`Grid`].

@@ -9,18 +9,24 @@
 //! |---|---|
 //! | [`level`](mod@level) | the instruction set of this processor, found once |
 //! | [`generator`] | 16 interleaved xoshiro256++ generators; any chunk of trials can be drawn alone |
+//! | [`Words`] | a generator word by word, as an `Rng` of the crate `rand` |
 //! | [`elementary`] | `exp`, `ln`, `sin`, `cos` as branch-free polynomial kernels |
 //! | [`ops`] | arithmetic and functions on whole blocks |
 //! | [`sum`] | sums of several terms in one pass |
 //! | [`sampler`] | blocks of draws from the distributions of JCGM 101, 6.4, and others |
 //! | [`sobol`] | scrambled Sobol' points |
-//! | [`as241`] | coefficients of the normal quantile |
+//! | [`normal_quantile`] | coefficients of the normal quantile (Wichura's algorithm AS 241) |
 //! | [`quantile`] | from uniform numbers to values of a distribution, by its quantile function |
 //! | [`kernel`] | averages of distribution functions over points |
 //! | [`products`] | products of rows, subtracted from a symmetric matrix |
 //! | [`bins`] | counts in equal bins, and the values of chosen ones |
-//! | [`sift`] | the values outside of two stretches, and counts of the others |
+//! | [`separate`] | the values outside of two stretches, and counts of the others |
 //! | [`moments`] | sums of powers, extremes and the count of trials that have no finite value |
+//!
+//! Words of this crate: a *lane* is one trial of the 256 that a [`Block`] holds; a *level* is an instruction set, found
+//! when the program starts; a *word* is 64 random bits; a *chunk* of trials and a *stream* for each quantity address a
+//! [`Generator`]; a *score* is a normal quantile Φ⁻¹(u); a *kernel* is the distribution function that is averaged over
+//! points, a *path* how the value depends on its argument there.
 //!
 //! Every kernel takes the [`Level`] first. A small Monte Carlo evaluation of y = x₁², x₁ normal:
 //!
@@ -44,26 +50,28 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
-pub mod as241;
 pub mod bins;
 pub mod elementary;
 pub mod generator;
 pub mod kernel;
 pub mod level;
 pub mod moments;
+pub mod normal_quantile;
 pub mod ops;
 pub mod products;
 pub mod quantile;
 pub mod sampler;
-pub mod sift;
+pub mod separate;
 pub mod sobol;
 pub mod sum;
+mod words;
 
 pub use generator::Generator;
 pub use level::{Level, level, levels};
 pub use quantile::Quantile;
 pub use sampler::Sampler;
 pub use sobol::Sobol;
+pub use words::Words;
 
 /// Trials in a block.
 pub const LANES: usize = 256;

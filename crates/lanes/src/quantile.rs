@@ -10,8 +10,10 @@ use std::sync::Arc;
 
 use fearless_simd::{Level, dispatch};
 
-use crate::as241::{MIDDLE_DENOMINATOR, MIDDLE_NUMERATOR, TAIL_DENOMINATOR, TAIL_NUMERATOR};
 use crate::elementary::{exp, horner, ln_normal};
+use crate::normal_quantile::{
+    MIDDLE_DENOMINATOR, MIDDLE_NUMERATOR, TAIL_DENOMINATOR, TAIL_NUMERATOR,
+};
 use crate::sampler::sin_pi;
 use crate::{Block, LANES};
 

@@ -6,6 +6,7 @@
 
 mod discrete;
 mod gamma;
+mod inverse;
 mod shapes;
 
 use std::sync::Arc;
@@ -16,6 +17,7 @@ use crate::elementary::exp;
 use crate::generator::PART;
 use crate::{Block, Generator, LANES};
 pub use discrete::AliasTable;
+pub use inverse::Inverse;
 pub(crate) use shapes::{open_unit, sin_pi};
 
 /// A distribution ready to be drawn from.
@@ -126,6 +128,8 @@ pub enum Sampler {
         /// The observations, in any order.
         sample: Arc<[f64]>,
     },
+    /// Any other, through its quantile; see [`Sampler::inverse`].
+    Inverse(Inverse),
 }
 
 impl Sampler {
@@ -133,6 +137,12 @@ impl Sampler {
     /// to one).
     pub fn discrete(values: &[f64], probabilities: &[f64]) -> Sampler {
         Sampler::Discrete(AliasTable::new(values, probabilities))
+    }
+
+    /// The values of a quantile function at uniform numbers of (0, 1): right for every distribution, and as slow as
+    /// its quantile is.
+    pub fn inverse(quantile: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Sampler {
+        Sampler::Inverse(Inverse::new(quantile))
     }
 
     /// The next 256 draws.
@@ -283,6 +293,10 @@ impl Sampler {
                 from_one(level, generator, out, shapes::open_unit);
                 let value = |u| discrete::element(sample, u).unwrap_or(f64::NAN);
                 out.0 = out.0.map(|u| factor * value(u) + offset);
+            }
+            Sampler::Inverse(ref quantile) => {
+                from_one(level, generator, out, shapes::open_unit);
+                out.0 = out.0.map(|u| factor * quantile.at(u) + offset);
             }
         }
     }

@@ -320,14 +320,15 @@ pub(super) fn basis_of_k(coverage: &Coverage, language: Language) -> String {
         }
         (CoverageBasis::Output { dominant, shape }, Language::English) => {
             format!(
-                "{shape} distribution, dominated by {}",
+                "{} distribution, dominated by {}",
+                shape.name(language),
                 language.list(dominant)
             )
         }
         (CoverageBasis::Output { dominant, shape }, Language::Chinese) => {
             format!(
                 "{}，{} 占优势",
-                super::statement::shape_in_chinese(shape),
+                shape.name(language),
                 language.list(dominant)
             )
         }

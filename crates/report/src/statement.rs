@@ -5,7 +5,6 @@
 //! interval is symmetric about y, and the interval itself where it is not.
 
 use crate::budget::{Conventions, CoverageRule, StatementForm};
-use crate::distribution::KINDS;
 use crate::propagate::{
     Basis, Coverage, CoverageBasis, Freedom, IntervalKind, MonteCarlo, Reported,
     ReportedUncertainty, StatedProbability,
@@ -159,14 +158,15 @@ impl<'a> Subject<'a> {
                 )
             }
             (CoverageBasis::Output { dominant, shape }, Language::English) => format!(
-                ", found from the assumed {shape} distribution of the result, in which {} dominate{}, for a coverage probability of {p}",
+                ", found from the assumed {} distribution of the result, in which {} dominate{}, for a coverage probability of {p}",
+                shape.name(self.language),
                 self.language.list(dominant),
                 if dominant.len() == 1 { "s" } else { "" },
             ),
             (CoverageBasis::Output { dominant, shape }, Language::Chinese) => format!(
                 "；{} 占优势，被测量的分布按{}处理，k = {k} 对应的包含概率为 {p}",
                 self.language.list(dominant),
-                shape_in_chinese(shape),
+                shape.name(self.language),
             ),
             (CoverageBasis::Fixed, Language::English) => {
                 format!(", a fixed factor, for which the coverage probability is about {p}")
@@ -199,7 +199,8 @@ impl<'a> Subject<'a> {
         let shape = match (&coverage.basis, self.language) {
             (CoverageBasis::Output { dominant, shape }, Language::English) => {
                 format!(
-                    " k was found from the {shape} distribution that {} give{} the result.",
+                    " k was found from the {} distribution that {} give{} the result.",
+                    shape.name(self.language),
                     self.language.list(dominant),
                     if dominant.len() == 1 { "s" } else { "" }
                 )
@@ -208,7 +209,7 @@ impl<'a> Subject<'a> {
                 format!(
                     "{} 占优势，k 按{}确定。",
                     self.language.list(dominant),
-                    shape_in_chinese(shape)
+                    shape.name(self.language)
                 )
             }
             _ => String::new(),
@@ -428,13 +429,6 @@ fn shown_freedom(used: f64, found: &Freedom) -> String {
 
 fn two_decimals(k: f64) -> String {
     print(&at_place(k, -2))
-}
-
-/// The Chinese name of a shape that [`CoverageBasis::Output`] names in English.
-pub(super) fn shape_in_chinese(shape: &str) -> String {
-    let known = KINDS.iter().find(|k| k.name_en == shape || k.key == shape);
-    let chinese = known.and_then(|k| k.name_zh.split('(').next());
-    chinese.unwrap_or(shape).to_string()
 }
 
 fn with_unit(number: &str, unit: &str) -> String {

@@ -71,12 +71,12 @@ impl std::error::Error for CopulaError {}
 /// When no such correlation exists.
 ///
 /// ```
-/// use gumption::distribution::{Distribution, latent_correlation};
+/// use gumption_core::distribution::{Uniform, latent_correlation};
 ///
-/// let a = Distribution::Uniform { lower: -1.0, upper: 1.0 };
+/// let a = Uniform { lower: -1.0, upper: 1.0 }.into();
 /// let rho = latent_correlation(&a, &a, 0.5)?;
 /// assert!((rho - 2.0 * (std::f64::consts::PI * 0.5 / 6.0).sin()).abs() < 1e-12);
-/// # Ok::<(), gumption::distribution::CopulaError>(())
+/// # Ok::<(), gumption_core::distribution::CopulaError>(())
 /// ```
 pub fn latent_correlation(a: &Distribution, b: &Distribution, r: f64) -> Result<f64, CopulaError> {
     if !(-1.0..=1.0).contains(&r) {
@@ -95,24 +95,11 @@ pub fn latent_correlation(a: &Distribution, b: &Distribution, r: f64) -> Result<
 
 /// The pairs whose r(ρ) has an inverse in closed form.
 fn closed_form(a: &Distribution, b: &Distribution, r: f64) -> Option<Result<f64, CopulaError>> {
-    use Distribution::{LogNormal, Uniform};
-    match (a, b) {
-        (a, b) if a.is_normal() && b.is_normal() => Some(Ok(r)),
-        (Uniform { .. }, Uniform { .. }) => {
-            Some(Ok(2.0 * libm::sin(std::f64::consts::PI * r / 6.0)))
-        }
-        (LogNormal { sigma: s, .. }, LogNormal { sigma: t, .. }) => {
-            // exp(ρst) − 1 = r·√((exp s² − 1)(exp t² − 1))
-            let spread = libm::expm1(s * s).sqrt() * libm::expm1(t * t).sqrt();
-            let smallest = libm::expm1(-s * t) / spread;
-            let largest = libm::expm1(s * t) / spread;
-            Some(
-                within_reach(r, smallest, largest)
-                    .map(|r| (libm::log1p(r * spread) / (s * t)).clamp(-1.0, 1.0)),
-            )
-        }
-        _ => None,
+    if a.is_normal() && b.is_normal() {
+        return Some(Ok(r));
     }
+    let latent = a.latent_correlation(b)?;
+    Some(within_reach(r, latent.smallest, latent.largest).map(latent.of))
 }
 
 /// `r` itself, or the end of the range that it misses by rounding only.
@@ -290,43 +277,17 @@ fn at(margin: &Distribution, z: f64) -> f64 {
 
 /// The z at which h jumps, and by how much.
 fn steps(margin: &Distribution) -> Vec<(f64, f64)> {
-    let jumps = |values: &[f64], below: &mut dyn FnMut(usize) -> f64| {
-        let pairs = values.windows(2).enumerate();
-        pairs
-            .map(|(index, pair)| (normal_quantile(below(index)), pair[1] - pair[0]))
-            .filter(|(z, jump)| *jump > 0.0 && z.is_finite())
-            .collect()
-    };
-    match margin {
-        Distribution::Discrete {
-            values,
-            probabilities,
-        } => {
-            let mut sum = 0.0;
-            jumps(values, &mut |index| {
-                sum += probabilities.get(index).copied().unwrap_or(0.0);
-                f64::min(sum, 1.0)
-            })
-        }
-        Distribution::Empirical { sample } => jumps(sample, &mut |index| {
-            (index + 1) as f64 / sample.len() as f64
-        }),
-        _ => Vec::new(),
-    }
+    let steps = margin.steps().into_iter();
+    steps
+        .map(|[below, jump]| (normal_quantile(below), jump))
+        .filter(|(z, jump)| *jump > 0.0 && z.is_finite())
+        .collect()
 }
 
 /// The z at which h is not smooth, for the kinds with a density.
 fn kinks(margin: &Distribution) -> Vec<f64> {
-    let places = match *margin {
-        Distribution::Triangular { mode, .. } => vec![mode],
-        Distribution::Trapezoidal { lower, upper, beta } => {
-            let slope = 0.5 * (1.0 - beta) * (upper - lower);
-            vec![lower + slope, upper - slope]
-        }
-        Distribution::CurvilinearTrapezoid { lower, upper, d } => vec![lower + d, upper - d],
-        _ => Vec::new(),
-    };
-    let latent = places.into_iter().map(|x| normal_quantile(margin.cdf(x)));
+    let places = margin.kinks().into_iter();
+    let latent = places.map(|x| normal_quantile(margin.cdf(x)));
     latent.filter(|z| z.is_finite()).collect()
 }
 
@@ -367,25 +328,26 @@ fn nodes(breaks: Vec<f64>, reach: f64) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::distribution::*;
     use rand::{RngExt, SeedableRng};
 
     fn uniform() -> Distribution {
-        Distribution::Uniform {
+        Distribution::Uniform(Uniform {
             lower: -2.0,
             upper: 5.0,
-        }
+        })
     }
 
     fn log_normal(sigma: f64) -> Distribution {
-        Distribution::LogNormal {
+        Distribution::LogNormal(LogNormal {
             origin: 1.0,
             mu: 0.3,
             sigma,
-        }
+        })
     }
 
     fn normal() -> Distribution {
-        Distribution::Normal { mean: 3.0, sd: 0.2 }
+        Distribution::Normal(Normal { mean: 3.0, sd: 0.2 })
     }
 
     #[test]
@@ -417,10 +379,10 @@ mod tests {
     /// Two equal coins: r = (2/π) arcsin ρ (Sheppard), the slowest series of all.
     #[test]
     fn coins() {
-        let coin = Distribution::Discrete {
+        let coin = Distribution::Discrete(Discrete {
             values: [0.0, 1.0].into(),
             probabilities: [0.5, 0.5].into(),
-        };
+        });
         for r in [-0.95, -0.5, 0.1, 0.7] {
             let exact = (std::f64::consts::FRAC_PI_2 * r).sin();
             let found = latent_correlation(&coin, &coin, r).unwrap();
@@ -432,10 +394,10 @@ mod tests {
 
     #[test]
     fn ends_of_the_range() {
-        let exponential = Distribution::Exponential {
+        let exponential = Distribution::Exponential(Exponential {
             origin: 0.0,
             mean: 2.0,
-        };
+        });
         let series = Mehler::new(&exponential, &exponential);
         assert!((series.largest - 1.0).abs() < 1e-12);
         // 1 − π²/6
@@ -454,11 +416,11 @@ mod tests {
 
     #[test]
     fn no_correlation() {
-        let cauchy = Distribution::StudentT {
+        let cauchy = Distribution::StudentT(StudentT {
             location: 0.0,
             scale: 1.0,
             dof: 1.0,
-        };
+        });
         assert_eq!(
             latent_correlation(&cauchy, &normal(), 0.1),
             Err(CopulaError::NoCorrelation)
@@ -471,47 +433,47 @@ mod tests {
     fn agrees_with_simulation() {
         let pairs = [
             (
-                Distribution::Triangular {
+                Distribution::Triangular(Triangular {
                     lower: 0.0,
                     mode: 0.2,
                     upper: 1.0,
-                },
+                }),
                 uniform(),
                 0.7,
             ),
             (
-                Distribution::Arcsine {
+                Distribution::Arcsine(Arcsine {
                     lower: -1.0,
                     upper: 1.0,
-                },
-                Distribution::Exponential {
+                }),
+                Distribution::Exponential(Exponential {
                     origin: 0.0,
                     mean: 1.0,
-                },
+                }),
                 -0.5,
             ),
             (
-                Distribution::Trapezoidal {
+                Distribution::Trapezoidal(Trapezoidal {
                     lower: 0.0,
                     upper: 1.0,
                     beta: 0.3,
-                },
-                Distribution::Empirical {
+                }),
+                Distribution::Empirical(Empirical {
                     sample: [1.0, 2.0, 2.5, 7.0].into(),
-                },
+                }),
                 0.8,
             ),
             (
-                Distribution::CurvilinearTrapezoid {
+                Distribution::CurvilinearTrapezoid(CurvilinearTrapezoid {
                     lower: 0.0,
                     upper: 1.0,
                     d: 0.3,
-                },
-                Distribution::StudentT {
+                }),
+                Distribution::StudentT(StudentT {
                     location: 0.0,
                     scale: 1.0,
                     dof: 6.5,
-                },
+                }),
                 0.9,
             ),
         ];

@@ -1,511 +1,394 @@
 //! The distributions that a component of an input may have (JCGM 101:2008, 6.4, and others).
 //!
+//! One file says everything about a distribution: its words, its parameters and how a file states them, its moments,
+//! quantiles and draws. It implements [`Univariate`], and one line of `distributions!` below registers it; reader,
+//! schema, reference, reports, saved results and both methods of propagation follow from there.
+//!
 //! | chapter | holds |
 //! |---|---|
-//! | this file | the distributions and their parameters, validity, affine images |
-//! | `moments` | expectation, variance, third and fourth central moment |
-//! | `quantile` | distribution function, quantile from either end, support |
-//! | `kinds` | names in English and Chinese, formulas, clause and use of every kind |
+//! | this file | the registry, and [`Distribution`], which is any one of them |
+//! | `univariate` | what a distribution says of itself, with defaults |
+//! | `stating` | parameters and widths as files state them, and what is wrong with them |
+//! | `symmetric`, `finite` | what the bounded symmetric kinds and those of finitely many values share |
+//! | `score` | quantiles as tabulated functions of the normal score |
 //! | `copula` | the latent correlation that gives two margins a stated correlation |
+//! | the others | one distribution each; `poisson` and `binomial` are counts, which say a gamma or a beta distribution |
+//!
+//! ```
+//! use gumption_core::distribution::{Distribution, Normal};
+//!
+//! let reading = Distribution::from(Normal { mean: 20.0, sd: 0.5 });
+//! assert_eq!(reading.mean(), Some(20.0));
+//! assert!((reading.quantile(0.975) - 20.98).abs() < 1e-3);
+//! ```
 
 mod copula;
 pub mod extended;
-mod kinds;
-mod moments;
-mod quantile;
+mod finite;
+pub mod score;
+pub mod stating;
+mod symmetric;
+#[cfg(test)]
+mod tests;
+pub mod univariate;
+
+use gumption_lanes::Sampler;
+use gumption_lanes::quantile::{OfScore, Quantile};
 
 pub use copula::{CopulaError, latent_correlation};
-pub use kinds::{KINDS, Kind, kind_named};
+use stating::{Given, ParameterError, ParameterRule, Parametric, Spread, Width, Word};
+pub use univariate::{Kind, Latent, Parameter, Univariate};
 
-use std::sync::Arc;
+/// The fields of a distribution as its parameters.
+macro_rules! numbers {
+    ($self:ident: $($field:ident),+) => {
+        vec![ $( (stringify!($field), Parameter::Number($self.$field)) ),+ ]
+    };
+}
 
-/// A univariate distribution, fully specified.
-///
-/// Parameters are in the unit of the component. Moments and quantiles follow from the
-/// parameters exactly; see the methods.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(tag = "name", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Distribution {
-    /// N(mean, sd²), JCGM 101 6.4.7.
-    Normal {
-        /// Expectation µ.
-        mean: f64,
-        /// Standard deviation σ.
-        sd: f64,
-    },
-    /// Scaled and shifted t, JCGM 101 6.4.9. Standard deviation `scale·√(ν/(ν−2))` for ν > 2.
-    #[serde(rename = "t")]
-    StudentT {
-        /// Expectation (ν > 1) and median.
-        location: f64,
-        /// Scale factor; not the standard deviation.
-        scale: f64,
-        /// Degrees of freedom ν; infinite for the normal limit.
-        #[serde(with = "extended")]
-        dof: f64,
-    },
-    /// Rectangular R(lower, upper), JCGM 101 6.4.2.
-    Uniform {
-        /// Lower limit a.
-        lower: f64,
-        /// Upper limit b.
-        upper: f64,
-    },
-    /// Triangular, symmetric (6.4.5) or not.
-    Triangular {
-        /// Lower limit a.
-        lower: f64,
-        /// Most probable value.
-        mode: f64,
-        /// Upper limit b.
-        upper: f64,
-    },
-    /// Isosceles trapezoid, 6.4.4; `beta` = top width / base width.
-    Trapezoidal {
-        /// Lower limit a.
-        lower: f64,
-        /// Upper limit b.
-        upper: f64,
-        /// Width of the top divided by width of the base.
-        beta: f64,
-    },
-    /// Rectangular with inexactly known limits, 6.4.3: limits `lower ± d`, `upper ± d`.
-    CurvilinearTrapezoid {
-        /// Nominal lower limit a.
-        lower: f64,
-        /// Nominal upper limit b.
-        upper: f64,
-        /// Greatest error of either limit.
-        d: f64,
-    },
-    /// U-shaped (arc sine), 6.4.6.
-    Arcsine {
-        /// Lower limit a.
-        lower: f64,
-        /// Upper limit b.
-        upper: f64,
-    },
-    /// Exponential with origin, 6.4.10: `origin + Ex(1/mean)`.
-    Exponential {
-        /// Smallest value.
-        origin: f64,
-        /// Expectation of the distance from the origin.
-        mean: f64,
-    },
-    /// Gamma with origin, 6.4.11: `origin + G(shape, scale)`; mean `origin + shape·scale`.
-    Gamma {
-        /// Smallest value.
-        origin: f64,
-        /// Shape parameter.
-        shape: f64,
-        /// Scale parameter.
-        scale: f64,
-    },
-    /// `origin + exp(N(mu, sigma²))`.
-    #[serde(rename = "lognormal")]
-    LogNormal {
-        /// Smallest value.
-        origin: f64,
-        /// Expectation of the logarithm.
-        mu: f64,
-        /// Standard deviation of the logarithm.
-        sigma: f64,
-    },
-    /// Beta(alpha, beta) stretched over `lower … upper`.
-    Beta {
-        /// First shape parameter.
-        alpha: f64,
-        /// Second shape parameter.
-        beta: f64,
-        /// Lower limit.
-        lower: f64,
-        /// Upper limit.
-        upper: f64,
-    },
-    /// Finitely many values with probabilities (ascending values; probabilities sum to one).
-    Discrete {
-        /// The values, ascending.
-        values: Arc<[f64]>,
-        /// Their probabilities.
-        probabilities: Arc<[f64]>,
-    },
-    /// Draws with replacement from a sample (ascending).
-    Empirical {
-        /// The sample, ascending.
-        sample: Arc<[f64]>,
-    },
+/// Makes the registry: a module for each file, the enumeration of all distributions, what it passes on to them, and
+/// the table [`REGISTRY`].
+macro_rules! distributions {
+    (
+        $( $file:ident: $Type:ident $key:literal, )+
+        ;
+        $( $count:ident, )+
+    ) => {
+        $( pub mod $file; pub use $file::$Type; )+
+        $( pub mod $count; )+
+
+        /// A univariate distribution, fully specified.
+        #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+        #[serde(tag = "name")]
+        #[non_exhaustive]
+        pub enum Distribution {
+            $(
+                #[doc = concat!("See [`", stringify!($Type), "`].")]
+                #[serde(rename = $key)]
+                $Type($Type),
+            )+
+        }
+
+        $(
+            impl From<$Type> for Distribution {
+                fn from(of: $Type) -> Distribution {
+                    Distribution::$Type(of)
+                }
+            }
+
+            /// Draws one by one, through the quantile; [`Univariate::sampler`] draws blocks, much faster.
+            impl rand::distr::Distribution<f64> for $Type {
+                fn sample<R: rand::Rng + ?Sized>(&self, rng: &mut R) -> f64 {
+                    univariate::at_uniform(self, open_unit(rng.next_u64()))
+                }
+            }
+        )+
+
+        /// Every distribution, in the order of JCGM 101 Table 1 and then the others.
+        pub static REGISTRY: &[Entry] = &[ $( Entry::new::<$Type>() ),+ ];
+
+        /// The words about every distribution, and about what counts say.
+        pub static KINDS: &[&Kind] = &[ $( &<$Type as Univariate>::KIND, )+ $( &$count::KIND, )+ ];
+
+        /// Passes a question on to whichever distribution it is.
+        macro_rules! each {
+            ($any:expr, $of:ident => $answer:expr) => {
+                match $any { $( Distribution::$Type($of) => $answer, )+ }
+            };
+        }
+
+        impl Distribution {
+            /// The closed form of [`Univariate::latent_correlation`] for two of one kind.
+            fn latent_correlation(&self, other: &Distribution) -> Option<Latent> {
+                match (self, other) {
+                    $( (Self::$Type(a), Self::$Type(b)) => a.latent_correlation(b), )+
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+distributions! {
+    rectangular: Uniform "uniform",
+    curvilinear_trapezoid: CurvilinearTrapezoid "curvilinear-trapezoid",
+    trapezoidal: Trapezoidal "trapezoidal",
+    triangular: Triangular "triangular",
+    arcsine: Arcsine "arcsine",
+    normal: Normal "normal",
+    student_t: StudentT "t",
+    exponential: Exponential "exponential",
+    gamma: Gamma "gamma",
+    log_normal: LogNormal "lognormal",
+    beta: Beta "beta",
+    discrete: Discrete "discrete",
+    empirical: Empirical "empirical",
+    // What counts say, in terms of the others.
+    ;
+    poisson,
+    binomial,
+}
+
+/// What files and pages want to know of one distribution.
+#[derive(Debug)]
+pub struct Entry {
+    /// Its words.
+    pub kind: &'static Kind,
+    /// The parameters that a file states.
+    pub parameters: &'static [ParameterRule],
+    /// Whether its name goes beside a width.
+    pub word: Word,
+    stated: fn(&Given) -> Result<Parametric<Distribution>, ParameterError>,
+    of_width: fn(Width, f64, &str) -> Result<Spread<Distribution>, ParameterError>,
+    between: fn(f64, f64) -> Option<(Spread<Distribution>, f64)>,
+}
+
+impl Entry {
+    const fn new<D: Univariate>() -> Entry
+    where
+        Distribution: From<D>,
+    {
+        Entry {
+            kind: &D::KIND,
+            parameters: D::PARAMETERS,
+            word: D::WORD,
+            stated: |given| {
+                let found = D::stated(given)?;
+                found.distribution.validate()?;
+                Ok(found.map(Distribution::from))
+            },
+            of_width: |width, modifier, how| {
+                Ok(D::of_width(width, modifier, how)?.map(Distribution::from))
+            },
+            between: |minus, plus| {
+                D::between(minus, plus)
+                    .map(|(spread, shift)| (spread.map(Distribution::from), shift))
+            },
+        }
+    }
+
+    /// The entry of this key or alias, whatever its case, hyphens and spaces.
+    pub fn named(name: &str) -> Option<&'static Entry> {
+        let kind = kind_named(name)?;
+        REGISTRY.iter().find(|entry| entry.kind.key == kind.key)
+    }
+
+    /// The entry of a distribution that is known.
+    pub fn of<D: Univariate>() -> &'static Entry
+    where
+        Distribution: From<D>,
+    {
+        const { &Entry::new::<D>() }
+    }
+
+    /// The parameters that a file states, in words.
+    pub fn parameters_in_words(&self) -> String {
+        let limits = self.parameters.iter().any(|rule| rule.key == "half_width");
+        let own = self.parameters.iter().map(|rule| rule.key);
+        let own = own.filter(|key| !limits || !["lower", "upper", "half_width"].contains(key));
+        let limits = limits.then_some("lower and upper, or half_width");
+        limits.into_iter().chain(own).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The distribution with these parameters.
+    ///
+    /// # Errors
+    /// Parameters are missing, contradict one another or are not allowed.
+    pub fn stated(&self, given: &Given) -> Result<Parametric<Distribution>, ParameterError> {
+        (self.stated)(given)
+    }
+
+    /// The distribution about zero of this width; see [`Univariate::of_width`].
+    ///
+    /// # Errors
+    /// The modifier does not fit.
+    pub fn of_width(
+        &self,
+        width: Width,
+        modifier: f64,
+        how: &str,
+    ) -> Result<Spread<Distribution>, ParameterError> {
+        (self.of_width)(width, modifier, how)
+    }
+
+    /// The distribution about zero between unequal limits; see [`Univariate::between`].
+    pub fn between(&self, minus: f64, plus: f64) -> Option<(Spread<Distribution>, f64)> {
+        (self.between)(minus, plus)
+    }
+}
+
+/// Draws one by one, through the quantile; [`Distribution::sampler`] draws blocks, much faster.
+impl rand::distr::Distribution<f64> for Distribution {
+    fn sample<R: rand::Rng + ?Sized>(&self, rng: &mut R) -> f64 {
+        each!(self, d => d.sample(rng))
+    }
+}
+
+/// A random word as a number of (0, 1), an odd multiple of 2⁻⁵³.
+fn open_unit(word: u64) -> f64 {
+    ((word >> 12) as f64 + 0.5) * f64::EPSILON
+}
+
+/// The kind with this key or alias, whatever its case, hyphens and spaces.
+pub fn kind_named(name: &str) -> Option<&'static Kind> {
+    let name = name.to_lowercase().replace([' ', '_'], "-");
+    KINDS.iter().copied().find(|kind| kind.is_named(&name))
 }
 
 impl Distribution {
-    /// Whether the parameters are allowed; otherwise which one is not, and what is allowed.
-    ///
-    /// The other methods expect a valid distribution and may give NaN for any other.
+    /// What is known about distributions of this kind.
+    pub fn kind(&self) -> &'static Kind {
+        fn of<D: Univariate>(_: &D) -> &'static Kind {
+            &D::KIND
+        }
+        each!(self, d => of(d))
+    }
+
+    /// See [`Univariate::validate`].
     ///
     /// # Errors
-    /// A sentence without a final stop, with the parameter's name and value in it.
-    pub fn validate(&self) -> Result<(), String> {
-        match self {
-            Self::Normal { mean, sd } => {
-                finite("mean", *mean)?;
-                positive("standard deviation", *sd)
-            }
-            Self::StudentT {
-                location,
-                scale,
-                dof,
-            } => {
-                finite("location", *location)?;
-                positive("scale", *scale)?;
-                if *dof > 0.0 {
-                    Ok(())
-                } else {
-                    Err(format!(
-                        "the degrees of freedom are {dof}, but must be greater than zero"
-                    ))
-                }
-            }
-            Self::Uniform { lower, upper } | Self::Arcsine { lower, upper } => {
-                ascending(*lower, *upper)
-            }
-            Self::Triangular { lower, mode, upper } => {
-                ascending(*lower, *upper)?;
-                within("mode", *mode, *lower, *upper)
-            }
-            Self::Trapezoidal { lower, upper, beta } => {
-                ascending(*lower, *upper)?;
-                within("beta (top width divided by base width)", *beta, 0.0, 1.0)
-            }
-            Self::CurvilinearTrapezoid { lower, upper, d } => {
-                ascending(*lower, *upper)?;
-                let half_width = 0.5 * (upper - lower);
-                within("d (greatest error of the limits)", *d, 0.0, half_width).map_err(|fault| {
-                    format!("{fault}, half the distance of the limits {lower} and {upper}")
-                })
-            }
-            Self::Exponential { origin, mean } => {
-                finite("origin", *origin)?;
-                positive("mean", *mean)
-            }
-            Self::Gamma {
-                origin,
-                shape,
-                scale,
-            } => {
-                finite("origin", *origin)?;
-                positive("shape", *shape)?;
-                positive("scale", *scale)
-            }
-            Self::LogNormal { origin, mu, sigma } => {
-                finite("origin", *origin)?;
-                finite("mu", *mu)?;
-                positive("sigma", *sigma)
-            }
-            Self::Beta {
-                alpha,
-                beta,
-                lower,
-                upper,
-            } => {
-                positive("alpha", *alpha)?;
-                positive("beta", *beta)?;
-                ascending(*lower, *upper)
-            }
-            Self::Discrete {
-                values,
-                probabilities,
-            } => discrete(values, probabilities),
-            Self::Empirical { sample } => {
-                if sample.is_empty() {
-                    return Err("the sample is empty, but must hold at least one value".to_owned());
-                }
-                sorted("sample", sample)
-            }
-        }
+    /// Which parameter is not allowed, and what is.
+    pub fn validate(&self) -> Result<(), ParameterError> {
+        each!(self, d => d.validate())
+    }
+
+    /// See [`Univariate::parameters`].
+    pub fn parameters(&self) -> Vec<(&'static str, Parameter<'_>)> {
+        each!(self, d => d.parameters())
+    }
+
+    /// See [`Univariate::half_width`].
+    pub fn half_width(&self) -> Option<f64> {
+        each!(self, d => d.half_width())
     }
 
     /// Distribution of X + `by`.
     #[must_use]
     pub fn shifted(&self, by: f64) -> Self {
-        let mut image = self.clone();
-        match &mut image {
-            Self::Normal { mean: place, .. }
-            | Self::StudentT {
-                location: place, ..
-            }
-            | Self::Exponential { origin: place, .. }
-            | Self::Gamma { origin: place, .. }
-            | Self::LogNormal { origin: place, .. } => *place += by,
-            Self::Triangular { lower, mode, upper } => {
-                *lower += by;
-                *mode += by;
-                *upper += by;
-            }
-            Self::Uniform { lower, upper }
-            | Self::Arcsine { lower, upper }
-            | Self::Trapezoidal { lower, upper, .. }
-            | Self::CurvilinearTrapezoid { lower, upper, .. }
-            | Self::Beta { lower, upper, .. } => {
-                *lower += by;
-                *upper += by;
-            }
-            Self::Discrete { values, .. } | Self::Empirical { sample: values } => {
-                *values = values.iter().map(|x| x + by).collect();
-            }
-        }
-        image
+        each!(self, d => d.shifted(by).into())
     }
 
     /// Distribution of X·`by`.
     ///
-    /// `None` when it has no place in the enum: for a factor that is zero or not finite, and for
-    /// the mirror image of the one-sided kinds (exponential, gamma, lognormal).
+    /// `None` when it has no place among the distributions: for a factor that is zero or not finite, and for the
+    /// mirror image of the one-sided kinds.
     pub fn scaled(&self, by: f64) -> Option<Self> {
         if by == 0.0 || !by.is_finite() {
             return None;
         }
         if by > 0.0 {
-            Some(self.stretched(by))
+            Some(each!(self, d => d.stretched(by).into()))
         } else {
-            Some(self.mirrored()?.stretched(-by))
+            each!(self, d => d.mirrored().map(|d| d.stretched(-by).into()))
         }
     }
 
-    /// Distribution of X·`by` for a positive factor.
-    fn stretched(&self, by: f64) -> Self {
-        let mut image = self.clone();
-        match &mut image {
-            Self::Normal {
-                mean: place,
-                sd: size,
-            }
-            | Self::StudentT {
-                location: place,
-                scale: size,
-                ..
-            }
-            | Self::Exponential {
-                origin: place,
-                mean: size,
-            }
-            | Self::Gamma {
-                origin: place,
-                scale: size,
-                ..
-            }
-            | Self::Uniform {
-                lower: place,
-                upper: size,
-            }
-            | Self::Arcsine {
-                lower: place,
-                upper: size,
-            }
-            | Self::Trapezoidal {
-                lower: place,
-                upper: size,
-                ..
-            }
-            | Self::Beta {
-                lower: place,
-                upper: size,
-                ..
-            } => {
-                *place *= by;
-                *size *= by;
-            }
-            Self::Triangular {
-                lower,
-                mode: third,
-                upper,
-            }
-            | Self::CurvilinearTrapezoid {
-                lower,
-                upper,
-                d: third,
-            } => {
-                *lower *= by;
-                *third *= by;
-                *upper *= by;
-            }
-            Self::LogNormal { origin, mu, .. } => {
-                *origin *= by;
-                *mu += libm::log(by);
-            }
-            Self::Discrete { values, .. } | Self::Empirical { sample: values } => {
-                *values = values.iter().map(|x| x * by).collect();
-            }
-        }
-        image
-    }
-
-    /// Distribution of −X.
-    fn mirrored(&self) -> Option<Self> {
-        let mut image = self.clone();
-        match &mut image {
-            Self::Normal { mean: place, .. }
-            | Self::StudentT {
-                location: place, ..
-            } => {
-                *place = -*place;
-            }
-            Self::Uniform { lower, upper }
-            | Self::Arcsine { lower, upper }
-            | Self::Trapezoidal { lower, upper, .. }
-            | Self::CurvilinearTrapezoid { lower, upper, .. } => {
-                (*lower, *upper) = (-*upper, -*lower);
-            }
-            Self::Triangular { lower, mode, upper } => {
-                (*lower, *mode, *upper) = (-*upper, -*mode, -*lower);
-            }
-            Self::Beta {
-                alpha,
-                beta,
-                lower,
-                upper,
-            } => {
-                (*alpha, *beta) = (*beta, *alpha);
-                (*lower, *upper) = (-*upper, -*lower);
-            }
-            Self::Discrete {
-                values,
-                probabilities,
-            } => {
-                *values = values.iter().rev().map(|x| -x).collect();
-                *probabilities = probabilities.iter().rev().copied().collect();
-            }
-            Self::Empirical { sample } => *sample = sample.iter().rev().map(|x| -x).collect(),
-            Self::Exponential { .. } | Self::Gamma { .. } | Self::LogNormal { .. } => return None,
-        }
-        Some(image)
+    /// See [`Univariate::of_counts`].
+    pub fn of_counts(&self, counts: f64) -> Option<Self> {
+        each!(self, d => d.of_counts(counts).map(Self::from))
     }
 
     /// Whether the distribution is its own mirror image about its median.
     pub fn is_symmetric(&self) -> bool {
-        match self {
-            Self::Normal { .. }
-            | Self::StudentT { .. }
-            | Self::Uniform { .. }
-            | Self::Arcsine { .. }
-            | Self::Trapezoidal { .. }
-            | Self::CurvilinearTrapezoid { .. } => true,
-            Self::Triangular { lower, mode, upper } => {
-                let width = upper - lower;
-                ((mode - lower) - (upper - mode)).abs() <= 1e-12 * width
-            }
-            Self::Beta { alpha, beta, .. } => alpha == beta,
-            Self::Exponential { .. } | Self::Gamma { .. } | Self::LogNormal { .. } => false,
-            Self::Discrete {
-                values,
-                probabilities,
-            } => {
-                balanced(values)
-                    && probabilities
-                        .iter()
-                        .zip(probabilities.iter().rev())
-                        .all(|(p, q)| (p - q).abs() <= 1e-12)
-            }
-            Self::Empirical { sample } => balanced(sample),
-        }
+        each!(self, d => d.is_symmetric())
     }
 
     /// Whether it is a normal distribution (t with infinite ν is one).
     pub fn is_normal(&self) -> bool {
-        match self {
-            Self::Normal { .. } => true,
-            Self::StudentT { dof, .. } => dof.is_infinite(),
-            _ => false,
+        each!(self, d => d.is_normal())
+    }
+
+    /// Expectation; `None` when it does not exist (t with ν ≤ 1).
+    pub fn mean(&self) -> Option<f64> {
+        each!(self, d => d.mean())
+    }
+
+    /// Variance; `None` when it does not exist (t with ν ≤ 2).
+    pub fn variance(&self) -> Option<f64> {
+        each!(self, d => d.variance())
+    }
+
+    /// Standard deviation; `None` when it does not exist.
+    pub fn standard_deviation(&self) -> Option<f64> {
+        self.variance().map(f64::sqrt)
+    }
+
+    /// E(X − E X)³; `None` when it does not exist (t with ν ≤ 3).
+    pub fn third_central_moment(&self) -> Option<f64> {
+        each!(self, d => d.third_central_moment())
+    }
+
+    /// E(X − E X)⁴; `None` when it does not exist (t with ν ≤ 4).
+    pub fn fourth_central_moment(&self) -> Option<f64> {
+        each!(self, d => d.fourth_central_moment())
+    }
+
+    /// Probability of a value of at most x.
+    pub fn cdf(&self, x: f64) -> f64 {
+        each!(self, d => d.cdf(x))
+    }
+
+    /// Probability of a value above x.
+    pub fn sf(&self, x: f64) -> f64 {
+        each!(self, d => d.sf(x))
+    }
+
+    /// The x below which a fraction p lies; for the kinds with finitely many values the smallest
+    /// value x with P(X ≤ x) ≥ p. NaN for p outside 0 … 1.
+    pub fn quantile(&self, p: f64) -> f64 {
+        if !(0.0..=1.0).contains(&p) {
+            return f64::NAN;
         }
+        each!(self, d => d.quantile(p))
+    }
+
+    /// The x above which a fraction q lies, exact also for very small q. NaN for q outside 0 … 1.
+    pub fn upper_quantile(&self, q: f64) -> f64 {
+        if !(0.0..=1.0).contains(&q) {
+            return f64::NAN;
+        }
+        each!(self, d => d.upper_quantile(q))
+    }
+
+    /// Smallest and largest possible value; may be infinite.
+    pub fn support(&self) -> (f64, f64) {
+        each!(self, d => d.support())
+    }
+
+    /// Where a density has kinks.
+    pub fn kinks(&self) -> Vec<f64> {
+        each!(self, d => d.kinks())
+    }
+
+    /// See [`Univariate::sum`].
+    pub fn sum(&self, g: &dyn Fn(f64) -> f64) -> Option<f64> {
+        each!(self, d => d.sum(g))
+    }
+
+    /// See [`Univariate::steps`].
+    pub fn steps(&self) -> Vec<[f64; 2]> {
+        each!(self, d => d.steps())
+    }
+
+    /// See [`Univariate::fits_cells`].
+    pub fn fits_cells(&self) -> bool {
+        each!(self, d => d.fits_cells())
+    }
+
+    /// Draws in blocks.
+    pub fn sampler(&self) -> Sampler {
+        each!(self, d => d.sampler())
+    }
+
+    /// The quantile function on blocks; `None` for the kinds with finitely many values, on which points that fill an
+    /// interval evenly gain nothing.
+    pub fn block_quantile(&self) -> Option<Quantile> {
+        let own = each!(self, d => d.block_quantile());
+        own.or_else(|| self.of_score().map(Quantile::OfScore))
+    }
+
+    /// The value as a function of the normal score; `None` as for [`Distribution::block_quantile`].
+    pub fn of_score(&self) -> Option<OfScore> {
+        each!(self, d => d.of_score())
     }
 }
-
-fn finite(name: &str, x: f64) -> Result<(), String> {
-    if x.is_finite() {
-        Ok(())
-    } else {
-        Err(format!("the {name} is {x}, but must be a finite number"))
-    }
-}
-
-fn positive(name: &str, x: f64) -> Result<(), String> {
-    if x > 0.0 && x.is_finite() {
-        Ok(())
-    } else {
-        Err(format!(
-            "the {name} is {x}, but must be a finite number greater than zero"
-        ))
-    }
-}
-
-fn within(name: &str, x: f64, low: f64, high: f64) -> Result<(), String> {
-    if (low..=high).contains(&x) {
-        Ok(())
-    } else {
-        Err(format!(
-            "the {name} is {x}, but must be from {low} to {high}"
-        ))
-    }
-}
-
-fn ascending(lower: f64, upper: f64) -> Result<(), String> {
-    finite("lower limit", lower)?;
-    finite("upper limit", upper)?;
-    if lower < upper {
-        Ok(())
-    } else {
-        Err(format!(
-            "the lower limit {lower} must be below the upper limit {upper}"
-        ))
-    }
-}
-
-fn sorted(name: &str, values: &[f64]) -> Result<(), String> {
-    if let Some(x) = values.iter().find(|x| !x.is_finite()) {
-        return Err(format!(
-            "the {name} holds {x}, but must hold finite numbers"
-        ));
-    }
-    match values.windows(2).find(|pair| pair[0] > pair[1]) {
-        None => Ok(()),
-        Some(pair) => Err(format!(
-            "the {name} must ascend, but {} comes before {}",
-            pair[0], pair[1]
-        )),
-    }
-}
-
-fn discrete(values: &[f64], probabilities: &[f64]) -> Result<(), String> {
-    if values.is_empty() {
-        return Err("there are no values, but must be at least one".to_owned());
-    }
-    if values.len() != probabilities.len() {
-        return Err(format!(
-            "there are {} values but {} probabilities; every value needs one",
-            values.len(),
-            probabilities.len()
-        ));
-    }
-    sorted("list of values", values)?;
-    for (x, p) in values.iter().zip(probabilities) {
-        within(&format!("probability of the value {x}"), *p, 0.0, 1.0)?;
-    }
-    let sum: f64 = probabilities.iter().sum();
-    if (sum - 1.0).abs() > 1e-9 {
-        return Err(format!("the probabilities sum to {sum}, but must sum to 1"));
-    }
-    Ok(())
-}
-
-/// Whether ascending values lie symmetrically about their middle.
-fn balanced(values: &[f64]) -> bool {
-    let (Some(first), Some(last)) = (values.first(), values.last()) else {
-        return true;
-    };
-    let tolerance = 1e-12 * (last - first);
-    values
-        .iter()
-        .zip(values.iter().rev())
-        .all(|(low, high)| ((low - first) - (last - high)).abs() <= tolerance)
-}
-
-#[cfg(test)]
-mod tests;

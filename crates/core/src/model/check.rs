@@ -5,16 +5,31 @@ use std::rc::Rc;
 
 use super::block::Program;
 use super::catalogue;
+use super::expressions;
 use super::faults;
 use super::functions;
 use super::graph::{Id, Label};
 use super::lower::{Binding, Kind, Lowering, UserFunction, Value};
-use super::measurand::Outcome;
 use super::parser;
 use super::printer;
 use super::syntax::{Expr, Name, Node, Span, Statement};
 use super::{Model, ModelFault, Output, Place, Request, Role, Symbol};
 use crate::fault::Fault;
+use crate::quantity::Unit;
+
+/// The value of a measurand and where it comes from.
+pub struct Outcome {
+    /// One operation, or one per element of a vector.
+    pub ids: Vec<Id>,
+    pub vector: bool,
+    /// See [`Output`](super::Output).
+    pub scaled_twice: bool,
+    pub unit: Unit,
+    /// The statement that gives it.
+    pub statement: usize,
+    /// All statements of its own text.
+    pub own: Vec<usize>,
+}
 
 /// Checks names, shapes and units of a model and compiles it.
 ///
@@ -22,7 +37,7 @@ use crate::fault::Fault;
 /// All faults of all texts.
 pub fn compile(request: &Request<'_>) -> Result<Model, Vec<ModelFault>> {
     let mut check = Check {
-        l: Lowering::new(request.symbols, request.units),
+        l: Lowering::new(request.symbols, request.units, expressions::lowered),
         statements: Vec::new(),
         defined: HashMap::new(),
         spans: HashMap::new(),

@@ -5,9 +5,8 @@
 
 use super::catalogue::FunctionInfo;
 use super::faults;
-use super::functions::wrong_count;
 use super::graph::Id;
-use super::lower::{Kind, Lowering, Value};
+use super::lower::{Kind, Lowering, Value, wrong_count};
 use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;

@@ -2,8 +2,7 @@
 
 use super::catalogue::FunctionInfo;
 use super::faults;
-use super::functions::wrong_count;
-use super::lower::{Lowering, Value};
+use super::lower::{Lowering, Value, wrong_count};
 use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::catalogue::{FunctionInfo, find, functions};
 use super::faults;
 use super::forms::{kelvin, solve, value_in};
-use super::lower::{Binding, Kind, Lowering, UserFunction, Value};
+use super::lower::{Binding, Kind, Lowering, UserFunction, Value, wrong_count};
 use super::operation::{Binary, DimensionRule, Smoothness, Unary, binary_row, unary};
 use super::printer;
 use super::reductions::{fold, pair, reduce, vector_argument};
@@ -106,29 +106,6 @@ fn value_as_function(l: &mut Lowering<'_>, name: &Name, arguments: &[Expr]) -> O
             "write `{text} * ({})` for a product, `{text}[1]` for an element",
             list.join(", ")
         )),
-    );
-    None
-}
-
-pub fn wrong_count(
-    l: &mut Lowering<'_>,
-    e: &Expr,
-    name: &str,
-    signature: &str,
-    arguments: &[Expr],
-) -> Option<Value> {
-    l.report(
-        Fault::new(
-            faults::ARGUMENTS,
-            e.span.clone(),
-            format!(
-                "`{name}` is given {} argument{}",
-                arguments.len(),
-                if arguments.len() == 1 { "" } else { "s" }
-            ),
-        )
-        .label(format!("expected `{signature}`"))
-        .help(format!("write `{signature}`")),
     );
     None
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::catalogue;
-use super::check::{Check, reserved};
+use super::check::{Check, Outcome, reserved};
 use super::faults;
 use super::graph::Id;
 use super::lower::{Binding, Kind, Value};
@@ -16,20 +16,6 @@ use crate::quantity::{Dimension, Unit, hint_for_clash, revolutions_as_angle, uni
 
 /// A measurand may be a vector of up to so many elements.
 const MOST_ELEMENTS: usize = 100;
-
-/// The value of a measurand and where it comes from.
-pub struct Outcome {
-    /// One operation, or one per element of a vector.
-    pub ids: Vec<Id>,
-    pub vector: bool,
-    /// See [`Output`](super::Output).
-    pub scaled_twice: bool,
-    pub unit: Unit,
-    /// The statement that gives it.
-    pub statement: usize,
-    /// All statements of its own text.
-    pub own: Vec<usize>,
-}
 
 impl Check<'_> {
     /// The value of a measurand.

@@ -13,6 +13,7 @@ mod complex;
 mod curves;
 mod cut;
 mod exact;
+mod expressions;
 pub mod faults;
 mod forms;
 mod functions;

@@ -213,7 +213,7 @@ impl<'r> Check<'r> {
     /// A check of single expressions over these symbols.
     fn new(symbols: &'r [Symbol], units: &'r UnitTable) -> Self {
         let mut check = Check {
-            l: super::lower::Lowering::new(symbols, units),
+            l: super::lower::Lowering::new(symbols, units, super::expressions::lowered),
             statements: Vec::new(),
             defined: HashMap::new(),
             spans: HashMap::new(),

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::decimal::Decimal;
+use super::superscript::raised;
 
 /// The power of ten that a number should be printed with, given the places of its first and last
 /// digit: below 0.0001, and from 10^7 on where zeros would have to be added that mean nothing.
@@ -123,24 +124,6 @@ impl fmt::Display for Decimal {
     /// As [`print`](Decimal::print) in the default style.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(&self.print(Style::default()))
-    }
-}
-
-const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-
-/// The plain form of a superscript digit or sign.
-pub(super) fn lowered(c: char) -> Option<char> {
-    match c {
-        '⁻' => Some('-'),
-        _ => char::from_digit(SUPERSCRIPTS.iter().position(|s| *s == c)? as u32, 10),
-    }
-}
-
-/// The superscript form of a digit or sign.
-fn raised(c: char) -> char {
-    match c.to_digit(10) {
-        Some(digit) => SUPERSCRIPTS[digit as usize],
-        None => '⁻',
     }
 }
 

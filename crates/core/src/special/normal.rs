@@ -1,6 +1,6 @@
 //! The standard normal distribution.
 
-use gumption_lanes::as241::{
+use gumption_lanes::normal_quantile::{
     MIDDLE_DENOMINATOR, MIDDLE_NUMERATOR, TAIL_DENOMINATOR, TAIL_NUMERATOR,
 };
 

@@ -81,6 +81,12 @@ impl<'f> Reader<'f> {
         None
     }
 
+    /// Reports a key that the table does not have.
+    pub fn unknown_key(&mut self, key: &Key<'_>, table: &str, known: &[&'static str]) {
+        let fault = unknown_key(key, table, known, self.hints);
+        self.faults.push(fault);
+    }
+
     /// Reports that the value is of the wrong type.
     pub fn wrong_type<T>(&mut self, code: Code, value: &Raw<'_>, expected: &str) -> Option<T> {
         let found = found(value.get_ref());
@@ -177,8 +183,7 @@ pub fn read_table<T: Table>(table: &DeTable<'_>, name: &str, reader: &mut Reader
     let mut result = T::default();
     for (key, value) in in_order(table) {
         if !result.accept(key, value, reader) {
-            let fault = unknown_key(key, name, &T::keys(), reader.hints);
-            reader.faults.push(fault);
+            reader.unknown_key(key, name, &T::keys());
             // What an unknown key was meant to state is not asked for a second time.
             result.refuse();
         }

@@ -8,7 +8,6 @@ use super::conventions::{Conventions, MonteCarloSettings};
 use super::decision::{Conformity, Detection, Following, Follows};
 use super::fit::Fit;
 use super::remark::Remark;
-use crate::distribution::Distribution;
 use crate::model::Model;
 use crate::quantity::Unit;
 
@@ -139,13 +138,17 @@ impl Budget {
             let Some(component) = moved.components.get_mut(following.component) else {
                 continue;
             };
-            match (&mut component.distribution, following.rule) {
-                // What so many counts would say of the expected number (JCGM 101 6.4.11).
-                (Distribution::Gamma { origin, shape, .. }, Follows::Root) if value > 0.0 => {
-                    (*origin, *shape) = (-value, value);
+            // What so many counts would say of the expected number (JCGM 101 6.4.11).
+            let recounted = match following.rule {
+                Follows::Root if value > 0.0 => component.distribution.of_counts(value),
+                _ => None,
+            };
+            match recounted {
+                Some(recounted) => {
+                    component.distribution = recounted;
                     component.u *= factor;
                 }
-                _ => {
+                None => {
                     let terms = place.terms.iter_mut();
                     for term in terms.filter(|term| term.component == following.component) {
                         term.coefficient *= factor;

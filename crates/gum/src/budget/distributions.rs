@@ -1,178 +1,195 @@
-//! `distribution = …`: a shape for another way, or a distribution with all of its parameters.
+//! `distribution = …`: the name of a shape for another way, or a distribution with all of its parameters.
+//!
+//! What there is to name and to state comes from the registry of the distributions.
 
-use serde_json::{Value, json};
-use toml::Spanned;
-use toml::de::{DeString, DeValue};
+use std::ops::Range;
 
-use crate::distribution::{Kind, kind_named};
+use serde_json::{Map, Value, json};
+use toml::de::DeValue;
+
+use crate::distribution::stating::{Given, ParameterError, ParameterRule, Parametric, Takes, Word};
+use crate::distribution::{Distribution, Entry, REGISTRY, kind_named};
 use crate::fault::Fault;
-use gumption_format::toml::Dof;
 use gumption_format::toml::faults::{UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
-use gumption_format::toml::{FromToml, KeyRow, Raw, Reader, Stated, table, words};
+use gumption_format::toml::{
+    Dof, FromToml, Key, KeyRow, Raw, Reader, Stated, described, in_order, inner, unknown_word,
+};
 
-words! {
-    /// A shape whose width another way states.
-    Shape {
-        /// Rectangular.
-        Uniform "uniform" | "rectangular",
-        /// Normal.
-        Normal "normal" | "gaussian",
-        /// Symmetric triangle.
-        Triangular "triangular",
-        /// U-shaped.
-        Arcsine "arcsine" | "u-shaped",
-        /// Isosceles trapezoid (`beta`).
-        Trapezoidal "trapezoidal" | "trapezoid",
-        /// Rectangle with doubtful limits (`d`).
-        CurvilinearTrapezoid "curvilinear-trapezoid",
-        /// Scaled and shifted t (`dof`).
-        StudentT "t",
-    }
-}
-
-table! {
-    /// Normal distribution.
-    NormalTable "normal" {
-        /// Expectation; the value when left out.
-        mean: f64,
-        /// Standard deviation.
-        sd: f64,
-    }
-}
-
-table! {
-    /// Scaled and shifted t distribution.
-    StudentTable "t" {
-        /// Location; the value when left out.
-        location: f64,
-        /// Scale.
-        scale: f64,
-        /// Degrees of freedom.
-        dof: Dof,
-    }
-}
-
-table! {
-    /// Distribution between two limits.
-    LimitsTable "this distribution" {
-        /// Lower limit.
-        lower: f64,
-        /// Upper limit.
-        upper: f64,
-        /// Half-width about the value, in place of the limits.
-        half_width: f64,
-        /// Most likely value (triangular only).
-        mode: f64,
-        /// Ratio of the top to the base (trapezoidal only).
-        beta: f64,
-        /// Doubt about the limits (curvilinear trapezoid only).
-        d: f64,
-    }
-}
-
-table! {
-    /// Exponential distribution.
-    ExponentialTable "exponential" {
-        /// Lower end (default 0).
-        origin: f64,
-        /// Mean above the origin.
-        mean: f64,
-    }
-}
-
-table! {
-    /// Gamma distribution.
-    GammaTable "gamma" {
-        /// Lower end (default 0).
-        origin: f64,
-        /// Shape.
-        shape: f64,
-        /// Scale.
-        scale: f64,
-    }
-}
-
-table! {
-    /// Log-normal distribution.
-    LogNormalTable "lognormal" {
-        /// Lower end (default 0).
-        origin: f64,
-        /// Expectation of the logarithm.
-        mu: f64,
-        /// Standard deviation of the logarithm.
-        sigma: f64,
-    }
-}
-
-table! {
-    /// Beta distribution.
-    BetaTable "beta" {
-        /// First shape.
-        alpha: f64,
-        /// Second shape.
-        beta: f64,
-        /// Lower limit (default 0).
-        lower: f64,
-        /// Upper limit (default 1).
-        upper: f64,
-    }
-}
-
-table! {
-    /// Finitely many values.
-    DiscreteTable "discrete" {
-        /// The values.
-        values: Vec<Stated<f64>>,
-        /// Their probabilities; equal when left out.
-        probabilities: Vec<Stated<f64>>,
-    }
-}
-
-table! {
-    /// A distribution by name, with its parameters in the unit of the input.
-    DistributionTable "distribution" {
-        /// Normal: mean, sd.
-        normal: NormalTable,
-        /// t: location, scale, dof.
-        t: StudentTable,
-        /// Rectangular: lower and upper, or half_width.
-        uniform: LimitsTable,
-        /// Triangular: lower, mode and upper, or half_width.
-        triangular: LimitsTable,
-        /// Trapezoidal: limits or half_width, beta.
-        trapezoidal: LimitsTable,
-        /// Curvilinear trapezoid: limits or half_width, d.
-        curvilinear_trapezoid as "curvilinear-trapezoid": LimitsTable,
-        /// Arc sine (U-shaped): limits or half_width.
-        arcsine: LimitsTable,
-        /// Exponential: origin, mean.
-        exponential: ExponentialTable,
-        /// Gamma: origin, shape, scale.
-        gamma: GammaTable,
-        /// Log-normal: origin, mu, sigma.
-        lognormal: LogNormalTable,
-        /// Beta: alpha, beta, lower, upper.
-        beta: BetaTable,
-        /// Discrete: values, probabilities.
-        discrete: DiscreteTable,
-    }
-}
+use super::faults::{DISTRIBUTION, MISSING_KEY, TWO_WAYS};
 
 /// What `distribution` is set to.
 #[derive(Debug, Clone)]
 pub enum DistributionEntry {
-    /// A shape.
-    Shape(Shape),
-    /// A distribution with parameters.
-    Full(Box<DistributionTable>),
+    /// A shape whose width another way states.
+    Shape(&'static Entry),
+    /// Distributions with parameters; exactly one of them, unless the file is mistaken.
+    Full(Vec<StatedDistribution>),
+}
+
+/// A distribution that a file states with its parameters.
+#[derive(Debug, Clone)]
+pub struct StatedDistribution {
+    entry: &'static Entry,
+    key: Range<usize>,
+    given: Given,
+    /// The parameters, with the places of their keys and of their values.
+    places: Vec<(&'static str, Range<usize>, Range<usize>)>,
+}
+
+/// The distribution that a table states.
+///
+/// # Errors
+/// Parameters are missing or not allowed; not exactly one distribution.
+pub fn parametric(
+    stated: &[StatedDistribution],
+    place: &Stated<()>,
+) -> Result<Parametric<Distribution>, Box<Fault>> {
+    match stated {
+        [one] => one
+            .entry
+            .stated(&one.given)
+            .map_err(|error| Box::new(one.fault(&error, place))),
+        [] => Err(Box::new(
+            Fault::new(MISSING_KEY, place.span.clone(), "no distribution is named")
+                .help("write for example distribution = { uniform = { half_width = 0.5 } }"),
+        )),
+        [first, second, ..] => Err(Box::new(
+            Fault::new(
+                TWO_WAYS,
+                second.key.clone(),
+                format!(
+                    "two distributions, {} and {}",
+                    first.entry.kind.key, second.entry.kind.key
+                ),
+            )
+            .label("second distribution")
+            .related(first.key.clone(), "first distribution")
+            .help("keep one; two reasons for doubt are two entries of `components`"),
+        )),
+    }
+}
+
+impl StatedDistribution {
+    /// The place of a parameter's key and that of its value.
+    fn places(&self, key: &str) -> Option<(Range<usize>, Range<usize>)> {
+        let mut places = self.places.iter();
+        let found = places.find(|(name, ..)| *name == key);
+        found.map(|(_, key, value)| (key.clone(), value.clone()))
+    }
+
+    fn fault(&self, error: &ParameterError, place: &Stated<()>) -> Fault {
+        let name = self.entry.kind.key;
+        let here = || place.span.clone();
+        match error {
+            ParameterError::Missing { key } => {
+                Fault::new(MISSING_KEY, here(), format!("{name} needs `{key}`"))
+                    .label(format!("`{key}` is missing"))
+            }
+            ParameterError::NoLimits => {
+                Fault::new(MISSING_KEY, here(), format!("{name} needs its limits"))
+                    .label("limits are missing")
+                    .help("write `lower` and `upper`, or `half_width`")
+            }
+            ParameterError::TwoWidths { key } => {
+                let [half_width, limit] = ["half_width", key]
+                    .map(|key| self.places(key).map_or_else(here, |(key, _)| key));
+                Fault::new(TWO_WAYS, half_width, format!("{name} has two widths"))
+                    .label("half-width stated here")
+                    .related(limit, "limit stated here")
+                    .help("leave out one")
+            }
+            ParameterError::NotAllowed { key, value, must } => {
+                let value_place = self.places(key).map_or_else(here, |(_, value)| value);
+                let message = format!("`{key}` of {name} is {value}");
+                Fault::new(DISTRIBUTION, value_place, message).label(format!("must be {must}"))
+            }
+            ParameterError::Descending { lower, upper } => {
+                let message = format!("the limits of {name} are {lower} and {upper}");
+                Fault::new(DISTRIBUTION, here(), message).help("`lower` must be less than `upper`")
+            }
+            ParameterError::Unusable { message, help } => {
+                Fault::new(DISTRIBUTION, here(), message.clone()).help(*help)
+            }
+            other => Fault::new(DISTRIBUTION, here(), other.to_string()),
+        }
+    }
+
+    fn read(
+        entry: &'static Entry,
+        key: Range<usize>,
+        value: &Raw<'_>,
+        reader: &mut Reader<'_>,
+    ) -> Option<Self> {
+        let DeValue::Table(table) = value.get_ref() else {
+            return reader.wrong_type(WRONG_TYPE, value, "a table");
+        };
+        let mut stated = StatedDistribution {
+            entry,
+            key,
+            given: Given::default(),
+            places: Vec::new(),
+        };
+        for (key, value) in in_order(table) {
+            let name = key.get_ref();
+            match entry
+                .parameters
+                .iter()
+                .find(|rule| rule.key == name.as_ref())
+            {
+                Some(rule) => stated.take(rule, key, value, reader),
+                None => {
+                    let known: Vec<&'static str> =
+                        entry.parameters.iter().map(|rule| rule.key).collect();
+                    reader.unknown_key(key, entry.kind.key, &known);
+                }
+            }
+        }
+        Some(stated)
+    }
+
+    fn take(
+        &mut self,
+        rule: &'static ParameterRule,
+        key: &Key<'_>,
+        value: &Raw<'_>,
+        reader: &mut Reader<'_>,
+    ) {
+        self.places.push((rule.key, key.span(), value.span()));
+        match rule.takes {
+            Takes::Number | Takes::Freedom => {
+                let number = match rule.takes {
+                    Takes::Freedom => Dof::read(value, reader).map(|dof| dof.0),
+                    _ => f64::read(value, reader),
+                };
+                self.given.numbers.extend(number.map(|x| (rule.key, x)));
+            }
+            Takes::Numbers => {
+                let list = Vec::<Stated<f64>>::read(value, reader);
+                let list = list.map(|list| list.into_iter().map(|x| x.value).collect());
+                self.given.lists.extend(list.map(|list| (rule.key, list)));
+            }
+        }
+    }
+}
+
+/// Schema of a parameter, and what it may be set to in words.
+fn expected(takes: Takes) -> (Value, String) {
+    match takes {
+        Takes::Number => (f64::schema(), f64::expected()),
+        Takes::Freedom => (Dof::schema(), Dof::expected()),
+        Takes::Numbers => (Vec::<Stated<f64>>::schema(), Vec::<Stated<f64>>::expected()),
+    }
 }
 
 /// A shape by any of its names, in any case.
-fn shape(text: &str, value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Shape> {
-    let Some(kind) = kind_meant(text) else {
-        return Shape::read(value, reader);
+fn shape(text: &str, value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<&'static Entry> {
+    let Some(kind) = kind_named(text) else {
+        let known: Vec<&'static str> = shape_names().collect();
+        let words = shapes().map(|shape| format!("\"{}\"", shape.kind.key));
+        let expected = format!("one of {}", words.collect::<Vec<_>>().join(", "));
+        return reader.refuse(unknown_word(value, text, &known, &expected));
     };
-    Shape::named(kind.key).or_else(|| {
+    shapes().find(|entry| entry.kind.key == kind.key).or_else(|| {
         reader.refuse(
             Fault::new(
                 UNKNOWN_WORD,
@@ -188,24 +205,51 @@ fn shape(text: &str, value: &Raw<'_>, reader: &mut Reader<'_>) -> Option<Shape> 
     })
 }
 
-/// The kind of distribution of a name, whatever its case, hyphens and spaces.
-fn kind_meant(text: &str) -> Option<&'static Kind> {
-    kind_named(&text.to_lowercase().replace([' ', '_'], "-"))
+/// The distributions whose name goes beside a width.
+fn shapes() -> impl Iterator<Item = &'static Entry> {
+    REGISTRY.iter().filter(|entry| entry.word != Word::None)
 }
 
-/// The fault of a table with parameters under another name than the file format's.
-fn other_name(key: &Spanned<DeString<'_>>) -> Option<Fault> {
-    let name = key.get_ref();
-    let kind = kind_meant(name).filter(|kind| kind.key != name.as_ref())?;
-    Some(
-        Fault::new(
-            UNKNOWN_KEY,
-            key.span(),
-            format!("a distribution with parameters has no key `{name}`"),
-        )
-        .label("unknown key")
-        .help(format!("write `{}`", kind.key)),
+/// Their names as a file spells them.
+fn shape_names() -> impl Iterator<Item = &'static str> {
+    shapes()
+        .flat_map(|entry| std::iter::once(entry.kind.key).chain(entry.kind.aliases.iter().copied()))
+}
+
+/// The distributions that have parameters to state.
+fn with_parameters() -> impl Iterator<Item = &'static Entry> {
+    REGISTRY.iter().filter(|entry| !entry.parameters.is_empty())
+}
+
+/// `Normal (Gaussian): mean, sd.`
+fn summary(entry: &Entry) -> String {
+    let name = entry.kind.name_en;
+    let (first, rest) = name.split_at(name.chars().next().map_or(0, char::len_utf8));
+    format!(
+        "{}{rest}: {}.",
+        first.to_uppercase(),
+        entry.parameters_in_words()
     )
+}
+
+/// The fault of a key that names no distribution of the file format.
+fn other_name(key: &Key<'_>, reader: &mut Reader<'_>) {
+    let name = key.get_ref();
+    match Entry::named(name).filter(|entry| !entry.parameters.is_empty()) {
+        Some(entry) => reader.faults.push(
+            Fault::new(
+                UNKNOWN_KEY,
+                key.span(),
+                format!("a distribution with parameters has no key `{name}`"),
+            )
+            .label("unknown key")
+            .help(format!("write `{}`", entry.kind.key)),
+        ),
+        None => {
+            let known: Vec<&'static str> = with_parameters().map(|entry| entry.kind.key).collect();
+            reader.unknown_key(key, "distribution", &known);
+        }
+    }
 }
 
 impl FromToml for DistributionEntry {
@@ -217,22 +261,71 @@ impl FromToml for DistributionEntry {
         match value.get_ref() {
             DeValue::String(text) => shape(text, value, reader).map(DistributionEntry::Shape),
             DeValue::Table(table) => {
-                let other_names = table.keys().find_map(other_name);
-                match other_names {
-                    Some(fault) => reader.refuse(fault),
-                    None => DistributionTable::read(value, reader)
-                        .map(|table| DistributionEntry::Full(Box::new(table))),
+                let before = reader.faults.len();
+                let mut stated = Vec::new();
+                for (key, value) in in_order(table) {
+                    let mut entries = with_parameters();
+                    match entries.find(|entry| entry.kind.key == key.get_ref().as_ref()) {
+                        Some(entry) => {
+                            stated.extend(StatedDistribution::read(
+                                entry,
+                                key.span(),
+                                value,
+                                reader,
+                            ));
+                        }
+                        None => other_name(key, reader),
+                    }
                 }
+                let refused = reader.faults.len() > before;
+                (!refused).then_some(DistributionEntry::Full(stated))
             }
             _ => reader.wrong_type(WRONG_TYPE, value, &Self::expected()),
         }
     }
 
     fn schema() -> Value {
-        json!({ "oneOf": [Shape::schema(), DistributionTable::schema()] })
+        let names: Vec<&str> = shape_names().collect();
+        let mut distributions = Map::new();
+        for entry in with_parameters() {
+            let mut parameters = Map::new();
+            for rule in entry.parameters {
+                let schema = described(expected(rule.takes).0, rule.meaning.to_string());
+                parameters.insert(rule.key.into(), schema);
+            }
+            let table = json!({
+                "type": "object",
+                "description": summary(entry),
+                "properties": parameters,
+                "additionalProperties": false,
+            });
+            distributions.insert(entry.kind.key.into(), table);
+        }
+        let table = json!({
+            "type": "object",
+            "description": "A distribution by name, with its parameters in the unit of the input.",
+            "properties": distributions,
+            "additionalProperties": false,
+        });
+        json!({ "oneOf": [{ "enum": names }, table] })
     }
 
     fn tables(path: &str, rows: &mut Vec<KeyRow>) {
-        DistributionTable::tables(path, rows);
+        let row = |table: &str, key, kind: String, doc: String| KeyRow {
+            table: table.to_string(),
+            key,
+            kind,
+            doc,
+        };
+        for entry in with_parameters() {
+            rows.push(row(path, entry.kind.key, "a table".into(), summary(entry)));
+        }
+        for entry in with_parameters() {
+            let path = inner(path, entry.kind.key);
+            for rule in entry.parameters {
+                let kind = expected(rule.takes).1;
+                rows.push(row(&path, rule.key, kind, rule.meaning.to_string()));
+            }
+        }
     }
 }

@@ -22,7 +22,6 @@ pub mod faults;
 mod fit;
 pub mod hints;
 mod open_files;
-mod parametric;
 mod profile;
 mod reader;
 mod remark;

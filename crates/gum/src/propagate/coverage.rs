@@ -22,7 +22,7 @@ use super::gum::MeasurandForm;
 use super::result::{Coverage, CoverageBasis};
 use super::shape::Shape;
 use crate::budget::{Component, Conventions, CoverageRule, DofRule, OutputShape};
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, rectangular};
 
 /// The largest ratio of all others to the dominant contributions, EA-4/02 S9.10.
 const REMAINDER: f64 = 0.3;
@@ -155,13 +155,13 @@ impl<'b> Situation<'b> {
         let distribution = self.distribution(part);
         matches!(
             distribution,
-            Distribution::Normal { .. } | Distribution::StudentT { .. }
+            Distribution::Normal(_) | Distribution::StudentT(_)
         )
     }
 
     /// Half-width of a rectangle, in units of u(y).
     fn half_width(&self, part: Part) -> Option<f64> {
-        let rectangular = matches!(self.distribution(part), Distribution::Uniform { .. });
+        let rectangular = matches!(self.distribution(part), Distribution::Uniform(_));
         rectangular.then(|| part.weight.abs() * 3f64.sqrt())
     }
 
@@ -189,7 +189,7 @@ impl<'b> Situation<'b> {
             shape,
             basis: CoverageBasis::Output {
                 dominant,
-                shape: distribution.name(),
+                shape: distribution.kind(),
             },
         }
     }
@@ -206,16 +206,11 @@ impl<'b> Situation<'b> {
             .iter()
             .map(|p| self.components[p.component].name.clone())
             .collect();
-        let word = if (a - b).abs() <= 1e-9 * a {
-            "triangular"
-        } else {
-            "trapezoidal"
-        };
         Output {
             shape,
             basis: CoverageBasis::Output {
                 dominant,
-                shape: word,
+                shape: rectangular::kind_of_sum(a, b),
             },
         }
     }
@@ -253,6 +248,7 @@ mod tests {
     use super::super::freedom;
     use super::*;
     use crate::budget::TScale;
+    use crate::distribution::{Normal, Uniform, Univariate, rectangular};
     use crate::quantity::Rounding;
 
     const INF: f64 = f64::INFINITY;
@@ -275,14 +271,19 @@ mod tests {
     }
 
     fn normal(name: &str, u: f64, dof: f64) -> Component {
-        component(name, Distribution::Normal { mean: 0.0, sd: u }, u, dof)
+        component(
+            name,
+            Distribution::Normal(Normal { mean: 0.0, sd: u }),
+            u,
+            dof,
+        )
     }
 
     fn rectangle(name: &str, a: f64) -> Component {
-        let distribution = Distribution::Uniform {
+        let distribution = Distribution::Uniform(Uniform {
             lower: -a,
             upper: a,
-        };
+        });
         component(name, distribution, a / 3f64.sqrt(), INF)
     }
 
@@ -358,7 +359,7 @@ mod tests {
             found.basis,
             CoverageBasis::Output {
                 dominant,
-                shape: "rectangular"
+                shape: &Uniform::KIND
             }
         );
         // With its remainder the same budget needs a little more.
@@ -387,7 +388,7 @@ mod tests {
                 found.basis,
                 CoverageBasis::Output {
                     dominant,
-                    shape: "trapezoidal"
+                    shape: rectangular::kind_of_sum(2.0, 1.0)
                 }
             );
         }

@@ -7,7 +7,7 @@ use crate::budget::{
     Budget, Component, Conventions, CoverageRule, DofRule, Evaluation, Group, Heading, Input, Law,
     Measurand, MonteCarloSettings, OutputShape, Owner, Points, TScale, Term, Trials,
 };
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, Normal, Uniform};
 use crate::model::{MeasurandSource, Request, Role, Symbol, compile};
 use crate::quantity::{Rounding, Unit, UnitTable};
 
@@ -96,17 +96,17 @@ impl Draft {
         self.input(
             name,
             estimate,
-            Distribution::Normal { mean: 0.0, sd: u },
+            Distribution::Normal(Normal { mean: 0.0, sd: u }),
             u,
             dof,
         )
     }
 
     pub(super) fn rectangle(self, name: &str, estimate: f64, a: f64, dof: f64) -> Self {
-        let distribution = Distribution::Uniform {
+        let distribution = Distribution::Uniform(Uniform {
             lower: -a,
             upper: a,
-        };
+        });
         self.input(name, estimate, distribution, a / 3f64.sqrt(), dof)
     }
 

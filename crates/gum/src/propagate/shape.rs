@@ -122,29 +122,13 @@ fn convolved_cdf(x: f64, factor: f64, distribution: &Distribution, sigma: f64) -
     if sigma == 0.0 {
         return scaled_cdf(x, factor, distribution);
     }
-    match distribution {
-        Distribution::Discrete {
-            values,
-            probabilities,
-        } => values
-            .iter()
-            .zip(probabilities.iter())
-            .map(|(value, p)| p * normal_cdf((x - factor * value) / sigma))
-            .sum(),
-        Distribution::Empirical { sample } => {
-            let sum: f64 = sample
-                .iter()
-                .map(|value| normal_cdf((x - factor * value) / sigma))
-                .sum();
-            sum / sample.len().max(1) as f64
-        }
-        _ => {
-            let integrand = |p: f64| normal_cdf((x - factor * distribution.quantile(p)) / sigma);
-            // Φ falls from 1 to 0 around here: with a breakpoint there no step can be overlooked.
-            let middle = distribution.cdf(x / factor).clamp(0.0, 1.0);
-            integral(&integrand, 0.0, middle) + integral(&integrand, middle, 1.0)
-        }
-    }
+    let below = |value: f64| normal_cdf((x - factor * value) / sigma);
+    distribution.sum(&below).unwrap_or_else(|| {
+        let integrand = |p: f64| below(distribution.quantile(p));
+        // Φ falls from 1 to 0 around here: with a breakpoint there no step can be overlooked.
+        let middle = distribution.cdf(x / factor).clamp(0.0, 1.0);
+        integral(&integrand, 0.0, middle) + integral(&integrand, middle, 1.0)
+    })
 }
 
 /// Distribution function of factor·E.
@@ -195,6 +179,7 @@ fn simpson(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::distribution::{Arcsine, Discrete, Empirical, Exponential, Triangular, Uniform};
 
     fn close(a: f64, b: f64, tolerance: f64) {
         assert!((a - b).abs() <= tolerance, "{a} is not {b}");
@@ -273,15 +258,15 @@ mod tests {
 
     #[test]
     fn closed_form_and_integral_agree() {
-        let rectangle = Distribution::Uniform {
+        let rectangle = Distribution::Uniform(Uniform {
             lower: -1.0,
             upper: 1.0,
-        };
-        let triangle = Distribution::Triangular {
+        });
+        let triangle = Distribution::Triangular(Triangular {
             lower: -1.0,
             mode: 0.0,
             upper: 1.0,
-        };
+        });
         for remainder in [0.0, 1e-6, 0.01, 0.2, 1.0] {
             let closed = Shape::Rectangles {
                 a: 1.0,
@@ -310,10 +295,10 @@ mod tests {
 
     #[test]
     fn other_shapes_without_remainder() {
-        let arcsine = Distribution::Arcsine {
+        let arcsine = Distribution::Arcsine(Arcsine {
             lower: -1.0,
             upper: 1.0,
-        };
+        });
         let shape = Shape::Dominant {
             factor: 2.0,
             distribution: &arcsine,
@@ -325,10 +310,10 @@ mod tests {
             1e-9,
         );
         // Exponential of mean 1 about its mean: 1 − e^−(1+h) = 0.95 for h > 1.
-        let exponential = Distribution::Exponential {
+        let exponential = Distribution::Exponential(Exponential {
             origin: -1.0,
             mean: 1.0,
-        };
+        });
         for factor in [1.0, -1.0] {
             let shape = Shape::Dominant {
                 factor,
@@ -343,10 +328,10 @@ mod tests {
     fn an_exponential_with_remainder() {
         // Exponentially modified normal distribution in closed form.
         let (mean, sigma) = (1.0, 0.3);
-        let exponential = Distribution::Exponential {
+        let exponential = Distribution::Exponential(Exponential {
             origin: -mean,
             mean,
-        };
+        });
         let closed = |x: f64| {
             let z = x + mean;
             normal_cdf(z / sigma) - (0.5 * sigma * sigma - z).exp() * normal_cdf(z / sigma - sigma)
@@ -363,13 +348,13 @@ mod tests {
 
     #[test]
     fn steps() {
-        let coin = Distribution::Discrete {
+        let coin = Distribution::Discrete(Discrete {
             values: [-1.0, 1.0].into(),
             probabilities: [0.5, 0.5].into(),
-        };
-        let sample = Distribution::Empirical {
+        });
+        let sample = Distribution::Empirical(Empirical {
             sample: [-1.0, -1.0, 1.0, 1.0].into(),
-        };
+        });
         for distribution in [&coin, &sample] {
             let shape = Shape::Dominant {
                 factor: 1.0,
@@ -383,10 +368,10 @@ mod tests {
 
     #[test]
     fn coverage_and_half_width_are_inverse() {
-        let arcsine = Distribution::Arcsine {
+        let arcsine = Distribution::Arcsine(Arcsine {
             lower: -1.0,
             upper: 1.0,
-        };
+        });
         let shapes = [
             Shape::StudentT {
                 scale: 0.2,

@@ -3,7 +3,7 @@
 use super::draft::Draft;
 use super::*;
 use crate::budget::{Budget, CoverageRule};
-use crate::distribution::Distribution;
+use crate::distribution::{Arcsine, Distribution};
 
 const INF: f64 = f64::INFINITY;
 
@@ -54,10 +54,10 @@ fn shares_sum_to_one(result: &Gum) {
 
 #[test]
 fn gum_h_1_with_nine_inputs() {
-    let arcsine = Distribution::Arcsine {
+    let arcsine = Distribution::Arcsine(Arcsine {
         lower: -0.5,
         upper: 0.5,
-    };
+    });
     let budget = Draft::new()
         .normal("Ls", 5e7, 25.0, 18.0)
         .normal("d1", 0.0, 5.8, 24.0)

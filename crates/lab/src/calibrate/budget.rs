@@ -11,7 +11,7 @@ use super::causes::{Cause, Origin};
 use super::components::lower_factor;
 use super::experiment::{Doubt, Experiment, Scope};
 use crate::budget::writing::{key, quoted};
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, Normal, Uniform, Univariate};
 use crate::quantity::Unit;
 
 /// More errors of one cause than these are summed up as one, of normal distribution.
@@ -231,7 +231,7 @@ fn independent(cause: &Cause, name: &str, places: &[Place<'_>]) -> Vec<InputOfCa
         if input.terms.is_empty() {
             continue;
         }
-        let normal = Distribution::Normal { mean: 0.0, sd: 1.0 };
+        let normal = Distribution::Normal(Normal { mean: 0.0, sd: 1.0 });
         let width = width(&normal, 1.0, cause.contribution_dof(*own));
         let _ = write!(input.text, "\n[input.{}]\nvalue = 0\n{width}", key(&name));
         inputs.push(input);
@@ -246,17 +246,11 @@ fn matters(contribution: f64, one: &Coefficient) -> bool {
 
 /// The keys that state how wide an error is spread.
 fn width(distribution: &Distribution, u: f64, dof: f64) -> String {
-    let half_width = |half: f64, shape: &str| format!("half_width = {half:?}\n{shape}");
-    match distribution {
-        Distribution::Uniform { lower, upper } => half_width(0.5 * (upper - lower), ""),
-        Distribution::Triangular { lower, mode, upper }
-            if (lower + upper - 2.0 * mode).abs() <= 1e-12 * (upper - lower) =>
-        {
-            half_width(0.5 * (upper - lower), "distribution = \"triangular\"\n")
-        }
-        Distribution::Arcsine { lower, upper } => {
-            half_width(0.5 * (upper - lower), "distribution = \"arcsine\"\n")
-        }
+    let shape = distribution.kind();
+    match distribution.half_width() {
+        // The shape that a half-width has where none is stated.
+        Some(half) if *shape == Uniform::KIND => format!("half_width = {half:?}\n"),
+        Some(half) => format!("half_width = {half:?}\ndistribution = \"{}\"\n", shape.key),
         _ if dof.is_infinite() => format!("u = {u:?}\n"),
         // The standard deviation of trials of a t distribution of so few degrees of freedom does not converge.
         _ if dof <= 4.0 => format!("u = {u:?}\ndof = {dof:?}\ndistribution = \"normal\"\n"),

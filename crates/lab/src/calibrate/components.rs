@@ -8,7 +8,7 @@ use super::experiment::{Act, Doubt, Scope, Target};
 use super::faults::KEY;
 use super::tables::ScopeWord;
 use crate::budget::{Budget, Evaluation, Group, Owner};
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, Normal};
 use crate::fault::Fault;
 use crate::quantity::Unit;
 use gumption_format::toml::Stated;
@@ -166,7 +166,7 @@ fn factored(budget: &Budget, group: &Group, found: &[Found]) -> Option<Vec<Doubt
             .dof
             .unwrap_or_else(|| dofs.clone().fold(f64::INFINITY, f64::min)),
         unit: Unit::one(),
-        distribution: Distribution::Normal { mean: 0.0, sd: 1.0 },
+        distribution: Distribution::Normal(Normal { mean: 0.0, sd: 1.0 }),
         evaluation: match members
             .iter()
             .all(|place| component(*place).evaluation == Evaluation::TypeA)

@@ -261,17 +261,9 @@ fn shared_components(report: &Report<'_>) -> Vec<usize> {
 
 /// `normal (B)`.
 fn distribution(component: &Component, language: Language) -> String {
-    let named = component.distribution.kind();
-    // The table has no room for second names and for the word distribution in every row.
-    let short = named
-        .name_zh
-        .split('(')
-        .next()
-        .unwrap_or_default()
-        .trim_end_matches("分布");
     format!(
         "{} ({})",
-        language.pick(named.key, short),
+        component.distribution.kind().short(language),
         kind(component.evaluation)
     )
 }

@@ -227,7 +227,7 @@ fn gum(gum: &Gum) -> GumJson<'_> {
         CoverageBasis::Normal => ("normal", None, None, &[][..]),
         CoverageBasis::StudentT { dof } => ("t", Some(Number(*dof)), None, &[][..]),
         CoverageBasis::Output { dominant, shape } => {
-            ("output", None, Some(*shape), dominant.as_slice())
+            ("output", None, Some(shape.name_en), dominant.as_slice())
         }
         CoverageBasis::Fixed => ("fixed", None, None, &[][..]),
     };

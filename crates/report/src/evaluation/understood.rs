@@ -9,6 +9,7 @@ use crate::budget::{
     Analysis, Component, Constant, CoverageRule, DofRule, Evaluation as Kind, Group, Input, Law,
     OutputShape, Owner, TScale,
 };
+use crate::distribution::{Distribution, Parameter};
 use crate::machine::record;
 use crate::machine::{Number, numbers};
 use crate::quantity::Rounding;
@@ -281,62 +282,18 @@ pub(super) fn component<'a>(c: &'a Component, inputs: &'a [Input]) -> ComponentJ
     }
 }
 
-fn parameters(distribution: &crate::distribution::Distribution) -> Value {
-    use crate::distribution::Distribution as D;
-    let list = |pairs: &[(&str, f64)]| -> Value {
-        pairs
-            .iter()
-            .map(|(name, x)| ((*name).to_string(), serde_json::json!(Number(*x))))
-            .collect::<serde_json::Map<_, _>>()
-            .into()
-    };
-    match distribution {
-        D::Normal { mean, sd } => list(&[("mean", *mean), ("sd", *sd)]),
-        D::StudentT {
-            location,
-            scale,
-            dof,
-        } => list(&[("location", *location), ("scale", *scale), ("dof", *dof)]),
-        D::Uniform { lower, upper } | D::Arcsine { lower, upper } => {
-            list(&[("lower", *lower), ("upper", *upper)])
-        }
-        D::Triangular { lower, mode, upper } => {
-            list(&[("lower", *lower), ("mode", *mode), ("upper", *upper)])
-        }
-        D::Trapezoidal { lower, upper, beta } => {
-            list(&[("lower", *lower), ("upper", *upper), ("beta", *beta)])
-        }
-        D::CurvilinearTrapezoid { lower, upper, d } => {
-            list(&[("lower", *lower), ("upper", *upper), ("d", *d)])
-        }
-        D::Exponential { origin, mean } => list(&[("origin", *origin), ("mean", *mean)]),
-        D::Gamma {
-            origin,
-            shape,
-            scale,
-        } => list(&[("origin", *origin), ("shape", *shape), ("scale", *scale)]),
-        D::LogNormal { origin, mu, sigma } => {
-            list(&[("origin", *origin), ("mu", *mu), ("sigma", *sigma)])
-        }
-        D::Beta {
-            alpha,
-            beta,
-            lower,
-            upper,
-        } => list(&[
-            ("alpha", *alpha),
-            ("beta", *beta),
-            ("lower", *lower),
-            ("upper", *upper),
-        ]),
-        D::Discrete {
-            values,
-            probabilities,
-        } => {
-            serde_json::json!({ "values": numbers(values), "probabilities": numbers(probabilities) })
-        }
-        D::Empirical { sample } => serde_json::json!({ "sample": numbers(sample) }),
-    }
+fn parameters(distribution: &Distribution) -> Value {
+    let named = distribution
+        .parameters()
+        .into_iter()
+        .map(|(name, parameter)| {
+            let value = match parameter {
+                Parameter::Number(x) => serde_json::json!(Number(x)),
+                Parameter::Numbers(list) => serde_json::json!(numbers(list)),
+            };
+            (name.to_string(), value)
+        });
+    named.collect::<serde_json::Map<_, _>>().into()
 }
 
 pub(super) fn group(group: &Group) -> GroupJson {

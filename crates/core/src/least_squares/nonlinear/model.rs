@@ -1,6 +1,6 @@
 //! The linear model of the residuals around a point, and steps of a given length.
 
-use super::Linear;
+use super::linear::Linear;
 use crate::least_squares::factor::{Qr, dot, square};
 
 /// The linear model of the residuals around a point: small enough to be solved many times.

@@ -1,7 +1,7 @@
 //! One search: from a start, within a trust region that follows its success.
 
+use super::linear::{FLAT, Linear, Minimum, Residuals, Stuck};
 use super::model::{Model, Reduction, scaled_length};
-use super::{FLAT, Linear, Minimum, Residuals, Stuck};
 use crate::least_squares::factor::{Qr, square};
 
 /// Steps after which a search counts as lost.

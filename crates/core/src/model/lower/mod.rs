@@ -1,4 +1,6 @@
-//! Syntax tree → graph: names, shapes and units of expressions.
+//! Syntax tree → graph: names, shapes and units of the parts of expressions.
+//!
+//! Which part an expression is, and what a function does, stands above, in `expressions` and `functions`.
 
 mod names;
 mod operators;
@@ -12,8 +14,8 @@ use crate::model::faults;
 use crate::model::graph::{Builder, Id, Label};
 use crate::model::operation::{binary_row, unary};
 use crate::model::printer;
-use crate::model::syntax::{Expr, Name, Node, Span};
-use crate::model::{Place, Symbol, functions};
+use crate::model::syntax::{Expr, Name, Span};
+use crate::model::{Place, Symbol};
 use crate::quantity::{Unit, UnitTable};
 
 /// Expressions and calls inside one another, with user functions written out.
@@ -77,13 +79,18 @@ pub struct Lowering<'r> {
     pub call: Option<(Place, Span, String)>,
     /// Names that later statements of the text define.
     pub later: Vec<String>,
+    /// What becomes of an expression; it stands above what lowers its parts.
+    expression: Expression,
     depth: usize,
     work: usize,
     exhausted: bool,
 }
 
+/// Lowers an expression.
+pub type Expression = fn(&mut Lowering<'_>, &Expr) -> Option<Value>;
+
 impl<'r> Lowering<'r> {
-    pub fn new(symbols: &'r [Symbol], units: &'r UnitTable) -> Self {
+    pub fn new(symbols: &'r [Symbol], units: &'r UnitTable, expression: Expression) -> Self {
         let mut places = HashMap::with_capacity(symbols.len());
         for (place, symbol) in symbols.iter().enumerate() {
             places.entry(symbol.name.as_str()).or_insert(place);
@@ -99,6 +106,7 @@ impl<'r> Lowering<'r> {
             faults: Vec::new(),
             call: None,
             later: Vec::new(),
+            expression,
             depth: 0,
             work: 0,
             exhausted: false,
@@ -184,26 +192,10 @@ impl<'r> Lowering<'r> {
             );
             None
         } else {
-            self.node(e)
+            (self.expression)(self, e)
         };
         self.depth -= 1;
         value
-    }
-
-    fn node(&mut self, e: &Expr) -> Option<Value> {
-        match &e.node {
-            Node::Number { value, unit, .. } => self.literal(*value, unit.as_ref()),
-            Node::Unit(unit) => self.stray_unit(e, unit),
-            Node::Name(name) => self.name(name, &e.span),
-            Node::Chain { first, rest } => self.chain(e, first, rest),
-            Node::Power { base, exponent } => self.power(e, base, exponent),
-            Node::Minus(inner) => self.negative(inner),
-            Node::Not(inner) => self.negation(inner),
-            Node::Call { name, arguments } => functions::call(self, e, name, arguments),
-            Node::Vector(items) => self.vector(e, items),
-            Node::Index { vector, index } => self.index(vector, index),
-            Node::If { condition, yes, no } => self.choice(e, condition, yes, no),
-        }
     }
 
     /// Notes how the user wrote the operations of a value, for hints about poles and kinks.
@@ -233,6 +225,30 @@ impl<'r> Lowering<'r> {
             self.builder.label(*id, label);
         }
     }
+}
+
+/// Reports a call with too few or too many arguments.
+pub fn wrong_count(
+    l: &mut Lowering<'_>,
+    e: &Expr,
+    name: &str,
+    signature: &str,
+    arguments: &[Expr],
+) -> Option<Value> {
+    l.report(
+        Fault::new(
+            faults::ARGUMENTS,
+            e.span.clone(),
+            format!(
+                "`{name}` is given {} argument{}",
+                arguments.len(),
+                if arguments.len() == 1 { "" } else { "s" }
+            ),
+        )
+        .label(format!("expected `{signature}`"))
+        .help(format!("write `{signature}`")),
+    );
+    None
 }
 
 impl Value {

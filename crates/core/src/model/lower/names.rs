@@ -8,7 +8,7 @@ use crate::model::syntax::{Expr, Span, UnitText};
 use crate::quantity::Unit;
 
 impl Lowering<'_> {
-    pub(super) fn literal(&mut self, value: f64, unit: Option<&UnitText>) -> Option<Value> {
+    pub fn literal(&mut self, value: f64, unit: Option<&UnitText>) -> Option<Value> {
         let parsed = match unit {
             Some(text) => self.unit(text)?,
             None => Unit::one(),
@@ -34,7 +34,7 @@ impl Lowering<'_> {
         }
     }
 
-    pub(super) fn stray_unit(&mut self, e: &Expr, unit: &UnitText) -> Option<Value> {
+    pub fn stray_unit(&mut self, e: &Expr, unit: &UnitText) -> Option<Value> {
         self.report(
             Fault::new(
                 faults::UNIT_TEXT,
@@ -47,7 +47,7 @@ impl Lowering<'_> {
         None
     }
 
-    pub(super) fn name(&mut self, name: &str, span: &Span) -> Option<Value> {
+    pub fn name(&mut self, name: &str, span: &Span) -> Option<Value> {
         if let Some(value) = self.locals.last().and_then(|frame| frame.get(name)) {
             return Some(value.clone());
         }

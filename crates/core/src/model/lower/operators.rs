@@ -9,7 +9,7 @@ use crate::model::syntax::{Expr, Infix, Span};
 use crate::model::units::Operand;
 
 impl Lowering<'_> {
-    pub(super) fn power(&mut self, whole: &Expr, base: &Expr, exponent: &Expr) -> Option<Value> {
+    pub fn power(&mut self, whole: &Expr, base: &Expr, exponent: &Expr) -> Option<Value> {
         let (x, y) = (self.value(base), self.value(exponent));
         let (x, y) = (x?, y?);
         let out = self.powered(
@@ -31,7 +31,7 @@ impl Lowering<'_> {
         })
     }
 
-    pub(super) fn negative(&mut self, inner: &Expr) -> Option<Value> {
+    pub fn negative(&mut self, inner: &Expr) -> Option<Value> {
         let x = self.value(inner)?;
         self.difference(Operand {
             value: &x,
@@ -41,7 +41,7 @@ impl Lowering<'_> {
         Some(Value { elements, ..x })
     }
 
-    pub(super) fn negation(&mut self, inner: &Expr) -> Option<Value> {
+    pub fn negation(&mut self, inner: &Expr) -> Option<Value> {
         let x = self.value(inner)?;
         self.truth(&x, inner)?;
         let builder = &mut self.builder;
@@ -50,12 +50,7 @@ impl Lowering<'_> {
         Some(Value { elements, ..x })
     }
 
-    pub(super) fn chain(
-        &mut self,
-        whole: &Expr,
-        first: &Expr,
-        rest: &[(Infix, Expr)],
-    ) -> Option<Value> {
+    pub fn chain(&mut self, whole: &Expr, first: &Expr, rest: &[(Infix, Expr)]) -> Option<Value> {
         let mut left = self.value(first);
         for (infix, operand) in rest {
             let right = self.value(operand);

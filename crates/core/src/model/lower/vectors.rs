@@ -93,7 +93,7 @@ impl Lowering<'_> {
         None
     }
 
-    pub(super) fn index(&mut self, vector: &Expr, index: &Expr) -> Option<Value> {
+    pub fn index(&mut self, vector: &Expr, index: &Expr) -> Option<Value> {
         let (x, place) = (self.value(vector), self.scalar(index));
         let (x, place) = (x?, place?);
         let text = printer::expression(vector);
@@ -134,7 +134,7 @@ impl Lowering<'_> {
         })
     }
 
-    pub(super) fn choice(
+    pub fn choice(
         &mut self,
         whole: &Expr,
         condition: &Expr,

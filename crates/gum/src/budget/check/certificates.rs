@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use super::checker::Checker;
 use super::draft::{Context, Core, show};
-use super::shapes::Width;
-use crate::budget::distributions::Shape;
 use crate::budget::faults::{DOF, K_AND_P, NO_COVERAGE_FACTOR, NOT_POSITIVE, PROBABILITY};
 use crate::budget::tables::{CertificateTable, ComponentTable};
+use crate::distribution::stating::Width;
+use crate::distribution::{Entry, Normal};
 use crate::fault::Fault;
 use crate::special::student_t_two_sided_quantile;
 use gumption_format::toml::Stated;
@@ -47,7 +47,13 @@ impl Checker<'_> {
             let distribution = self.t_or_normal(u_capital / k, dof, &certificate.key)?;
             Core::new(distribution, u_capital / k, how)
         } else {
-            self.shaped(table, Width::U(u_capital / k), Shape::Normal, how, context)?
+            self.shaped(
+                table,
+                Width::U(u_capital / k),
+                Entry::of::<Normal>(),
+                how,
+                context,
+            )?
         };
         core.dof = dof;
         Some(core)

@@ -108,7 +108,7 @@ impl Checker<'_> {
 
     /// Says so where another file takes u of a t distribution for something else.
     fn other_t_scale(&mut self, budget: &Budget, file: &str) {
-        let student = |c: &Component| matches!(c.distribution, Distribution::StudentT { .. });
+        let student = |c: &Component| matches!(c.distribution, Distribution::StudentT(_));
         if budget.conventions.t_scale == self.conventions.t_scale
             || !budget.components.iter().any(student)
         {

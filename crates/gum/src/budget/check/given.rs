@@ -1,15 +1,13 @@
 //! Components that state a whole distribution: with parameters, as a sample, from counts.
 
-use std::sync::Arc;
-
 use super::checker::Checker;
 use super::draft::{Context, Core, Location};
 use super::ways::Way;
-use crate::budget::distributions::DistributionEntry;
+use crate::budget::distributions::{self, DistributionEntry};
 use crate::budget::faults::{COUNT, DISTRIBUTION, MISSING_KEY, TOO_FEW_READINGS};
-use crate::budget::parametric::Parametric;
 use crate::budget::tables::{ComponentTable, PriorWord};
-use crate::distribution::Distribution;
+use crate::distribution::stating::Parametric;
+use crate::distribution::{Distribution, Empirical, StudentT, binomial, poisson};
 use crate::fault::Fault;
 use gumption_format::toml::Stated;
 
@@ -46,9 +44,7 @@ impl Checker<'_> {
         sample.sort_by(f64::total_cmp);
         let how = format!("sample of {}", sample.len());
         self.centred(
-            Distribution::Empirical {
-                sample: Arc::from(sample),
-            },
+            sample.into_iter().collect::<Empirical>().into(),
             how,
             &stated.key,
         )
@@ -59,18 +55,19 @@ impl Checker<'_> {
         let DistributionEntry::Full(full) = &entry.value else {
             return None;
         };
-        let parametric = match full.parametric(&entry.map(|_| ())) {
+        let parametric = match distributions::parametric(full, &entry.map(|_| ())) {
             Ok(parametric) => parametric,
             Err(fault) => return self.refuse(*fault),
         };
         let Parametric {
             distribution,
             located,
+            limits,
             how,
         } = parametric;
         let dof = self.dof(table)?;
         let mut core = self.centred(distribution.clone(), how, &entry.key)?;
-        if let Distribution::StudentT { scale, dof: nu, .. } = distribution {
+        if let Distribution::StudentT(StudentT { scale, dof: nu, .. }) = distribution {
             // GUM propagates the scale, as it does for readings (JCGM 101 6.4.9).
             core.u = scale;
             core.dof = nu;
@@ -79,8 +76,8 @@ impl Checker<'_> {
         }
         if !located {
             core.location = Location::None;
-        } else if let (Location::Expectation(expectation), Some((lower, upper))) =
-            (core.location, limits(&distribution))
+        } else if let (Location::Expectation(expectation), Some([lower, upper])) =
+            (core.location, limits)
         {
             core.location = Location::Between {
                 expectation,
@@ -95,20 +92,11 @@ impl Checker<'_> {
     fn count(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
         let stated = table.count.as_ref()?;
         let n = stated.value as f64;
-        let shape = n + prior_counts(table);
-        if shape <= 0.0 {
+        let Some(expected) = poisson::expected_events(n, prior_counts(table)) else {
             return self.refuse(no_events(stated, context));
-        }
-        let how = format!("n = {n}, G({shape}, 1)");
-        self.centred(
-            Distribution::Gamma {
-                origin: 0.0,
-                shape,
-                scale: 1.0,
-            },
-            how,
-            &stated.key,
-        )
+        };
+        let how = format!("n = {n}, G({}, 1)", expected.shape);
+        self.centred(expected.into(), how, &stated.key)
     }
 
     /// Successes of Bernoulli trials: the proportion is beta distributed.
@@ -138,25 +126,15 @@ impl Checker<'_> {
                 .related(trials.span.clone(), "trials"),
             );
         }
-        let prior = prior_counts(table);
-        let (s, f) = (
-            stated.value as f64 + prior,
-            (trials.value - stated.value) as f64 + prior,
-        );
-        if s <= 0.0 || f <= 0.0 {
+        let (s, f) = (stated.value as f64, (trials.value - stated.value) as f64);
+        let Some(proportion) = binomial::proportion(s, f, prior_counts(table)) else {
             return self.refuse(no_events(stated, context));
-        }
-        let how = format!("{} of {}, B({s}, {f})", stated.value, trials.value);
-        self.centred(
-            Distribution::Beta {
-                alpha: s,
-                beta: f,
-                lower: 0.0,
-                upper: 1.0,
-            },
-            how,
-            &stated.key,
-        )
+        };
+        let how = format!(
+            "{} of {}, B({}, {})",
+            stated.value, trials.value, proportion.alpha, proportion.beta
+        );
+        self.centred(proportion.into(), how, &stated.key)
     }
 
     /// Moves a distribution to mean zero; its mean is the estimate.
@@ -168,12 +146,13 @@ impl Checker<'_> {
     ) -> Option<Core> {
         if let Err(reason) = distribution.validate() {
             return self.refuse(
-                Fault::new(DISTRIBUTION, place.clone(), reason).label("parameters do not fit"),
+                Fault::new(DISTRIBUTION, place.clone(), reason.to_string())
+                    .label("parameters do not fit"),
             );
         }
         // A t distribution with ν ≤ 1 has no mean; its location takes the place.
         let mean = match &distribution {
-            Distribution::StudentT { location, .. } => *location,
+            Distribution::StudentT(StudentT { location, .. }) => *location,
             other => other.mean().unwrap_or(0.0),
         };
         let u = distribution.standard_deviation().unwrap_or(0.0);
@@ -205,16 +184,4 @@ fn no_events(stated: &Stated<u64>, context: &Context<'_>) -> Fault {
     )
     .label("gives no proper distribution")
     .help("write prior = \"jeffreys\" or \"uniform\"")
-}
-
-/// The limits of a distribution that has two.
-fn limits(distribution: &Distribution) -> Option<(f64, f64)> {
-    match distribution {
-        Distribution::Uniform { lower, upper }
-        | Distribution::Triangular { lower, upper, .. }
-        | Distribution::Trapezoidal { lower, upper, .. }
-        | Distribution::Arcsine { lower, upper }
-        | Distribution::CurvilinearTrapezoid { lower, upper, .. } => Some((*lower, *upper)),
-        _ => None,
-    }
 }

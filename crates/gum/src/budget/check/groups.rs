@@ -10,7 +10,7 @@ use super::register::{Register, t_dof};
 use super::statement::{ROUNDING, Statement};
 use crate::budget::faults::{NOT_SEMIDEFINITE, UNATTAINABLE};
 use crate::budget::{Component, Group, Law};
-use crate::distribution::{Distribution, latent_correlation};
+use crate::distribution::{Distribution, StudentT, latent_correlation};
 use crate::fault::Fault;
 
 impl Checker<'_> {
@@ -67,7 +67,7 @@ impl Checker<'_> {
             .and_then(|distribution| t_dof(distribution));
         let law = if distributions
             .iter()
-            .all(|d| matches!(d, Distribution::Normal { .. }))
+            .all(|d| matches!(d, Distribution::Normal(_)))
         {
             Law::Normal
         } else if let Some(dof) =
@@ -136,7 +136,7 @@ impl Checker<'_> {
 
 fn scale(distribution: &Distribution) -> f64 {
     match distribution {
-        Distribution::StudentT { scale, .. } => *scale,
+        Distribution::StudentT(StudentT { scale, .. }) => *scale,
         other => other.standard_deviation().unwrap_or(0.0),
     }
 }

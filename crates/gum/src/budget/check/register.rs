@@ -8,7 +8,7 @@ use super::taken::{Formula, Taken};
 use crate::budget::faults::UNKNOWN_NAME;
 use crate::budget::tables::InputTable;
 use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, StudentT};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 use gumption_format::toml::Stated;
@@ -226,7 +226,7 @@ impl Register {
 /// Whether two components have the same kind of distribution for a common joint one.
 pub(super) fn t_dof(distribution: &Distribution) -> Option<f64> {
     match distribution {
-        Distribution::StudentT { dof, .. } => Some(*dof),
+        Distribution::StudentT(StudentT { dof, .. }) => Some(*dof),
         _ => None,
     }
 }

@@ -4,21 +4,13 @@ use std::ops::Range;
 
 use super::checker::Checker;
 use super::draft::{Context, Core, show};
-use crate::budget::distributions::{DistributionEntry, Shape};
+use crate::budget::distributions::DistributionEntry;
 use crate::budget::faults::{DISTRIBUTION, DOF, MISSING_KEY, MODIFIER, NO_COVERAGE_FACTOR};
 use crate::budget::tables::ComponentTable;
-use crate::distribution::Distribution;
+use crate::distribution::stating::{Bell, ParameterError, ParameterRule, Width, Word};
+use crate::distribution::{Distribution, Entry, Normal, REGISTRY, Uniform};
 use crate::fault::Fault;
 use crate::special::student_t_two_sided_quantile;
-
-/// Width of a shape before its parameters are known.
-#[derive(Clone, Copy)]
-pub(super) enum Width {
-    /// Standard uncertainty.
-    U(f64),
-    /// Half-width.
-    Half(f64),
-}
 
 /// A width from the file, whose shape is still to be found.
 struct Unshaped<'a> {
@@ -29,31 +21,7 @@ struct Unshaped<'a> {
     context: &'a Context<'a>,
 }
 
-/// The bells.
-#[derive(Clone, Copy, PartialEq)]
-enum Bell {
-    /// Normal whatever ν is, because the file says so.
-    Normal,
-    /// t, because the file says so.
-    StudentT,
-    /// Nothing is said: t for finite ν, else normal.
-    Either,
-}
-
 impl Unshaped<'_> {
-    /// A symmetric distribution with the variance a²/`divisor`.
-    fn symmetric(&self, divisor: f64, make: impl Fn(f64) -> Distribution) -> Core {
-        let how = self.how;
-        match self.width {
-            Width::Half(a) => Core::new(
-                make(a),
-                a / divisor.sqrt(),
-                format!("a/√{}, {how}", show(divisor)),
-            ),
-            Width::U(u) => Core::new(make(u * divisor.sqrt()), u, how),
-        }
-    }
-
     /// Where the shape is stated.
     fn place(&self) -> Range<usize> {
         let stated = self.table.distribution.as_ref();
@@ -75,17 +43,11 @@ impl Checker<'_> {
         &mut self,
         table: &ComponentTable,
         width: Width,
-        default: Shape,
+        default: &'static Entry,
         how: String,
         context: &Context<'_>,
     ) -> Option<Core> {
-        let stated = table
-            .distribution
-            .as_ref()
-            .and_then(|entry| match &entry.value {
-                DistributionEntry::Shape(shape) => Some(*shape),
-                DistributionEntry::Full(_) => None,
-            });
+        let stated = stated_shape(table);
         let shape = stated.unwrap_or(default);
         self.shape_keys(table, shape);
         let dof = self.dof(table)?;
@@ -95,74 +57,95 @@ impl Checker<'_> {
             how: &how,
             context,
         };
-        let mut core = match shape {
-            Shape::Normal if stated.is_some() => self.bell(&unshaped, Bell::Normal, dof),
-            Shape::Normal => self.bell(&unshaped, Bell::Either, dof),
-            Shape::StudentT => self.bell(&unshaped, Bell::StudentT, dof),
-            Shape::Uniform => Some(unshaped.symmetric(3.0, |a| Distribution::Uniform {
-                lower: -a,
-                upper: a,
-            })),
-            Shape::Triangular => Some(unshaped.symmetric(6.0, |a| Distribution::Triangular {
-                lower: -a,
-                mode: 0.0,
-                upper: a,
-            })),
-            Shape::Arcsine => Some(unshaped.symmetric(2.0, |a| Distribution::Arcsine {
-                lower: -a,
-                upper: a,
-            })),
-            Shape::Trapezoidal => self.trapezoid(&unshaped),
-            Shape::CurvilinearTrapezoid => self.curvilinear(&unshaped),
+        let mut core = match shape.word {
+            // t for finite ν where nothing is said, else normal whatever ν is.
+            Word::Bell(Bell::Normal) if stated.is_some() => {
+                self.bell(&unshaped, Some(Bell::Normal), dof)
+            }
+            Word::Bell(Bell::Normal) => self.bell(&unshaped, None, dof),
+            Word::Bell(Bell::StudentT) => self.bell(&unshaped, Some(Bell::StudentT), dof),
+            Word::Limits => self.limited(&unshaped, shape, 0.0),
+            Word::LimitsAnd(rule) => {
+                let modifier = self.modifier(&unshaped, rule)?;
+                self.limited(&unshaped, shape, modifier)
+            }
+            Word::None => None,
         }?;
         core.dof = dof;
         Some(core)
     }
 
-    /// Reports parameters that belong to another shape.
-    pub(super) fn shape_keys(&mut self, table: &ComponentTable, shape: Shape) {
-        let foreign = [
-            (
-                table.beta.as_ref().map(|beta| &beta.key),
-                Shape::Trapezoidal,
-                "beta",
-            ),
-            (
-                table.d.as_ref().map(|d| &d.key),
-                Shape::CurvilinearTrapezoid,
-                "d",
-            ),
-        ];
-        for (key, owner, name) in foreign {
-            if let Some(span) = key.filter(|_| shape != owner) {
-                let distribution = table
-                    .distribution
-                    .as_ref()
-                    .map_or(span.clone(), |stated| stated.span.clone());
-                self.report(
-                    Fault::new(
-                        MODIFIER,
-                        span.clone(),
-                        format!(
-                            "`{name}` is no parameter of a {} distribution",
-                            shape.word()
-                        ),
-                    )
-                    .label(format!("goes with distribution = \"{}\"", owner.word()))
-                    .related(distribution, format!("{} here", shape.word())),
-                );
+    /// A distribution whose half-width is that of its limits.
+    fn limited(&mut self, unshaped: &Unshaped<'_>, shape: &Entry, modifier: f64) -> Option<Core> {
+        match shape.of_width(unshaped.width, modifier, unshaped.how) {
+            Ok(spread) => Some(Core::new(spread.distribution, spread.u, spread.how)),
+            Err(ParameterError::NotAllowed { key, value, must }) => {
+                let stated = unshaped.table.modifiers().find(|(name, _)| *name == key);
+                let place = stated.map_or(unshaped.place(), |(_, place)| place.span);
+                let message = format!("`{key}` of {} is {}", unshaped.context.owner, show(value));
+                let fault =
+                    Fault::new(DISTRIBUTION, place, message).label(format!("must be {must}"));
+                self.refuse(match shape.word {
+                    Word::LimitsAnd(rule) => fault.help(format!("`{key}`: {}", rule.meaning)),
+                    _ => fault,
+                })
             }
+            Err(error) => self.refuse(Fault::new(
+                DISTRIBUTION,
+                unshaped.place(),
+                error.to_string(),
+            )),
+        }
+    }
+
+    /// The parameter that the name of a shape needs beside it.
+    fn modifier(&mut self, unshaped: &Unshaped<'_>, rule: ParameterRule) -> Option<f64> {
+        let table = unshaped.table;
+        match rule.key {
+            "d" if table.d.is_some() => {
+                self.positive_deviation(table.d.as_ref()?, "d", unshaped.context, false)
+            }
+            "beta" if table.beta.is_some() => table.beta.as_ref().map(|beta| beta.value),
+            key => self.refuse(unshaped.lacks(key, rule.meaning)),
+        }
+    }
+
+    /// Reports parameters that belong to another shape.
+    pub(super) fn shape_keys(&mut self, table: &ComponentTable, shape: &Entry) {
+        let word = shape.kind.key;
+        let own = match shape.word {
+            Word::LimitsAnd(rule) => rule.key,
+            _ => "",
+        };
+        for (name, place) in table.modifiers().filter(|(name, _)| *name != own) {
+            let distribution = table
+                .distribution
+                .as_ref()
+                .map_or(place.key.clone(), |stated| stated.span.clone());
+            let owner = REGISTRY
+                .iter()
+                .find(|entry| matches!(entry.word, Word::LimitsAnd(rule) if rule.key == name));
+            let owner = owner.map_or("", |owner| owner.kind.key);
+            self.report(
+                Fault::new(
+                    MODIFIER,
+                    place.key.clone(),
+                    format!("`{name}` is no parameter of a {word} distribution"),
+                )
+                .label(format!("goes with distribution = \"{owner}\""))
+                .related(distribution, format!("{word} here")),
+            );
         }
         if let Some(p) = table
             .p
             .as_ref()
-            .filter(|_| !matches!(shape, Shape::Normal | Shape::StudentT))
+            .filter(|_| !matches!(shape.word, Word::Bell(_)))
         {
             self.report(
                 Fault::new(
                     MODIFIER,
                     p.key.clone(),
-                    format!("`p` does not go with a {} distribution", shape.word()),
+                    format!("`p` does not go with a {word} distribution"),
                 )
                 .label("its limits hold everything")
                 .help("write distribution = \"normal\" if the half-width is a coverage interval"),
@@ -171,9 +154,9 @@ impl Checker<'_> {
     }
 
     /// Normal or t: from u, or from a half-width with its coverage probability.
-    fn bell(&mut self, unshaped: &Unshaped<'_>, bell: Bell, dof: f64) -> Option<Core> {
+    fn bell(&mut self, unshaped: &Unshaped<'_>, bell: Option<Bell>, dof: f64) -> Option<Core> {
         let owner = unshaped.context.owner;
-        if bell == Bell::StudentT && dof.is_infinite() {
+        if bell == Some(Bell::StudentT) && dof.is_infinite() {
             let message = format!("the t distribution of {owner} has no degrees of freedom");
             return self.refuse(
                 Fault::new(DOF, unshaped.place(), message)
@@ -199,82 +182,29 @@ impl Checker<'_> {
             }
         };
         let distribution = match bell {
-            Bell::Normal => Distribution::Normal { mean: 0.0, sd: u },
-            Bell::StudentT | Bell::Either => self.t_or_normal(u, dof, &unshaped.context.place)?,
+            Some(Bell::Normal) => Distribution::from(Normal { mean: 0.0, sd: u }),
+            Some(Bell::StudentT) | None => self.t_or_normal(u, dof, &unshaped.context.place)?,
         };
         Some(Core {
             dof,
             ..Core::new(distribution, u, how)
         })
     }
+}
 
-    fn trapezoid(&mut self, unshaped: &Unshaped<'_>) -> Option<Core> {
-        let Some(beta) = &unshaped.table.beta else {
-            let meaning = "top width / base width, from 0 to 1";
-            return self.refuse(unshaped.lacks("beta", meaning));
-        };
-        if !(0.0..=1.0).contains(&beta.value) {
-            return self.refuse(
-                Fault::new(
-                    DISTRIBUTION,
-                    beta.span.clone(),
-                    format!("beta is {}", beta.value),
-                )
-                .label("expected a number from 0 to 1")
-                .help("beta is the width of the top divided by the width of the base: 0 makes a triangle, 1 a rectangle"),
-            );
-        }
-        // Variance a²(1 + β²)/6, JCGM 101 6.4.4.4.
-        let beta = beta.value;
-        Some(
-            unshaped.symmetric(6.0 / (1.0 + beta * beta), |a| Distribution::Trapezoidal {
-                lower: -a,
-                upper: a,
-                beta,
-            }),
-        )
-    }
-
-    fn curvilinear(&mut self, unshaped: &Unshaped<'_>) -> Option<Core> {
-        let Some(d) = &unshaped.table.d else {
-            let meaning = "the half-width of the doubt about each limit";
-            return self.refuse(unshaped.lacks("d", meaning));
-        };
-        let place = d.span.clone();
-        let d = self.positive_deviation(d, "d", unshaped.context, false)?;
-        // Variance a²/3 + d²/9, JCGM 101 6.4.3.4.
-        let (a, u) = match unshaped.width {
-            Width::Half(a) => (a, (a * a / 3.0 + d * d / 9.0).sqrt()),
-            Width::U(u) => ((3.0 * (u * u - d * d / 9.0)).max(0.0).sqrt(), u),
-        };
-        if d > a {
-            return self.refuse(
-                Fault::new(
-                    DISTRIBUTION,
-                    place,
-                    format!("d = {} is more than the half-width {}", show(d), show(a)),
-                )
-                .label("must not exceed the half-width"),
-            );
-        }
-        let distribution = Distribution::CurvilinearTrapezoid {
-            lower: -a,
-            upper: a,
-            d,
-        };
-        Some(Core::new(
-            distribution,
-            u,
-            format!("√(a²/3 + d²/9), {}, d = {}", unshaped.how, show(d)),
-        ))
+/// The shape that a table names.
+pub(super) fn stated_shape(table: &ComponentTable) -> Option<&'static Entry> {
+    match &table.distribution.as_ref()?.value {
+        DistributionEntry::Shape(shape) => Some(*shape),
+        DistributionEntry::Full(_) => None,
     }
 }
 
 /// Normal when a coverage probability is stated, else rectangular (GUM 4.3.7).
-pub(super) fn default_shape(table: &ComponentTable) -> Shape {
+pub(super) fn default_shape(table: &ComponentTable) -> &'static Entry {
     if table.p.is_some() {
-        Shape::Normal
+        Entry::of::<Normal>()
     } else {
-        Shape::Uniform
+        Entry::of::<Uniform>()
     }
 }

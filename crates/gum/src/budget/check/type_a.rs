@@ -11,7 +11,7 @@ use crate::budget::faults::{
 use crate::budget::tables::{ComponentTable, OutlierWord, PooledTable};
 use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, StudentT};
 use crate::fault::Fault;
 use crate::statistics::{Dd, OutlierTest, Series, pooled};
 use gumption_format::toml::Stated;
@@ -488,11 +488,11 @@ fn no_scatter(readings: &Stated<Numbers>, numbers: &[f64], context: &Context<'_>
 
 /// Zero-mean t distribution of a mean of readings, for reuse by joint readings.
 pub(super) fn student(scale: f64, dof: f64) -> Distribution {
-    Distribution::StudentT {
+    Distribution::StudentT(StudentT {
         location: 0.0,
         scale,
         dof,
-    }
+    })
 }
 
 #[cfg(test)]

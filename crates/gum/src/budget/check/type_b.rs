@@ -2,13 +2,13 @@
 
 use super::checker::Checker;
 use super::draft::{Context, Core, Location, show};
-use super::shapes::{Width, default_shape};
+use super::shapes::{default_shape, stated_shape};
 use super::ways::Way;
-use crate::budget::distributions::{DistributionEntry, Shape};
 use crate::budget::faults::{LIMITS, MISSING_KEY, NOT_POSITIVE, VECTOR};
 use crate::budget::tables::ComponentTable;
 use crate::budget::variants::Amounts;
-use crate::distribution::Distribution;
+use crate::distribution::stating::Width;
+use crate::distribution::{Entry, Normal, Uniform};
 use crate::fault::Fault;
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
@@ -30,7 +30,7 @@ impl Checker<'_> {
                 self.shaped(
                     table,
                     Width::U(u),
-                    Shape::Normal,
+                    Entry::of::<Normal>(),
                     "u as stated".into(),
                     context,
                 )
@@ -65,7 +65,7 @@ impl Checker<'_> {
                 self.shaped(
                     table,
                     Width::Half(q / 2.0),
-                    Shape::Uniform,
+                    Entry::of::<Uniform>(),
                     format!("a = q/2 = {}", show(q / 2.0)),
                     context,
                 )
@@ -186,29 +186,18 @@ impl Checker<'_> {
         let (plus, minus) = (plus?, minus?);
         let a = (plus + minus) / 2.0;
         let how = format!("limits +{}, -{}", show(plus), show(minus));
-        let triangular = matches!(
-            table.distribution.as_ref().map(|entry| &entry.value),
-            Some(DistributionEntry::Shape(Shape::Triangular))
-        );
-        if !triangular {
-            let mut core = self.shaped(table, Width::Half(a), Shape::Uniform, how, context)?;
+        let shape = stated_shape(table).unwrap_or(Entry::of::<Uniform>());
+        let Some((spread, shift)) = shape.between(minus, plus) else {
+            let mut core = self.shaped(table, Width::Half(a), shape, how, context)?;
             core.location = Location::Shift((plus - minus) / 2.0);
             return Some(core);
-        }
-        // A triangle with its mode at the value: mean (plus − minus)/3 above it.
-        let shift = (plus - minus) / 3.0;
-        let u = ((plus * plus + minus * minus + plus * minus) / 18.0).sqrt();
-        let distribution = Distribution::Triangular {
-            lower: -minus - shift,
-            mode: -shift,
-            upper: plus - shift,
         };
-        self.shape_keys(table, Shape::Triangular);
+        self.shape_keys(table, shape);
         let dof = self.dof(table)?;
         Some(Core {
             dof,
             location: Location::Shift(shift),
-            ..Core::new(distribution, u, how)
+            ..Core::new(spread.distribution, spread.u, how)
         })
     }
 
@@ -256,6 +245,12 @@ impl Checker<'_> {
             bits.value,
             show(step)
         );
-        self.shaped(table, Width::Half(step / 2.0), Shape::Uniform, how, context)
+        self.shaped(
+            table,
+            Width::Half(step / 2.0),
+            Entry::of::<Uniform>(),
+            how,
+            context,
+        )
     }
 }

@@ -1,10 +1,12 @@
 //! One reason to doubt a quantity, in every way of stating it.
 
+use std::ops::Range;
+
 use super::list::List;
 use crate::budget::components::Evaluation;
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::variants::{Amounts, Groups, Numbers, ReadingsOf};
-use gumption_format::toml::{Amount, Date, Dof, OneOrMany};
+use gumption_format::toml::{Amount, Date, Dof, OneOrMany, Stated};
 use gumption_format::toml::{table, words};
 
 table! {
@@ -88,6 +90,29 @@ table! {
         gum_u: Amount,
         /// Where the number comes from.
         reference: String,
+    }
+}
+
+/// Where a parameter stands that goes with the name of a shape.
+pub struct Modifier {
+    /// Place of the key.
+    pub key: Range<usize>,
+    /// Place of the value.
+    pub span: Range<usize>,
+}
+
+impl ComponentTable {
+    /// The parameters that go with the name of a shape.
+    pub fn modifiers(&self) -> impl Iterator<Item = (&'static str, Modifier)> {
+        fn place<T>(stated: &Stated<T>) -> Modifier {
+            Modifier {
+                key: stated.key.clone(),
+                span: stated.span.clone(),
+            }
+        }
+        let beta = self.beta.as_ref().map(|beta| ("beta", place(beta)));
+        let d = self.d.as_ref().map(|d| ("d", place(d)));
+        beta.into_iter().chain(d)
     }
 }
 

@@ -244,6 +244,7 @@ fn risks(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::distribution::{Normal, StudentT, Uniform};
 
     fn close(found: f64, expected: f64, relative: f64) {
         assert!(
@@ -293,7 +294,7 @@ mod tests {
             (1.0, 1e-3, 1.0, 0.999),
             (1e-2, 1.0, 0.015, 0.5),
         ] {
-            let process = Distribution::Normal { mean: 0.0, sd };
+            let process = Distribution::Normal(Normal { mean: 0.0, sd });
             let above = |upper: f64| Interval {
                 lower: f64::NEG_INFINITY,
                 upper,
@@ -321,7 +322,7 @@ mod tests {
     #[test]
     fn small_risks_have_their_digits() {
         let (sd, u) = (0.1, 0.05);
-        let process = Distribution::Normal { mean: 0.0, sd };
+        let process = Distribution::Normal(Normal { mean: 0.0, sd });
         let tolerance = Interval {
             lower: -0.6,
             upper: 0.6,
@@ -361,7 +362,7 @@ mod tests {
         ];
         for (itp, pfa, conditional) in table {
             let sd = 1.0 / crate::special::normal_two_sided_quantile(itp);
-            let process = Distribution::Normal { mean: 0.0, sd };
+            let process = Distribution::Normal(Normal { mean: 0.0, sd });
             let tolerance = Interval {
                 lower: -1.0,
                 upper: 1.0,
@@ -390,7 +391,7 @@ mod tests {
             (10.0, 3.0, 10.49, 1e-4),
             (10.0, 1e-3, 10.003, 1e-3),
         ] {
-            let process = Distribution::Normal { mean, sd };
+            let process = Distribution::Normal(Normal { mean, sd });
             let fixed = |_: f64| u;
             let kernel = Kernel {
                 u: &fixed,
@@ -410,10 +411,10 @@ mod tests {
 
     #[test]
     fn process_and_measurement_that_exclude_one_another() {
-        let process = Distribution::Uniform {
+        let process = Distribution::Uniform(Uniform {
             lower: 0.0,
             upper: 1.0,
-        };
+        });
         let fixed = |_: f64| 0.01;
         let kernel = Kernel {
             u: &fixed,
@@ -439,17 +440,17 @@ mod tests {
             dof: NORMAL,
         };
         let alone = split(tolerance, 0.9, 0.3, NORMAL);
-        let vague = Distribution::Uniform {
+        let vague = Distribution::Uniform(Uniform {
             lower: -1e3,
             upper: 1e3,
-        };
+        });
         let found = posterior(&vague, tolerance, &kernel, 0.9).expect("possible");
         close(found.0, alone.0, 1e-10);
-        let cauchy = Distribution::StudentT {
+        let cauchy = Distribution::StudentT(StudentT {
             location: 0.5,
             scale: 1e4,
             dof: 1.0,
-        };
+        });
         let found = posterior(&cauchy, tolerance, &kernel, 0.9).expect("possible");
         close(found.0, alone.0, 1e-6);
         let limits = simple(tolerance);

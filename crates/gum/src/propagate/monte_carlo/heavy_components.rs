@@ -6,7 +6,7 @@
 //! component takes part in a nonlinear operation (an arctangent bounds it) only the trials can tell.
 
 use crate::budget::{Budget, Component, Group, Input, Law};
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, StudentT};
 use crate::propagate::result::MissingMoments;
 
 /// A t-distributed component with ν ≤ 2 that enters an output linearly.
@@ -63,7 +63,7 @@ fn heavy_dofs(components: &[Component], groups: &[Group]) -> Vec<Option<f64>> {
     let mut dofs: Vec<Option<f64>> = components
         .iter()
         .map(|component| match component.distribution {
-            Distribution::StudentT { dof, .. } => Some(dof),
+            Distribution::StudentT(StudentT { dof, .. }) => Some(dof),
             _ => None,
         })
         .collect();
@@ -126,21 +126,26 @@ mod tests {
 
     use super::super::samples::{component, input};
     use super::*;
+    use crate::distribution::Normal;
 
     fn t(name: &str, dof: f64) -> Component {
         component(
             name,
-            Distribution::StudentT {
+            Distribution::StudentT(StudentT {
                 location: 0.0,
                 scale: 1.0,
                 dof,
-            },
+            }),
             1.0,
         )
     }
 
     fn normal(name: &str) -> Component {
-        component(name, Distribution::Normal { mean: 0.0, sd: 1.0 }, 1.0)
+        component(
+            name,
+            Distribution::Normal(Normal { mean: 0.0, sd: 1.0 }),
+            1.0,
+        )
     }
 
     fn find(

@@ -4,7 +4,7 @@
 //! values suggests separates them from the middle. Results are exactly those of a full sort.
 
 use gumption_lanes::level;
-use gumption_lanes::sift::keep_inside;
+use gumption_lanes::separate::keep_inside;
 
 /// The ranks of JCGM 101 7.7.2: of M ordered values, an interval reaches from rank r to rank r + q.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

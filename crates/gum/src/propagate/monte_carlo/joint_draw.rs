@@ -16,9 +16,8 @@ use nalgebra::DMatrix;
 
 use super::assembly::{self, Assembly, Straight};
 use super::factor::lower_factor;
-use super::sampler::sampler;
 use crate::budget::{Component, Group, Input, Law};
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, Normal};
 use crate::special::{normal_cdf, normal_sf};
 
 /// Draws trials of all inputs.
@@ -55,7 +54,7 @@ impl<'b> JointDraw<'b> {
             .iter()
             .enumerate()
             .map(|(i, component)| {
-                (used[i] && !grouped(i)).then(|| sampler(&component.distribution))
+                (used[i] && !grouped(i)).then(|| component.distribution.sampler())
             })
             .collect();
         let drawn_alone: Vec<bool> = alone.iter().map(Option::is_some).collect();
@@ -290,7 +289,7 @@ fn mix(level: Level, generator: &mut Generator, dof: f64, out: &mut Block) {
 /// tail, where probabilities keep their digits.
 fn from_normal(margin: &Distribution, z: f64) -> f64 {
     match *margin {
-        Distribution::Normal { mean, sd } => sd.mul_add(z, mean),
+        Distribution::Normal(Normal { mean, sd }) => sd.mul_add(z, mean),
         _ if z <= 0.0 => margin.quantile(normal_cdf(z)),
         _ => margin.upper_quantile(normal_sf(z)),
     }
@@ -300,16 +299,17 @@ fn from_normal(margin: &Distribution, z: f64) -> f64 {
 mod tests {
     use super::super::samples::{component, input};
     use super::*;
+    use crate::distribution::{Exponential, StudentT, Uniform};
 
     fn normal(name: &str, sd: f64) -> Component {
-        component(name, Distribution::Normal { mean: 0.0, sd }, sd)
+        component(name, Distribution::Normal(Normal { mean: 0.0, sd }), sd)
     }
 
     fn uniform(name: &str, half_width: f64) -> Component {
-        let limits = Distribution::Uniform {
+        let limits = Distribution::Uniform(Uniform {
             lower: -half_width,
             upper: half_width,
-        };
+        });
         component(name, limits, half_width / 3.0_f64.sqrt())
     }
 
@@ -421,10 +421,12 @@ mod tests {
 
     #[test]
     fn a_multivariate_t_shares_its_chi_square() {
-        let t = |scale| Distribution::StudentT {
-            location: 0.0,
-            scale,
-            dof: 8.0,
+        let t = |scale| {
+            Distribution::StudentT(StudentT {
+                location: 0.0,
+                scale,
+                dof: 8.0,
+            })
         };
         let components = [component("a", t(3.0), 3.0), component("b", t(1.0), 1.0)];
         let inputs = [input(0.0, &[(0, 1.0)]), input(0.0, &[(1, 1.0)])];
@@ -468,10 +470,10 @@ mod tests {
 
     #[test]
     fn a_copula_of_normal_and_other_margins_skips_the_normal_one() {
-        let shifted = Distribution::Exponential {
+        let shifted = Distribution::Exponential(Exponential {
             origin: -1.0,
             mean: 1.0,
-        };
+        });
         let components = [normal("a", 2.0), component("b", shifted, 1.0)];
         let inputs = [input(0.0, &[(0, 1.0)]), input(0.0, &[(1, 1.0)])];
         let law = Law::GaussianCopula { latent: pair(1.0) };

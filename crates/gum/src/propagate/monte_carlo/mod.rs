@@ -46,7 +46,6 @@ mod outcome;
 mod quasi;
 mod region;
 mod resolve;
-mod sampler;
 #[cfg(test)]
 mod samples;
 mod thread_counts;

@@ -9,7 +9,7 @@
 use std::ops::RangeInclusive;
 
 use gumption_lanes::bins::{BINS, Grid};
-use gumption_lanes::sift::to_front;
+use gumption_lanes::separate::to_front;
 
 use super::decisive_cells::{Cell, ERRORS, Slack, Wanted};
 use super::histogram;

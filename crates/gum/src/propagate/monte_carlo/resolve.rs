@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 use std::ops::Range;
 
 use gumption_lanes::bins::{BINS, Grid, Grids};
-use gumption_lanes::sift::{self, Stretch};
+use gumption_lanes::separate::{self, Stretch};
 use gumption_lanes::{Block, LANES, level};
 
 use super::decisive_cells::{Cell, Slack, Wanted, cell_of, for_each_pair};
@@ -396,7 +396,7 @@ fn runs(cells: &[Cell], chosen: &[bool]) -> Vec<Run> {
 
 /// Leaves the values that lie in runs.
 fn keep_inside(values: &mut Vec<f64>, runs: &[Run]) {
-    sift::keep_inside(level(), values, 0, &stretches(runs));
+    separate::keep_inside(level(), values, 0, &stretches(runs));
 }
 
 fn stretches(runs: &[Run]) -> Vec<Stretch> {
@@ -427,7 +427,7 @@ impl Keeper for Gather {
     fn add(&mut self, values: &[f64]) {
         let first = self.values.len();
         self.values.extend_from_slice(values);
-        sift::keep_inside(level(), &mut self.values, first, &self.stretches);
+        separate::keep_inside(level(), &mut self.values, first, &self.stretches);
     }
 }
 

@@ -5,7 +5,10 @@ use gumption_lanes::{Block, LANES};
 
 use super::engine::Source;
 use crate::budget::{Component, Evaluation, Input, Owner, Term};
-use crate::distribution::Distribution;
+use crate::distribution::{
+    Arcsine, Beta, CurvilinearTrapezoid, Distribution, Exponential, Gamma, LogNormal, Normal,
+    StudentT, Trapezoidal, Triangular, Uniform,
+};
 use crate::quantity::Unit;
 
 /// SplitMix64 with the usual transforms.
@@ -138,59 +141,59 @@ pub(super) fn input(estimate: f64, terms: &[(usize, f64)]) -> Input {
 /// A distribution of every kind that has a quantile function.
 pub(super) fn kinds() -> Vec<Distribution> {
     vec![
-        Distribution::Normal { mean: 0.0, sd: 2.0 },
-        Distribution::StudentT {
+        Distribution::Normal(Normal { mean: 0.0, sd: 2.0 }),
+        Distribution::StudentT(StudentT {
             location: 0.0,
             scale: 0.5,
             dof: 3.0,
-        },
-        Distribution::StudentT {
+        }),
+        Distribution::StudentT(StudentT {
             location: 0.0,
             scale: 0.5,
             dof: 50.0,
-        },
-        Distribution::Uniform {
+        }),
+        Distribution::Uniform(Uniform {
             lower: -1.0,
             upper: 1.0,
-        },
-        Distribution::Triangular {
+        }),
+        Distribution::Triangular(Triangular {
             lower: -1.0,
             mode: 0.5,
             upper: 2.0,
-        },
-        Distribution::Trapezoidal {
+        }),
+        Distribution::Trapezoidal(Trapezoidal {
             lower: -1.0,
             upper: 1.0,
             beta: 0.3,
-        },
-        Distribution::CurvilinearTrapezoid {
+        }),
+        Distribution::CurvilinearTrapezoid(CurvilinearTrapezoid {
             lower: -1.0,
             upper: 1.0,
             d: 0.4,
-        },
-        Distribution::Arcsine {
+        }),
+        Distribution::Arcsine(Arcsine {
             lower: -1.0,
             upper: 1.0,
-        },
-        Distribution::Exponential {
+        }),
+        Distribution::Exponential(Exponential {
             origin: -2.0,
             mean: 2.0,
-        },
-        Distribution::Gamma {
+        }),
+        Distribution::Gamma(Gamma {
             origin: 0.0,
             shape: 2.5,
             scale: 0.4,
-        },
-        Distribution::LogNormal {
+        }),
+        Distribution::LogNormal(LogNormal {
             origin: 0.0,
             mu: 0.0,
             sigma: 0.3,
-        },
-        Distribution::Beta {
+        }),
+        Distribution::Beta(Beta {
             alpha: 2.0,
             beta: 3.0,
             lower: 0.0,
             upper: 1.0,
-        },
+        }),
     ]
 }

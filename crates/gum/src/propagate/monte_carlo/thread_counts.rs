@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use gumption_lanes::bins::{BINS, Counter, Grid};
 use gumption_lanes::moments::min_max;
-use gumption_lanes::sift::{EMPTY, Sifted, Stretch};
+use gumption_lanes::separate::{EMPTY, Separated, Stretch};
 use gumption_lanes::{Block, Level, level};
 
 /// Most values kept.
@@ -28,7 +28,7 @@ pub(super) struct ThreadCounts {
     /// The first bin of each gap.
     firsts: [usize; 2],
     /// What lies outside of the gaps, until there is enough of it to be counted.
-    sifted: Sifted,
+    separated: Separated,
     picked: Vec<f64>,
     /// How many of these had been picked out before.
     known: usize,
@@ -70,7 +70,7 @@ impl ThreadCounts {
             counter: Counter::new(keeps),
             gaps: [span(0), span(1)],
             firsts: [first(0), first(1)],
-            sifted: Sifted::default(),
+            separated: Separated::default(),
             known: picked.len(),
             picked,
             overflowed: false,
@@ -80,8 +80,8 @@ impl ThreadCounts {
 
     /// Takes in a whole block; if not all of it is finite, nothing of it, and returns false.
     pub(super) fn take(&mut self, block: &Block) -> bool {
-        let taken = self.sifted.sift(self.level, block, &self.gaps);
-        if self.sifted.is_full() {
+        let taken = self.separated.separate(self.level, block, &self.gaps);
+        if self.separated.is_full() {
             self.count();
         }
         taken
@@ -89,14 +89,14 @@ impl ThreadCounts {
 
     /// Counts what lies outside of the gaps.
     fn count(&mut self) {
-        let rest = self.sifted.rest();
+        let rest = self.separated.rest();
         if !self.picks_ends {
             // Values in the gaps lie within the range.
             self.range = widened(self.level, self.range, rest);
         }
         self.counter
             .add(self.level, &self.grid, rest, &mut self.picked);
-        self.sifted.clear();
+        self.separated.clear();
         if self.picked.len() > MOST_KEPT {
             // Goes on without picking values out.
             self.range = self.range();
@@ -123,7 +123,7 @@ impl ThreadCounts {
         self.range = [self.range[0].min(value), self.range[1].max(value)];
         let inside = |[low, high]: [f64; 2]| low <= value && value <= high;
         match self.gaps.into_iter().position(inside) {
-            Some(gap) => self.sifted.take_one(gap),
+            Some(gap) => self.separated.take_one(gap),
             None => self.counter.add_one(&self.grid, value, &mut self.picked),
         }
     }
@@ -145,7 +145,7 @@ impl ThreadCounts {
     /// Ends the counting.
     pub(super) fn finish(mut self) -> CountedByThread {
         self.settle();
-        let [first, second] = self.sifted.taken();
+        let [first, second] = self.separated.taken();
         CountedByThread {
             range: self.range,
             counter: self.counter,

@@ -1,5 +1,7 @@
 //! What the law of propagation of uncertainty finds.
 
+use crate::distribution::Kind;
+
 /// Law of propagation of uncertainty, first order (GUM 5.1.2, 5.2.2).
 #[derive(Debug, Clone, serde::Serialize)]
 pub struct Gum {
@@ -93,8 +95,8 @@ pub enum CoverageBasis {
     Output {
         /// Names of the components, the largest first.
         dominant: Vec<String>,
-        /// Name of their distribution.
-        shape: &'static str,
+        /// Their distribution.
+        shape: &'static Kind,
     },
     /// The profile or file fixes it.
     Fixed,

@@ -78,7 +78,7 @@ pub(super) fn directions(
 
 /// The moments with which a component enters.
 pub(super) fn moments(distribution: &Distribution) -> Moments {
-    if matches!(distribution, Distribution::StudentT { .. }) {
+    if matches!(distribution, Distribution::StudentT(_)) {
         return NORMAL;
     }
     let of = |d: &Distribution| {

@@ -3,7 +3,7 @@ use nalgebra::DMatrix;
 use super::direction::{Moments, NORMAL, moments};
 use super::*;
 use crate::budget::{Group, Input, Law, Term};
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, StudentT, Uniform};
 use crate::propagate::covariance::Covariance;
 use crate::propagate::result::SecondOrder;
 use crate::quantity::Unit;
@@ -245,16 +245,16 @@ fn moments_of_other_distributions_are_used() {
         fourth: 9.0,
     };
     close(model.found(&[1.0], &[], exponential).u, 5.0_f64.sqrt());
-    let uniform = Distribution::Uniform {
+    let uniform = Distribution::Uniform(Uniform {
         lower: -2.0,
         upper: 2.0,
-    };
+    });
     assert!((moments(&uniform).fourth - 1.8).abs() < 1e-14);
-    let t = Distribution::StudentT {
+    let t = Distribution::StudentT(StudentT {
         location: 0.0,
         scale: 1.0,
         dof: 5.0,
-    };
+    });
     assert_eq!(moments(&t), NORMAL);
 }
 

@@ -2,7 +2,7 @@
 
 use statrs::distribution::{Beta, ContinuousCDF, Gamma, StudentsT};
 
-use super::*;
+use crate::Sampler;
 
 /// A sampler, its distribution function, its expectation and its standard deviation.
 pub(super) struct Case {

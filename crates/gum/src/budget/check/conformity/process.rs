@@ -2,10 +2,10 @@
 
 use crate::budget::Interval;
 use crate::budget::check::Checker;
-use crate::budget::distributions::DistributionEntry;
+use crate::budget::distributions::{self, DistributionEntry};
 use crate::budget::faults::{MISSING_KEY, PROCESS, TWO_WAYS};
 use crate::budget::tables::ProcessTable;
-use crate::distribution::Distribution;
+use crate::distribution::{Distribution, Normal};
 use crate::fault::Fault;
 use crate::special::normal_two_sided_quantile;
 use gumption_format::toml::Stated;
@@ -37,7 +37,7 @@ impl Checker<'_> {
                             .help("write for example distribution = { normal = { mean = 1500, sd = 0.12 } }"),
                     );
                 };
-                match full.parametric(&entry.map(|_| ())) {
+                match distributions::parametric(full, &entry.map(|_| ())) {
                     Err(fault) => self.refuse(*fault),
                     Ok(found) if !found.located => self.refuse(
                         Fault::new(
@@ -51,7 +51,7 @@ impl Checker<'_> {
                     Ok(found) => match found.distribution.validate() {
                         Ok(()) => Some(found.distribution),
                         Err(reason) => self.refuse(
-                            Fault::new(PROCESS, entry.span.clone(), reason)
+                            Fault::new(PROCESS, entry.span.clone(), reason.to_string())
                                 .label("parameters do not fit"),
                         ),
                     },
@@ -66,10 +66,10 @@ impl Checker<'_> {
                             .help("state the distribution: process = { distribution = { normal = { mean = …, sd = … } } }"),
                     );
                 };
-                Some(Distribution::Normal {
+                Some(Distribution::Normal(Normal {
                     mean: tolerance.lower + width / 2.0,
                     sd: width / 2.0 / normal_two_sided_quantile(value),
-                })
+                }))
             }
             (None, None) if table.refused => None,
             (None, None) => self.refuse(

@@ -1,6 +1,7 @@
 //! Ways to state an uncertainty.
 
 use super::*;
+use crate::distribution::{CurvilinearTrapezoid, StudentT};
 
 #[test]
 fn type_a_of_a_mean_a_single_reading_and_several() {
@@ -10,11 +11,11 @@ fn type_a_of_a_mean_a_single_reading_and_several() {
     assert_eq!(dof, 4.0);
     assert_eq!(
         distribution,
-        Distribution::StudentT {
+        Distribution::StudentT(StudentT {
             location: 0.0,
             scale: u,
             dof: 4.0
-        }
+        })
     );
     assert_eq!(
         budget(&one("readings = [1, 2, 3, 4, 5]")).inputs[0].estimate,
@@ -165,11 +166,11 @@ fn gum_u_and_dof_beside_a_shape() {
     assert_eq!((u, dof), (0.58, 50.0));
     assert_eq!(
         distribution,
-        Distribution::CurvilinearTrapezoid {
+        Distribution::CurvilinearTrapezoid(CurvilinearTrapezoid {
             lower: -1.0,
             upper: 1.0,
             d: 0.1
-        }
+        })
     );
 }
 

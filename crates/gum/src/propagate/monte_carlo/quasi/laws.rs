@@ -9,8 +9,8 @@ use gumption_lanes::kernel::{Kernel, PathMoments, Steps, convolve};
 use gumption_lanes::level;
 use gumption_lanes::quantile::Curve;
 
-use super::shapes::with_differences;
-use crate::distribution::Distribution;
+use crate::distribution::score::with_differences;
+use crate::distribution::{Distribution, Normal, StudentT, Uniform};
 use crate::special::{normal_cdf, normal_pdf};
 
 /// Cells of a sum's distribution.
@@ -51,19 +51,17 @@ impl Part<'_> {
 
 /// Whether a distribution may be part of a sum.
 pub(super) fn adds(distribution: &Distribution) -> bool {
-    use Distribution as D;
-    match *distribution {
-        D::StudentT { dof, .. } => dof >= LEAST_DOF,
-        D::Normal { .. } | D::Uniform { .. } | D::Triangular { .. } => true,
-        D::Trapezoidal { .. } | D::CurvilinearTrapezoid { .. } => true,
-        _ => false,
+    match distribution {
+        Distribution::StudentT(t) => t.dof >= LEAST_DOF,
+        Distribution::Normal(_) => true,
+        other => other.fits_cells(),
     }
 }
 
 /// Whether a component can be averaged over alone; not where its density has a pole or a jump, or no variance.
 pub(super) fn averages(distribution: &Distribution) -> bool {
     match *distribution {
-        Distribution::StudentT { dof, .. } => dof > 2.0,
+        Distribution::StudentT(StudentT { dof, .. }) => dof > 2.0,
         _ => adds(distribution),
     }
 }
@@ -75,13 +73,12 @@ pub(super) fn squares(distribution: &Distribution) -> bool {
 
 /// The law of a component alone; `None` where it cannot be averaged over.
 pub(super) fn single(distribution: &Distribution) -> Option<Law> {
-    use Distribution as D;
     let cdf = |x: f64| distribution.cdf(x);
     let kernel = match *distribution {
-        D::Uniform { lower, upper } => Kernel::Uniform { lower, upper },
-        D::Normal { sd, .. } => return Some(normal(sd)),
-        D::StudentT { scale, dof, .. } if dof > 2.0 => unbounded(scale, cdf),
-        D::Triangular { .. } | D::Trapezoidal { .. } | D::CurvilinearTrapezoid { .. } => {
+        Distribution::Uniform(Uniform { lower, upper }) => Kernel::Uniform { lower, upper },
+        Distribution::Normal(Normal { sd, .. }) => return Some(normal(sd)),
+        Distribution::StudentT(StudentT { scale, dof, .. }) if dof > 2.0 => unbounded(scale, cdf),
+        _ if distribution.fits_cells() => {
             let (lower, upper) = distribution.support();
             bounded([lower, upper], &with_differences([lower, upper], cdf))
         }
@@ -131,10 +128,10 @@ pub(super) fn sum(parts: &[Part<'_>], normal_variance: f64) -> Option<Law> {
         [alone] if rest < 1e-12 => return single(&alone.distribution.scaled(alone.factor)?),
         _ => (),
     }
-    let bell = Distribution::Normal {
+    let bell = Distribution::Normal(Normal {
         mean: 0.0,
         sd: rest.sqrt(),
-    };
+    });
     let bell = Part {
         distribution: &bell,
         factor: 1.0,
@@ -176,8 +173,8 @@ pub(super) fn sum(parts: &[Part<'_>], normal_variance: f64) -> Option<Law> {
 fn reach(part: &Part<'_>) -> f64 {
     let (lower, upper) = part.distribution.support();
     let most = match *part.distribution {
-        Distribution::Normal { sd, .. } => NORMAL_REACH * sd,
-        Distribution::StudentT { scale, dof, .. } => {
+        Distribution::Normal(Normal { sd, .. }) => NORMAL_REACH * sd,
+        Distribution::StudentT(StudentT { scale, dof, .. }) => {
             scale * (dof * (libm::pow(1e7, 2.0 / (dof + 1.0)) - 1.0)).sqrt()
         }
         _ => lower.abs().max(upper.abs()),
@@ -204,7 +201,7 @@ fn probabilities(part: &Part<'_>, width: f64, edges: Vec<f64>) -> Vec<f64> {
     let ratio = width / part.sd();
     let shrunk = part.factor * (1.0 - ratio * ratio / 12.0).max(0.0).sqrt();
     let mut cells: Vec<f64> = match *part.distribution {
-        Distribution::StudentT { scale, dof, .. } => {
+        Distribution::StudentT(StudentT { scale, dof, .. }) => {
             let scale = scale * shrunk.abs();
             let density = |x: f64| {
                 let t = x / scale;
@@ -344,10 +341,10 @@ mod tests {
 
     fn uniform() -> Distribution {
         let half = 3.0_f64.sqrt();
-        Distribution::Uniform {
+        Distribution::Uniform(Uniform {
             lower: -half,
             upper: half,
-        }
+        })
     }
 
     /// Irwin and Hall: of n = 4 numbers of (0, 1), F(x) = Σ (−1)ᵏ C(4, k) (x − k)⁴₊/24.
@@ -376,10 +373,12 @@ mod tests {
     /// and over the rectangle by the trapezoidal and the midpoint rule.
     #[test]
     fn t_variables_and_a_rectangle() {
-        let t = |dof: f64| Distribution::StudentT {
-            location: 0.0,
-            scale: ((dof - 2.0) / dof).sqrt(),
-            dof,
+        let t = |dof: f64| {
+            Distribution::StudentT(StudentT {
+                location: 0.0,
+                scale: ((dof - 2.0) / dof).sqrt(),
+                dof,
+            })
         };
         let (a, b, c) = (t(6.0), t(30.0), uniform());
         let part = |distribution, factor| Part {

@@ -87,7 +87,10 @@ impl<'b> Points<'b> {
         };
         for (component, of) in budget.components.iter().enumerate() {
             if used[component] && !grouped[component] {
-                let quantile = shapes::quantile(&of.distribution).ok_or_else(|| of.name.clone())?;
+                let quantile = of
+                    .distribution
+                    .block_quantile()
+                    .ok_or_else(|| of.name.clone())?;
                 points.singles.push(Single {
                     component,
                     dimension: 0,
@@ -228,7 +231,10 @@ impl<'b> Joint<'b> {
             Law::StudentT { scale, .. } => (JointLaw::Normal(scale.clone()), &group.correlation),
             Law::GaussianCopula { latent } => {
                 let of_score = |member: &crate::budget::Component| {
-                    shapes::of_score(&member.distribution).ok_or_else(|| member.name.clone())
+                    member
+                        .distribution
+                        .of_score()
+                        .ok_or_else(|| member.name.clone())
                 };
                 (
                     JointLaw::Copula(members().map(of_score).collect::<Result<_, _>>()?),

@@ -14,20 +14,20 @@ pub type Stretch = [f64; 2];
 /// A stretch without numbers.
 pub const EMPTY: Stretch = [f64::INFINITY, f64::NEG_INFINITY];
 
-/// Values that may wait in a [`Sifted`] before another block is sifted.
+/// Values that may wait in a [`Separated`] before another block is separated.
 pub const WAITING: usize = 1024;
 
 /// What is left of some blocks when the values of two stretches are taken out.
 #[derive(Debug, Clone)]
-pub struct Sifted {
+pub struct Separated {
     rest: Box<[f64; WAITING + LANES + ROW]>,
     left: usize,
     taken: [u64; 2],
 }
 
-impl Default for Sifted {
+impl Default for Separated {
     fn default() -> Self {
-        Sifted {
+        Separated {
             rest: Box::new([0.0; WAITING + LANES + ROW]),
             left: 0,
             taken: [0; 2],
@@ -35,7 +35,7 @@ impl Default for Sifted {
     }
 }
 
-impl Sifted {
+impl Separated {
     /// The values outside of both stretches, in the order of their lanes.
     pub fn rest(&self) -> &[f64] {
         &self.rest[..self.left]
@@ -46,7 +46,7 @@ impl Sifted {
         self.taken
     }
 
-    /// Whether [`Sifted::rest`] has to be forgotten before another block can be sifted.
+    /// Whether [`Separated::rest`] has to be forgotten before another block can be separated.
     pub fn is_full(&self) -> bool {
         self.left > WAITING
     }
@@ -65,12 +65,17 @@ impl Sifted {
 
     /// Sifts a block; if not all of it is finite, or there is no room, nothing of it, and returns false. The
     /// stretches have no number in common and no infinite end; the second may be [`EMPTY`], or both.
-    pub fn sift(&mut self, level: Level, x: &Block, stretches: &[Stretch; 2]) -> bool {
-        dispatch!(level, simd => self.sift_with(simd, x, stretches))
+    pub fn separate(&mut self, level: Level, x: &Block, stretches: &[Stretch; 2]) -> bool {
+        dispatch!(level, simd => self.separate_with(simd, x, stretches))
     }
 
     #[inline(always)]
-    fn sift_with<S: Simd>(&mut self, simd: S, x: &Block, [first, second]: &[Stretch; 2]) -> bool {
+    fn separate_with<S: Simd>(
+        &mut self,
+        simd: S,
+        x: &Block,
+        [first, second]: &[Stretch; 2],
+    ) -> bool {
         let Some(rest) = self.rest.get_mut(self.left..self.left + LANES + ROW) else {
             return false;
         };
@@ -243,12 +248,16 @@ mod tests {
                     .collect();
             let taken = stretches.map(|s| x.0.iter().filter(|x| inside(**x, &s)).count() as u64);
             for level in levels() {
-                let mut sifted = Sifted::default();
+                let mut separated = Separated::default();
                 for times in 1..3 {
-                    assert!(sifted.sift(level, &x, &stretches));
-                    let rest: Vec<u64> = sifted.rest().iter().map(|x| x.to_bits()).collect();
+                    assert!(separated.separate(level, &x, &stretches));
+                    let rest: Vec<u64> = separated.rest().iter().map(|x| x.to_bits()).collect();
                     assert_eq!(rest, outside.repeat(times), "{level:?}");
-                    assert_eq!(sifted.taken(), taken.map(|n| n * times as u64), "{level:?}");
+                    assert_eq!(
+                        separated.taken(),
+                        taken.map(|n| n * times as u64),
+                        "{level:?}"
+                    );
                 }
             }
         }
@@ -257,16 +266,16 @@ mod tests {
     #[test]
     fn blocks_that_are_not_finite_and_blocks_for_which_there_is_no_room_are_left_out() {
         for level in levels() {
-            let mut sifted = Sifted::default();
-            assert!(!sifted.sift(level, &awkward(), &[EMPTY, EMPTY]));
-            assert_eq!((sifted.rest().len(), sifted.taken()), (0, [0, 0]));
-            while !sifted.is_full() {
-                assert!(sifted.sift(level, &finite(), &[EMPTY, EMPTY]));
+            let mut separated = Separated::default();
+            assert!(!separated.separate(level, &awkward(), &[EMPTY, EMPTY]));
+            assert_eq!((separated.rest().len(), separated.taken()), (0, [0, 0]));
+            while !separated.is_full() {
+                assert!(separated.separate(level, &finite(), &[EMPTY, EMPTY]));
             }
-            assert_eq!(sifted.rest().len(), WAITING + LANES);
-            assert!(!sifted.sift(level, &finite(), &[EMPTY, EMPTY]));
-            sifted.clear();
-            assert!(sifted.sift(level, &finite(), &[EMPTY, EMPTY]));
+            assert_eq!(separated.rest().len(), WAITING + LANES);
+            assert!(!separated.separate(level, &finite(), &[EMPTY, EMPTY]));
+            separated.clear();
+            assert!(separated.separate(level, &finite(), &[EMPTY, EMPTY]));
         }
     }
 

@@ -21,7 +21,11 @@ const WALKS: [Walk; 2] = [
     Walk {
         kind: "an effect",
         names: &["LaboratoryField", "laboratory_field", "laboratory-field"],
-        places: &["crates/challenge/src/names.rs"],
+        // Its form, and the names of the grader; the entry is data.
+        places: &[
+            "crates/lab/src/diagnose/catalogue/fields.rs",
+            "crates/challenge/src/names.rs",
+        ],
     },
     Walk {
         kind: "a form of documents",

@@ -38,19 +38,12 @@ pub(super) fn quality(
     let whitened = fit.residuals.component_div(&claimed.u);
     let dof = degrees(design);
     let chi_squared = whitened.norm_squared();
-    let blocks = design.blocks.len();
-    let of_response = |values: &DVector<f64>| -> Vec<f64> {
-        let rms = |response: usize| {
-            (values.rows(response * blocks, blocks).norm_squared() / blocks as f64).sqrt()
-        };
-        (0..design.case.responses.len()).map(rms).collect()
-    };
     Quality {
         chi_squared,
         dof,
-        residual: of_response(&fit.residuals),
-        expected: of_response(&expected.u),
-        held_out: of_response(&held_out(design, fit, claimed)),
+        residual: design.root_mean_squares(&fit.residuals),
+        expected: design.root_mean_squares(&expected.u),
+        held_out: design.root_mean_squares(&held_out(design, fit, claimed)),
         scale: if claimed.is_estimated() {
             (chi_squared / dof.max(1.0)).sqrt()
         } else {
@@ -130,18 +123,8 @@ fn solved(design: &Design<'_>, fit: &Fit, claimed: &Claimed, kept: &[usize]) -> 
         return DVector::zeros(0);
     }
     let (normal, right) = normal(design, fit, claimed, kept);
-    let scale = normal
-        .diagonal()
-        .map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
-    let scaled = DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
-        normal[(i, j)] * scale[i] * scale[j]
-    });
-    let target = right.component_mul(&scale);
     // What these observations do not determine stays as it is.
-    let inverse = scaled
-        .pseudo_inverse(1e-11)
-        .unwrap_or_else(|_| DMatrix::zeros(normal.nrows(), normal.ncols()));
-    (inverse * target).component_mul(&scale)
+    inverse(&normal, 1e-11) * right
 }
 
 fn normal(
@@ -176,10 +159,11 @@ pub(super) fn covariance(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> D
         return baseline.covariance();
     }
     let all: Vec<usize> = (0..design.observations()).collect();
-    inverse(&normal(design, fit, claimed, &all).0)
+    inverse(&normal(design, fit, claimed, &all).0, 1e-13)
 }
 
-fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {
+/// The inverse, without directions below this part of the largest singular value once the diagonal is one.
+fn inverse(normal: &DMatrix<f64>, least: f64) -> DMatrix<f64> {
     if normal.is_empty() {
         return normal.clone();
     }
@@ -190,7 +174,7 @@ fn inverse(normal: &DMatrix<f64>) -> DMatrix<f64> {
         normal[(i, j)] * scale[i] * scale[j]
     });
     let inverse = scaled
-        .pseudo_inverse(1e-13)
+        .pseudo_inverse(least)
         .unwrap_or_else(|_| DMatrix::zeros(normal.nrows(), normal.ncols()));
     DMatrix::from_fn(normal.nrows(), normal.ncols(), |i, j| {
         inverse[(i, j)] * scale[i] * scale[j]

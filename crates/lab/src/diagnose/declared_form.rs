@@ -6,15 +6,15 @@
 
 use std::collections::BTreeMap;
 
-use gumption_lanes::{Block, Generator, LANES, level};
+use gumption_lanes::level;
 use nalgebra::DMatrix;
 
 use super::case::{Blocks, Case, Data, Role, Rows};
 use super::catalogue::modifiers::range;
 use super::catalogue::{self, Cell, FittedModel};
 use super::design::Design;
-use super::evidence;
 use super::fit;
+use super::{chance, evidence};
 use crate::recording::Labels;
 
 /// Part of the recorded range by which inputs go beyond it.
@@ -70,10 +70,14 @@ fn elsewhere(fitted: &FittedModel<'_>) -> Case {
     /// Rows for each unknown, and at least.
     const EACH: usize = 8;
     const LEAST: usize = 200;
+    /// The same inputs for every case.
+    const SEED: u64 = 1;
     let case = fitted.case();
     let count = (EACH * fitted.design.unknowns.len()).max(LEAST);
     let data = case.columns.iter().enumerate().map(|(at, column)| {
-        let shares = uniform(at as u64, count);
+        let shares = chance::numbers(SEED, at as u64, count, |generator, block| {
+            generator.uniforms(level(), block);
+        });
         match &column.data {
             Data::Numbers(numbers) => Data::Numbers(match column.role {
                 Role::Stimulus | Role::Covariate | Role::Angle => spread(numbers, shares),
@@ -125,17 +129,4 @@ fn scattered(labels: &Labels, shares: &[f64]) -> Labels {
         levels: labels.levels.clone(),
         of_row: shares.iter().enumerate().map(level).collect(),
     }
-}
-
-/// Uniform numbers between 0 and 1, the same for every case.
-fn uniform(stream: u64, count: usize) -> Vec<f64> {
-    const SEED: u64 = 1;
-    let mut numbers = Vec::with_capacity(count + LANES);
-    let mut block = Block::ZERO;
-    for chunk in 0..count.div_ceil(LANES) {
-        Generator::new(SEED, chunk as u64, stream).uniforms(level(), &mut block);
-        numbers.extend_from_slice(&block.0);
-    }
-    numbers.truncate(count);
-    numbers
 }

@@ -225,6 +225,15 @@ impl<'c> Design<'c> {
         DVector::from_vec(parts.collect())
     }
 
+    /// Root mean square of a column of observations, for each response.
+    pub fn root_mean_squares(&self, column: &DVector<f64>) -> Vec<f64> {
+        let blocks = self.blocks.len();
+        let rms = |response: usize| {
+            (column.rows(response * blocks, blocks).norm_squared() / blocks as f64).sqrt()
+        };
+        (0..self.case.responses.len()).map(rms).collect()
+    }
+
     /// What was observed, row by row; NaN for an output that was not recorded yet.
     pub fn observed(&self, response: usize) -> Vec<f64> {
         match self.case.responses[response].observed {

@@ -58,11 +58,10 @@ pub(super) fn held_out(
     let fit = model.at(&design);
     let claimed = noise_of(known, &design, &fit, 0);
     let after = adopted.and_then(|adopted| improved(known, fitted, cells, places, adopted));
-    let rms = |values: &DVector<f64>| root_mean_squares(&design, values);
     Some(HeldOutQuality {
         file: held.file.clone(),
         observations: design.observations(),
-        expected: rms(&claimed.u),
+        expected: design.root_mean_squares(&claimed.u),
         before: model.prediction(&design, &fit, &claimed),
         after,
     })
@@ -117,19 +116,10 @@ impl Model<'_> {
             fit.residuals[at].powi(2) / (claimed.u[at].powi(2) + model)
         };
         Prediction {
-            rms: root_mean_squares(design, &fit.residuals),
+            rms: design.root_mean_squares(&fit.residuals),
             chi_squared: (0..design.observations()).map(squared).sum(),
         }
     }
-}
-
-fn root_mean_squares(design: &Design<'_>, values: &DVector<f64>) -> Vec<f64> {
-    let blocks = design.blocks.len();
-    (0..design.case.responses.len())
-        .map(|response| {
-            (values.rows(response * blocks, blocks).norm_squared() / blocks as f64).sqrt()
-        })
-        .collect()
 }
 
 fn improved(

@@ -41,6 +41,7 @@
 //! | `conclusion` | what is said: names that are told, tentative ones, what has none |
 //! | `emphasis` | what is worth attention: lines that change a result, measurements that decide |
 //! | `result`, `improved` | the parameters as the measurands of a budget; the improved case as files |
+//! | `chance` | draws in proportion to weights; random numbers |
 //! | `simulate` | the recording that a case predicts |
 //! | `stand_in` | what can stand in for something whose trace is known |
 //! | `opinions`, [`other_methods`] | what methods in common use say of the same case |
@@ -52,6 +53,7 @@ pub mod at_rest;
 mod candidates;
 pub mod case;
 pub mod catalogue;
+mod chance;
 mod conclusion;
 mod confirm;
 mod declared_form;

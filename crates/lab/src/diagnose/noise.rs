@@ -53,6 +53,19 @@ pub enum Origin {
 }
 
 impl Claimed {
+    /// Independent errors that do not grow with the reading.
+    fn plain(u: DVector<f64>, dof: f64, origin: Origin) -> Claimed {
+        Claimed {
+            u,
+            dof,
+            origin,
+            correlated: None,
+            growth: Vec::new(),
+            draws: Vec::new(),
+            uneven: None,
+        }
+    }
+
     /// For the examination.
     pub fn noise(&self) -> Noise {
         let Some(correlated) = &self.correlated else {
@@ -144,15 +157,8 @@ pub fn stated(design: &Design<'_>) -> Result<(Fit, Claimed), NoFit> {
 
 /// The noise without data: what is claimed, or one.
 pub fn planned(design: &Design<'_>, fit: &Fit) -> Claimed {
-    claimed(design, Some(fit)).unwrap_or(Claimed {
-        u: DVector::from_element(design.observations(), 1.0),
-        dof: f64::INFINITY,
-        origin: Origin::Unknown,
-        correlated: None,
-        growth: Vec::new(),
-        draws: Vec::new(),
-        uneven: None,
-    })
+    let one = DVector::from_element(design.observations(), 1.0);
+    claimed(design, Some(fit)).unwrap_or(Claimed::plain(one, f64::INFINITY, Origin::Unknown))
 }
 
 fn claimed(design: &Design<'_>, fit: Option<&Fit>) -> Option<Claimed> {
@@ -205,15 +211,8 @@ fn claimed(design: &Design<'_>, fit: Option<&Fit>) -> Option<Claimed> {
             return replicated(design, fit, &replicates::scatter(design, columns)?);
         }
     };
-    let claimed = Claimed {
-        u: standard(design, fit, |response| variances.get(response))?,
-        dof,
-        origin,
-        correlated: None,
-        growth: Vec::new(),
-        draws: Vec::new(),
-        uneven: None,
-    };
+    let u = standard(design, fit, |response| variances.get(response))?;
+    let claimed = Claimed::plain(u, dof, origin);
     match &case.noise {
         NoiseClaim::AtRest { readings, .. } => {
             Some(in_time(design, fit, readings, &claimed).unwrap_or(claimed))
@@ -497,13 +496,5 @@ fn estimated(design: &Design<'_>, fit: &Fit) -> Claimed {
             *u *= (mean / reduced[at % blocks]).sqrt();
         }
     }
-    Claimed {
-        u,
-        dof: 0.0,
-        origin: Origin::Estimated,
-        correlated: None,
-        growth: Vec::new(),
-        draws: Vec::new(),
-        uneven: None,
-    }
+    Claimed::plain(u, 0.0, Origin::Estimated)
 }

@@ -7,6 +7,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::chance::in_proportion;
 use super::design::Design;
 
 /// Larger matrices take too long.
@@ -78,29 +79,14 @@ pub(super) fn estimate(
             design.case.responses.len(),
         )
     };
+    let weights = points
+        .iter()
+        .map(|point| libm::exp(point.likelihood - best.likelihood));
+    let drawn = in_proportion(&points, &weights.collect::<Vec<f64>>(), DRAWS);
     Some(Correlated {
         matrix: full(best),
-        draws: drawn(&points).into_iter().map(full).collect(),
+        draws: drawn.into_iter().map(full).collect(),
     })
-}
-
-/// Points of the grid in proportion to their likelihood, without chance: those at the middle of equal
-/// parts of the cumulated probability.
-fn drawn(points: &[Point]) -> Vec<&Point> {
-    let weights: Vec<f64> = points
-        .iter()
-        .map(|point| libm::exp(point.likelihood - points[0].likelihood))
-        .collect();
-    let total: f64 = weights.iter().sum();
-    (0..DRAWS)
-        .filter_map(|draw| {
-            let mut left = (draw as f64 + 0.5) / DRAWS as f64 * total;
-            points.iter().zip(&weights).find_map(|(point, weight)| {
-                left -= weight;
-                (left <= 0.0).then_some(point)
-            })
-        })
-        .collect()
 }
 
 fn kernel(times: &[f64], time_constant: f64, share: f64) -> DMatrix<f64> {

@@ -8,6 +8,7 @@
 use nalgebra::DVector;
 
 use super::case::{Observed, Role};
+use super::chance::in_proportion;
 use super::design::Design;
 use super::fit::Fit;
 
@@ -101,31 +102,14 @@ pub(super) fn likely(values: &[f64], gain: f64, misfit: impl Fn(&Spread) -> f64)
         .filter(|(_, misfit)| misfit.is_finite())
         .collect();
     let best = tried.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    (constant - best.1 > gain).then(|| Likely {
-        best: best.0,
-        draws: drawn(&tried, best.1),
-    })
-}
-
-/// Shapes in proportion to their likelihood, without chance: those at the middle of equal parts of the
-/// cumulated probability.
-fn drawn(tried: &[(Spread, f64)], least: f64) -> Vec<Spread> {
     let weights = tried
         .iter()
-        .map(|(_, misfit)| libm::exp(0.5 * (least - misfit)));
-    let weights: Vec<f64> = weights.collect();
-    let total: f64 = weights.iter().sum();
-    let at = |draw: usize| {
-        let mut left = (draw as f64 + 0.5) / DRAWS as f64 * total;
-        tried
-            .iter()
-            .zip(&weights)
-            .find_map(|((spread, _), weight)| {
-                left -= weight;
-                (left <= 0.0).then_some(*spread)
-            })
-    };
-    (0..DRAWS).filter_map(at).collect()
+        .map(|(_, misfit)| libm::exp(0.5 * (best.1 - misfit)));
+    let drawn = in_proportion(&tried, &weights.collect::<Vec<f64>>(), DRAWS);
+    (constant - best.1 > gain).then(|| Likely {
+        best: best.0,
+        draws: drawn.into_iter().map(|(spread, _)| *spread).collect(),
+    })
 }
 
 /// How the noise of each response grows; `None` where it does not, as far as can be seen.

@@ -112,16 +112,13 @@ pub(super) fn noise_of(
         }
         NoiseClaim::Estimated | NoiseClaim::Replicates(_) => {
             let (own, blocks) = (known.design.blocks.len(), design.blocks.len());
-            let rms = |response: usize| {
-                let part = known.claimed.u.rows(response * own, own);
-                (part.norm_squared() / own as f64).sqrt()
-            };
+            let rms = known.design.root_mean_squares(&known.claimed.u);
             let u = DVector::from_fn(design.observations(), |at, _| {
                 let (response, block) = (at / blocks, at % blocks);
                 if block < recorded {
                     known.claimed.u[response * own + block]
                 } else {
-                    rms(response)
+                    rms[response]
                 }
             });
             Claimed {

@@ -1,14 +1,14 @@
 //! The recording that a declared model and its claimed noise predict, with the band that covers it.
 
 use gumption_lanes::sampler::normal_block;
-use gumption_lanes::{Block as Lanes, Generator, LANES, level};
+use gumption_lanes::{Block as Lanes, Generator, level};
 use nalgebra::DVector;
 
 use super::case::{Blocks, Case, Column, Data, Observed};
-use super::confirm;
 use super::design::Design;
 use super::fit::{Fit, NoFit};
 use super::noise::{self, Claimed};
+use super::{chance, confirm};
 use crate::quantity::UnitTable;
 use crate::recording::Heading;
 use crate::special::normal_two_sided_quantile;
@@ -147,7 +147,10 @@ pub fn simulate(case: &Case, seed: u64) -> Result<Simulation, NoFit> {
 /// Errors of all observations, correlated as the noise is.
 fn drawn(claimed: &Claimed, case: &Case, seed: u64) -> DVector<f64> {
     let streams = 0..case.responses.len() as u64;
-    let independent = streams.flat_map(|response| normals(seed, response, case.rows));
+    let normals =
+        |generator: &mut Generator, block: &mut Lanes| normal_block(level(), generator, block);
+    let independent =
+        streams.flat_map(|response| chance::numbers(seed, response, case.rows, normals));
     let independent = DVector::from_vec(independent.collect());
     let factor = claimed.correlated.as_ref();
     let factor = factor.and_then(|correlated| correlated.matrix.clone().cholesky());
@@ -169,17 +172,4 @@ fn half_widths(design: &Design<'_>, fit: &Fit, claimed: &Claimed) -> Vec<f64> {
             factor * (claimed.u[observation] * claimed.u[observation] + of_model.max(0.0)).sqrt()
         })
         .collect()
-}
-
-/// Standard normal numbers.
-fn normals(seed: u64, stream: u64, count: usize) -> Vec<f64> {
-    let mut numbers = Vec::with_capacity(count + LANES);
-    let mut block = Lanes::ZERO;
-    for chunk in 0..count.div_ceil(LANES) {
-        let mut generator = Generator::new(seed, chunk as u64, stream);
-        normal_block(level(), &mut generator, &mut block);
-        numbers.extend_from_slice(&block.0);
-    }
-    numbers.truncate(count);
-    numbers
 }

@@ -124,10 +124,7 @@ fn play(fitted: &FittedModel<'_>, column: usize) -> Option<Cell> {
     Some(Cell::new(
         EffectId::Play,
         words(fitted, name),
-        Place {
-            node: name.to_owned(),
-            along: name.to_owned(),
-        },
+        Place::new(name, name),
         vec![Variation::one("", term)],
     ))
 }

@@ -53,15 +53,7 @@ pub(super) fn on_node(
             .collect();
         all.push(Variation::of(label, each));
     }
-    Cell::new(
-        id,
-        words,
-        Place {
-            node: fitted.name(node),
-            along: along.to_owned(),
-        },
-        all,
-    )
+    Cell::new(id, words, Place::new(fitted.name(node), along), all)
 }
 
 /// Words for one column.
@@ -87,10 +79,7 @@ pub(super) fn plain(
     Cell::new(
         id,
         words(fitted, x),
-        Place {
-            node: fitted.name(Node::Output),
-            along: x.to_owned(),
-        },
+        Place::new(fitted.name(Node::Output), x),
         variants,
     )
 }

@@ -35,10 +35,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Option<Cell> {
                 p: fitted.output(),
                 ..words(fitted, &names)
             },
-            Place {
-                node: "axes".into(),
-                along: names,
-            },
+            Place::new("axes", names),
             singles_and_all(pairs),
         )
     })

@@ -117,10 +117,7 @@ impl<'g> Turning<'g> {
         Cell::new(
             id,
             words(self.fitted, name),
-            Place {
-                node: self.fitted.name(Node::Output),
-                along: name.to_owned(),
-            },
+            Place::new(self.fitted.name(Node::Output), name),
             variants,
         )
     }

@@ -233,13 +233,5 @@ fn generic(
     }
     let mut words = words(fitted, along);
     words.p = fitted.name(node);
-    Cell::new(
-        id,
-        words,
-        Place {
-            node: fitted.name(node),
-            along: along.to_owned(),
-        },
-        variants,
-    )
+    Cell::new(id, words, Place::new(fitted.name(node), along), variants)
 }

@@ -106,10 +106,7 @@ fn cell(fitted: &FittedModel<'_>, node: Node, along: &str, variants: Vec<Variati
     Cell::new(
         EffectId::SelfHeating,
         words,
-        Place {
-            node: fitted.name(node),
-            along: along.to_owned(),
-        },
+        Place::new(fitted.name(node), along),
         variants,
     )
 }

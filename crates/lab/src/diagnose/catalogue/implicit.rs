@@ -19,10 +19,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {
                 p: joined.clone(),
                 ..words(fitted, &joined)
             },
-            Place {
-                node: "axes".into(),
-                along: joined,
-            },
+            Place::new("axes", joined),
             variants,
         )
     };

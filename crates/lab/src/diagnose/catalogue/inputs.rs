@@ -234,10 +234,7 @@ fn words(fitted: &FittedModel<'_>, inputs: &[Input]) -> Words {
 }
 
 fn place(fitted: &FittedModel<'_>) -> Place {
-    Place {
-        node: fitted.name(Node::Output),
-        along: along(fitted),
-    }
+    Place::new(fitted.name(Node::Output), along(fitted))
 }
 
 /// The columns that inputs are formed from.

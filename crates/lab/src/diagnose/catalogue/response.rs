@@ -274,10 +274,7 @@ fn dynamics(fitted: &FittedModel<'_>, column: usize) -> Vec<Cell> {
     let lagged = Cell::new(
         id,
         words(fitted, label),
-        Place {
-            node: label.to_owned(),
-            along: "time".into(),
-        },
+        Place::new(label, "time"),
         variants.collect(),
     );
     let instant = Variation::one("", Term::new(node, fitted.rate(column)));

@@ -195,10 +195,7 @@ fn reversed(fitted: &FittedModel<'_>) -> Cell {
     Cell::new(
         EffectId::Polarity,
         super::building::words(fitted, EffectId::Polarity.as_str()),
-        Place {
-            node: fitted.name(Node::Gain),
-            along: "level".into(),
-        },
+        Place::new(fitted.name(Node::Gain), "level"),
         variants,
     )
 }

@@ -30,10 +30,7 @@ pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {
                 y: fitted.output(),
                 p: fitted.name(node),
             },
-            place: Place {
-                node: fitted.name(node),
-                along: candidate.name.clone(),
-            },
+            place: Place::new(fitted.name(node), candidate.name.clone()),
             variants: vec![Variation::one(
                 "",
                 Term::new(

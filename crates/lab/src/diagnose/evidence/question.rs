@@ -13,6 +13,16 @@ pub struct Place {
     pub along: String,
 }
 
+impl Place {
+    /// A quantity, and what its disturbance follows.
+    pub fn new(node: impl Into<String>, along: impl Into<String>) -> Place {
+        Place {
+            node: node.into(),
+            along: along.into(),
+        }
+    }
+}
+
 /// A hypothesis: one physical effect, or one kind of unnamed discrepancy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Candidate {

@@ -50,7 +50,7 @@ macro_rules! record {
                     vec![$($crate::machine::Field {
                         name: stringify!($field),
                         about: concat!($($doc),*),
-                        always: !concat!($(stringify!($($serde)*))?).contains("skip_serializing_if"),
+                        serde: concat!($(stringify!($($serde)*))?),
                         schema: <$type as $crate::machine::Describe>::describe(),
                     }),*],
                 )
@@ -66,22 +66,41 @@ pub struct Field {
     pub name: &'static str,
     /// Its documentation.
     pub about: &'static str,
-    /// Whether it is always present.
-    pub always: bool,
+    /// What `serde` is told about it: `skip_serializing_if`, `rename`, `flatten`.
+    pub serde: &'static str,
     /// Schema of its value.
     pub schema: Value,
 }
 
+impl Field {
+    /// Its name in the JSON.
+    fn key(&self) -> &'static str {
+        let renamed = self.serde.split_once("rename = \"");
+        let renamed = renamed.and_then(|(_, rest)| rest.split('"').next());
+        renamed.unwrap_or_else(|| self.name.trim_start_matches("r#"))
+    }
+}
+
 /// The schema of an object.
 pub fn object(about: &str, fields: Vec<Field>) -> Value {
-    let name = |field: &Field| field.name.trim_start_matches("r#").to_string();
-    let required: Vec<String> = fields.iter().filter(|f| f.always).map(name).collect();
-    let mut properties = Map::new();
+    let (mut properties, mut required) = (Map::new(), Vec::new());
     for mut field in fields {
+        if field.serde.contains("flatten") {
+            if let Some(Value::Object(inner)) = field.schema.get_mut("properties") {
+                properties.append(inner);
+            }
+            if let Some(Value::Array(inner)) = field.schema.get_mut("required") {
+                required.append(inner);
+            }
+            continue;
+        }
         if let Value::Object(map) = &mut field.schema {
             map.insert("description".to_string(), Value::from(field.about.trim()));
         }
-        properties.insert(name(&field), field.schema);
+        if !field.serde.contains("skip_serializing_if") {
+            required.push(Value::from(field.key()));
+        }
+        properties.insert(field.key().to_string(), field.schema);
     }
     json!({
         "type": "object",
@@ -192,6 +211,12 @@ describe! {
 impl<T: Describe> Describe for Option<T> {
     fn describe() -> Value {
         json!({ "anyOf": [T::describe(), { "type": "null" }] })
+    }
+}
+
+impl<T: Describe> Describe for &[T] {
+    fn describe() -> Value {
+        Vec::<T>::describe()
     }
 }
 

@@ -30,6 +30,7 @@ mod joint;
 mod language;
 mod moments;
 mod number;
+mod phrase;
 mod quasi;
 mod remarks;
 mod save;
@@ -42,7 +43,7 @@ mod fixtures;
 mod tests;
 
 pub use allan::{AllanReport, allan, allan_schema};
-pub use calibration::{calibration, calibration_trouble, plan};
+pub use calibration::{calibration, calibration_schema, calibration_trouble, plan, plan_schema};
 pub use diagnosis::{
     assumed_noise, diagnosis, failure as diagnosis_failure, outlook, plots as diagnosis_plots,
 };

@@ -1,85 +1,25 @@
 //! What the equations leave of the readings, and what a reader must know.
 
-use super::super::language::{Language, Word};
-use super::super::number::{NONE, aligned, freedom, significant};
-use super::super::symbol;
-use super::sections::{DIGITS, said, shown_u};
 use crate::calibrate::{
-    Apart, Calibration, Experiment, Limit, Residual, ResponseScatter, Scatter, ScatterTest, Words,
+    Apart, Calibration, Experiment, Limit, Misfit, ResponseScatter, Scatter, ScatterTest, Words,
 };
-use crate::document::Block;
-use crate::document::{ColumnKind, Table};
+use crate::document::{
+    Block,
+    ColumnKind::{Names, Numbers},
+    Table,
+};
+use crate::language::{Language, Word};
+use crate::number::{NONE, aligned, freedom, significant};
+use crate::phrase::{section, table};
+use crate::symbol;
+
+use super::sections::{DIGITS, said, shown_u};
+use super::trouble::counted;
 
 /// More residuals than these are not listed.
 const RESIDUALS: usize = 12;
 
 pub(super) fn residuals(experiment: &Experiment, found: &Calibration, l: Language) -> Vec<Block> {
-    let mut scatter = Table::new([
-        (l.pick("response", "响应量"), ColumnKind::Names),
-        (l.pick("readings", "读数"), ColumnKind::Numbers),
-        (l.pick("RMS residual", "残差均方根"), ColumnKind::Numbers),
-        ("s", ColumnKind::Numbers),
-        ("ν", ColumnKind::Numbers),
-        (l.pick("s to expect", "预期 s"), ColumnKind::Numbers),
-        ("χ²/ν", ColumnKind::Numbers),
-        ("p", ColumnKind::Numbers),
-        (Word::Unit.of(l), ColumnKind::Names),
-    ]);
-    for (one, quantity) in found.responses.iter().zip(experiment.equations.responses()) {
-        let test = one.test;
-        let of_test = |value: &dyn Fn(ScatterTest) -> String| test.map(value).unwrap_or_default();
-        scatter.push(vec![
-            one.response.as_str().into(),
-            one.readings.to_string().into(),
-            shown_u(if one.dof > 0.0 { one.rms } else { 0.0 }).into(),
-            shown_u(one.s).into(),
-            freedom(one.dof).into(),
-            of_test(&|test| significant(test.expected, DIGITS)).into(),
-            of_test(&|test| significant(test.chi_squared / test.dof, DIGITS)).into(),
-            of_test(&|test| significant(test.p_value, 2)).into(),
-            symbol(&quantity.unit).into(),
-        ]);
-    }
-    let mut worst: Vec<_> = found.residuals.iter().collect();
-    worst.sort_by(|a, b| {
-        let size = |r: &Residual| {
-            if r.standardised.is_nan() {
-                (r.observed - r.fitted).abs()
-            } else {
-                r.standardised.abs()
-            }
-        };
-        size(b).total_cmp(&size(a))
-    });
-    let mut table = Table::new([
-        (l.pick("point", "测量点"), ColumnKind::Names),
-        (l.pick("response", "响应量"), ColumnKind::Names),
-        (l.pick("observed", "观测值"), ColumnKind::Numbers),
-        (l.pick("equation", "方程值"), ColumnKind::Numbers),
-        (l.pick("residual", "残差"), ColumnKind::Numbers),
-        (l.pick("residual/s", "标准化残差"), ColumnKind::Numbers),
-    ]);
-    for one in worst.iter().take(RESIDUALS) {
-        let s = found
-            .responses
-            .iter()
-            .find(|r| r.response == one.response)
-            .map_or(f64::NAN, |r| if r.rms > 0.0 { r.rms } else { f64::NAN });
-        let residual = one.observed - one.fitted;
-        table.push(vec![
-            said(&one.point, l).into(),
-            one.response.as_str().into(),
-            aligned(one.observed, s, DIGITS).into(),
-            aligned(one.fitted, s, DIGITS).into(),
-            significant(residual, DIGITS).into(),
-            if one.standardised.is_nan() {
-                NONE.to_owned()
-            } else {
-                significant(one.standardised, 3)
-            }
-            .into(),
-        ]);
-    }
     let way = match found.scatter {
         Scatter::Residuals => l.pick(
             "The scatter of the readings in the uncertainties above is the part of the residuals that the stated errors do not explain.",
@@ -95,62 +35,119 @@ pub(super) fn residuals(experiment: &Experiment, found: &Calibration, l: Languag
         ),
     };
     let mut blocks = vec![
-        Block::Section(l.pick("Residuals", "残差").to_owned()),
-        Block::Table(scatter.without_empty_columns()),
+        section(l, "Residuals", "残差"),
+        Block::Table(scatter(experiment, found, l)),
         Block::Paragraph(way.to_owned()),
     ];
     if found.responses.iter().all(|one| one.dof == 0.0) {
         // What is left is rounding.
         return blocks;
     }
-    blocks.push(Block::Table(table));
-    if found.residuals.len() > RESIDUALS {
+    blocks.push(Block::Table(largest(found, l)));
+    let count = found.residuals.len();
+    if count > RESIDUALS {
         blocks.push(Block::Paragraph(l.pick(
-            format!(
-                "The {RESIDUALS} largest of {}; --json has all.",
-                found.residuals.len()
-            ),
-            format!(
-                "共 {} 个残差，列出最大的 {RESIDUALS} 个；全部见 --json。",
-                found.residuals.len()
-            ),
+            format!("The {RESIDUALS} largest of {count}; --json has all."),
+            format!("共 {count} 个残差，列出最大的 {RESIDUALS} 个；全部见 --json。"),
         )));
     }
     blocks
 }
 
-/// Residuals that are larger or smaller than the known errors of the readings let expect. Where the
-/// residuals tell the scatter themselves, they may be larger.
-fn misfit(one: &ResponseScatter, way: Scatter, sampled: bool, l: Language) -> Option<String> {
-    /// Probability of a χ² as far out.
-    const RARE: f64 = 0.005;
-    let test = one.test?;
-    let ratio = significant(test.chi_squared / test.dof, 3);
-    let response = &one.response;
-    if test.p_value < RARE && way == Scatter::Residuals && sampled {
-        let times = significant((test.chi_squared / test.dof).sqrt(), 2);
-        Some(l.pick(
-            format!("The residuals of {response} are {times} times as large as the samples of the dwells let expect: something changes from dwell to dwell that is still within each, labels or reference values are wrong, or the equations leave something out."),
-            format!("{response} 的残差为驻留段采样预期的 {times} 倍：可能有在驻留段内稳定、段间变化的因素，标签或参考值有误，或方程有遗漏。"),
-        ))
-    } else if test.p_value < RARE && way != Scatter::Residuals {
-        let p = significant(test.p_value, 2);
-        Some(l.pick(
-            format!("The residuals of {response} are larger than the errors of its readings let expect (χ²/ν = {ratio}, p = {p}): the equations leave something out, or the errors are larger than stated. The uncertainties above do not contain this."),
-            format!("{response} 的残差大于其读数误差的预期（χ²/ν = {ratio}，p = {p}）：方程有遗漏，或误差大于所给出的值。上列不确定度未包含这一差异。"),
-        ))
-    } else if test.p_value > 1.0 - RARE {
-        Some(l.pick(
+fn scatter(experiment: &Experiment, found: &Calibration, l: Language) -> Table {
+    let mut table = table(
+        l,
+        [
+            ("response", "响应量", Names),
+            ("readings", "读数", Numbers),
+            ("RMS residual", "残差均方根", Numbers),
+            ("s", "s", Numbers),
+            ("ν", "ν", Numbers),
+            ("s to expect", "预期 s", Numbers),
+            ("χ²/ν", "χ²/ν", Numbers),
+            ("p", "p", Numbers),
+            ("unit", Word::Unit.of(l), Names),
+        ],
+    );
+    for (one, quantity) in found.responses.iter().zip(experiment.equations.responses()) {
+        let of_test = |value: fn(&ScatterTest) -> f64, digits: u8| {
+            let test = one.test.as_ref();
+            test.map_or(String::new(), |test| significant(value(test), digits))
+        };
+        table.push(vec![
+            one.response.as_str().into(),
+            one.readings.to_string().into(),
+            shown_u(if one.dof > 0.0 { one.rms } else { 0.0 }).into(),
+            shown_u(one.s).into(),
+            freedom(one.dof).into(),
+            of_test(|test| test.expected, DIGITS).into(),
+            of_test(ScatterTest::reduced, DIGITS).into(),
+            of_test(|test| test.p_value, 2).into(),
+            symbol(&quantity.unit).into(),
+        ]);
+    }
+    table.without_empty_columns()
+}
+
+fn largest(found: &Calibration, l: Language) -> Table {
+    let mut table = table(
+        l,
+        [
+            ("point", "测量点", Names),
+            ("response", "响应量", Names),
+            ("observed", "观测值", Numbers),
+            ("equation", "方程值", Numbers),
+            ("residual", "残差", Numbers),
+            ("residual/s", "标准化残差", Numbers),
+        ],
+    );
+    for one in found.largest_residuals().into_iter().take(RESIDUALS) {
+        let own = found.responses.iter().find(|r| r.response == one.response);
+        let s = own.map_or(f64::NAN, |r| r.rms);
+        let standardised = match one.standardised.is_nan() {
+            true => NONE.to_owned(),
+            false => significant(one.standardised, 3),
+        };
+        table.push(vec![
+            said(&one.point, l).into(),
+            one.response.as_str().into(),
+            aligned(one.observed, s, DIGITS).into(),
+            aligned(one.fitted, s, DIGITS).into(),
+            significant(one.observed - one.fitted, DIGITS).into(),
+            standardised.into(),
+        ]);
+    }
+    table
+}
+
+/// Residuals that are larger or smaller than the known errors of the readings let expect.
+fn misfit(one: &ResponseScatter, l: Language) -> Option<String> {
+    let (test, response) = (one.test?, &one.response);
+    let ratio = significant(test.reduced(), 3);
+    Some(match test.misfit? {
+        Misfit::BetweenDwells => {
+            let times = significant(test.reduced().sqrt(), 2);
+            l.pick(
+                format!("The residuals of {response} are {times} times as large as the samples of the dwells let expect: something changes from dwell to dwell that is still within each, labels or reference values are wrong, or the equations leave something out."),
+                format!("{response} 的残差为驻留段采样预期的 {times} 倍：可能有在驻留段内稳定、段间变化的因素，标签或参考值有误，或方程有遗漏。"),
+            )
+        }
+        Misfit::Larger => {
+            let p = significant(test.p_value, 2);
+            l.pick(
+                format!("The residuals of {response} are larger than the errors of its readings let expect (χ²/ν = {ratio}, p = {p}): the equations leave something out, or the errors are larger than stated. The uncertainties above do not contain this."),
+                format!("{response} 的残差大于其读数误差的预期（χ²/ν = {ratio}，p = {p}）：方程有遗漏，或误差大于所给出的值。上列不确定度未包含这一差异。"),
+            )
+        }
+        Misfit::Smaller => l.pick(
             format!("The residuals of {response} are smaller than the errors of its readings let expect (χ²/ν = {ratio}): these errors may be stated too large, or be common to the readings."),
             format!("{response} 的残差小于其读数误差的预期（χ²/ν = {ratio}）：误差可能给得过大，或为各读数共有。"),
-        ))
-    } else {
-        None
-    }
+        ),
+    })
 }
 
 fn in_list(points: &[Words], l: Language) -> String {
-    let points: Vec<String> = points.iter().map(|point| said(point, l)).collect();
+    let points: Vec<&str> = points.iter().map(|point| said(point, l)).collect();
     points.join(l.pick(", ", "、"))
 }
 
@@ -225,14 +222,14 @@ pub(super) fn remarks(
     }
     if let Some(found) = found {
         if found.left_out > 0 {
+            let count = found.left_out;
+            let verb = if count == 1 { "was" } else { "were" };
             items.push(l.pick(
-                match found.left_out {
-                    1 => "1 reading was left out, because a value is missing.".to_owned(),
-                    count => {
-                        format!("{count} readings were left out, because a value is missing.")
-                    }
-                },
-                format!("有 {} 个读数因缺值而未使用。", found.left_out),
+                format!(
+                    "{} {verb} left out, because a value is missing.",
+                    counted(count)
+                ),
+                format!("有 {count} 个读数因缺值而未使用。"),
             ));
         }
         items.extend(exchanged(&found.swapped, l));
@@ -245,10 +242,7 @@ pub(super) fn remarks(
                 "方程对参数非线性：不确定度以及写出的预算取误差的一阶近似。",
             ).to_owned());
         }
-        let columns = &experiment.points.columns;
-        let sampled = columns.iter().any(|column| !column.averages.is_empty());
-        let misfit = |one: &ResponseScatter| misfit(one, found.scatter, sampled, l);
-        items.extend(found.responses.iter().filter_map(misfit));
+        items.extend(found.responses.iter().filter_map(|one| misfit(one, l)));
     }
     if !assumed.is_empty() {
         let names = assumed.join(", ");
@@ -257,11 +251,8 @@ pub(super) fn remarks(
             format!("{names} 未给出数值，按零计算：与之成比例的效应未体现。请给出预期值：[parameter.{}] start = …。", assumed[0]),
         ));
     }
-    let said = experiment
-        .remarks
-        .iter()
-        .map(|remark| l.pick(remark.en.clone(), remark.zh.clone()));
-    items.extend(said);
+    let remarks = experiment.remarks.iter();
+    items.extend(remarks.map(|remark| l.pick(&remark.en, &remark.zh).clone()));
     if items.is_empty() {
         return Vec::new();
     }

@@ -1,87 +1,63 @@
-//! A calibration, and the plan of one, for the terminal, as Markdown and for machines.
+//! Documents of calibrations and of their plans, and why there is no result.
 
 mod causes;
+mod form;
 mod hidden;
-mod json;
 mod misfit;
 mod sections;
 mod trouble;
 
-use serde_json::Value;
-
 use crate::calibrate::{Calibration, Experiment, Plan, Trouble};
-
 use crate::document::{Block, Document};
 use crate::language::Language;
 
+pub use form::{calibration_schema, plan_schema};
+
 /// The document of a calibration.
 pub fn calibration(experiment: &Experiment, found: &Calibration, language: Language) -> Document {
-    document(
-        language,
-        found_blocks(experiment, found, language),
-        json::calibration_json(experiment, found, language),
-    )
+    let l = language;
+    let blocks: Vec<Block> = [
+        sections::heading(experiment, l),
+        sections::equations(experiment, l),
+        sections::coefficients(experiment, &found.figures, l),
+        sections::parts(found, l),
+        sections::correlations(&found.figures, l),
+        causes::budgets(&found.figures, l),
+        misfit::residuals(experiment, found, l),
+        hidden::identifiability(&found.identifiability, l),
+        hidden::aliases(experiment, &found.aliases, Some(&found.figures), l),
+        misfit::remarks(experiment, Some(found), &[], l),
+    ]
+    .concat();
+    Document::new(&form::calibration(experiment, found, l), l, blocks)
 }
 
 /// The document of a plan.
 pub fn plan(experiment: &Experiment, plan: &Plan, language: Language) -> Document {
-    document(
-        language,
-        planned(experiment, plan, language),
-        json::plan_json(experiment, plan, language),
-    )
-}
-
-fn document(language: Language, blocks: Vec<Block>, machine: Value) -> Document {
-    Document {
-        kind: "calibration",
-        version: 1,
-        language,
-        blocks,
-        machine,
-    }
+    let l = language;
+    let figures = plan.figures.as_ref();
+    let expected = figures.map(|figures| {
+        [
+            sections::predictions(figures, l),
+            sections::correlations(figures, l),
+            causes::budgets(figures, l),
+        ]
+        .concat()
+    });
+    let blocks: Vec<Block> = [
+        sections::heading(experiment, l),
+        sections::equations(experiment, l),
+        hidden::schedule(plan, l),
+        hidden::identifiability(&plan.identifiability, l),
+        expected.unwrap_or_default(),
+        hidden::aliases(experiment, &plan.aliases, figures, l),
+        misfit::remarks(experiment, None, &plan.assumed, l),
+    ]
+    .concat();
+    Document::new(&form::plan(experiment, plan, l), l, blocks)
 }
 
 /// Why there are no coefficients, in sentences.
 pub fn calibration_trouble(trouble: &Trouble, language: Language) -> String {
     trouble::sentences(trouble, language)
-}
-
-fn found_blocks(experiment: &Experiment, found: &Calibration, l: Language) -> Vec<Block> {
-    let mut blocks = sections::heading(experiment, l);
-    blocks.extend(sections::equations(experiment, l));
-    blocks.extend(sections::coefficients(experiment, &found.figures, l));
-    blocks.extend(sections::parts(found, l));
-    blocks.extend(sections::correlations(&found.figures, l));
-    blocks.extend(causes::budgets(&found.figures, l));
-    blocks.extend(misfit::residuals(experiment, found, l));
-    blocks.extend(hidden::identifiability(&found.identifiability, l));
-    blocks.extend(hidden::aliases(
-        experiment,
-        &found.aliases,
-        Some(&found.figures),
-        l,
-    ));
-    blocks.extend(misfit::remarks(experiment, Some(found), &[], l));
-    blocks
-}
-
-fn planned(experiment: &Experiment, plan: &Plan, l: Language) -> Vec<Block> {
-    let mut blocks = sections::heading(experiment, l);
-    blocks.extend(sections::equations(experiment, l));
-    blocks.extend(hidden::schedule(plan, l));
-    blocks.extend(hidden::identifiability(&plan.identifiability, l));
-    if let Some(figures) = &plan.figures {
-        blocks.extend(sections::predictions(figures, l));
-        blocks.extend(sections::correlations(figures, l));
-        blocks.extend(causes::budgets(figures, l));
-    }
-    blocks.extend(hidden::aliases(
-        experiment,
-        &plan.aliases,
-        plan.figures.as_ref(),
-        l,
-    ));
-    blocks.extend(misfit::remarks(experiment, None, &plan.assumed, l));
-    blocks
 }

@@ -1,43 +1,45 @@
 //! The sections of the report of a calibration.
 
-use nalgebra::DMatrix;
-
-use super::super::joint::matrix;
-use super::super::language::{Language, Word};
-use super::super::number::{NONE, aligned, freedom, in_unit, probability, significant};
-use super::super::symbol;
-use crate::calibrate::{Calibration, Coefficient, Experiment, Figures, Words};
-use crate::document::Block;
-use crate::document::{Cell, Column, ColumnKind, Row, Table};
+use crate::calibrate::{Calibration, Coefficient, Experiment, Figures, PartScatter, Words};
+use crate::document::{
+    Block,
+    ColumnKind::{Names, Numbers, Wrapped},
+    Row,
+};
+use crate::joint::matrix;
+use crate::language::{Language, Word};
+use crate::number::{NONE, aligned, freedom, in_unit, probability, significant};
+use crate::phrase::{named_row, numbers_beside, paragraph, section, table};
+use crate::symbol;
 
 /// Digits of standard uncertainties.
 pub(super) const DIGITS: u8 = 3;
 
-pub(super) fn said(words: &Words, l: Language) -> String {
-    l.pick(words.en.clone(), words.zh.clone())
+pub(super) fn said(words: &Words, l: Language) -> &str {
+    l.pick(&words.en, &words.zh)
 }
 
 pub(super) fn heading(experiment: &Experiment, l: Language) -> Vec<Block> {
     let heading = &experiment.heading;
     let title = match said(&heading.title, l) {
-        none if none.is_empty() => l.pick("Calibration", "校准").to_owned(),
+        "" => l.pick("Calibration", "校准"),
         title => title,
     };
-    let mut fields: Vec<(String, String)> = Vec::new();
-    let mut row = |label: &str, text: Option<String>| {
-        fields.extend(text.map(|text| (label.to_owned(), text)));
-    };
-    row(l.pick("Procedure", "程序"), heading.procedure.clone());
-    row(
-        Word::Method.of(l),
-        heading.description.as_ref().map(|words| said(words, l)),
-    );
-    row(Word::Source.of(l), heading.reference.clone());
-    row(Word::Object.of(l), heading.object.clone());
-    row(Word::Author.of(l), heading.author.clone());
-    row(Word::Date.of(l), heading.date.clone());
-    row(Word::Note.of(l), heading.note.clone());
-    let mut blocks = vec![Block::Title(title)];
+    let method = heading.description.as_ref().map(|words| said(words, l));
+    let fields = [
+        (l.pick("Procedure", "程序"), heading.procedure.as_deref()),
+        (Word::Method.of(l), method),
+        (Word::Source.of(l), heading.reference.as_deref()),
+        (Word::Object.of(l), heading.object.as_deref()),
+        (Word::Author.of(l), heading.author.as_deref()),
+        (Word::Date.of(l), heading.date.as_deref()),
+        (Word::Note.of(l), heading.note.as_deref()),
+    ];
+    let stated = fields
+        .into_iter()
+        .filter_map(|(label, text)| Some((label.into(), text?.into())));
+    let fields: Vec<(String, String)> = stated.collect();
+    let mut blocks = vec![Block::Title(title.to_owned())];
     if !fields.is_empty() {
         blocks.push(Block::Fields(fields));
     }
@@ -45,39 +47,32 @@ pub(super) fn heading(experiment: &Experiment, l: Language) -> Vec<Block> {
 }
 
 pub(super) fn equations(experiment: &Experiment, l: Language) -> Vec<Block> {
-    let count = experiment.equations.responses().len();
-    let lines: Vec<String> = (0..count)
-        .flat_map(|response| {
-            experiment
-                .equations
-                .text(response)
-                .lines()
-                .map(str::to_owned)
-                .collect::<Vec<_>>()
-        })
-        .collect();
+    let all = 0..experiment.equations.responses().len();
+    let lines = all.flat_map(|response| experiment.equations.text(response).lines());
     vec![
-        Block::Section(l.pick("Measurement equations", "测量方程").to_owned()),
-        Block::Formula(lines),
+        section(l, "Measurement equations", "测量方程"),
+        Block::Formula(lines.map(str::to_owned).collect()),
     ]
 }
 
 pub(super) fn coefficients(experiment: &Experiment, figures: &Figures, l: Language) -> Vec<Block> {
-    let p = probability(experiment.coverage_probability);
-    let expanded = format!("U ({p})");
-    let mut table = Table::new([
-        (l.pick("coefficient", "系数"), ColumnKind::Names),
-        (Word::Estimate.of(l), ColumnKind::Numbers),
-        (l.pick("u", "标准不确定度 u"), ColumnKind::Numbers),
-        (Word::Unit.of(l), ColumnKind::Names),
-        ("ν", ColumnKind::Numbers),
-        ("k", ColumnKind::Numbers),
-        (&expanded, ColumnKind::Numbers),
-        (l.pick("significant?", "显著性"), ColumnKind::Names),
-        (l.pick("what it is", "含义"), ColumnKind::Wrapped),
-    ]);
+    let expanded = format!("U ({})", probability(experiment.coverage_probability));
+    let estimate = Word::Estimate.of(l);
+    let mut table = table(
+        l,
+        [
+            ("coefficient", "系数", Names),
+            (estimate, estimate, Numbers),
+            ("u", "标准不确定度 u", Numbers),
+            ("unit", Word::Unit.of(l), Names),
+            ("ν", "ν", Numbers),
+            ("k", "k", Numbers),
+            (&expanded, &expanded, Numbers),
+            ("significant?", "显著性", Names),
+            ("what it is", "含义", Wrapped),
+        ],
+    );
     for one in &figures.coefficients {
-        let expanded = one.k * one.u;
         table.push(vec![
             one.name.as_str().into(),
             aligned(one.value, one.u, DIGITS).into(),
@@ -85,39 +80,39 @@ pub(super) fn coefficients(experiment: &Experiment, figures: &Figures, l: Langua
             symbol(&one.unit).into(),
             freedom(one.dof).into(),
             significant(one.k, 3).into(),
-            shown_u(expanded).into(),
+            shown_u(one.k * one.u).into(),
             significance(one, l).into(),
             described(one, l).into(),
         ]);
     }
     vec![
-        Block::Section(l.pick("Coefficients", "系数").to_owned()),
+        section(l, "Coefficients", "系数"),
         Block::Table(table.without_empty_columns()),
-        Block::Paragraph(l.pick(
+        paragraph(
+            l,
             "significant: a coefficient that is zero would come out as far from it with the probability p (two-sided t test).",
             "显著性：系数真值为零时得到如此偏离的概率 p（双侧 t 检验）。",
-        ).to_owned()),
+        ),
     ]
 }
 
 /// What a coefficient is, if anybody says so.
-fn described(one: &Coefficient, l: Language) -> String {
-    let words = one.description.as_ref();
-    words.map(|words| said(words, l)).unwrap_or_default()
+fn described(one: &Coefficient, l: Language) -> &str {
+    one.description.as_ref().map_or("", |words| said(words, l))
 }
 
 /// What a schedule lets expect.
 pub(super) fn predictions(figures: &Figures, l: Language) -> Vec<Block> {
-    let mut table = Table::new([
-        (l.pick("coefficient", "系数"), ColumnKind::Names),
-        (l.pick("assumed value", "假定值"), ColumnKind::Numbers),
-        (
-            l.pick("u to expect", "预期标准不确定度 u"),
-            ColumnKind::Numbers,
-        ),
-        (Word::Unit.of(l), ColumnKind::Names),
-        (l.pick("what it is", "含义"), ColumnKind::Wrapped),
-    ]);
+    let mut table = table(
+        l,
+        [
+            ("coefficient", "系数", Names),
+            ("assumed value", "假定值", Numbers),
+            ("u to expect", "预期标准不确定度 u", Numbers),
+            ("unit", Word::Unit.of(l), Names),
+            ("what it is", "含义", Wrapped),
+        ],
+    );
     for one in &figures.coefficients {
         table.push(vec![
             one.name.as_str().into(),
@@ -128,31 +123,27 @@ pub(super) fn predictions(figures: &Figures, l: Language) -> Vec<Block> {
         ]);
     }
     vec![
-        Block::Section(l.pick("Uncertainties to expect", "预期不确定度").to_owned()),
+        section(l, "Uncertainties to expect", "预期不确定度"),
         Block::Table(table.without_empty_columns()),
     ]
 }
 
 pub(super) fn shown_u(u: f64) -> String {
-    if u.is_finite() {
-        significant(u, DIGITS)
-    } else {
-        NONE.to_owned()
+    match u.is_finite() {
+        true => significant(u, DIGITS),
+        false => NONE.to_owned(),
     }
 }
 
 fn significance(one: &Coefficient, l: Language) -> String {
-    match one.p_value {
-        p if p.is_nan() => NONE.to_owned(),
-        p if p < 1e-4 => l.pick("yes, p < 0.0001", "显著，p < 0.0001").to_owned(),
-        p if p < 0.05 => l.pick(
-            format!("yes, p = {}", significant(p, 2)),
-            format!("显著，p = {}", significant(p, 2)),
-        ),
-        p => l.pick(
-            format!("no, p = {}", significant(p, 2)),
-            format!("不显著，p = {}", significant(p, 2)),
-        ),
+    let p = match one.p_value {
+        p if p < 1e-4 => "p < 0.0001".to_owned(),
+        p => format!("p = {}", significant(p, 2)),
+    };
+    match one.is_significant() {
+        None => NONE.to_owned(),
+        Some(true) => l.pick(format!("yes, {p}"), format!("显著，{p}")),
+        Some(false) => l.pick(format!("no, {p}"), format!("不显著，{p}")),
     }
 }
 
@@ -161,76 +152,35 @@ pub(super) fn parts(found: &Calibration, l: Language) -> Vec<Block> {
     if found.parts.is_empty() {
         return Vec::new();
     }
-    let coefficients = &found.figures.coefficients;
-    let mut table = Table {
-        columns: vec![column("", ColumnKind::Names)],
-        rows: Vec::new(),
-    };
-    let heads = coefficients.iter().map(head_of);
-    table
-        .columns
-        .extend(heads.map(|head| column(&head, ColumnKind::Numbers)));
-    let statistics: Vec<Statistics> = (0..coefficients.len())
-        .map(|index| {
-            let values = found
-                .parts
-                .iter()
-                .map(|(_, part)| part.figures.coefficients[index].value);
-            Statistics::of(&values.collect::<Vec<_>>())
-        })
-        .collect();
+    let scatter = found.scatter_of_parts();
+    let mut table = numbers_beside("", found.figures.coefficients.iter().map(head_of));
     for (label, part) in &found.parts {
-        let values = part.figures.coefficients.iter().zip(&statistics);
-        let mut cells: Vec<Cell> = vec![label.as_str().into()];
-        cells.extend(values.map(|(one, all)| Cell::Text(aligned(one.value, all.s, DIGITS))));
-        table.push(cells);
+        let values = part.figures.coefficients.iter().zip(&scatter);
+        let values = values.map(|(one, all)| aligned(one.value, all.s, DIGITS));
+        table.rows.push(named_row(label.as_str(), values));
     }
     table.rows.push(Row::Rule);
-    let mut row = |label: &str, shown: &dyn Fn(&Statistics) -> String| {
-        let mut cells: Vec<Cell> = vec![label.into()];
-        cells.extend(statistics.iter().map(|one| Cell::Text(shown(one))));
-        table.push(cells);
+    let of = |label: &str, shown: fn(&PartScatter) -> String| {
+        named_row(label, scatter.iter().map(shown))
     };
-    row(l.pick("mean", "平均值"), &|one| {
-        aligned(one.mean, one.s, DIGITS)
-    });
-    row(l.pick("standard deviation", "标准偏差"), &|one| {
-        shown_u(one.s)
-    });
-    row(l.pick("range", "极差"), &|one| shown_u(one.range));
+    table.rows.extend([
+        of(l.pick("mean", "平均值"), |one| {
+            aligned(one.mean, one.s, DIGITS)
+        }),
+        of(l.pick("standard deviation", "标准偏差"), |one| {
+            shown_u(one.s)
+        }),
+        of(l.pick("range", "极差"), |one| shown_u(one.range)),
+    ]);
     vec![
-        Block::Section(l.pick("One by one", "分别计算").to_owned()),
+        section(l, "One by one", "分别计算"),
         Block::Table(table),
-        Block::Paragraph(l.pick(
+        paragraph(
+            l,
             "The coefficients above are those of all points together; the scatter between the parts is in their residuals.",
             "上列系数由全部测量点一并求得；各部分之间的分散已含在残差中。",
-        ).to_owned()),
+        ),
     ]
-}
-
-/// How the results of parts scatter.
-struct Statistics {
-    mean: f64,
-    s: f64,
-    range: f64,
-}
-
-impl Statistics {
-    fn of(values: &[f64]) -> Statistics {
-        let (mean, s) = mean_and_deviation(values);
-        let extreme = |better: fn(f64, f64) -> f64| values.iter().copied().reduce(better);
-        let range = extreme(f64::max)
-            .zip(extreme(f64::min))
-            .map_or(f64::NAN, |(a, b)| a - b);
-        Statistics { mean, s, range }
-    }
-}
-
-pub(super) fn column(head: &str, kind: ColumnKind) -> Column {
-    Column {
-        head: head.to_owned(),
-        kind,
-    }
 }
 
 /// Name and unit of a coefficient, as the head of a column.
@@ -238,48 +188,29 @@ pub(super) fn head_of(one: &Coefficient) -> String {
     in_unit(&one.name, &symbol(&one.unit))
 }
 
-fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().sum::<f64>() / n;
-    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    (mean, (squares / (n - 1.0)).sqrt())
-}
-
 pub(super) fn correlations(figures: &Figures, l: Language) -> Vec<Block> {
-    if figures.coefficients.len() < 2 || figures.causes.is_empty() {
+    /// What is smaller is printed as zero.
+    const PRINTED: f64 = 0.005;
+    let all = &figures.coefficients;
+    if all.len() < 2 || figures.causes.is_empty() {
         return Vec::new();
     }
-    let names: Vec<&str> = figures
-        .coefficients
-        .iter()
-        .map(|one| one.name.as_str())
-        .collect();
-    let r = correlation(figures);
     let heading = Block::Section(Word::Correlation.of(l).to_owned());
-    let is_zero =
-        |(place, r): (usize, &f64)| place / names.len() == place % names.len() || r.abs() < 0.005;
-    if r.iter().enumerate().all(is_zero) {
-        let none = l.pick(
-            "All are 0.00; --json has the covariances.",
-            "均为 0.00；协方差见 --json。",
-        );
-        return vec![heading, Block::Paragraph(none.to_owned())];
+    let r = figures.correlation();
+    let off_diagonal = || (0..all.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    if off_diagonal().all(|at| r[at].abs() < PRINTED) {
+        return vec![
+            heading,
+            paragraph(
+                l,
+                "All are 0.00; --json has the covariances.",
+                "均为 0.00；协方差见 --json。",
+            ),
+        ];
     }
+    let names: Vec<&str> = all.iter().map(|one| one.name.as_str()).collect();
     let mut table = matrix(l, &names, &r, "");
     // The section says it.
     table.columns[0].head = String::new();
     vec![heading, Block::Table(table)]
-}
-
-/// Correlation coefficients from a covariance matrix.
-pub(super) fn correlation(figures: &Figures) -> DMatrix<f64> {
-    let v = &figures.covariance;
-    DMatrix::from_fn(v.nrows(), v.ncols(), |i, j| {
-        let scale = (v[(i, i)] * v[(j, j)]).sqrt();
-        match i == j {
-            true => 1.0,
-            false if scale > 0.0 => v[(i, j)] / scale,
-            false => 0.0,
-        }
-    })
 }

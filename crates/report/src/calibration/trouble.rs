@@ -2,8 +2,8 @@
 
 use crate::calibrate::{Combination, Trouble};
 
-use super::super::language::Language;
-use super::super::number::significant;
+use crate::language::Language;
+use crate::number::significant;
 
 /// What is wrong and what to do about it.
 pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
@@ -62,7 +62,7 @@ pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
     }
 }
 
-fn counted(readings: usize) -> String {
+pub(super) fn counted(readings: usize) -> String {
     match readings {
         1 => "1 reading".to_owned(),
         _ => format!("{readings} readings"),

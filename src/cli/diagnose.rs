@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{self, Diagnosis, Failure};
+use gumption::document::Document;
+use gumption::render::svg;
 use gumption::report::{self, Language};
 
 use super::form::Form;
@@ -40,7 +42,11 @@ pub(super) fn run(args: &Args) -> Outcome {
     let found = diagnose::diagnose(&case, &|share| steps.at(share));
     drop(steps);
     match found {
-        Ok(diagnosis) => written(args, &case, &diagnosis).max(beside(args, &case, &diagnosis)),
+        Ok(diagnosis) => {
+            let document = report::diagnosis(&case, &diagnosis, args.form.lang);
+            let beside = beside(args, &case, &diagnosis, &document);
+            args.form.write(&document).max(beside)
+        }
         Err(failure) => failed(&args.case, &case, &failure, args.form.lang),
     }
 }
@@ -52,13 +58,8 @@ pub(super) fn failed(path: &Path, case: &Case, failure: &Failure, lang: Language
     Outcome::BadInput
 }
 
-fn written(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
-    let lang = args.form.lang;
-    args.form.write(&report::diagnosis(case, diagnosis, lang))
-}
-
 /// The improved case and the plots.
-fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
+fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis, document: &Document) -> Outcome {
     let mut outcome = Outcome::Done;
     if let Some(folder) = &args.improved {
         let budget = diagnose::budget(case, diagnosis);
@@ -75,10 +76,10 @@ fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis) -> Outcome {
         outcome = outcome.max(files(folder, contents));
     }
     if let Some(folder) = &args.plots {
-        outcome = outcome.max(files(
-            folder,
-            report::diagnosis_plots(case, diagnosis, args.form.lang),
-        ));
+        let drawn = document
+            .plots()
+            .map(|plot| (format!("{}.svg", plot.id), svg(plot)));
+        outcome = outcome.max(files(folder, drawn.collect()));
     }
     outcome
 }

@@ -45,7 +45,8 @@ mod tests;
 pub use allan::{AllanReport, allan, allan_schema};
 pub use calibration::{calibration, calibration_schema, calibration_trouble, plan, plan_schema};
 pub use diagnosis::{
-    assumed_noise, diagnosis, failure as diagnosis_failure, outlook, plots as diagnosis_plots,
+    assumed_noise, diagnosis, diagnosis_schema, failure as diagnosis_failure, outlook,
+    outlook_schema,
 };
 pub use evaluation::{evaluation, evaluation_schema, evaluations};
 pub use language::Language;

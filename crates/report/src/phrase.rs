@@ -33,4 +33,3 @@ pub(super) fn named_row(name: impl Into<Cell>, texts: impl IntoIterator<Item = S
     let texts = texts.into_iter().map(Cell::Text);
     Row::Cells([name.into()].into_iter().chain(texts).collect())
 }
-

@@ -27,6 +27,8 @@ pub struct Document {
     pub blocks: Vec<Block>,
     /// What a machine reads; exact numbers.
     pub machine: Value,
+    /// Plots beside the text, for formats and folders that have room for them.
+    pub beside: Vec<Plot>,
 }
 
 impl Document {
@@ -38,7 +40,15 @@ impl Document {
             language,
             blocks,
             machine: machine::value(machine),
+            beside: Vec::new(),
         }
+    }
+
+    /// With plots beside the text.
+    #[must_use]
+    pub fn with_plots(mut self, plots: Vec<Plot>) -> Self {
+        self.beside.extend(plots);
+        self
     }
 
     /// One document of several of one kind: their blocks one after the other; for machines one value, or an array
@@ -49,6 +59,7 @@ impl Document {
         let mut values = values(whole.machine.take());
         for one in documents {
             whole.blocks.extend(one.blocks);
+            whole.beside.extend(one.beside);
             values.extend(self::values(one.machine));
         }
         whole.machine = match values.len() {
@@ -58,12 +69,13 @@ impl Document {
         Some(whole)
     }
 
-    /// The plots, in the order of the blocks.
+    /// The plots, first those of the blocks, then those beside them.
     pub fn plots(&self) -> impl Iterator<Item = &Plot> {
-        self.blocks.iter().filter_map(|block| match block {
+        let inside = self.blocks.iter().filter_map(|block| match block {
             Block::Plot(plot) => Some(plot),
             _ => None,
-        })
+        });
+        inside.chain(&self.beside)
     }
 }
 

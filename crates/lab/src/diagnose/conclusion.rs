@@ -211,6 +211,13 @@ impl Diagnosis {
         terms.filter(|term| !term.tied).collect()
     }
 
+    /// Whether what an alternative adds comes late.
+    pub fn lags(&self, alternative: &Alternative) -> bool {
+        let variation = self.variation(alternative);
+        let late = |term: &Term| term.modifier.text.contains("lag(");
+        variation.is_none_or(|variation| variation.terms.iter().any(late))
+    }
+
     /// Candidates of the same cause and another order that may stand instead of an alternative, with their shares.
     pub fn other_orders(&self, alternative: &Alternative) -> Vec<(usize, f64)> {
         /// Orders of less than this share are out of the question.

@@ -25,6 +25,13 @@ pub struct Quality {
     pub scale: f64,
 }
 
+impl Quality {
+    /// χ² per degree of freedom.
+    pub fn reduced(&self) -> f64 {
+        self.chi_squared / self.dof
+    }
+}
+
 /// Parts into which observations are divided for the prediction of what was held out.
 const FOLDS: usize = 10;
 

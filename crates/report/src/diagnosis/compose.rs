@@ -1,242 +1,231 @@
 //! A diagnosis as blocks: verdict, where, what, the improvement, what remains open.
 
-use crate::diagnose::Diagnosis;
 use crate::diagnose::case::Case;
-use crate::diagnose::evidence::{Alternative, Slot, State};
-
-use crate::document::Block;
-use crate::document::{ColumnKind, Table};
+use crate::diagnose::evidence::{Alternative, Slot};
+use crate::diagnose::{Diagnosis, Doubt};
+use crate::document::{
+    Block,
+    ColumnKind::{Names as NamesColumn, Numbers},
+};
 use crate::language::Language;
 use crate::number::{NONE, aligned, significant};
+use crate::phrase::{section, table};
 
 use super::labels::spoken;
-use super::statement::{tentative, verdict, weighs};
-use super::words::{
-    amplitude, chance, fitted, formula, name, name_of_atom, noise, orders, p_found, probability,
-    prose, quantity, unsettled as unsettled_fit,
-};
+use super::names::{Names, quantity};
+use super::noise::noise;
+use super::statement::verdict;
+use super::words::{chance, p_found, probability};
 use super::{improvement, open};
 
-/// Cells of the scan that are shown.
-const PLACES: usize = 5;
-
 /// The whole report.
-pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
     let mut blocks = vec![
         Block::Title(case.title.clone()),
-        Block::Statement(vec![verdict(diagnosis, language)]),
+        Block::Statement(vec![verdict(diagnosis, l)]),
+        Block::Fields(fields(case, diagnosis, l)),
     ];
-    let unsettled = diagnosis.unsettled.iter();
-    blocks.extend(unsettled.map(|one| Block::Paragraph(unsettled_fit(case, one, language))));
-    blocks.push(Block::Fields(fields(case, diagnosis, language)));
-    blocks.extend(located(diagnosis, language));
-    blocks.extend(slots(case, diagnosis, language));
-    blocks.extend(improvement::blocks(case, diagnosis, language));
-    blocks.extend(improvement::parameters(diagnosis, language));
-    blocks.extend(open::lines(diagnosis, language));
-    blocks.extend(open::rivals(diagnosis, language));
-    blocks.push(Block::Footer(vec![footer(case, diagnosis, language)]));
+    blocks.extend(located(diagnosis, l));
+    blocks.extend(slots(case, diagnosis, l));
+    blocks.extend(improvement::blocks(case, diagnosis, l));
+    blocks.extend(improvement::parameters(diagnosis, l));
+    blocks.extend(open::lines(diagnosis, l));
+    blocks.extend(open::rivals(diagnosis, l));
+    blocks.push(Block::Footer(vec![footer(case, diagnosis, l)]));
     blocks
 }
 
-fn fields(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<(String, String)> {
+fn fields(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<(String, String)> {
     let rows = diagnosis.blocks.iter().map(Vec::len).sum::<usize>();
-    let recorded = if rows == diagnosis.blocks.len() {
-        language.pick(format!("{rows} rows"), format!("{rows} 行"))
-    } else {
-        let means = diagnosis.blocks.len();
-        language.pick(
+    let recorded = match diagnosis.blocks.len() {
+        means if means == rows => l.pick(format!("{rows} rows"), format!("{rows} 行")),
+        means => l.pick(
             format!("{rows} rows, in {means} means"),
             format!("{rows} 行，取 {means} 个平均值"),
-        )
+        ),
     };
     let left_out = match case.left_out {
         0 => String::new(),
-        n => language.pick(
+        n => l.pick(
             format!("; {n} rows without a value are left out"),
             format!("；略去 {n} 行缺值"),
         ),
     };
-    let differences = as_differences(case, language);
     let alarm = diagnosis.examination.levels.first();
     let p = alarm.map_or(NONE.to_owned(), |level| p_found(level.p, level.draws));
+    let (count, alpha) = (diagnosis.cells.len(), significant(case.settings.alpha, 2));
+    let test = l.pick(
+        format!("{p} over all {count} explanations together (alarm below {alpha})"),
+        format!("{p}（同时考虑全部 {count} 种解释；低于 {alpha} 报警）"),
+    );
     vec![
         (
-            language.pick("Declared model", "声明的模型").into(),
+            l.pick("Declared model", "声明的模型").into(),
             case.model.join("; "),
         ),
         (
-            language.pick("Recording", "记录").into(),
-            recorded + &left_out + &differences,
+            l.pick("Recording", "记录").into(),
+            recorded + &left_out + &as_differences(case, l),
         ),
-        (
-            language.pick("Noise", "噪声").into(),
-            noise(&diagnosis.noise, language),
-        ),
-        (
-            language.pick("Test for a mismatch", "不一致检验").into(),
-            language.pick(
-                format!(
-                    "{p} over all {} explanations together (alarm below {})",
-                    diagnosis.cells.len(),
-                    significant(case.settings.alpha, 2)
-                ),
-                format!(
-                    "{p}（同时考虑全部 {} 种解释；低于 {} 报警）",
-                    diagnosis.cells.len(),
-                    significant(case.settings.alpha, 2)
-                ),
-            ),
-        ),
+        (l.pick("Noise", "噪声").into(), noise(&diagnosis.noise, l)),
+        (l.pick("Test for a mismatch", "不一致检验").into(), test),
     ]
 }
 
 /// Columns whose temperatures count from 0 °C.
-fn as_differences(case: &Case, language: Language) -> String {
+fn as_differences(case: &Case, l: Language) -> String {
     let names = case.columns.iter().filter(|column| column.as_difference);
     let names: Vec<&str> = names.map(|column| column.name.as_str()).collect();
     if names.is_empty() {
         return String::new();
     }
-    let names = names.join(language.pick(", ", "、"));
-    language.pick(
+    let names = names.join(l.pick(", ", "、"));
+    l.pick(
         format!("; {names} count from 0 of their scale"),
         format!("；{names} 以其温标零点为起点"),
     )
 }
 
-fn located(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
-    let shown: Vec<_> = diagnosis
-        .located
-        .iter()
-        .filter(|(_, located)| located.p < 0.05)
-        .take(PLACES)
-        .collect();
-    if shown.is_empty() {
-        return Vec::new();
-    }
-    let mut table = Table::new([
-        (language.pick("quantity", "量"), ColumnKind::Names),
-        (language.pick("where", "位置"), ColumnKind::Names),
-        (language.pick("disturbance", "扰动"), ColumnKind::Numbers),
-        ("u", ColumnKind::Numbers),
-        ("Δχ²", ColumnKind::Numbers),
-        ("p", ColumnKind::Numbers),
-    ]);
-    for (cell, located) in shown {
+fn located(diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
+    /// More are in the JSON.
+    const PLACES: usize = 5;
+    let mut table = table(
+        l,
+        [
+            ("quantity", "量", NamesColumn),
+            ("where", "位置", NamesColumn),
+            ("disturbance", "扰动", Numbers),
+            ("u", "u", Numbers),
+            ("Δχ²", "Δχ²", Numbers),
+            ("p", "p", Numbers),
+        ],
+    );
+    for (cell, located) in diagnosis.conspicuous().take(PLACES) {
         table.push(vec![
-            quantity(&cell.node, language).into(),
-            format!(
-                "{} {}",
-                spoken(&cell.factor, language),
-                spoken(&cell.level, language)
-            )
-            .into(),
+            quantity(&cell.node, l).into(),
+            format!("{} {}", spoken(&cell.factor, l), spoken(&cell.level, l)).into(),
             aligned(located.size, located.u, 2).into(),
             significant(located.u, 2).into(),
             significant(located.chi_squared, 3).into(),
             probability(located.p).into(),
         ]);
     }
+    if table.rows.is_empty() {
+        return Vec::new();
+    }
     vec![
-        Block::Section(
-            language
-                .pick("Where the mismatch sits", "不一致所在")
-                .into(),
-        ),
+        section(l, "Where the mismatch sits", "不一致所在"),
         Block::Table(table),
     ]
 }
 
-fn slots(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+fn slots(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
     let slots = &diagnosis.examination.slots;
     if slots.is_empty() {
         return Vec::new();
     }
-    let mut blocks = vec![Block::Section(
-        language.pick("What was left out", "遗漏的物理效应").into(),
-    )];
+    let names = Names::of_diagnosis(diagnosis, l);
+    let mut blocks = vec![section(l, "What was left out", "遗漏的物理效应")];
     let mut before = None;
     for slot in slots {
-        let introduction = introduction(diagnosis, slot, language);
+        let introduction = diagnosis
+            .doubt(slot)
+            .map(|doubt| introduction(&doubt, names));
         if introduction != before {
             blocks.extend(introduction.clone().map(Block::Paragraph));
             before = introduction;
         }
-        blocks.extend(names(case, diagnosis, slot, language));
+        blocks.extend(named(case, diagnosis, slot, names));
     }
     blocks
 }
 
 /// What is to be said before the names of a slot that is not explained.
-fn introduction(diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Option<String> {
-    if slot.state != State::Unexplained {
-        return None;
-    }
-    let places = slot.generic.iter().filter(|one| weighs(one)).map(|a| {
-        let name = name(&diagnosis.cells[a.candidate], language);
-        let p = chance(a.probability);
-        language.pick(format!("{name} ({p} %)"), format!("{name}（{p} %）"))
-    });
-    let places: Vec<String> = places.collect();
-    let has_names = slot.named.iter().any(weighs);
-    let text = match (places.is_empty(), has_names) {
-        (true, false) => language.pick(
-            "Something remains that has neither a name nor a place.",
-            "还有既无名称也无法定位的部分。",
-        ),
-        (true, true) => certain_not(language),
-        (false, _) if tentative(diagnosis, slot).is_some() => certain_not(language),
-        (false, true) => &language.pick(
-            format!("Unexplained: {}. Tentative names:", places.join("; ")),
-            format!("未能解释：{}。仅供参考的名称：", places.join("；")),
-        ),
-        (false, false) => &language.pick(
-            format!("Unexplained: {}.", places.join("; ")),
-            format!("未能解释：{}。", places.join("；")),
-        ),
+fn introduction(doubt: &Doubt<'_>, names: Names<'_>) -> String {
+    let l = names.l;
+    let (places, resembles) = match doubt {
+        Doubt::Nothing => {
+            let text = l.pick(
+                "Something remains that has neither a name nor a place.",
+                "还有既无名称也无法定位的部分。",
+            );
+            return text.to_owned();
+        }
+        Doubt::Uncertain => {
+            let text = l.pick(
+                "Named, but not with certainty: the name may be the shape of another effect.",
+                "有名称但不确定：它可能只是另一影响的形态。",
+            );
+            return text.to_owned();
+        }
+        Doubt::At { places, resembles } => (places, *resembles),
     };
-    Some(text.to_owned())
-}
-
-fn certain_not(language: Language) -> &'static str {
-    language.pick(
-        "Named, but not with certainty: the name may be the shape of another effect.",
-        "有名称但不确定：它可能只是另一影响的形态。",
+    let places = places.iter().map(|one| {
+        let (name, p) = (names.plain(one.candidate), chance(one.probability));
+        l.pick(format!("{name} ({p} %)"), format!("{name}（{p} %）"))
+    });
+    let places = places.collect::<Vec<_>>().join(l.pick("; ", "；"));
+    let tentative = match resembles {
+        true => l.pick(" Tentative names:", "仅供参考的名称："),
+        false => "",
+    };
+    l.pick(
+        format!("Unexplained: {places}.{tentative}"),
+        format!("未能解释：{places}。{tentative}"),
     )
 }
 
-fn names(case: &Case, diagnosis: &Diagnosis, slot: &Slot, language: Language) -> Vec<Block> {
-    let explained = slot.state != State::Unexplained;
+fn named(case: &Case, diagnosis: &Diagnosis, slot: &Slot, names: Names<'_>) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut said: Vec<String> = Vec::new();
-    for alternative in slot.named.iter().filter(|one| explained || weighs(one)) {
+    for alternative in slot.told() {
         blocks.push(Block::Paragraph(headline(
             diagnosis,
             alternative,
             slot,
-            language,
+            names,
         )));
-        let cell = &diagnosis.cells[alternative.candidate];
-        if explained {
-            let prose = match &cell.description {
-                Some(own) => own.clone(),
-                None => prose(cell, language),
-            };
-            if !said.contains(&prose) {
-                blocks.push(Block::Paragraph(prose.clone()));
-                said.push(prose);
-            }
-            let multiplied = fitted(diagnosis, alternative).map(|terms| {
-                language.pick(format!("β multiplies {terms}"), format!("β 乘以 {terms}"))
-            });
-            let lines = [formula(diagnosis, alternative, language)].into_iter();
-            let amplitude = amplitude(case, diagnosis, alternative, language);
-            let lines = lines.chain(multiplied).chain(amplitude);
-            blocks.push(Block::Formula(lines.collect()));
+        if !slot.is_explained() {
+            continue;
         }
+        let prose = names.prose(alternative.candidate);
+        if !said.contains(&prose) {
+            blocks.push(Block::Paragraph(prose.clone()));
+            said.push(prose);
+        }
+        let lines = [names.formula(diagnosis, alternative)].into_iter();
+        let lines = lines.chain(multiplied(diagnosis, alternative, names.l));
+        let lines = lines.chain(amplitude(case, diagnosis, alternative, names.l));
+        blocks.push(Block::Formula(lines.collect()));
     }
     blocks
+}
+
+/// What the sizes of the best variant multiply, as it was fitted; nothing where there are too many terms to
+/// read, none has a formula, or the size stands alone.
+fn multiplied(diagnosis: &Diagnosis, alternative: &Alternative, l: Language) -> Option<String> {
+    /// More are in the table of the improved model.
+    const MOST: usize = 3;
+    let terms = diagnosis.terms(alternative).into_iter();
+    let mut texts: Vec<&str> = terms.map(|term| term.written().text.as_str()).collect();
+    texts.dedup();
+    let readable = texts.len() <= MOST && texts.iter().all(|text| !text.is_empty() && *text != "1");
+    let terms = texts.join("; ");
+    (readable && !texts.is_empty())
+        .then(|| l.pick(format!("β multiplies {terms}"), format!("β 乘以 {terms}")))
+}
+
+fn amplitude(
+    case: &Case,
+    diagnosis: &Diagnosis,
+    alternative: &Alternative,
+    l: Language,
+) -> Option<String> {
+    let size = diagnosis.amplitude(case, alternative)?;
+    let (value, u) = (aligned(size.value, size.u, 2), significant(size.u, 2));
+    let text = format!("{value} ± {u} {}", size.unit);
+    let text = text.trim_end();
+    Some(l.pick(format!("amplitude {text}"), format!("幅值 {text}")))
 }
 
 /// Name, probability, size, strength of one alternative.
@@ -244,53 +233,41 @@ fn headline(
     diagnosis: &Diagnosis,
     alternative: &Alternative,
     slot: &Slot,
-    language: Language,
+    names: Names<'_>,
 ) -> String {
+    let l = names.l;
     let title = match alternative.variants.first() {
-        Some(variant) => name_of_atom(diagnosis, variant.atom, language),
-        None => name(&diagnosis.cells[alternative.candidate], language),
-    } + &orders(diagnosis, alternative, language);
-    let posterior = chance(alternative.probability);
-    let separate = match &alternative.nearest {
-        Some(rival) => {
-            let other = name(&diagnosis.cells[rival.candidate], language);
-            let kappa = significant(rival.kappa, 2);
-            language.pick(
-                format!("; nearest rival {other}, κ = {kappa}"),
-                format!("；最接近的竞争解释：{other}，κ = {kappa}"),
-            )
-        }
-        None => String::new(),
-    };
+        Some(variant) => names.variant(diagnosis.atoms[variant.atom]),
+        None => names.plain(alternative.candidate),
+    } + &names.orders(diagnosis, alternative);
+    let rival = alternative.nearest.as_ref().map_or(String::new(), |rival| {
+        let (other, kappa) = (names.plain(rival.candidate), significant(rival.kappa, 2));
+        l.pick(
+            format!("; nearest rival {other}, κ = {kappa}"),
+            format!("；最接近的竞争解释：{other}，κ = {kappa}"),
+        )
+    });
     let lambda = significant(alternative.lambda, 2);
-    let only = slot.named.len() == 1;
-    let probability = if only && alternative.probability > 0.999 {
-        String::new()
-    } else {
-        format!("{posterior} %{}", language.pick(", ", "，"))
+    let probability = match slot.named.as_slice() {
+        [only] if only.is_sure() => String::new(),
+        _ => format!(
+            "{} %{}",
+            chance(alternative.probability),
+            l.pick(", ", "，")
+        ),
     };
-    language.pick(
-        format!("▸ {title}: {probability}strength λ = {lambda}{separate}"),
-        format!("▸ {title}：{probability}强度 λ = {lambda}{separate}"),
+    l.pick(
+        format!("▸ {title}: {probability}strength λ = {lambda}{rival}"),
+        format!("▸ {title}：{probability}强度 λ = {lambda}{rival}"),
     )
 }
 
-fn footer(case: &Case, diagnosis: &Diagnosis, language: Language) -> String {
-    let draws = diagnosis
-        .examination
-        .levels
-        .first()
-        .map_or(0, |level| level.draws);
-    language.pick(
-        format!(
-            "gumption {}, seed {}, {draws} simulated recordings.",
-            env!("CARGO_PKG_VERSION"),
-            case.settings.seed
-        ),
-        format!(
-            "gumption {}，随机种子 {}，模拟记录 {draws} 次。",
-            env!("CARGO_PKG_VERSION"),
-            case.settings.seed
-        ),
+fn footer(case: &Case, diagnosis: &Diagnosis, l: Language) -> String {
+    let alarm = diagnosis.examination.levels.first();
+    let draws = alarm.map_or(0, |level| level.draws);
+    let (version, seed) = (env!("CARGO_PKG_VERSION"), case.settings.seed);
+    l.pick(
+        format!("gumption {version}, seed {seed}, {draws} simulated recordings."),
+        format!("gumption {version}，随机种子 {seed}，模拟记录 {draws} 次。"),
     )
 }

@@ -2,65 +2,63 @@
 //! parameters.
 
 use crate::diagnose::case::Case;
-use crate::diagnose::{Adopted, Diagnosis, Estimated, HeldOutQuality, Quality};
-use crate::document::Block;
-use crate::document::{ColumnKind, Table};
+use crate::diagnose::{Adopted, Agreement, Diagnosis, HeldOutQuality, Quality};
+use crate::document::{
+    Block,
+    ColumnKind::{Names, Numbers, Wrapped},
+    Row, Table,
+};
 use crate::language::Language;
 use crate::number::{aligned, freedom, in_unit, significant};
-use crate::special::chi_squared_sf;
+use crate::phrase::{named_row, paragraph, section, table};
 use crate::symbol;
 
 use super::labels::spoken;
-use super::words::{self, p_is};
+use super::names::unknown;
+use super::words::p_is;
 
 /// Before and after.
-pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
-    let before = &diagnosis.before;
-    let after = diagnosis.adopted.as_ref().map(|adopted| &adopted.quality);
-    let mut blocks = vec![Block::Section(
-        match after {
-            Some(_) => language.pick("Before and after", "改进前后"),
-            None => language.pick("Agreement of the model", "模型的符合程度"),
-        }
-        .into(),
-    )];
+pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
+    let mut blocks = Vec::new();
     if let Some(adopted) = &diagnosis.adopted {
+        blocks.push(section(l, "Before and after", "改进前后"));
         blocks.push(Block::Formula(improved_model(adopted)));
-        blocks.push(Block::Table(coefficients(adopted, language)));
-        blocks.extend(signal(adopted, language));
+        blocks.push(Block::Table(coefficients(adopted, l)));
+        blocks.extend(signal(adopted, l));
+    } else {
+        blocks.push(section(l, "Agreement of the model", "模型的符合程度"));
     }
-    blocks.push(Block::Table(qualities(
-        case, diagnosis, before, after, language,
-    )));
-    if let Some(adopted) = &diagnosis.adopted {
-        blocks.extend(confirmation(adopted, language));
-    }
-    blocks.extend(badly_predicted(case, diagnosis, language));
+    blocks.push(Block::Table(qualities(case, diagnosis, l)));
+    blocks.extend(
+        diagnosis
+            .adopted
+            .as_ref()
+            .and_then(|adopted| confirmation(adopted, l)),
+    );
+    blocks.extend(badly_predicted(case, diagnosis, l));
     blocks
 }
 
 fn improved_model(adopted: &Adopted) -> Vec<String> {
-    let mut lines: Vec<String> = adopted
-        .extended
-        .case
-        .model
-        .iter()
-        .flat_map(|model| model.lines().map(str::to_owned).collect::<Vec<_>>())
-        .collect();
-    for addition in &adopted.extended.additions {
-        lines.push(format!("{} = {}", addition.column, addition.text));
-    }
+    let model = adopted.extended.case.model.iter();
+    let additions = adopted.extended.additions.iter();
+    let lines = model.flat_map(|model| model.lines().map(str::to_owned));
     lines
+        .chain(additions.map(|addition| format!("{} = {}", addition.column, addition.text)))
+        .collect()
 }
 
-fn coefficients(adopted: &Adopted, language: Language) -> Table {
-    let mut table = Table::new([
-        (language.pick("size", "大小"), ColumnKind::Names),
-        (language.pick("multiplies", "乘以"), ColumnKind::Wrapped),
-        (language.pick("estimate", "估计值"), ColumnKind::Numbers),
-        ("u", ColumnKind::Numbers),
-        (language.pick("unit", "单位"), ColumnKind::Names),
-    ]);
+fn coefficients(adopted: &Adopted, l: Language) -> Table {
+    let mut table = table(
+        l,
+        [
+            ("size", "大小", Names),
+            ("multiplies", "乘以", Wrapped),
+            ("estimate", "估计值", Numbers),
+            ("u", "u", Numbers),
+            ("unit", "单位", Names),
+        ],
+    );
     for (estimated, addition) in adopted.coefficients.iter().zip(&adopted.extended.additions) {
         table.push(vec![
             estimated.name.as_str().into(),
@@ -74,271 +72,203 @@ fn coefficients(adopted: &Adopted, language: Language) -> Table {
 }
 
 /// What the formulas call the signal, where they do.
-fn signal(adopted: &Adopted, language: Language) -> Option<Block> {
+fn signal(adopted: &Adopted, l: Language) -> Option<Block> {
     let mut additions = adopted.extended.additions.iter();
     let named = additions.any(|addition| addition.text.contains("signal"));
     named.then(|| {
-        Block::Paragraph(
-            language
-                .pick(
-                    "signal: what the fitted declared model gives besides constant terms.",
-                    "signal：已拟合的声明模型中除常数项以外的部分。",
-                )
-                .to_owned(),
+        paragraph(
+            l,
+            "signal: what the fitted declared model gives besides constant terms.",
+            "signal：已拟合的声明模型中除常数项以外的部分。",
         )
     })
 }
 
-fn qualities(
-    case: &Case,
-    diagnosis: &Diagnosis,
-    before: &Quality,
-    after: Option<&Quality>,
-    language: Language,
-) -> Table {
-    let mut table = Table::new([
-        ("", ColumnKind::Names),
-        (
-            language.pick("declared model", "声明的模型"),
-            ColumnKind::Numbers,
-        ),
-        (
-            if after.is_some() {
-                language.pick("with the physics", "加入遗漏效应后")
-            } else {
-                ""
-            },
-            ColumnKind::Numbers,
-        ),
-    ]);
-    let cell = |value: Option<f64>| value.map_or(String::new(), |value| significant(value, 3));
+/// A row for the declared model and the one with the physics in it; three digits.
+fn compared(label: String, before: Option<f64>, after: Option<f64>) -> Row {
+    let texts = [before, after];
+    named_row(
+        label,
+        texts.map(|x| x.map_or(String::new(), |x| significant(x, 3))),
+    )
+}
+
+fn qualities(case: &Case, diagnosis: &Diagnosis, l: Language) -> Table {
+    let (before, after) = (
+        &diagnosis.before,
+        diagnosis.adopted.as_ref().map(|a| &a.quality),
+    );
+    let mut table = table(
+        l,
+        [
+            ("", "", Names),
+            ("declared model", "声明的模型", Numbers),
+            ("with the physics", "加入遗漏效应后", Numbers),
+        ],
+    );
+    let known = !diagnosis.noise.is_estimated();
     for (index, response) in case.responses.iter().enumerate() {
-        let unit = symbol(&response.unit);
         let label = |what: &str| {
-            in_unit(
-                &format!("{what}{}{}", language.pick(", ", "，"), response.name),
-                &unit,
-            )
+            let of = format!("{what}{}{}", l.pick(", ", "，"), response.name);
+            in_unit(&of, &symbol(&response.unit))
         };
-        table.push(vec![
-            label(language.pick("residual RMS", "残差均方根")).into(),
-            cell(before.residual.get(index).copied()).into(),
-            cell(after.and_then(|after| after.residual.get(index).copied())).into(),
-        ]);
-        if !diagnosis.noise.is_estimated() {
-            table.push(vec![
-                label(language.pick("expected noise", "预期噪声")).into(),
-                cell(before.expected.get(index).copied()).into(),
-                cell(after.and_then(|after| after.expected.get(index).copied())).into(),
-            ]);
+        let mut row = |what: &str, of: fn(&Quality) -> &Vec<f64>| {
+            let value = |quality| of(quality).get(index).copied();
+            table
+                .rows
+                .push(compared(label(what), value(before), after.and_then(value)));
+        };
+        row(l.pick("residual RMS", "残差均方根"), |quality| {
+            &quality.residual
+        });
+        if known {
+            row(l.pick("expected noise", "预期噪声"), |quality| {
+                &quality.expected
+            });
         }
-        table.push(vec![
-            label(language.pick("error predicting held-out rows", "留出数据的预测误差")).into(),
-            cell(before.held_out.get(index).copied()).into(),
-            cell(after.and_then(|after| after.held_out.get(index).copied())).into(),
-        ]);
+        row(
+            l.pick("error predicting held-out rows", "留出数据的预测误差"),
+            |quality| &quality.held_out,
+        );
     }
     if let Some(held) = &diagnosis.held_out {
-        held_out(&mut table, case, held, language);
+        held_out(&mut table, case, held, l);
     }
-    if !diagnosis.noise.is_estimated() {
-        table.push(vec![
-            "χ²/ν".into(),
-            significant(before.chi_squared / before.dof, 3).into(),
-            cell(after.map(|after| after.chi_squared / after.dof)).into(),
-        ]);
+    if known {
+        let (before, after) = (before.reduced(), after.map(|after| after.reduced()));
+        table
+            .rows
+            .push(compared("χ²/ν".to_owned(), Some(before), after));
     }
-    table.push(vec![
-        language.pick("degrees of freedom", "自由度").into(),
-        freedom(before.dof).into(),
-        after
-            .map_or(String::new(), |after| freedom(after.dof))
-            .into(),
-    ]);
+    let after = after.map_or(String::new(), |after| freedom(after.dof));
+    let label = l.pick("degrees of freedom", "自由度");
+    table
+        .rows
+        .push(named_row(label, [freedom(before.dof), after]));
     table.without_empty_columns()
 }
 
 /// Prediction of the recording that was held out.
-fn held_out(table: &mut Table, case: &Case, held: &HeldOutQuality, language: Language) {
-    let after = held.after.as_ref();
+fn held_out(table: &mut Table, case: &Case, held: &HeldOutQuality, l: Language) {
+    let (before, after, file) = (&held.before, held.after.as_ref(), &held.file);
     for (index, response) in case.responses.iter().enumerate() {
-        let unit = symbol(&response.unit);
-        let expected = significant(held.expected[index], 3);
-        let label = language.pick(
-            format!(
-                "error predicting {} (noise {expected}), {}",
-                held.file, response.name
-            ),
-            format!(
-                "对 {} 的预测误差（噪声 {expected}），{}",
-                held.file, response.name
-            ),
+        let (expected, name) = (significant(held.expected[index], 3), &response.name);
+        let label = l.pick(
+            format!("error predicting {file} (noise {expected}), {name}"),
+            format!("对 {file} 的预测误差（噪声 {expected}），{name}"),
         );
-        table.push(vec![
-            in_unit(&label, &unit).into(),
-            significant(held.before.rms[index], 3).into(),
-            after
-                .map_or(String::new(), |p| significant(p.rms[index], 3))
-                .into(),
-        ]);
+        let label = in_unit(&label, &symbol(&response.unit));
+        let after = after.map(|after| after.rms[index]);
+        table
+            .rows
+            .push(compared(label, Some(before.rms[index]), after));
     }
-    let count = held.observations as f64;
-    table.push(vec![
-        language
-            .pick(
-                format!("χ²/n of that prediction, n = {}", held.observations),
-                format!("该预测的 χ²/n，n = {}", held.observations),
-            )
-            .into(),
-        significant(held.before.chi_squared / count, 3).into(),
-        after
-            .map_or(String::new(), |p| significant(p.chi_squared / count, 3))
-            .into(),
-    ]);
+    let n = held.observations;
+    let label = l.pick(
+        format!("χ²/n of that prediction, n = {n}"),
+        format!("该预测的 χ²/n，n = {n}"),
+    );
+    let reduced = |chi_squared: f64| chi_squared / n as f64;
+    let after = after.map(|after| reduced(after.chi_squared));
+    table
+        .rows
+        .push(compared(label, Some(reduced(before.chi_squared)), after));
 }
 
 /// A remark where the recording that was held out is predicted worse than the noise allows.
-fn badly_predicted(case: &Case, diagnosis: &Diagnosis, language: Language) -> Option<Block> {
-    let held = diagnosis.held_out.as_ref()?;
-    let best = held.after.as_ref().unwrap_or(&held.before);
-    let p = chi_squared_sf(best.chi_squared, held.observations as f64);
-    let known = !diagnosis.noise.is_estimated();
-    (known && p < case.settings.alpha).then(|| {
-        Block::Paragraph(language.pick(
-            format!("{} is predicted worse than the noise allows ({}): its conditions show something that those of the recording do not. Diagnose it too.", held.file, p_is(p)),
-            format!("对 {} 的预测误差超出噪声（{}）：其条件显示出本记录未显示的影响，请对其也进行诊断。", held.file, p_is(p)),
-        ))
-    })
+fn badly_predicted(case: &Case, diagnosis: &Diagnosis, l: Language) -> Option<Block> {
+    let p = p_is(diagnosis.badly_predicted(case)?);
+    let file = &diagnosis.held_out.as_ref()?.file;
+    Some(Block::Paragraph(l.pick(
+        format!("{file} is predicted worse than the noise allows ({p}): its conditions show something that those of the recording do not. Diagnose it too."),
+        format!("对 {file} 的预测误差超出噪声（{p}）：其条件显示出本记录未显示的影响，请对其也进行诊断。"),
+    )))
 }
 
-fn confirmation(adopted: &Adopted, language: Language) -> Vec<Block> {
-    let parts: Vec<String> = adopted
+fn confirmation(adopted: &Adopted, l: Language) -> Option<Block> {
+    let name = &adopted.coefficients.first()?.name;
+    let parts = adopted.confirmation.parts.iter().map(|(part, value, u)| {
+        let part = spoken(part, l);
+        let size = format!("{} ± {}", aligned(*value, *u, 2), significant(*u, 2));
+        l.pick(format!("{part}: {size}"), format!("{part}：{size}"))
+    });
+    let parts: Vec<String> = parts.collect();
+    let agreed = adopted
         .confirmation
-        .parts
-        .iter()
-        .map(|(part, value, u)| {
-            let part = spoken(part, language);
-            let size = format!("{} ± {}", aligned(*value, *u, 2), significant(*u, 2));
-            language.pick(format!("{part}: {size}"), format!("{part}：{size}"))
-        })
-        .collect();
-    let (Some(first), false) = (adopted.coefficients.first(), parts.is_empty()) else {
-        return Vec::new();
-    };
-    let agreement = (adopted.confirmation.agreement).map_or(String::new(), |p| agree(p, language));
-    vec![Block::Paragraph(language.pick(
+        .agreed()
+        .map_or(String::new(), |(agreement, p)| {
+            let p = p_is(p);
+            match agreement {
+                Agreement::Agree => l.pick(
+                    format!("; they agree ({p})"),
+                    format!("；各部分一致（{p}）"),
+                ),
+                Agreement::Doubtful => l.pick(
+                    format!("; it is doubtful whether they agree ({p})"),
+                    format!("；各部分是否一致存疑（{p}）"),
+                ),
+                Agreement::Differ => l.pick(
+                    format!("; they do not agree ({p})"),
+                    format!("；各部分不一致（{p}）"),
+                ),
+            }
+        });
+    let told = l.pick(
         format!(
-            "{} from parts of the recording: {}{agreement}.",
-            first.name,
+            "{name} from parts of the recording: {}{agreed}.",
             parts.join(", ")
         ),
-        format!(
-            "由记录各部分得到的 {}：{}{agreement}。",
-            first.name,
-            parts.join("，")
-        ),
-    ))]
-}
-
-/// Whether parts agree that differ as much by chance with probability `p`.
-fn agree(p: f64, language: Language) -> String {
-    /// From here on they agree …
-    const AGREE: f64 = 0.05;
-    /// … and below it they do not.
-    const DIFFER: f64 = 0.01;
-    let is = p_is(p);
-    if p >= AGREE {
-        language.pick(
-            format!("; they agree ({is})"),
-            format!("；各部分一致（{is}）"),
-        )
-    } else if p >= DIFFER {
-        language.pick(
-            format!("; it is doubtful whether they agree ({is})"),
-            format!("；各部分是否一致存疑（{is}）"),
-        )
-    } else {
-        language.pick(
-            format!("; they do not agree ({is})"),
-            format!("；各部分不一致（{is}）"),
-        )
-    }
+        format!("由记录各部分得到的 {name}：{}{agreed}。", parts.join("，")),
+    );
+    (!parts.is_empty()).then_some(Block::Paragraph(told))
 }
 
 /// The parameters before and after, and with what may be there unseen.
-pub(super) fn parameters(diagnosis: &Diagnosis, language: Language) -> Vec<Block> {
+pub(super) fn parameters(diagnosis: &Diagnosis, l: Language) -> Vec<Block> {
     /// Longer lists, one for each label, are in the JSON.
     const MOST: usize = 30;
-    let mut table = Table::new([
-        (language.pick("parameter", "参数"), ColumnKind::Names),
-        (
-            language.pick("declared model", "声明的模型"),
-            ColumnKind::Numbers,
-        ),
-        ("u", ColumnKind::Numbers),
-        (
-            if diagnosis.adopted.is_some() {
-                language.pick("with the physics", "加入遗漏效应后")
-            } else {
-                ""
-            },
-            ColumnKind::Numbers,
-        ),
-        (
-            if diagnosis.adopted.is_some() { "u" } else { "" },
-            ColumnKind::Numbers,
-        ),
-        (
-            language.pick("u with unseen", "计入未见影响的 u"),
-            ColumnKind::Numbers,
-        ),
-        (language.pick("unit", "单位"), ColumnKind::Names),
-    ]);
+    let mut table = table(
+        l,
+        [
+            ("parameter", "参数", Names),
+            ("declared model", "声明的模型", Numbers),
+            ("u", "u", Numbers),
+            ("with the physics", "加入遗漏效应后", Numbers),
+            ("u", "u", Numbers),
+            ("u with unseen", "计入未见影响的 u", Numbers),
+            ("unit", "单位", Names),
+        ],
+    );
     let unseen = diagnosis.u_with_unseen();
-    for (index, unknown) in diagnosis.unknowns.iter().take(MOST).enumerate() {
-        let after: Option<&Estimated> = diagnosis
-            .adopted
-            .as_ref()
-            .and_then(|adopted| adopted.unknowns.get(index));
+    let adopted = diagnosis.adopted.as_ref();
+    for (index, own) in diagnosis.unknowns.iter().take(MOST).enumerate() {
+        let after = adopted.and_then(|adopted| adopted.unknowns.get(index));
+        let after = after.map_or([String::new(), String::new()], |after| {
+            [
+                aligned(after.rounded(), after.u, 2),
+                significant(after.u, 2),
+            ]
+        });
+        let [value, u] = after;
         table.push(vec![
-            words::unknown(&unknown.name, language).into(),
-            words::estimate(unknown).into(),
-            significant(unknown.u, 2).into(),
-            after.map_or(String::new(), words::estimate).into(),
-            after
-                .map_or(String::new(), |after| significant(after.u, 2))
-                .into(),
+            unknown(&own.name, l).into(),
+            aligned(own.rounded(), own.u, 2).into(),
+            significant(own.u, 2).into(),
+            value.into(),
+            u.into(),
             unseen
                 .get(index)
                 .map_or(String::new(), |u| significant(*u, 2))
                 .into(),
-            unknown.unit.as_str().into(),
+            own.unit.as_str().into(),
         ]);
     }
     vec![
-        Block::Section(
-            language
-                .pick(
-                    "What it changes in the result and its uncertainty",
-                    "对结果及其不确定度的影响",
-                )
-                .into(),
+        section(
+            l,
+            "What it changes in the result and its uncertainty",
+            "对结果及其不确定度的影响",
         ),
         Block::Table(table.without_empty_columns()),
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parts_agree_as_their_probability_says() {
-        let said = [0.44, 0.03, 0.0085].map(|p| agree(p, Language::English));
-        assert_eq!(said[0], "; they agree (p = 0.44)");
-        assert!(said[1].starts_with("; it is doubtful"), "{}", said[1]);
-        assert_eq!(said[2], "; they do not agree (p = 0.0085)");
-        let said = [0.44, 0.0085].map(|p| agree(p, Language::Chinese));
-        assert!(said[0].contains("一致") && said[1].contains("不一致"));
-    }
 }

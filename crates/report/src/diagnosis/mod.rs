@@ -1,9 +1,11 @@
-//! A diagnosis for the terminal, as Markdown, and for machines.
+//! Documents of diagnoses and of plans of experiments, and why there is none.
 
 mod compose;
+mod form;
 mod improvement;
-mod json;
 mod labels;
+mod names;
+mod noise;
 mod open;
 mod outlook;
 mod plots;
@@ -12,32 +14,22 @@ mod words;
 
 use crate::diagnose::case::Case;
 use crate::diagnose::{Diagnosis, Outlook};
-
 use crate::document::Document;
 use crate::language::Language;
 
-pub use plots::plots;
+pub use form::{diagnosis_schema, outlook_schema};
+pub use noise::assumed_noise;
+pub use words::failure;
 
-/// The document of a diagnosis.
+/// The document of a diagnosis, with plots of its residuals.
 pub fn diagnosis(case: &Case, diagnosis: &Diagnosis, language: Language) -> Document {
-    Document {
-        kind: "diagnosis",
-        version: 1,
-        language,
-        blocks: compose::blocks(case, diagnosis, language),
-        machine: json::json(case, diagnosis, language),
-    }
+    let blocks = compose::blocks(case, diagnosis, language);
+    let form = form::diagnosis(case, diagnosis, language);
+    Document::new(&form, language, blocks).with_plots(plots::plots(case, diagnosis, language))
 }
 
 /// The document of a plan.
 pub fn outlook(case: &Case, outlook: &Outlook, language: Language) -> Document {
-    Document {
-        kind: "plan",
-        version: 1,
-        language,
-        blocks: outlook::blocks(case, outlook, language),
-        machine: outlook::json(case, outlook, language),
-    }
+    let blocks = outlook::blocks(case, outlook, language);
+    Document::new(&form::outlook(case, outlook, language), language, blocks)
 }
-
-pub use words::{assumed_noise, failure};

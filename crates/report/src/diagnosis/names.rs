@@ -1,0 +1,158 @@
+//! Names of effects, in a language.
+
+use crate::diagnose::catalogue::{Cell, Words};
+use crate::diagnose::evidence::{Alternative, Slot};
+use crate::diagnose::{Diagnosis, Outlook};
+use crate::language::Language;
+use crate::number::percent;
+
+use super::labels::{formula_in, spoken};
+
+/// Names of the candidates of a diagnosis or a plan.
+#[derive(Clone, Copy)]
+pub(super) struct Names<'a> {
+    cells: &'a [Cell],
+    /// Language of the names.
+    pub(super) l: Language,
+}
+
+impl<'a> Names<'a> {
+    /// Of a diagnosis.
+    pub(super) fn of_diagnosis(diagnosis: &'a Diagnosis, l: Language) -> Names<'a> {
+        Names {
+            cells: &diagnosis.cells,
+            l,
+        }
+    }
+
+    /// Of a plan.
+    pub(super) fn of_outlook(outlook: &'a Outlook, l: Language) -> Names<'a> {
+        Names {
+            cells: &outlook.cells,
+            l,
+        }
+    }
+
+    /// The candidate itself.
+    pub(super) fn cell(self, cell: usize) -> &'a Cell {
+        &self.cells[cell]
+    }
+
+    /// The name of a candidate with its columns in it.
+    pub(super) fn plain(self, cell: usize) -> String {
+        let cell = self.cell(cell);
+        self.words(cell).fill(cell.effect.name.of(self.l))
+    }
+
+    /// The name, and what distinguishes a candidate whose only variant has a label: the harmonic of an angle.
+    pub(super) fn full(self, cell: usize) -> String {
+        match self.cell(cell).variants.as_slice() {
+            [_] => self.variant((cell, 0)),
+            _ => self.plain(cell),
+        }
+    }
+
+    /// The name, and what distinguishes the variant.
+    pub(super) fn variant(self, (cell, variation): (usize, usize)) -> String {
+        let label = self.cell(cell).variants[variation].short_label();
+        // Numbers without a unit stand alone.
+        let label = label.strip_suffix(" 1").unwrap_or(&label);
+        let (name, label) = (self.plain(cell), spoken(label, self.l));
+        match label.is_empty() {
+            true => name,
+            false => self
+                .l
+                .pick(format!("{name} ({label})"), format!("{name}（{label}）")),
+        }
+    }
+
+    /// What an effect is, in the user's own words where there are any.
+    pub(super) fn prose(self, cell: usize) -> String {
+        let cell = self.cell(cell);
+        let own = cell.description.clone();
+        own.unwrap_or_else(|| self.words(cell).fill(cell.effect.prose.of(self.l)))
+    }
+
+    /// What the texts of a candidate speak of: offset, scale and signal have words, columns and parameters keep their
+    /// names.
+    fn words(self, cell: &Cell) -> Words {
+        let mut words = cell.words.clone();
+        words.p = quantity(&words.p, self.l);
+        if words.x == "row" {
+            words.x = self.l.pick("row", "行号").to_owned();
+        }
+        if let Some(of) = words.x.strip_prefix("signal(") {
+            words.x = self.l.pick(format!("signal({of}"), format!("信号({of}"));
+        }
+        words
+    }
+
+    /// What a slot may be, most probable first.
+    pub(super) fn slot(self, diagnosis: &Diagnosis, slot: &Slot) -> Vec<String> {
+        let told = |one| self.told(diagnosis, one) + &self.orders(diagnosis, one);
+        slot.named.iter().map(told).collect()
+    }
+
+    /// The name of an alternative in a sentence; of bad rows, jumps and the like with their place.
+    pub(super) fn told(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
+        let has_place = self.cell(one.candidate).effect.has_place();
+        match one.variants.first().filter(|_| has_place) {
+            Some(variant) => self.variant(diagnosis.atoms[variant.atom]),
+            None => self.full(one.candidate),
+        }
+    }
+
+    /// That the order of a cause is open, where it is: what else than the name may hold.
+    pub(super) fn orders(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
+        let others = diagnosis.other_orders(one).into_iter();
+        let others =
+            others.map(|(cell, share)| format!("{} {} %", self.plain(cell), percent(share)));
+        let others: Vec<String> = others.collect();
+        if others.is_empty() {
+            return String::new();
+        }
+        let others = others.join(self.l.pick(", ", "，"));
+        self.l.pick(
+            format!(" (its order is open: {others})"),
+            format!("（阶次未定：{others}）"),
+        )
+    }
+
+    /// The formula of an explanation, without the lag where its best variant has none.
+    pub(super) fn formula(self, diagnosis: &Diagnosis, one: &Alternative) -> String {
+        let cell = self.cell(one.candidate);
+        let fill = |text: &str| self.words(cell).fill(&formula_in(text, self.l));
+        let general = &cell.effect.formula;
+        let without_lag = || {
+            let (before, rest) = general.split_once("lag(")?;
+            let (within, after) = rest.split_once(", τ)")?;
+            Some(fill(&format!("{before}({within}){after}")))
+        };
+        match diagnosis.lags(one) {
+            true => fill(general),
+            false => without_lag().unwrap_or_else(|| fill(general)),
+        }
+    }
+}
+
+/// A quantity of the model: offset and scale, of one output or of all, have words, others their names.
+pub(super) fn quantity(node: &str, l: Language) -> String {
+    if let Some((part, output)) = node.split_once(" of ") {
+        let part = quantity(part, l);
+        return l.pick(format!("{part} of {output}"), format!("{output} 的{part}"));
+    }
+    match node {
+        "offset" => l.pick("offset", "零位"),
+        "scale" => l.pick("scale", "标度"),
+        other => other,
+    }
+    .to_owned()
+}
+
+/// What was fitted: a parameter by its name, or the error that all values of a column share.
+pub(super) fn unknown(name: &str, l: Language) -> String {
+    match name.strip_prefix("common error of ") {
+        Some(column) => l.pick(name.to_owned(), format!("{column} 的共同误差")),
+        None => name.to_owned(),
+    }
+}

@@ -1,0 +1,111 @@
+//! Where the noise of a recording comes from, in words.
+
+use crate::diagnose::case::{Case, NoiseClaim};
+use crate::diagnose::{Claimed, Origin};
+use crate::language::Language;
+use crate::number::{freedom, significant};
+
+use super::words::p_is;
+
+/// The noise that was assumed, and why, where it needs outputs that are not recorded.
+pub fn assumed_noise(case: &Case, claimed: &Claimed, l: Language) -> String {
+    if claimed.origin != Origin::Unknown {
+        return noise(claimed, l);
+    }
+    let why = match case.noise {
+        NoiseClaim::Replicates(_) => l.pick(
+            "replicates show it once their outputs are recorded",
+            "重复测量须待输出记录后才能给出噪声",
+        ),
+        _ => l.pick(
+            "not claimed, and no outputs are recorded",
+            "未声明，且输出尚未记录",
+        ),
+    };
+    l.pick(
+        format!("not known ({why}): taken as 1 for one row, in the unit of the output; `[noise] u` states it"),
+        format!("未知（{why}）：单行标准不确定度以 1 计（输出的单位）；可用 `[noise] u` 声明"),
+    )
+}
+
+/// Where the noise comes from.
+pub(super) fn noise(claimed: &Claimed, l: Language) -> String {
+    let dof = if claimed.dof.is_finite() && claimed.dof > 0.0 {
+        format!(", ν = {}", freedom(claimed.dof))
+    } else {
+        String::new()
+    };
+    let text = match &claimed.origin {
+        Origin::Unknown => l.pick("not known", "未知").to_owned(),
+        Origin::Estimated => {
+            l.pick("estimated from the residuals", "由残差估计")
+                .to_owned()
+                + &growth(claimed, l)
+        }
+        Origin::Case => l.pick(
+            "as stated in the case".to_owned(),
+            "由案例文件给出".to_owned(),
+        ),
+        Origin::Column(name) => {
+            l.pick(format!("from the column {name}"), format!("取自 {name} 列"))
+        }
+        Origin::Replicates => {
+            l.pick("from replicates", "由重复测量得到").to_owned() + &growth(claimed, l)
+        }
+        Origin::AtRest(file) => l.pick(
+            format!("from the recording at rest {file}{}", white(claimed, l)),
+            format!("取自静态记录 {file}{}", white(claimed, l)),
+        ),
+        Origin::Budget(file) => l.pick(
+            format!("from the budget {file}"),
+            format!("取自不确定度评定文件 {file}"),
+        ),
+    };
+    text + &dof + &uneven(claimed, l)
+}
+
+/// That a recording at rest tells nothing of the course of the noise.
+fn white(claimed: &Claimed, l: Language) -> &'static str {
+    match claimed.correlated {
+        Some(_) => "",
+        None => l.pick(
+            ", as white noise (its course needs the time, by one name in both recordings, and 20 readings)",
+            "，按白噪声处理（计入其时间相关性需要两份记录有同名时间列，且至少 20 个读数）",
+        ),
+    }
+}
+
+/// That replicates scatter otherwise than the claim says.
+fn uneven(claimed: &Claimed, l: Language) -> String {
+    let Some(p) = claimed.uneven else {
+        return String::new();
+    };
+    let p = p_is(p);
+    l.pick(
+        format!("; replicates scatter unevenly from group to group (Bartlett's test, {p}): this noise does not describe them, state u for each row"),
+        format!("；各组重复测量的分散性不一致（Bartlett 检验，{p}）：上述模型不能描述，请逐行给出 u"),
+    )
+}
+
+/// How noise that was estimated, or that replicates show, grows with the reading, if it does for any response.
+fn growth(claimed: &Claimed, l: Language) -> String {
+    let grows: Vec<String> = claimed
+        .growth
+        .iter()
+        .flatten()
+        .map(|growth| {
+            let constant = significant(growth.constant, 2);
+            let proportional = significant(100.0 * growth.proportional, 2);
+            match growth.unit.as_str() {
+                "" | "1" => format!("u² = {constant}² + ({proportional} % · y)²"),
+                unit => format!("u² = ({constant} {unit})² + ({proportional} % · y)²"),
+            }
+        })
+        .collect();
+    if grows.is_empty() {
+        return String::new();
+    }
+    l.pick(", growing with the reading: ", "，随示值增大：")
+        .to_owned()
+        + &grows.join("; ")
+}

@@ -23,6 +23,14 @@ enum Which {
     Calibration,
     /// Case files of `gumption diagnose`, `simulate` and `plan`
     Case,
+    /// The output of `gumption calibrate --json`
+    CalibrationResult,
+    /// The output of `gumption plan --json` for a calibration
+    CalibrationPlan,
+    /// The output of `gumption diagnose --json`
+    Diagnosis,
+    /// The output of `gumption plan --json` for a case
+    Outlook,
     /// The output of `gumption allan --json`
     Allan,
     /// The output of `gumption grade --json`
@@ -38,6 +46,10 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Result => budget::result_schema(),
         Which::Calibration => calibrate::schema(),
         Which::Case => diagnose::case::schema(),
+        Which::CalibrationResult => report::calibration_schema(),
+        Which::CalibrationPlan => report::plan_schema(),
+        Which::Diagnosis => report::diagnosis_schema(),
+        Which::Outlook => report::outlook_schema(),
         Which::Allan => report::allan_schema(),
         Which::Grade => challenge::grade::grade_schema(),
         Which::Verification => report::verification_schema(),

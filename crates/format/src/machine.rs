@@ -60,6 +60,29 @@ macro_rules! record {
 }
 pub use record;
 
+/// Declares [`record!`]s together with what fills them: `Name of (one: &One) { field: Type = expression, }` is a
+/// structure, its schema, and `Name::of`.
+#[macro_export]
+macro_rules! form {
+    ($($(#[doc = $about:literal])* $name:ident $(<$life:lifetime>)? of ($($arg:ident: $given:ty),*) {
+        $($(#[doc = $doc:literal])* $(#[serde($($serde:tt)*)])? $field:ident: $type:ty = $value:expr,)*
+    })*) => {
+        $crate::record! {$(
+            $(#[doc = $about])*
+            $name $(<$life>)? {
+                $($(#[doc = $doc])* $(#[serde($($serde)*)])? $field: $type,)*
+            }
+        )*}
+
+        $(impl $(<$life>)? $name $(<$life>)? {
+            pub(super) fn of($($arg: $given),*) -> Self {
+                $name { $($field: $value,)* }
+            }
+        })*
+    };
+}
+pub use form;
+
 /// A field of a [`record!`].
 pub struct Field {
     /// Its name.

@@ -40,6 +40,8 @@ mod verification;
 #[cfg(test)]
 mod fixtures;
 #[cfg(test)]
+mod laboratory;
+#[cfg(test)]
 mod tests;
 
 pub use allan::{AllanReport, allan, allan_schema};

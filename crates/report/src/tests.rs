@@ -247,30 +247,28 @@ fn numbers_survive_the_machine_form() {
     assert_eq!(read["claims"][0]["comparison"][0]["agrees"], true);
 }
 
-/// `docs/evaluation.schema.json` is generated: set GUMPTION_UPDATE=1 to write it anew.
 #[test]
 fn the_published_schema_is_up_to_date() {
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../../docs/evaluation.schema.json"
-    );
-    let generated = format!(
-        "{}\n",
-        serde_json::to_string_pretty(&evaluation_schema()).unwrap()
-    );
+    assert_published("evaluation", &evaluation_schema());
+}
+
+/// `docs/NAME.schema.json` is generated: set GUMPTION_UPDATE=1 to write it anew.
+pub(super) fn assert_published(name: &str, schema: &Value) {
+    let docs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs");
+    let path = format!("{docs}/{name}.schema.json");
+    let generated = format!("{schema:#}\n");
     if std::env::var_os("GUMPTION_UPDATE").is_some() {
-        std::fs::create_dir_all(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs")).unwrap();
-        std::fs::write(path, &generated).unwrap();
+        std::fs::write(&path, &generated).unwrap();
     }
-    let published = std::fs::read_to_string(path).unwrap_or_default();
+    let published = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         published == generated,
         "run the tests once with GUMPTION_UPDATE=1 to write {path}"
     );
 }
 
-/// The part of JSON Schema that [`schema`] uses.
-fn check(root: &Value, schema: &Value, value: &Value) -> Result<(), String> {
+/// The part of JSON Schema that machine forms use.
+pub(super) fn check(root: &Value, schema: &Value, value: &Value) -> Result<(), String> {
     let fault = |what: &str| Err(format!("{what}: {value} against {schema}"));
     if let Some(reference) = schema.get("$ref").and_then(Value::as_str) {
         return check(
@@ -313,10 +311,12 @@ fn check(root: &Value, schema: &Value, value: &Value) -> Result<(), String> {
                 .try_for_each(|item| check(root, &schema["items"], item))
         }
         Some("object") => {
-            let (Some(map), Some(properties)) =
-                (value.as_object(), schema["properties"].as_object())
-            else {
+            let Some(map) = value.as_object() else {
                 return fault("no object");
+            };
+            let Some(properties) = schema["properties"].as_object() else {
+                let own = &schema["additionalProperties"];
+                return map.values().try_for_each(|item| check(root, own, item));
             };
             for required in schema["required"].as_array().into_iter().flatten() {
                 if !map.contains_key(required.as_str().unwrap_or_default()) {

@@ -4,312 +4,357 @@ use nalgebra::DMatrix;
 use serde_json::Value;
 
 use crate::calibrate::{
-    Alias, Calibration, Cause, Combination, Experiment, Figures, Identifiability, Misfit, Origin,
-    Plan, ResponseScatter, Scatter, Scope, Words,
+    Alias, Apart, Calibration, Cause, Coefficient, Combination, Contribution, Experiment, Figures,
+    Identifiability, Limit, Misfit, NearAlias, Omitted, Origin, Plan, Residual, ResponseScatter,
+    Scatter, ScatterTest, Scope, Words,
 };
 use crate::language::Language;
-use crate::machine::{self, Machine, Number, record};
+use crate::machine::{self, Machine, Number, form};
+use crate::quantity::Unit;
+use crate::recording::Finding;
 
 use super::causes::cause_name;
 use super::sections::said;
 use super::trouble::in_words;
 
-record! {
+form! {
     /// Coefficients from a recording and measurement equations.
-    CalibrationForm<'a> {
+    CalibrationForm<'a> of (experiment: &'a Experiment, found: &'a Calibration, l: Language) {
         /// What a plan has as well.
         #[serde(flatten)]
-        common: Common<'a>,
+        common: Common<'a> = Common::of(experiment, Some(&found.figures), &found.identifiability, &found.aliases, l),
         /// `calibration`.
-        kind: &'static str,
+        kind: &'static str = "calibration",
         /// Number of readings used.
-        readings: usize,
+        readings: usize = found.readings,
         /// Readings left out, because a value is missing.
-        left_out: usize,
+        left_out: usize = found.left_out,
         /// Pairs of points or labels whose readings look exchanged.
-        swapped: Vec<[&'a str; 2]>,
+        swapped: Vec<[&'a str; 2]> = all(&found.swapped, |[a, b]| [said(a, l), said(b, l)]),
         /// Coefficients with another sign than those like them.
-        reversed: &'a [String],
+        reversed: &'a [String] = &found.reversed,
         /// Points that stand apart from all others.
-        apart: Vec<ApartForm<'a>>,
+        apart: Vec<ApartForm<'a>> = all(&found.apart, |one| ApartForm::of(one, l)),
         /// Values at which readings stay that should differ.
-        limits: Vec<LimitForm<'a>>,
+        limits: Vec<LimitForm<'a>> = all(&found.limits, |one| LimitForm::of(one, l)),
         /// Whether the equations are linear in the parameters.
-        linear: bool,
+        linear: bool = found.linear,
         /// Steps of the search; 0 for linear equations.
-        iterations: usize,
+        iterations: usize = found.iterations,
         /// What tells the scatter of the readings: `residuals`, `dwells` or `stated`.
-        scatter: &'static str,
+        scatter: &'static str = match found.scatter {
+            Scatter::Residuals => "residuals",
+            Scatter::Dwells => "dwells",
+            Scatter::Stated => "stated",
+        },
         /// The scatter of each response.
-        responses: Vec<ResponseForm<'a>>,
+        responses: Vec<ResponseForm<'a>> = {
+            let pairs = found.responses.iter().zip(experiment.equations.responses());
+            pairs.map(|(one, quantity)| ResponseForm::of(one, &quantity.unit)).collect()
+        },
         /// What is left of each reading.
-        residuals: Vec<ResidualForm<'a>>,
+        residuals: Vec<ResidualForm<'a>> = all(&found.residuals, |one| ResidualForm::of(one, l)),
         /// Coefficients of parts of the recording, where the file wants them one by one.
-        parts: Vec<PartForm<'a>>,
+        parts: Vec<PartForm<'a>> = all(&found.parts, |(label, part)| PartForm::of(label, &part.figures, l)),
         /// What is doubtful in the recording.
-        findings: Vec<FindingForm>,
+        findings: Vec<FindingForm> = all(&experiment.points.findings, |one| FindingForm::of(one, l)),
     }
 
     /// What a schedule would tell, before anything is measured.
-    PlanForm<'a> {
+    PlanForm<'a> of (experiment: &'a Experiment, plan: &'a Plan, l: Language) {
         /// What a calibration has as well.
         #[serde(flatten)]
-        common: Common<'a>,
+        common: Common<'a> = Common::of(experiment, plan.figures.as_ref(), &plan.identifiability, &plan.aliases, l),
         /// `plan`.
-        kind: &'static str,
+        kind: &'static str = "plan",
         /// Number of readings.
-        readings: usize,
+        readings: usize = plan.readings,
         /// Parameters whose value is not stated and was taken as zero.
-        assumed_zero: &'a [String],
+        assumed_zero: &'a [String] = &plan.assumed,
     }
 
     /// What calibrations and plans have in common.
-    Common<'a> {
+    Common<'a> of (
+        experiment: &'a Experiment,
+        figures: Option<&'a Figures>,
+        identifiability: &'a Identifiability,
+        aliases: &'a [Alias],
+        l: Language
+    ) {
         /// Title.
-        title: &'a str,
+        title: &'a str = said(&experiment.heading.title, l),
         /// Procedure of the library.
-        procedure: Option<&'a str>,
+        procedure: Option<&'a str> = experiment.heading.procedure.as_deref(),
         /// Where the method comes from.
-        reference: Option<&'a str>,
+        reference: Option<&'a str> = experiment.heading.reference.as_deref(),
         /// What is calibrated.
-        object: Option<&'a str>,
+        object: Option<&'a str> = experiment.heading.object.as_deref(),
         /// Who did it.
-        author: Option<&'a str>,
+        author: Option<&'a str> = experiment.heading.author.as_deref(),
         /// When.
-        date: Option<&'a str>,
+        date: Option<&'a str> = experiment.heading.date.as_deref(),
         /// Measurement equations.
-        equations: Vec<&'a str>,
+        equations: Vec<&'a str> = {
+            let equations = &experiment.equations;
+            (0..equations.responses().len()).map(|response| equations.text(response)).collect()
+        },
         /// Probability of the coverage intervals.
-        coverage_probability: Number,
+        coverage_probability: Number = Number(experiment.coverage_probability),
         /// Parameters, then results; of a plan with the values that were assumed, and none where the schedule does not
         /// determine all of them.
-        coefficients: Vec<CoefficientForm<'a>>,
+        coefficients: Vec<CoefficientForm<'a>> = figures.map_or_else(Vec::new, |figures| coefficients(figures, l)),
         /// Covariance matrix of the coefficients.
-        covariance: Vec<Vec<Number>>,
+        covariance: Vec<Vec<Number>> = figures.map_or_else(Vec::new, |figures| rows(&figures.covariance)),
         /// Correlation matrix of the coefficients.
-        correlation: Vec<Vec<Number>>,
+        correlation: Vec<Vec<Number>> = figures.map_or_else(Vec::new, |figures| rows(&figures.correlation())),
         /// What the uncertainties come from.
-        causes: Vec<CauseForm<'a>>,
+        causes: Vec<CauseForm<'a>> = figures.map_or_else(Vec::new, |figures| {
+            all(&figures.causes, |one| CauseForm::of(one, figures, l))
+        }),
         /// What the readings tell apart.
-        identifiability: IdentifiabilityForm<'a>,
+        identifiability: IdentifiabilityForm<'a> = IdentifiabilityForm::of(identifiability, l),
         /// Effects outside the equations.
-        omitted: Vec<OmittedForm<'a>>,
+        omitted: Vec<OmittedForm<'a>> = {
+            let pairs = experiment.omitted.iter().zip(aliases);
+            pairs.map(|(omitted, alias)| OmittedForm::of(omitted, alias, experiment, l)).collect()
+        },
     }
 
     /// A coefficient.
-    CoefficientForm<'a> {
+    CoefficientForm<'a> of (one: &'a Coefficient, l: Language) {
         /// As the equations call it.
-        name: &'a str,
+        name: &'a str = &one.name,
         /// What it is.
-        description: Option<&'a str>,
+        description: Option<&'a str> = one.description.as_ref().map(|words| said(words, l)),
         /// Unit of value, u and U.
-        unit: &'a str,
+        unit: &'a str = &one.unit.symbol,
         /// Estimate.
-        value: Number,
+        value: Number = Number(one.value),
         /// Standard uncertainty.
-        u: Number,
+        u: Number = Number(one.u),
         /// Effective degrees of freedom.
-        dof: Number,
+        dof: Number = Number(one.dof),
         /// Coverage factor.
-        k: Number,
+        k: Number = Number(one.k),
         /// Expanded uncertainty.
         #[serde(rename = "U")]
-        expanded: Number,
+        expanded: Number = Number(one.k * one.u),
         /// Probability that a coefficient that is zero comes out as far from it (two-sided t test).
-        p_value: Number,
+        p_value: Number = Number(one.p_value),
         /// Whether it differs from zero beyond chance (p < 0.05); null where no test says so.
-        significant: Option<bool>,
+        significant: Option<bool> = one.is_significant(),
     }
 
     /// A cause of doubt.
-    CauseForm<'a> {
+    CauseForm<'a> of (cause: &'a Cause, figures: &'a Figures, l: Language) {
         /// What it is.
-        name: String,
+        name: String = cause_name(cause, l),
         /// `stated`, `residuals`, `samples` or `prior`.
-        kind: &'static str,
+        kind: &'static str = match &cause.origin {
+            Origin::Stated { .. } => "stated",
+            Origin::Residuals { .. } => "residuals",
+            Origin::Samples { .. } => "samples",
+            Origin::Prior { .. } => "prior",
+        },
         /// On which points one of its errors acts: `common`, `each` or `by COLUMN`.
-        scope: String,
+        scope: String = match &cause.origin {
+            Origin::Stated { scope: Scope::By(column), .. } => format!("by {column}"),
+            Origin::Stated { scope: Scope::Common, .. } | Origin::Prior { .. } => "common".into(),
+            _ => "each".into(),
+        },
         /// How its standard uncertainty was found.
-        how: &'a str,
+        how: &'a str = &cause.how,
         /// What it does to each coefficient.
-        contributions: Vec<ContributionForm<'a>>,
+        contributions: Vec<ContributionForm<'a>> = {
+            let all = figures.coefficients.iter().enumerate();
+            all.map(|(at, one)| ContributionForm::of(&one.name, cause.contributes(at, one.u))).collect()
+        },
     }
 
     /// What a cause does to a coefficient.
-    ContributionForm<'a> {
+    ContributionForm<'a> of (name: &'a str, part: Contribution<'_>) {
         /// The coefficient.
-        coefficient: &'a str,
+        coefficient: &'a str = name,
         /// Part of its standard uncertainty.
-        u: Number,
+        u: Number = Number(part.u),
         /// Change by one standard uncertainty, with its sign, where the cause is one error.
-        effect: Option<Number>,
+        effect: Option<Number> = part.effect.map(Number),
         /// Share of the variance.
-        share: Number,
+        share: Number = Number(part.share),
         /// Degrees of freedom.
-        dof: Number,
+        dof: Number = Number(part.dof),
     }
 
     /// What the readings tell apart.
-    IdentifiabilityForm<'a> {
+    IdentifiabilityForm<'a> of (found: &'a Identifiability, l: Language) {
         /// Number of independent combinations of parameters that they determine.
-        rank: usize,
+        rank: usize = found.rank,
         /// Number of parameters.
-        parameters: usize,
+        parameters: usize = found.parameters,
         /// Condition number of the scaled equations.
-        condition: Number,
+        condition: Number = Number(found.condition),
         /// Combinations that no reading shows.
-        undetermined: Vec<UndeterminedForm<'a>>,
+        undetermined: Vec<UndeterminedForm<'a>> = all(&found.undetermined, |one| UndeterminedForm::of(one, l)),
         /// Parameters that others imitate nearly.
-        near: Vec<NearForm<'a>>,
+        near: Vec<NearForm<'a>> = all(&found.near, NearForm::of),
     }
 
     /// A combination of parameters that changes no reading.
-    UndeterminedForm<'a> {
+    UndeterminedForm<'a> of (combination: &'a Combination, l: Language) {
         /// In words.
-        words: String,
+        words: String = in_words(combination, l),
         /// Changes that cancel.
-        changes: Vec<ChangeForm<'a>>,
+        changes: Vec<ChangeForm<'a>> = all(&combination.changes, ChangeForm::of),
     }
 
     /// A parameter that others imitate nearly.
-    NearForm<'a> {
+    NearForm<'a> of (near: &'a NearAlias) {
         /// The parameter.
-        parameter: &'a str,
+        parameter: &'a str = &near.parameter,
         /// By how much larger its standard uncertainty is than if the others were known.
-        inflation: Number,
+        inflation: Number = Number(near.inflation),
         /// Changes that nearly cancel.
-        changes: Vec<ChangeForm<'a>>,
+        changes: Vec<ChangeForm<'a>> = all(&near.combination.changes, ChangeForm::of),
     }
 
     /// A change of a parameter.
-    ChangeForm<'a> {
+    ChangeForm<'a> of (change: &'a (String, f64, String)) {
         /// The parameter.
-        parameter: &'a str,
+        parameter: &'a str = &change.0,
         /// The change.
-        change: Number,
+        change: Number = Number(change.1),
         /// Its unit.
-        unit: &'a str,
+        unit: &'a str = &change.2,
     }
 
     /// An effect outside the equations.
-    OmittedForm<'a> {
+    OmittedForm<'a> of (omitted: &'a Omitted, alias: &'a Alias, experiment: &'a Experiment, l: Language) {
         /// Its name.
-        name: &'a str,
+        name: &'a str = &alias.name,
         /// What it would add to an equation.
-        term: &'a str,
+        term: &'a str = &omitted.term,
         /// Its unit.
-        unit: &'a str,
+        unit: &'a str = &omitted.unit.symbol,
         /// What it is.
-        description: Option<&'a str>,
+        description: Option<&'a str> = omitted.description.as_ref().map(|words| said(words, l)),
         /// Its usual size.
-        typical: Option<Number>,
+        typical: Option<Number> = omitted.typical.map(Number),
         /// Whether it acts on any reading.
-        acts: bool,
+        acts: bool = alias.acts,
         /// Share of it that the residuals would show.
-        visible: Number,
+        visible: Number = Number(alias.visible),
         /// What it does to each coefficient.
-        shifts: Vec<ShiftForm<'a>>,
+        shifts: Vec<ShiftForm<'a>> = {
+            let parameters = experiment.parameters.iter().map(|one| (&one.name, &one.unit));
+            let results = experiment.results.iter().map(|one| (&one.name, &one.unit));
+            let all = parameters.chain(results).zip(&alias.shifts);
+            all.map(|((name, unit), shift)| ShiftForm::of(name, unit, *shift)).collect()
+        },
     }
 
     /// What an omitted effect does to a coefficient.
-    ShiftForm<'a> {
+    ShiftForm<'a> of (name: &'a str, own: &'a Unit, shift: f64) {
         /// The coefficient.
-        coefficient: &'a str,
+        coefficient: &'a str = name,
         /// Change for each unit of the effect.
-        per_unit: Number,
+        per_unit: Number = Number(shift),
         /// Unit of the coefficient.
-        unit: &'a str,
+        unit: &'a str = &own.symbol,
     }
 
     /// A point that stands apart.
-    ApartForm<'a> {
+    ApartForm<'a> of (one: &'a Apart, l: Language) {
         /// The response.
-        response: &'a str,
+        response: &'a str = &one.response,
         /// The point.
-        point: &'a str,
+        point: &'a str = said(&one.point, l),
         /// Its residual over the standard deviation that those of the others give it.
-        t: Number,
+        t: Number = Number(one.t),
         /// Probability that the largest residual is as far out.
-        p_value: Number,
+        p_value: Number = Number(one.p_value),
     }
 
     /// A value at which readings stay.
-    LimitForm<'a> {
+    LimitForm<'a> of (limit: &'a Limit, l: Language) {
         /// The response.
-        response: &'a str,
+        response: &'a str = &limit.response,
         /// The value.
-        value: Number,
+        value: Number = Number(limit.value),
         /// Where it is read.
-        points: Vec<&'a str>,
+        points: Vec<&'a str> = all(&limit.points, |point: &Words| said(point, l)),
     }
 
     /// The scatter of a response.
-    ResponseForm<'a> {
+    ResponseForm<'a> of (one: &'a ResponseScatter, own: &'a Unit) {
         /// The response.
-        name: &'a str,
+        name: &'a str = &one.response,
         /// Its unit.
-        unit: &'a str,
+        unit: &'a str = &own.symbol,
         /// Number of readings.
-        readings: usize,
+        readings: usize = one.readings,
         /// Root mean square of the residuals.
-        rms: Number,
+        rms: Number = Number(one.rms),
         /// Standard deviation of a reading, or of one of unit weight.
-        s: Number,
+        s: Number = Number(one.s),
         /// Its degrees of freedom.
-        dof: Number,
+        dof: Number = Number(one.dof),
         /// The residuals against the known errors of the readings, where these are known.
-        test: Option<TestForm>,
+        test: Option<TestForm> = one.test.map(TestForm::of),
     }
 
     /// Whether residuals are as large as the known errors let expect.
-    TestForm {
+    TestForm of (test: ScatterTest) {
         /// Residual standard deviation to expect.
-        expected: Number,
+        expected: Number = Number(test.expected),
         /// Σ(r/u)².
-        chi_squared: Number,
+        chi_squared: Number = Number(test.chi_squared),
         /// Degrees of freedom.
-        dof: Number,
+        dof: Number = Number(test.dof),
         /// Probability of a larger χ².
-        p_value: Number,
+        p_value: Number = Number(test.p_value),
         /// `between dwells` where something changes from dwell to dwell, `larger` or `smaller` than the errors let
         /// expect; null where neither.
-        misfit: Option<&'static str>,
+        misfit: Option<&'static str> = test.misfit.map(|misfit| match misfit {
+            Misfit::BetweenDwells => "between dwells",
+            Misfit::Larger => "larger",
+            Misfit::Smaller => "smaller",
+        }),
     }
 
     /// What is left of a reading.
-    ResidualForm<'a> {
+    ResidualForm<'a> of (one: &'a Residual, l: Language) {
         /// The point.
-        point: &'a str,
+        point: &'a str = said(&one.point, l),
         /// The response.
-        response: &'a str,
+        response: &'a str = &one.response,
         /// What was read.
-        observed: Number,
+        observed: Number = Number(one.observed),
         /// What the equation gives.
-        fitted: Number,
+        fitted: Number = Number(one.fitted),
         /// Their difference.
-        residual: Number,
+        residual: Number = Number(one.observed - one.fitted),
         /// The difference over its standard deviation.
-        standardised: Number,
+        standardised: Number = Number(one.standardised),
     }
 
     /// A part of the recording.
-    PartForm<'a> {
+    PartForm<'a> of (name: &'a str, figures: &'a Figures, l: Language) {
         /// Its label.
-        label: &'a str,
+        label: &'a str = name,
         /// Its coefficients.
-        coefficients: Vec<CoefficientForm<'a>>,
+        coefficients: Vec<CoefficientForm<'a>> = coefficients(figures, l),
     }
 
     /// Something doubtful in the recording.
-    FindingForm {
+    FindingForm of (finding: &Finding, l: Language) {
         /// What.
-        message: String,
+        message: String = l.pick(finding.message(), finding.message_zh()),
         /// What to do.
-        advice: String,
+        advice: String = l.pick(finding.advice(), finding.advice_zh()).into(),
         /// Line of the file; 0 for the whole.
-        line: usize,
+        line: usize = finding.line,
         /// How often.
-        count: usize,
+        count: usize = finding.count,
     }
 }
 
@@ -333,251 +378,13 @@ pub fn plan_schema() -> Value {
     machine::schema::<PlanForm<'_>>("gumption plan --json")
 }
 
-/// The machine form of a calibration.
-pub(super) fn calibration<'a>(
-    experiment: &'a Experiment,
-    found: &'a Calibration,
-    l: Language,
-) -> CalibrationForm<'a> {
-    let figures = Some(&found.figures);
-    let points = |points: &'a [Words]| points.iter().map(|point| said(point, l)).collect();
-    let units = experiment.equations.responses().iter();
-    let units = units.map(|quantity| quantity.unit.symbol.as_str());
-    CalibrationForm {
-        common: common(
-            experiment,
-            figures,
-            &found.identifiability,
-            &found.aliases,
-            l,
-        ),
-        kind: "calibration",
-        readings: found.readings,
-        left_out: found.left_out,
-        swapped: found
-            .swapped
-            .iter()
-            .map(|[a, b]| [said(a, l), said(b, l)])
-            .collect(),
-        reversed: &found.reversed,
-        apart: all(&found.apart, |one| ApartForm {
-            response: &one.response,
-            point: said(&one.point, l),
-            t: Number(one.t),
-            p_value: Number(one.p_value),
-        }),
-        limits: all(&found.limits, |limit| LimitForm {
-            response: &limit.response,
-            value: Number(limit.value),
-            points: points(&limit.points),
-        }),
-        linear: found.linear,
-        iterations: found.iterations,
-        scatter: match found.scatter {
-            Scatter::Residuals => "residuals",
-            Scatter::Dwells => "dwells",
-            Scatter::Stated => "stated",
-        },
-        responses: found
-            .responses
-            .iter()
-            .zip(units)
-            .map(|(one, unit)| response(one, unit))
-            .collect(),
-        residuals: all(&found.residuals, |one| ResidualForm {
-            point: said(&one.point, l),
-            response: &one.response,
-            observed: Number(one.observed),
-            fitted: Number(one.fitted),
-            residual: Number(one.observed - one.fitted),
-            standardised: Number(one.standardised),
-        }),
-        parts: all(&found.parts, |(label, part)| PartForm {
-            label,
-            coefficients: coefficients(&part.figures, l),
-        }),
-        findings: all(&experiment.points.findings, |finding| FindingForm {
-            message: l.pick(finding.message(), finding.message_zh()),
-            advice: l.pick(finding.advice(), finding.advice_zh()).into(),
-            line: finding.line,
-            count: finding.count,
-        }),
-    }
-}
-
-/// The machine form of a plan.
-pub(super) fn plan<'a>(experiment: &'a Experiment, plan: &'a Plan, l: Language) -> PlanForm<'a> {
-    let figures = plan.figures.as_ref();
-    PlanForm {
-        common: common(experiment, figures, &plan.identifiability, &plan.aliases, l),
-        kind: "plan",
-        readings: plan.readings,
-        assumed_zero: &plan.assumed,
-    }
-}
-
 /// A list in another form.
 fn all<'a, T, F>(list: &'a [T], form: impl FnMut(&'a T) -> F) -> Vec<F> {
     list.iter().map(form).collect()
 }
 
-fn common<'a>(
-    experiment: &'a Experiment,
-    figures: Option<&'a Figures>,
-    identifiability: &'a Identifiability,
-    aliases: &'a [Alias],
-    l: Language,
-) -> Common<'a> {
-    let heading = &experiment.heading;
-    let equations = 0..experiment.equations.responses().len();
-    let matrix = |of: &dyn Fn(&Figures) -> DMatrix<f64>| {
-        figures.map_or_else(Vec::new, |figures| rows(&of(figures)))
-    };
-    let omitted = experiment.omitted.iter().zip(aliases);
-    Common {
-        title: said(&heading.title, l),
-        procedure: heading.procedure.as_deref(),
-        reference: heading.reference.as_deref(),
-        object: heading.object.as_deref(),
-        author: heading.author.as_deref(),
-        date: heading.date.as_deref(),
-        equations: equations
-            .map(|response| experiment.equations.text(response))
-            .collect(),
-        coverage_probability: Number(experiment.coverage_probability),
-        coefficients: figures.map_or_else(Vec::new, |figures| coefficients(figures, l)),
-        covariance: matrix(&|figures| figures.covariance.clone()),
-        correlation: matrix(&Figures::correlation),
-        causes: figures.map_or_else(Vec::new, |figures| {
-            all(&figures.causes, |one| cause(one, figures, l))
-        }),
-        identifiability: IdentifiabilityForm {
-            rank: identifiability.rank,
-            parameters: identifiability.parameters,
-            condition: Number(identifiability.condition),
-            undetermined: all(&identifiability.undetermined, |combination| {
-                UndeterminedForm {
-                    words: in_words(combination, l),
-                    changes: changes(combination),
-                }
-            }),
-            near: all(&identifiability.near, |near| NearForm {
-                parameter: &near.parameter,
-                inflation: Number(near.inflation),
-                changes: changes(&near.combination),
-            }),
-        },
-        omitted: omitted
-            .map(|(one, alias)| OmittedForm {
-                name: &alias.name,
-                term: &one.term,
-                unit: &one.unit.symbol,
-                description: one.description.as_ref().map(|words| said(words, l)),
-                typical: one.typical.map(Number),
-                acts: alias.acts,
-                visible: Number(alias.visible),
-                shifts: shifts(experiment, alias),
-            })
-            .collect(),
-    }
-}
-
 fn coefficients(figures: &Figures, l: Language) -> Vec<CoefficientForm<'_>> {
-    all(&figures.coefficients, |one| CoefficientForm {
-        name: &one.name,
-        description: one.description.as_ref().map(|words| said(words, l)),
-        unit: &one.unit.symbol,
-        value: Number(one.value),
-        u: Number(one.u),
-        dof: Number(one.dof),
-        k: Number(one.k),
-        expanded: Number(one.k * one.u),
-        p_value: Number(one.p_value),
-        significant: one.is_significant(),
-    })
-}
-
-fn cause<'a>(cause: &'a Cause, figures: &'a Figures, l: Language) -> CauseForm<'a> {
-    let (kind, scope) = match &cause.origin {
-        Origin::Stated {
-            scope: Scope::By(column),
-            ..
-        } => ("stated", format!("by {column}")),
-        Origin::Stated {
-            scope: Scope::Common,
-            ..
-        } => ("stated", "common".to_owned()),
-        Origin::Stated {
-            scope: Scope::Each, ..
-        } => ("stated", "each".to_owned()),
-        Origin::Residuals { .. } => ("residuals", "each".to_owned()),
-        Origin::Samples { .. } => ("samples", "each".to_owned()),
-        Origin::Prior { .. } => ("prior", "common".to_owned()),
-    };
-    let contributions = figures.coefficients.iter().enumerate().map(|(index, one)| {
-        let part = cause.contributes(index, one.u);
-        ContributionForm {
-            coefficient: &one.name,
-            u: Number(part.u),
-            effect: part.effect.map(Number),
-            share: Number(part.share),
-            dof: Number(part.dof),
-        }
-    });
-    CauseForm {
-        name: cause_name(cause, l),
-        kind,
-        scope,
-        how: &cause.how,
-        contributions: contributions.collect(),
-    }
-}
-
-fn changes(combination: &Combination) -> Vec<ChangeForm<'_>> {
-    all(&combination.changes, |(parameter, change, unit)| {
-        ChangeForm {
-            parameter,
-            change: Number(*change),
-            unit,
-        }
-    })
-}
-
-fn shifts<'a>(experiment: &'a Experiment, alias: &Alias) -> Vec<ShiftForm<'a>> {
-    let parameters = experiment
-        .parameters
-        .iter()
-        .map(|one| (&one.name, &one.unit));
-    let results = experiment.results.iter().map(|one| (&one.name, &one.unit));
-    let all = parameters.chain(results).zip(&alias.shifts);
-    all.map(|((coefficient, unit), shift)| ShiftForm {
-        coefficient,
-        per_unit: Number(*shift),
-        unit: &unit.symbol,
-    })
-    .collect()
-}
-
-fn response<'a>(one: &'a ResponseScatter, unit: &'a str) -> ResponseForm<'a> {
-    ResponseForm {
-        name: &one.response,
-        unit,
-        readings: one.readings,
-        rms: Number(one.rms),
-        s: Number(one.s),
-        dof: Number(one.dof),
-        test: one.test.map(|test| TestForm {
-            expected: Number(test.expected),
-            chi_squared: Number(test.chi_squared),
-            dof: Number(test.dof),
-            p_value: Number(test.p_value),
-            misfit: test.misfit.map(|misfit| match misfit {
-                Misfit::BetweenDwells => "between dwells",
-                Misfit::Larger => "larger",
-                Misfit::Smaller => "smaller",
-            }),
-        }),
-    }
+    all(&figures.coefficients, |one| CoefficientForm::of(one, l))
 }
 
 fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<Number>> {

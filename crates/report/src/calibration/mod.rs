@@ -29,7 +29,7 @@ pub fn calibration(experiment: &Experiment, found: &Calibration, language: Langu
         misfit::remarks(experiment, Some(found), &[], l),
     ]
     .concat();
-    Document::new(&form::calibration(experiment, found, l), l, blocks)
+    Document::new(&form::CalibrationForm::of(experiment, found, l), l, blocks)
 }
 
 /// The document of a plan.
@@ -54,7 +54,7 @@ pub fn plan(experiment: &Experiment, plan: &Plan, language: Language) -> Documen
         misfit::remarks(experiment, None, &plan.assumed, l),
     ]
     .concat();
-    Document::new(&form::plan(experiment, plan, l), l, blocks)
+    Document::new(&form::PlanForm::of(experiment, plan, l), l, blocks)
 }
 
 /// Why there are no coefficients, in sentences.

@@ -1,6 +1,7 @@
 //! Documents of diagnoses and of plans of experiments, and why there is none.
 
 mod compose;
+mod expected;
 mod form;
 mod improvement;
 mod labels;
@@ -8,6 +9,7 @@ mod names;
 mod noise;
 mod open;
 mod outlook;
+mod parts;
 mod plots;
 mod statement;
 mod words;
@@ -17,19 +19,22 @@ use crate::diagnose::{Diagnosis, Outlook};
 use crate::document::Document;
 use crate::language::Language;
 
-pub use form::{diagnosis_schema, outlook_schema};
+pub use expected::outlook_schema;
+pub use form::diagnosis_schema;
 pub use noise::assumed_noise;
 pub use words::failure;
 
 /// The document of a diagnosis, with plots of its residuals.
 pub fn diagnosis(case: &Case, diagnosis: &Diagnosis, language: Language) -> Document {
-    let blocks = compose::blocks(case, diagnosis, language);
-    let form = form::diagnosis(case, diagnosis, language);
-    Document::new(&form, language, blocks).with_plots(plots::plots(case, diagnosis, language))
+    let names = names::Names::of_diagnosis(diagnosis, language);
+    let form = form::DiagnosisForm::of(case, diagnosis, names);
+    Document::new(&form, language, compose::blocks(case, diagnosis, language))
+        .with_plots(plots::plots(case, diagnosis, language))
 }
 
 /// The document of a plan.
 pub fn outlook(case: &Case, outlook: &Outlook, language: Language) -> Document {
-    let blocks = outlook::blocks(case, outlook, language);
-    Document::new(&form::outlook(case, outlook, language), language, blocks)
+    let names = names::Names::of_outlook(outlook, language);
+    let form = expected::OutlookForm::of(case, outlook, names);
+    Document::new(&form, language, outlook::blocks(case, outlook, language))
 }

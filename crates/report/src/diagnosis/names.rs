@@ -38,6 +38,19 @@ impl<'a> Names<'a> {
         &self.cells[cell]
     }
 
+    /// The same in English.
+    pub(super) fn in_english(self) -> Names<'a> {
+        Names {
+            l: Language::English,
+            ..self
+        }
+    }
+
+    /// What distinguishes a variant, as the catalogue writes it.
+    pub(super) fn label(self, (cell, variation): (usize, usize)) -> &'a str {
+        &self.cell(cell).variants[variation].label
+    }
+
     /// The name of a candidate with its columns in it.
     pub(super) fn plain(self, cell: usize) -> String {
         let cell = self.cell(cell);

@@ -1,0 +1,99 @@
+//! What calibrations, diagnoses and their plans say to machines, against the published schemas.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use super::tests::{assert_published, check};
+use super::{
+    Language, calibration, calibration_schema, diagnosis, diagnosis_schema, outlook,
+    outlook_schema, plan, plan_schema,
+};
+use crate::calibrate::{self, Purpose};
+use crate::diagnose::{self, case};
+use crate::document::Document;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn files(folder: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(root().join(folder)).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let mut files: Vec<PathBuf> = paths
+        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
+        .collect();
+    files.sort();
+    files
+}
+
+fn holds(schema: &Value, document: &Document, file: &Path) {
+    if let Err(fault) = check(schema, schema, &document.machine) {
+        panic!("{}: {fault}", file.display());
+    }
+}
+
+#[test]
+fn calibrations_and_their_plans_are_what_their_schemas_say() {
+    let (of_calibration, of_plan) = (calibration_schema(), plan_schema());
+    let (mut found, mut planned) = (0, 0);
+    for file in files("calibrations") {
+        for language in [Language::English, Language::Chinese] {
+            // Some are plans, and some have nothing to plan with.
+            if let Ok(experiment) = calibrate::load(&file, Purpose::Calibrate) {
+                let result = calibrate::calibrate(&experiment).unwrap();
+                holds(
+                    &of_calibration,
+                    &calibration(&experiment, &result, language),
+                    &file,
+                );
+                found += 1;
+            }
+            if let Ok(experiment) = calibrate::load(&file, Purpose::Plan)
+                && let Ok(result) = calibrate::plan(&experiment)
+            {
+                holds(&of_plan, &plan(&experiment, &result, language), &file);
+                planned += 1;
+            }
+        }
+    }
+    assert!(found > 10 && planned > 10);
+}
+
+#[test]
+fn diagnoses_and_their_plans_are_what_their_schemas_say() {
+    let go_on = |_| ControlFlow::Continue(());
+    let (of_diagnosis, of_outlook) = (diagnosis_schema(), outlook_schema());
+    for name in [
+        "loadcell_pontius",
+        "mpu9150_tumble",
+        "oil_drop_millikan",
+        "tumble_table_1",
+    ] {
+        let file = root().join(format!("cases/{name}.toml"));
+        let case = case::Case::load(&file, case::Purpose::Diagnosis).unwrap();
+        let found = diagnose::diagnose(&case, &go_on).unwrap();
+        let document = diagnosis(&case, &found, Language::English);
+        holds(&of_diagnosis, &document, &file);
+        assert!(document.plots().count() > 0);
+        let planned = diagnose::plan(&case, &go_on).unwrap();
+        holds(
+            &of_outlook,
+            &outlook(&case, &planned, Language::English),
+            &file,
+        );
+    }
+}
+
+#[test]
+fn the_published_schemas_are_up_to_date() {
+    for (name, schema) in [
+        ("calibration-result", calibration_schema()),
+        ("calibration-plan", plan_schema()),
+        ("diagnosis", diagnosis_schema()),
+        ("outlook", outlook_schema()),
+    ] {
+        assert_published(name, &schema);
+    }
+}

@@ -205,6 +205,11 @@ impl Serialize for Number {
     }
 }
 
+/// A list in another form.
+pub fn all<'a, T, F>(list: &'a [T], form: impl FnMut(&'a T) -> F) -> Vec<F> {
+    list.iter().map(form).collect()
+}
+
 /// Numbers of a list.
 pub fn numbers(xs: &[f64]) -> Vec<Number> {
     xs.iter().copied().map(Number).collect()

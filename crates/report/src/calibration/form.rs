@@ -9,7 +9,7 @@ use crate::calibrate::{
     Scatter, ScatterTest, Scope, Words,
 };
 use crate::language::Language;
-use crate::machine::{self, Machine, Number, form};
+use crate::machine::{self, Machine, Number, all, form};
 use crate::quantity::Unit;
 use crate::recording::Finding;
 
@@ -376,11 +376,6 @@ pub fn calibration_schema() -> Value {
 /// JSON Schema of the output of `gumption plan --json` for a calibration.
 pub fn plan_schema() -> Value {
     machine::schema::<PlanForm<'_>>("gumption plan --json")
-}
-
-/// A list in another form.
-fn all<'a, T, F>(list: &'a [T], form: impl FnMut(&'a T) -> F) -> Vec<F> {
-    list.iter().map(form).collect()
 }
 
 fn coefficients(figures: &Figures, l: Language) -> Vec<CoefficientForm<'_>> {

@@ -5,12 +5,12 @@ use serde_json::Value;
 use crate::diagnose::case::Case;
 use crate::diagnose::{Claimed, Outlook, Promise, Prospect};
 use crate::language::Language;
-use crate::machine::{self, Machine, Number, form};
+use crate::machine::{self, Machine, Number, all, form};
 
 use super::names::Names;
 use super::noise::assumed_noise;
 use super::outlook::{pair, statement};
-use super::parts::{EstimateForm, MeasureForm, OmittedForm, all};
+use super::parts::{EstimateForm, MeasureForm, OmittedForm};
 use super::words::measure;
 
 form! {

@@ -11,11 +11,11 @@ use crate::diagnose::{
     Addition, Adopted, Claimed, Diagnosis, Extra, HeldOutQuality, Prediction, Quality, Separating,
 };
 use crate::language::Language;
-use crate::machine::{self, Machine, Number, form, numbers};
+use crate::machine::{self, Machine, Number, all, form, numbers};
 
 use super::names::Names;
 use super::noise::noise;
-use super::parts::{ByUnknown, EstimateForm, MeasureForm, OmittedForm, all, by_unknown};
+use super::parts::{ByUnknown, EstimateForm, MeasureForm, OmittedForm, by_unknown};
 use super::statement::verdict;
 use super::words::measure;
 

@@ -16,11 +16,6 @@ pub(super) fn by_unknown<'a>(unknowns: &'a [Estimated], values: &[f64]) -> ByUnk
     pairs.collect()
 }
 
-/// A list in another form.
-pub(super) fn all<'a, T, F>(list: &'a [T], form: impl FnMut(&'a T) -> F) -> Vec<F> {
-    list.iter().map(form).collect()
-}
-
 form! {
     /// A fitted quantity.
     EstimateForm<'a> of (one: &'a Estimated) {

@@ -15,7 +15,7 @@ use super::labels::spoken;
 use super::names::{Names, quantity};
 use super::noise::noise;
 use super::statement::verdict;
-use super::words::{chance, p_found, probability};
+use super::words::{chance, p_found, probability, unsettled};
 use super::{improvement, open};
 
 /// The whole report.
@@ -23,8 +23,10 @@ pub(super) fn blocks(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Blo
     let mut blocks = vec![
         Block::Title(case.title.clone()),
         Block::Statement(vec![verdict(diagnosis, l)]),
-        Block::Fields(fields(case, diagnosis, l)),
     ];
+    let doubtful = diagnosis.unsettled.iter();
+    blocks.extend(doubtful.map(|one| Block::Paragraph(unsettled(case, one, l))));
+    blocks.push(Block::Fields(fields(case, diagnosis, l)));
     blocks.extend(located(diagnosis, l));
     blocks.extend(slots(case, diagnosis, l));
     blocks.extend(improvement::blocks(case, diagnosis, l));

@@ -55,7 +55,7 @@ form! {
     /// What can be seen of an effect; sizes are the largest shift of the output.
     ProspectForm<'a> of (p: &'a Prospect, names: Names<'a>) {
         /// Identifier of the catalogue.
-        id: &'a str = &names.cell(p.cell).effect.id,
+        id: &'a str = names.cell(p.cell).effect.id.as_str(),
         /// Name.
         name: String = names.plain(p.cell),
         /// The variant that stands for it.
@@ -75,7 +75,7 @@ form! {
     /// An effect that resembles another.
     LikenessForm<'a> of (cell: usize, cosine_of_angle: f64, names: Names<'a>) {
         /// Identifier of the catalogue.
-        id: &'a str = &names.cell(cell).effect.id,
+        id: &'a str = names.cell(cell).effect.id.as_str(),
         /// Name.
         name: String = names.plain(cell),
         /// Cosine of the angle between the two.

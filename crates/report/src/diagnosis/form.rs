@@ -8,7 +8,8 @@ use crate::diagnose::evidence::{
     self, Alternative, Level, Located, Rival, Slot, State, Variant, Verdict, Worth,
 };
 use crate::diagnose::{
-    Addition, Adopted, Claimed, Diagnosis, Extra, HeldOutQuality, Prediction, Quality, Separating,
+    Addition, Adopted, Claimed, Diagnosis, Extra, HeldOutQuality, ModelVersion, Prediction,
+    Quality, Separating, Trouble, Unsettled,
 };
 use crate::language::Language;
 use crate::machine::{self, Machine, Number, all, form, numbers};
@@ -17,7 +18,7 @@ use super::names::Names;
 use super::noise::noise;
 use super::parts::{ByUnknown, EstimateForm, MeasureForm, OmittedForm, by_unknown};
 use super::statement::verdict;
-use super::words::measure;
+use super::words::{measure, unsettled};
 
 /// More places are of no use to anybody.
 const PLACES: usize = 20;
@@ -58,6 +59,8 @@ form! {
         located: Vec<LocatedForm<'a>> = d.located.iter().take(PLACES).map(LocatedForm::of).collect(),
         /// One for each effect found.
         effects: Vec<EffectForm<'a>> = all(&d.examination.slots, |one| EffectForm::of(one, case, d, names)),
+        /// Fits on which a reader should not rely.
+        unsettled_fits: Vec<UnsettledForm> = all(&d.unsettled, |one| UnsettledForm::of(one, case, names.l)),
         /// Share of the excess χ² that the named effects explain.
         explained: Number = Number(d.examination.explained),
         /// Probability that an effect without a name is there.
@@ -140,6 +143,27 @@ form! {
         family: Option<FamilyForm<'a>> = slot.family.as_ref().map(FamilyForm::of),
     }
 
+    /// A fit on which a reader should not rely.
+    UnsettledForm of (found: &Unsettled, case: &Case, l: Language) {
+        /// `declared` or `improved`.
+        model: &'static str = match found.model {
+            ModelVersion::Declared => "declared",
+            ModelVersion::Improved => "improved",
+        },
+        /// `no_minimum` where the search ended elsewhere, `no_fit` where there was none.
+        trouble: &'static str = match found.trouble {
+            Trouble::NoMinimum { .. } => "no_minimum",
+            Trouble::NoFit(_) => "no_fit",
+        },
+        /// Steps of the search that ended.
+        steps: Option<usize> = match found.trouble {
+            Trouble::NoMinimum { steps } => Some(steps),
+            Trouble::NoFit(_) => None,
+        },
+        /// What that means, and what to do.
+        message: String = unsettled(case, found, l),
+    }
+
     /// A family of effects.
     FamilyForm<'a> of (family: &'a (String, f64)) {
         /// Its name.
@@ -151,7 +175,7 @@ form! {
     /// A possible explanation of an effect.
     AlternativeForm<'a> of (one: &'a Alternative, case: &'a Case, d: &'a Diagnosis, names: Names<'a>) {
         /// Identifier of the catalogue.
-        id: &'a str = &names.cell(one.candidate).effect.id,
+        id: &'a str = names.cell(one.candidate).effect.id.as_str(),
         /// Name.
         name: String = names.plain(one.candidate),
         /// Family of the catalogue.
@@ -188,7 +212,7 @@ form! {
     /// A variant of an explanation.
     VariantForm<'a> of (variant: &Variant, d: &'a Diagnosis, names: Names<'a>) {
         /// Identifier of the catalogue.
-        id: &'a str = &names.cell(d.atoms[variant.atom].0).effect.id,
+        id: &'a str = names.cell(d.atoms[variant.atom].0).effect.id.as_str(),
         /// What distinguishes it.
         label: &'a str = names.label(d.atoms[variant.atom]),
         /// Share of the probability.

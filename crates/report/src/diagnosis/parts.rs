@@ -35,7 +35,7 @@ form! {
         /// Name.
         effect: String = names.full(line.cell),
         /// Identifier of the catalogue.
-        id: &'a str = &names.cell(line.cell).effect.id,
+        id: &'a str = names.cell(line.cell).effect.id.as_str(),
         /// Its variant that costs most.
         variant: &'a str = names.label((line.cell, line.variation)),
         /// Whether the recording cannot show it.

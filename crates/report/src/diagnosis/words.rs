@@ -2,7 +2,7 @@
 
 use crate::diagnose::case::Case;
 use crate::diagnose::evidence::Refusal;
-use crate::diagnose::{Failure, Measure, NoFit};
+use crate::diagnose::{Failure, Measure, ModelVersion, NoFit, Trouble, Unsettled};
 use crate::language::Language;
 use crate::number::{percent, significant};
 
@@ -79,6 +79,27 @@ pub(super) fn probability(p: f64) -> String {
         "<0.001".to_owned()
     } else {
         significant(p, 2)
+    }
+}
+
+/// A fit on which a reader should not rely.
+pub(super) fn unsettled(case: &Case, found: &Unsettled, l: Language) -> String {
+    let model = match found.model {
+        ModelVersion::Declared => l.pick("the declared model", "所声明的模型"),
+        ModelVersion::Improved => l.pick("the model with the effects in it", "含上述效应的模型"),
+    };
+    match &found.trouble {
+        Trouble::NoMinimum { steps } => l.pick(
+            format!("Not settled: the search for the parameters of {model} ended after {steps} steps in a place that is no minimum of χ². Values, uncertainties and names that follow from it may be wrong; state starts nearer to the truth: [parameter] NAME = {{ start = … }}"),
+            format!("未收敛：{model}的参数搜索在 {steps} 步后停在并非 χ² 极小值之处。由此得到的数值、不确定度和名称可能有误；请给出更接近的起始值：[parameter] 名称 = {{ start = … }}"),
+        ),
+        Trouble::NoFit(why) => {
+            let why = failure(case, &Failure::Fit(why.clone()), l);
+            l.pick(
+                format!("Not settled: {model} could not be fitted, so nothing is adopted: {why}"),
+                format!("未收敛：{model}无法拟合，故未采纳任何效应：{why}"),
+            )
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use gumption::recording::{Allan, Recording, Request, regular_interval};
 use gumption::report::{self, AllanReport};
 
 use super::form::Form;
+use super::output::Complaint;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -43,7 +44,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         .unwrap_or_else(|why| output::complain(&format!("{}: {why}", args.file.display())))
 }
 
-fn analysed(args: &Args, recording: &Recording) -> Result<Outcome, String> {
+fn analysed(args: &Args, recording: &Recording) -> Result<Outcome, Complaint> {
     let readings = recording.numbers("readings").unwrap_or_default();
     let (interval, time) = spacing(args, recording)?;
     let allan = Allan::of(readings, interval, args.probability).map_err(|why| why.to_string())?;
@@ -63,7 +64,7 @@ fn analysed(args: &Args, recording: &Recording) -> Result<Outcome, String> {
 }
 
 /// Time between readings, and its unit.
-fn spacing(args: &Args, recording: &Recording) -> Result<(f64, Unit), String> {
+fn spacing(args: &Args, recording: &Recording) -> Result<(f64, Unit), Complaint> {
     let second = || {
         UnitTable::default()
             .parse("s")

@@ -5,6 +5,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use gumption::challenge::{Further, NoiseKnowledge, Request, Rig, Scenario, challenge, seal};
 
+use super::output::Complaint;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -32,14 +33,14 @@ pub(super) struct Args {
     list: bool,
 }
 
-fn scenario(text: &str) -> Result<Scenario, String> {
+fn scenario(text: &str) -> Result<Scenario, Complaint> {
     let found = Scenario::all()
         .into_iter()
         .find(|scenario| scenario.name() == text);
     found.ok_or_else(|| "there is no such scenario; `gumption challenge --list` prints all".into())
 }
 
-fn noise(text: &str) -> Result<NoiseKnowledge, String> {
+fn noise(text: &str) -> Result<NoiseKnowledge, Complaint> {
     match text {
         "stated" => Ok(NoiseKnowledge::Stated),
         "at-rest" => Ok(NoiseKnowledge::AtRest),

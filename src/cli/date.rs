@@ -2,10 +2,12 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use super::output::Complaint;
+
 const SECONDS_OF_A_DAY: u64 = 86_400;
 
 /// Today, or the day that SOURCE_DATE_EPOCH fixes (reproducible-builds.org).
-pub(super) fn today() -> Result<String, String> {
+pub(super) fn today() -> Result<String, Complaint> {
     let seconds = match std::env::var("SOURCE_DATE_EPOCH") {
         Ok(text) => text.trim().parse().map_err(|_| {
             format!("SOURCE_DATE_EPOCH is `{text}`: it must be a whole number of seconds since 1970-01-01")
@@ -47,8 +49,8 @@ fn days_of(year: u64, month: u64) -> u64 {
 }
 
 /// Accepts a day that exists, written as `2026-01-31`.
-pub(super) fn parse(text: &str) -> Result<String, String> {
-    let fault = || format!("`{text}` is no date such as 2026-01-31");
+pub(super) fn parse(text: &str) -> Result<String, Complaint> {
+    let fault = || Complaint::from(format!("`{text}` is no date such as 2026-01-31"));
     let parts: Vec<&str> = text.split('-').collect();
     let [year, month, day] = parts.as_slice() else {
         return Err(fault());

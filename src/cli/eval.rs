@@ -8,6 +8,7 @@ use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, 
 use gumption::report::{self, Language, Report};
 
 use super::form::Form;
+use super::output::Complaint;
 use super::progress::Progress;
 use super::{Outcome, output};
 
@@ -182,7 +183,7 @@ const ADAPTIVE: Trials = Trials::Adaptive {
 };
 
 /// `1000000`, `1_000_000`, `1e6`, `adaptive`.
-fn parse_trials(text: &str) -> Result<Trials, String> {
+fn parse_trials(text: &str) -> Result<Trials, Complaint> {
     /// Fewer say nothing about an interval; more would run for days.
     const RANGE: std::ops::RangeInclusive<f64> = 1e3..=1e12;
     if text == "adaptive" {
@@ -191,25 +192,25 @@ fn parse_trials(text: &str) -> Result<Trials, String> {
     let number: f64 = text
         .replace('_', "")
         .parse()
-        .map_err(|_| "write a number such as 1_000_000 or 1e6, or `adaptive`".to_string())?;
+        .map_err(|_| "write a number such as 1_000_000 or 1e6, or `adaptive`")?;
     if !RANGE.contains(&number) || number.fract() != 0.0 {
-        return Err("write a whole number of trials from 1000 to 1e12, or `adaptive`".to_string());
+        return Err("write a whole number of trials from 1000 to 1e12, or `adaptive`".into());
     }
     Ok(Trials::Fixed(number as u64))
 }
 
-fn parse_points(text: &str) -> Result<Points, String> {
+fn parse_points(text: &str) -> Result<Points, Complaint> {
     match text {
         "random" => Ok(Points::Random),
         "quasi-random" => Ok(Points::QuasiRandom),
-        _ => Err("write `random` or `quasi-random`".to_string()),
+        _ => Err("write `random` or `quasi-random`".into()),
     }
 }
 
-fn parse_profile(text: &str) -> Result<&'static Profile, String> {
+fn parse_profile(text: &str) -> Result<&'static Profile, Complaint> {
     budget::profile_named(text).ok_or_else(|| {
         let names: Vec<&str> = budget::PROFILES.iter().map(|p| p.name).collect();
-        format!("the profiles are {}", names.join(", "))
+        format!("the profiles are {}", names.join(", ")).into()
     })
 }
 

@@ -15,14 +15,32 @@ pub(super) fn print(text: impl AsRef<[u8]>) -> Outcome {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_ref()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            complain(&format!("cannot write to standard output: {error}"))
+            complain(format!("cannot write to standard output: {error}"))
         }
         _ => Outcome::Done,
     }
 }
 
+/// What is wrong with an argument or a file, in words.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct Complaint(String);
+
+impl Display for Complaint {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Complaint {}
+
+impl<T: Into<String>> From<T> for Complaint {
+    fn from(words: T) -> Self {
+        Complaint(words.into())
+    }
+}
+
 /// Says on standard error what is wrong.
-pub(super) fn complain(message: &str) -> Outcome {
+pub(super) fn complain(message: impl Display) -> Outcome {
     warn(&format!("error: {message}\n"));
     Outcome::BadInput
 }
@@ -74,7 +92,7 @@ pub(super) fn replace_all<T: AsRef<[u8]>>(files: &[(PathBuf, T)]) -> Outcome {
             for path in &beside {
                 let _ = std::fs::remove_file(path);
             }
-            complain(&format!("cannot write {}: {error}", path.display()))
+            complain(format!("cannot write {}: {error}", path.display()))
         }
     }
 }
@@ -103,18 +121,18 @@ pub(super) fn create(path: &Path, text: &str) -> Outcome {
     let mut file = match std::fs::File::create_new(path) {
         Ok(file) => file,
         Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-            return complain(&format!(
+            return complain(format!(
                 "{} exists already and is left as it is; give another name, or `-` to print the template",
                 path.display()
             ));
         }
-        Err(error) => return complain(&format!("cannot create {}: {error}", path.display())),
+        Err(error) => return complain(format!("cannot create {}: {error}", path.display())),
     };
     match file.write_all(text.as_bytes()) {
         Ok(()) => Outcome::Done,
         Err(error) => {
             let _ = std::fs::remove_file(path);
-            complain(&format!("cannot write {}: {error}", path.display()))
+            complain(format!("cannot write {}: {error}", path.display()))
         }
     }
 }

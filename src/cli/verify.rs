@@ -10,6 +10,7 @@ use gumption::report::{self, Detail, Language};
 use gumption::verify::{Environment, Example, LIBRARY, Problem, Verification};
 
 use super::form::Form;
+use super::output::Complaint;
 use super::{Outcome, date, output};
 
 #[derive(Debug, clap::Args)]
@@ -42,11 +43,11 @@ struct Candidate {
 pub(super) fn run(args: &Args) -> Outcome {
     let day = match args.date.clone().map_or_else(date::today, Ok) {
         Ok(day) => day,
-        Err(message) => return output::complain(&message),
+        Err(message) => return output::complain(message),
     };
     let (files, candidates) = match candidates(&args.files) {
         Ok(found) => found,
-        Err(message) => return output::complain(&message),
+        Err(message) => return output::complain(message),
     };
     let verification = verify(files, &candidates, args, day);
     let written = match &args.report {
@@ -80,7 +81,7 @@ fn missing_claims(args: &Args, verification: &Verification) -> Outcome {
 }
 
 /// The library inside the program, or what the user names.
-fn candidates(files: &[PathBuf]) -> Result<(Files<'static>, Vec<Candidate>), String> {
+fn candidates(files: &[PathBuf]) -> Result<(Files<'static>, Vec<Candidate>), Complaint> {
     if files.is_empty() {
         let budgets = LIBRARY.iter().filter(|(name, _)| name.ends_with(".toml"));
         let candidates = budgets.map(|(name, _)| Candidate {
@@ -99,7 +100,8 @@ fn candidates(files: &[PathBuf]) -> Result<(Files<'static>, Vec<Candidate>), Str
                 return Err(format!(
                     "there is no budget (*.toml) in the folder {}",
                     path.display()
-                ));
+                )
+                .into());
             }
         } else {
             candidates.push(candidate(path.clone()));

@@ -53,7 +53,7 @@ pub use diagnosis::{
 pub use evaluation::{evaluation, evaluation_schema, evaluations};
 pub use language::Language;
 pub use remarks::failure;
-pub use save::saved;
+pub use save::{Unsaved, saved};
 pub use statement::statement;
 pub use verification::{Detail, dossier, verification, verification_schema};
 

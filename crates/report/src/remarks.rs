@@ -1,6 +1,7 @@
 //! Findings as sentences: what was found, what follows from it, what to do.
 
 use crate::budget::CoverageRule;
+use crate::document::{Finding as Remark, Severity};
 use crate::propagate::{Basis, CoverageBasis, EvaluationError, FindingKind, is_residue};
 use crate::special::student_t_two_sided_quantile;
 
@@ -11,35 +12,38 @@ use super::{Report, moments};
 
 /// All findings and the budget's remarks, each one paragraph; what is found alike of several
 /// measurands stands once.
-pub(super) fn remarks(report: &Report<'_>) -> Vec<String> {
+pub(super) fn remarks(report: &Report<'_>) -> Vec<Remark> {
     let l = report.language;
     let several = report.evaluation.results.len() > 1;
-    let mut found: Vec<(String, Vec<String>)> = Vec::new();
+    let mut found: Vec<(Remark, Vec<String>)> = Vec::new();
     for finding in &report.evaluation.findings {
-        let sentence = finding_sentence(report, finding.measurand, &finding.kind);
+        let remark = Remark {
+            id: code(&finding.kind).to_string(),
+            severity: finding.kind.severity(),
+            text: finding_sentence(report, finding.measurand, &finding.kind),
+        };
         let name = finding
             .measurand
             .filter(|_| several)
             .map(|m| report.measurand(m).0.to_string());
-        match found.iter_mut().find(|(known, _)| *known == sentence) {
+        match found.iter_mut().find(|(known, _)| *known == remark) {
             Some((_, names)) => names.extend(name),
-            None => found.push((sentence, Vec::from_iter(name))),
+            None => found.push((remark, Vec::from_iter(name))),
         }
     }
-    let findings = found.into_iter().map(|(sentence, names)| {
-        let names = l.list(&names);
-        match names.as_str() {
-            "" => sentence,
-            _ => l.pick(
-                format!("{names}: {sentence}"),
-                format!("{names}：{sentence}"),
-            ),
+    let findings = found.into_iter().map(|(mut remark, names)| {
+        if !names.is_empty() {
+            let (names, text) = (l.list(&names), &remark.text);
+            remark.text = l.pick(format!("{names}: {text}"), format!("{names}：{text}"));
         }
+        remark
     });
-    let of_budget = report.budget.remarks.iter();
-    findings
-        .chain(of_budget.map(|remark| l.pick(&remark.en, &remark.zh).clone()))
-        .collect()
+    let of_budget = report.budget.remarks.iter().map(|remark| Remark {
+        id: "remark".to_string(),
+        severity: Severity::Note,
+        text: l.pick(&remark.en, &remark.zh).clone(),
+    });
+    findings.chain(of_budget).collect()
 }
 
 /// A stable name of the kind, for machines.
@@ -427,10 +431,15 @@ mod tests {
     use super::*;
     use crate::fixtures;
 
+    fn texts(remarks: &[Remark]) -> String {
+        let texts: Vec<&str> = remarks.iter().map(|remark| remark.text.as_str()).collect();
+        texts.join("\n")
+    }
+
     #[test]
     fn a_fixed_factor_makes_no_allowance_for_few_readings() {
         let mut case = fixtures::refused_freedom();
-        let of = |case: &fixtures::Case| remarks(&case.report(Language::English)).join("\n");
+        let of = |case: &fixtures::Case| texts(&remarks(&case.report(Language::English)));
         assert!(of(&case).contains("for which a k from the t-distribution allows"));
         case.budget.conventions.coverage_factor = CoverageRule::Fixed(2.0);
         case.evaluation.results[0].gum.coverage.basis = CoverageBasis::Fixed;
@@ -438,7 +447,7 @@ mod tests {
         assert!(of(&case).contains(
             "k = 2 makes no allowance for that; for 95.45 % the t-distribution has k = 2.87"
         ));
-        let chinese = remarks(&case.report(Language::Chinese)).join("\n");
+        let chinese = texts(&remarks(&case.report(Language::Chinese)));
         assert!(chinese.contains("t 分布的 k 为 2.87"), "{chinese}");
     }
 }

@@ -18,8 +18,8 @@ use nalgebra::DMatrix;
 /// reads.
 ///
 /// # Errors
-/// A result has no finite estimate or sensitivity, so that it has no linear form; in words.
-pub fn saved(rows: &[Report<'_>], folder: &Path) -> Result<String, String> {
+/// See [`Unsaved`].
+pub fn saved(rows: &[Report<'_>], folder: &Path) -> Result<String, Unsaved> {
     let mut writer = Writer {
         document: Document {
             format: RESULT_FORMAT.to_string(),
@@ -42,9 +42,34 @@ pub fn saved(rows: &[Report<'_>], folder: &Path) -> Result<String, String> {
         writer.row(row)?;
     }
     let text = serde_json::to_string_pretty(&writer.document);
-    text.map(|text| text + "\n")
-        .map_err(|error| error.to_string())
+    text.map(|text| text + "\n").map_err(Unsaved::Form)
 }
+
+/// Why results cannot be saved for other budgets.
+#[derive(Debug)]
+pub enum Unsaved {
+    /// The budget was not read from a file: it has no components that others could know.
+    NoFile,
+    /// The estimate or a sensitivity coefficient of this measurand is not finite: it has no linear form.
+    NotLinear(String),
+    /// The results cannot be written as JSON.
+    Form(serde_json::Error),
+}
+
+impl std::fmt::Display for Unsaved {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Unsaved::NoFile => f.write_str("the budget has no file"),
+            Unsaved::NotLinear(name) => write!(
+                f,
+                "{name} has no linear form: a sensitivity coefficient is not finite"
+            ),
+            Unsaved::Form(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Unsaved {}
 
 struct Writer<'f> {
     document: Document,
@@ -54,10 +79,9 @@ struct Writer<'f> {
 }
 
 impl Writer<'_> {
-    fn row(&mut self, report: &Report<'_>) -> Result<(), String> {
+    fn row(&mut self, report: &Report<'_>) -> Result<(), Unsaved> {
         let chain = &report.budget.chain;
-        // A budget that was not read from a file has no components that others could know.
-        let own = chain.own.as_ref().ok_or("the budget has no file")?;
+        let own = chain.own.as_ref().ok_or(Unsaved::NoFile)?;
         for (index, result) in report.evaluation.results.iter().enumerate() {
             self.result(report, own, index, result)?;
         }
@@ -108,7 +132,7 @@ impl Writer<'_> {
         own: &Part,
         index: usize,
         result: &MeasurandResult,
-    ) -> Result<(), String> {
+    ) -> Result<(), Unsaved> {
         let budget = report.budget;
         let (name, unit) = report.measurand(index);
         // Σ c_i a_ij over the inputs on which a component acts.
@@ -121,9 +145,7 @@ impl Writer<'_> {
             }
         }
         if !result.gum.estimate.is_finite() || sensitivities.iter().any(|c| !c.is_finite()) {
-            return Err(format!(
-                "{name} has no linear form: a sensitivity coefficient is not finite"
-            ));
+            return Err(Unsaved::NotLinear(name.to_string()));
         }
         let mut terms = Vec::new();
         for (component, sensitivity) in sensitivities.into_iter().enumerate() {

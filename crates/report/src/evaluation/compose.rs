@@ -45,7 +45,7 @@ pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {
     let remarks = remarks::remarks(report);
     if !remarks.is_empty() {
         blocks.push(Block::Section(Word::Remarks.of(l).to_string()));
-        blocks.push(Block::List(remarks));
+        blocks.push(Block::Findings(remarks));
     }
     blocks.push(Block::Section(Word::Statement.of(l).to_string()));
     blocks.push(Block::Statement(statement::statement(report)));

@@ -3,8 +3,7 @@
 use crate::budget::Figure;
 use crate::propagate::{Clause8, Comparison};
 
-use crate::document::Block;
-use crate::document::{Cell, ColumnKind, Table};
+use crate::document::{Block, Cell, ColumnKind, Finding, Table};
 use crate::language::Word;
 use crate::number::{
     NONE, STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, print, probability, significant,
@@ -65,7 +64,7 @@ pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
     let common = common_remarks(rows);
     if !common.is_empty() {
         blocks.push(Block::Section(Word::Remarks.of(l).to_string()));
-        blocks.push(Block::List(common));
+        blocks.push(Block::Findings(common));
     }
     blocks
 }
@@ -354,26 +353,26 @@ fn verdict_word(report: &Report<'_>, verdict: Clause8) -> &'static str {
 
 /// A remark of one or more rows, in the words of the first of them.
 struct Common {
-    text: String,
+    remark: Finding,
     labels: Vec<String>,
     /// Whether the figures in it are those of the first row only.
     varies: bool,
 }
 
 /// What is to be known of the rows; remarks that differ in their figures only stand once.
-fn common_remarks(rows: &[Report<'_>]) -> Vec<String> {
+fn common_remarks(rows: &[Report<'_>]) -> Vec<Finding> {
     let mut found: Vec<Common> = Vec::new();
     for report in rows {
-        for text in remarks::remarks(report) {
+        for remark in remarks::remarks(report) {
             let label = report.label.unwrap_or_default().to_string();
-            let kind = without_figures(&text);
-            match found.iter_mut().find(|c| without_figures(&c.text) == kind) {
+            let kind = without_figures(&remark.text);
+            match found.iter_mut().find(|c| without_figures(&c.remark.text) == kind) {
                 Some(common) => {
                     common.labels.push(label);
-                    common.varies |= common.text != text;
+                    common.varies |= common.remark != remark;
                 }
                 None => found.push(Common {
-                    text,
+                    remark,
                     labels: vec![label],
                     varies: false,
                 }),
@@ -383,22 +382,22 @@ fn common_remarks(rows: &[Report<'_>]) -> Vec<String> {
     let l = rows[0].language;
     let sentence = |common: Common| {
         let Common {
-            mut text,
+            mut remark,
             labels,
             varies,
         } = common;
         if varies {
             let first = &labels[0];
-            text += &l.pick(
+            remark.text += &l.pick(
                 format!(" (The figures are those of {first}.)"),
                 format!("（数值取自 {first}。）"),
             );
         }
-        if labels.len() == rows.len() {
-            return text;
+        if labels.len() != rows.len() {
+            let (labels, text) = (l.list(&labels), &remark.text);
+            remark.text = l.pick(format!("{labels}: {text}"), format!("{labels}：{text}"));
         }
-        let labels = l.list(&labels);
-        l.pick(format!("{labels}: {text}"), format!("{labels}：{text}"))
+        remark
     };
     found.into_iter().map(sentence).collect()
 }

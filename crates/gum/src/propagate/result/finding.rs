@@ -1,5 +1,7 @@
 //! What the reader must know before using the numbers.
 
+use gumption_format::document::Severity;
+
 use super::monte_carlo::MissingMoments;
 use crate::budget::LackOfFit;
 use crate::model::Notice;
@@ -123,4 +125,19 @@ pub enum FindingKind {
     },
     /// The output's distribution has an asymmetric or one-sided shape: symmetric and shortest intervals differ.
     Asymmetric,
+}
+
+impl FindingKind {
+    /// What it means for the figures: whether a reader may take them as they are.
+    pub fn severity(&self) -> Severity {
+        match self {
+            FindingKind::VanishingSensitivity { matters: false, .. }
+            | FindingKind::FewDegreesOfFreedom { .. }
+            | FindingKind::Undecided { .. }
+            | FindingKind::ResidualsTooSmall { .. }
+            | FindingKind::Asymmetric => Severity::Note,
+            FindingKind::PhaseWraps { .. } => Severity::Failure,
+            _ => Severity::Warning,
+        }
+    }
 }

@@ -366,7 +366,10 @@ fn common_remarks(rows: &[Report<'_>]) -> Vec<Finding> {
         for remark in remarks::remarks(report) {
             let label = report.label.unwrap_or_default().to_string();
             let kind = without_figures(&remark.text);
-            match found.iter_mut().find(|c| without_figures(&c.remark.text) == kind) {
+            match found
+                .iter_mut()
+                .find(|c| without_figures(&c.remark.text) == kind)
+            {
                 Some(common) => {
                     common.labels.push(label);
                     common.varies |= common.remark != remark;

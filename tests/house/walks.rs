@@ -3,8 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use super::common::{files, relative, root};
-use super::lexer::tokens;
+use super::common::{files, relative};
+use super::lexer::{Token, tokens};
 
 /// Something that is registered.
 struct Walk {
@@ -16,7 +16,26 @@ struct Walk {
     places: &'static [&'static str],
 }
 
-const WALKS: [Walk; 2] = [
+const WALKS: [Walk; 4] = [
+    Walk {
+        kind: "a distribution",
+        names: &[
+            "CurvilinearTrapezoid",
+            "curvilinear_trapezoid",
+            "curvilinear-trapezoid",
+        ],
+        places: &[
+            "crates/core/src/distribution/curvilinear_trapezoid.rs",
+            "crates/core/src/distribution/mod.rs",
+            // A kernel of its own, which a distribution need not have: others are drawn through their quantiles.
+            "crates/lanes/src/sampler.rs",
+        ],
+    },
+    Walk {
+        kind: "a procedure",
+        names: &["gyro-scale-factor-triad", "gyro_scale_factor_triad"],
+        places: &["crates/lab/src/calibrate/procedure.rs"],
+    },
     // The grader of sealed cases knows names of the catalogue as words, on purpose.
     Walk {
         kind: "an effect",
@@ -33,29 +52,42 @@ const WALKS: [Walk; 2] = [
         places: &[
             "crates/format/src/render/markdown.rs",
             "crates/format/src/render/mod.rs",
+            // `gumption explain` prints its pages, which are no documents, as Markdown by an option of its own.
+            "src/cli/explain.rs",
         ],
     },
 ];
 
-/// Sources outside of tests.
-fn sources() -> Vec<(String, String)> {
-    let all = ["src", "crates"].map(|folder| files(folder, "rs")).concat();
-    let named = all.into_iter().map(|path| (relative(&path), path));
-    let real = named.filter(|(name, _)| {
-        let mut parts = name.split('/');
-        !parts.any(|part| part.starts_with("test") || part == "fixtures")
-    });
-    real.map(|(name, path)| (name, std::fs::read_to_string(path).expect("a source")))
-        .collect()
+/// Words of the sources outside of tests.
+fn sources() -> Vec<(String, BTreeSet<String>)> {
+    let (mut found, mut tests) = (Vec::new(), Vec::new());
+    for path in ["src", "crates"].map(|folder| files(folder, "rs")).concat() {
+        let (tokens, for_tests) = tokens(&std::fs::read_to_string(&path).expect("a source"));
+        let word = |token: &Token| token.0.trim_matches(['"', '#']).to_owned();
+        let file = relative(&path);
+        let stem = file.trim_end_matches(".rs");
+        let folder = ["/mod", "/lib", "/main"]
+            .iter()
+            .find_map(|root| stem.strip_suffix(root));
+        let folder = folder.unwrap_or(stem);
+        tests.extend(for_tests.iter().map(|test| format!("{folder}/{test}")));
+        found.push((file.clone(), tokens.iter().map(word).collect()));
+    }
+    let is_test = |file: &str| {
+        let of = |test: &String| file.strip_prefix(test.as_str());
+        tests
+            .iter()
+            .filter_map(of)
+            .any(|rest| rest.starts_with(['.', '/']))
+    };
+    found.retain(|(file, _)| !is_test(file));
+    found
 }
 
 #[test]
 fn an_addition_touches_one_place() {
     let mut strangers = Vec::new();
-    for (file, text) in sources() {
-        let words: BTreeSet<String> = (tokens(&text).0.into_iter())
-            .map(|token| token.0.trim_matches(['"', '#']).to_owned())
-            .collect();
+    for (file, words) in sources() {
         for walk in &WALKS {
             let knows = walk.names.iter().any(|name| words.contains(*name));
             if knows && !walk.places.contains(&file.as_str()) {
@@ -64,11 +96,4 @@ fn an_addition_touches_one_place() {
         }
     }
     assert!(strangers.is_empty(), "{}", strangers.join("\n"));
-}
-
-#[test]
-fn the_places_exist() {
-    for place in WALKS.iter().flat_map(|walk| walk.places) {
-        assert!(root().join(place).is_file(), "{place}");
-    }
 }

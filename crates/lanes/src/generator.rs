@@ -10,7 +10,6 @@
 
 use fearless_simd::{Level, dispatch};
 
-use crate::sampler::open_unit;
 use crate::{Block, LANES, level};
 
 /// Generators that run side by side.
@@ -183,6 +182,15 @@ fn mix(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
+}
+
+const ONE: u64 = 1.0_f64.to_bits();
+
+/// The upper 52 bits as a number in (0, 1): (2j + 1)·2⁻⁵³.
+#[inline(always)]
+pub(crate) fn open_unit(word: u64) -> f64 {
+    // 1 + j·2⁻⁵² has the mantissa bits j; one subtraction, exact, moves it down to (0, 1).
+    f64::from_bits(word >> 12 | ONE) - (1.0 - 0.5 * f64::EPSILON)
 }
 
 #[cfg(test)]

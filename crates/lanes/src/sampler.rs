@@ -14,11 +14,11 @@ use std::sync::Arc;
 use fearless_simd::{Level, dispatch};
 
 use crate::elementary::exp;
-use crate::generator::PART;
+use crate::generator::{PART, open_unit};
 use crate::{Block, Generator, LANES};
 pub use discrete::AliasTable;
 pub use inverse::Inverse;
-pub(crate) use shapes::{open_unit, sin_pi};
+pub(crate) use shapes::sin_pi;
 
 /// A distribution ready to be drawn from.
 ///
@@ -212,7 +212,7 @@ impl Sampler {
                     out,
                     #[inline(always)]
                     move |word| {
-                        let u = shapes::open_unit(word);
+                        let u = open_unit(word);
                         let below = lower + (left * u).sqrt();
                         let above = upper - (right * (1.0 - u)).sqrt();
                         factor.mul_add(if u < at_mode { below } else { above }, offset)
@@ -286,16 +286,16 @@ impl Sampler {
                 dispatch!(level, simd => gamma::betas(simd, generator, shapes, scaled, &mut out.0));
             }
             Sampler::Discrete(ref table) => {
-                from_one(level, generator, out, shapes::open_unit);
+                from_one(level, generator, out, open_unit);
                 out.0 = out.0.map(|u| factor * table.at(u) + offset);
             }
             Sampler::Empirical { ref sample } => {
-                from_one(level, generator, out, shapes::open_unit);
+                from_one(level, generator, out, open_unit);
                 let value = |u| discrete::element(sample, u).unwrap_or(f64::NAN);
                 out.0 = out.0.map(|u| factor * value(u) + offset);
             }
             Sampler::Inverse(ref quantile) => {
-                from_one(level, generator, out, shapes::open_unit);
+                from_one(level, generator, out, open_unit);
                 out.0 = out.0.map(|u| factor * quantile.at(u) + offset);
             }
         }

@@ -14,7 +14,7 @@
 use fearless_simd::{Level, dispatch};
 
 use crate::generator::Key;
-use crate::sampler::open_unit;
+use crate::generator::open_unit;
 use crate::{Block, LANES};
 
 /// Dimensions that have direction numbers.

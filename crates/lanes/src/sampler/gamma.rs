@@ -3,8 +3,9 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::shapes::{minus_two_ln, normal_pair, open_unit, square_radius};
+use super::shapes::{minus_two_ln, normal_pair, square_radius};
 use crate::elementary::{exp, ln_normal};
+use crate::generator::open_unit;
 use crate::{Generator, LANES};
 
 /// `factor`·G + `offset` for gamma variables G of scale 1.

@@ -12,15 +12,9 @@
 //! | [`exp2_m1`] | 3·10⁻¹⁵ |
 
 use crate::elementary::{INTEGER, horner};
+use crate::generator::open_unit;
 
 const ONE: u64 = 1.0_f64.to_bits();
-
-/// The upper 52 bits as a number in (0, 1): (2j + 1)·2⁻⁵³.
-#[inline(always)]
-pub(crate) fn open_unit(word: u64) -> f64 {
-    // 1 + j·2⁻⁵² has the mantissa bits j; one subtraction, exact, moves it down to (0, 1).
-    f64::from_bits(word >> 12 | ONE) - (1.0 - 0.5 * f64::EPSILON)
-}
 
 /// The upper 51 bits as a number in (−½, ½): an odd multiple of 2⁻⁵², symmetric about zero.
 #[inline(always)]

@@ -37,8 +37,8 @@
 //! use gumption::Files;
 //!
 //! let files = Files::Library(&[
-//!     ("readings.csv", b"U\n1.0001\n1.0003\n1.0000\n1.0002\n"),
-//!     ("voltage.toml", br#"
+//!     ("readings.csv", b"U\n1.0001\n1.0003\n1.0000\n1.0002\n".as_slice()),
+//!     ("voltage.toml", r#"
 //!         title = "Mean voltage"
 //!         [measurand.U]
 //!         model = "V"
@@ -46,7 +46,7 @@
 //!         [input.V]
 //!         unit = "V"
 //!         readings = { file = "readings.csv", column = "U" }
-//!     "#),
+//!     "#.as_bytes()),
 //! ]);
 //! let budgets = gumption::read(files, "voltage.toml")?;
 //! let evaluation = gumption::evaluate(&budgets[0])?;
@@ -83,7 +83,7 @@
 //! ```
 //! let calibration = gumption::calibrate("calibrations/gyro-scale-factor.toml")?;
 //! for coefficient in &calibration.figures.coefficients {
-//!     println!("{} = {} {}", coefficient.name, coefficient.value, coefficient.unit);
+//!     println!("{} = {}, u = {}", coefficient.name, coefficient.value, coefficient.u);
 //! }
 //! # Ok::<(), gumption::Error>(())
 //! ```

@@ -155,7 +155,7 @@ pub use gumption_fault as fault;
 pub use gumption_fault::language;
 pub use gumption_format::{document, files, machine, render};
 pub use gumption_gum::{budget, propagate};
-pub use gumption_lab::{calibrate, diagnose, recording};
+pub use gumption_lab::{calibrate, diagnose, experiment, recording};
 pub use gumption_report as report;
 pub use gumption_verify as verify;
 

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use gumption::diagnose::case::{Case, Kind, Purpose, kind_of};
+use gumption::diagnose::case::{Case, Purpose};
+use gumption::experiment::{Kind, kind_of};
 use gumption::{diagnose, report};
 
 use super::diagnose::failed;
@@ -12,7 +13,7 @@ use super::{Outcome, calibrate, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// A calibration file with a schedule (docs/calibrate.md) or a case (docs/diagnose.md)
+    /// An experiment (docs/experiment.md): with a schedule or a procedure, what it would find; else, what it would tell apart
     #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
@@ -27,14 +28,14 @@ pub(super) fn run(args: &Args) -> Outcome {
         }
     };
     match kind_of(&String::from_utf8_lossy(&text)) {
-        Kind::Case => case(&args.file, &args.form),
-        Kind::Calibration => calibrate::plan(&args.file, &args.form),
+        Kind::Experiment => case(&args.file, &args.form),
+        Kind::Schedule => calibrate::plan(&args.file, &args.form),
         Kind::Budget => output::complain(&format!(
             "{} is a budget, which has no design to plan; evaluate it with `gumption eval`",
             args.file.display()
         )),
         Kind::Unknown => output::complain(&format!(
-            "{} is neither a calibration (it would have `equations` or `procedure`) nor a case (it would have `recording` and `model`)",
+            "{} is no experiment: it would have `equations` or a `procedure`",
             args.file.display()
         )),
     }

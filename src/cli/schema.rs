@@ -1,6 +1,6 @@
 //! `gumption schema`: JSON Schema for editors and for readers of what the program writes.
 
-use gumption::{budget, calibrate, challenge, diagnose, report};
+use gumption::{budget, challenge, experiment, report};
 
 use super::{Outcome, output};
 
@@ -19,10 +19,8 @@ enum Which {
     Evaluation,
     /// What `gumption eval --save` writes
     Result,
-    /// Calibration files, and the files of plans
-    Calibration,
-    /// Case files of `gumption diagnose`, `simulate` and `plan`
-    Case,
+    /// Experiments: the files of `gumption calibrate`, `plan`, `simulate` and `diagnose`
+    Experiment,
     /// The output of `gumption calibrate --json`
     CalibrationResult,
     /// The output of `gumption plan --json` for a calibration
@@ -44,8 +42,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Budget => budget::schema(),
         Which::Evaluation => report::evaluation_schema(),
         Which::Result => budget::result_schema(),
-        Which::Calibration => calibrate::schema(),
-        Which::Case => diagnose::case::schema(),
+        Which::Experiment => experiment::schema(),
         Which::CalibrationResult => report::calibration_schema(),
         Which::CalibrationPlan => report::plan_schema(),
         Which::Diagnosis => report::diagnosis_schema(),

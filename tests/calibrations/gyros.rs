@@ -112,7 +112,7 @@ fn twelve_rows_are_six_averages() {
 #[test]
 fn twelve_dwells_of_samples_give_the_same() {
     let toml = BIAS.to_owned()
-        + "dwells = [\"position\", \"turned\"]\n[column.turned]\nholds = \"labels\"\n";
+        + "dwells = [\"position\", \"turned\"]\n[columns.turned]\nholds = \"labels\"\n";
     let csv = recording(HEAD, |position, turned, [x, y, z]| {
         (0..40)
             .map(|i| {
@@ -162,7 +162,7 @@ fn the_earths_rate_shows_the_azimuth_of_the_base() {
         .collect();
     let toml = format!(
         "procedure = \"gyro-drift\"\n[parameter.e_north]\nstart = 0\nunit = \"rad\"\n[input.latitude]\nvalue = 40\n\
-         [constant]\ng = \"1 gn\"\n[column]\nDx = {{ unit = \"deg/h\" }}\nDy = {{ unit = \"deg/h\" }}\nDz = {{ unit = \"deg/h\" }}\n\
+         [constant]\ng = \"1 gn\"\n[columns]\nDx = {{ unit = \"deg/h\" }}\nDy = {{ unit = \"deg/h\" }}\nDz = {{ unit = \"deg/h\" }}\n\
          [reading]\nDx = {{ u = 0.05 }}\nDy = {{ u = 0.05 }}\nDz = {{ u = 0.05 }}\n[schedule]\nposition = [{}]\n",
         positions.join(", ")
     );

@@ -1,4 +1,4 @@
-//! The calibrations of `calibrations/`: every file evaluates, and finds the values that its readings were made
+//! The calibrations of `experiments/`: every file evaluates, and finds the values that its readings were made
 //! with; procedures against the formulas of their clauses; what schedules can and cannot tell.
 
 use crate::common;
@@ -9,7 +9,7 @@ use gumption::calibrate::{
 };
 
 fn experiment(file: &str, purpose: Purpose) -> Experiment {
-    let path = common::root().join("calibrations").join(file);
+    let path = common::root().join("experiments").join(file);
     load(&path, purpose).unwrap_or_else(|rejection| panic!("{}", rejection.render(false)))
 }
 
@@ -54,7 +54,7 @@ fn truths(csv: &str) -> Vec<(String, f64)> {
 #[test]
 fn every_simulated_calibration_finds_what_its_readings_were_made_with() {
     let mut checked = 0;
-    for path in common::files("calibrations", "toml") {
+    for path in common::calibrations() {
         let Ok(csv) = std::fs::read_to_string(path.with_extension("csv")) else {
             continue;
         };
@@ -83,7 +83,7 @@ fn every_simulated_calibration_finds_what_its_readings_were_made_with() {
 
 /// Columns of numbers of a recording, without comments and names.
 fn column(file: &str, place: usize) -> Vec<f64> {
-    let path = common::root().join("calibrations").join(file);
+    let path = common::root().join("experiments").join(file);
     let text = std::fs::read_to_string(path).expect("a recording");
     let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
     rows.map(|row| {
@@ -194,7 +194,7 @@ fn tumble(positions: usize, more: &str) -> Plan {
         .collect();
     let angles = angles.join(", ");
     planned(&format!(
-        "procedure = \"accelerometer-tumble\"\n[schedule]\n\"theta [deg]\" = [{angles}]\n[column.E]\nunit = \"mV\"\n\
+        "procedure = \"accelerometer-tumble\"\n[schedule]\n\"theta [deg]\" = [{angles}]\n[columns.E]\nunit = \"mV\"\n\
          [constant]\ng = \"1 gn\"\n[parameter.K1]\nstart = 250\n[reading.E]\nu = 0.001\n{more}"
     ))
 }
@@ -263,7 +263,7 @@ fn one_sense_of_rotation_does_not_tell_rate_from_its_square() {
     let schedule = |rates: &str, axes: &str| {
         planned(&format!(
             "procedure = \"accelerometer-rate-sensitivity-both\"\n[schedule]\naxis = [{axes}]\n\"omega [rad/s]\" = [{rates}]\n\
-             [column]\nUax = {{ unit = \"m/s^2\" }}\nUay = {{ unit = \"m/s^2\" }}\nUaz = {{ unit = \"m/s^2\" }}\n"
+             [columns]\nUax = {{ unit = \"m/s^2\" }}\nUay = {{ unit = \"m/s^2\" }}\nUaz = {{ unit = \"m/s^2\" }}\n"
         ))
     };
     let one = schedule("0, 10, 0, 10, 0, 10", r#""x", "x", "y", "y", "z", "z""#);
@@ -283,7 +283,7 @@ fn the_unit_check_tells_model_2_from_formula_12() {
         let toml = format!(
             "procedure = \"{procedure}\"\n[schedule]\naxis = [\"x\", \"x\", \"y\", \"y\", \"z\", \"z\"]\n\
              \"omega [rad/s]\" = [0, 10, 0, 10, 0, 10]\n\
-             [column]\nUax = {{ unit = \"m/s^2\" }}\nUay = {{ unit = \"m/s^2\" }}\nUaz = {{ unit = \"m/s^2\" }}\n"
+             [columns]\nUax = {{ unit = \"m/s^2\" }}\nUay = {{ unit = \"m/s^2\" }}\nUaz = {{ unit = \"m/s^2\" }}\n"
         );
         let figures = planned(&toml).figures.expect("all is determined");
         let p = figures.coefficients.iter().find(|c| c.name == "pyx");
@@ -297,7 +297,7 @@ fn the_unit_check_tells_model_2_from_formula_12() {
     assert!(squared.conversion_to(&like("m")).is_some());
     // (12) with the p of model (2): the dimensions do not fit.
     let mixed = "equations = [\"Uay = o - p*omega^2\"]\n[parameter]\no = { unit = \"m/s^2\" }\np = { unit = \"m/s\" }\n\
-                 [schedule]\n\"omega [rad/s]\" = [0, 10]\n[column.Uay]\nunit = \"m/s^2\"\n";
+                 [schedule]\n\"omega [rad/s]\" = [0, 10]\n[columns.Uay]\nunit = \"m/s^2\"\n";
     let Err(rejection) = read(mixed, "mixed.toml", Path::new(""), Purpose::Plan) else {
         panic!("a speed times a rate squared is no acceleration");
     };
@@ -331,7 +331,7 @@ const GIMBALS: [(&str, f64); 19] = [
 
 #[test]
 fn the_65_positions_as_predicted_and_as_found() {
-    let path = common::root().join("calibrations/gimbals-65-positions.toml");
+    let path = common::root().join("experiments/gimbals-65-positions.toml");
     let toml = std::fs::read_to_string(&path).expect("a file")
         + "\n[parameter]\nK1x = { start = 1000 }\nK1y = { start = 1000 }\nK1z = { start = 1000 }\n\
            [reading]\nAx = { u = 0.005 }\nAy = { u = 0.005 }\nAz = { u = 0.005 }\n";
@@ -354,7 +354,7 @@ fn the_65_positions_as_predicted_and_as_found() {
     }
 }
 
-/// The blocks of a page that are calibration files whose recordings are in `calibrations/`.
+/// The blocks of a page that are calibration files whose recordings are in `experiments/`.
 fn examples(page: &str) -> Vec<String> {
     page.split("```toml calibration\n")
         .skip(1)
@@ -367,16 +367,16 @@ fn examples(page: &str) -> Vec<String> {
 fn every_example_of_the_page_of_procedures_is_a_file_that_evaluates() {
     let path = common::root().join("docs/procedures.md");
     let examples = examples(&std::fs::read_to_string(path).expect("the page"));
-    let mut files: Vec<String> = common::files("calibrations", "toml")
+    let mut files: Vec<String> = common::calibrations()
         .iter()
         .map(|path| std::fs::read_to_string(path).expect("a file"))
         .collect();
     for example in examples {
         let Some(place) = files.iter().position(|file| *file == example) else {
-            panic!("no file of calibrations/ is\n{example}");
+            panic!("no file of experiments/ is\n{example}");
         };
         files.remove(place);
-        let folder = common::root().join("calibrations");
+        let folder = common::root().join("experiments");
         let purpose = match example.contains("[recording]") {
             true => Purpose::Calibrate,
             false => Purpose::Plan,
@@ -396,7 +396,7 @@ fn the_list_of_procedures_is_fresh() {
     let mut page = String::from(
         "# Procedures of the library\n\nMade from the procedures themselves. [procedures.md](../procedures.md) says how to use them, with an example of each.\n",
     );
-    for procedure in gumption::calibrate::procedure::PROCEDURES {
+    for procedure in gumption::experiment::procedure::PROCEDURES {
         page += &listed(procedure.name, procedure.text);
     }
     let path = common::root().join("docs/reference/procedures.md");

@@ -1,4 +1,4 @@
-//! Calibrations: the files of `calibrations/`, studies against other algorithms, and reports of published ones.
+//! Calibrations: the files of `experiments/`, studies against other algorithms, and reports of published ones.
 
 #![allow(
     clippy::disallowed_methods,

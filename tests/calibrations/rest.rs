@@ -48,8 +48,8 @@ fn rests_are_found_and_calibrated() {
     std::fs::create_dir_all(&folder).expect("a folder");
     std::fs::write(folder.join("phone.csv"), recording()).expect("a file");
     let toml = "procedure = \"accelerometer-norm\"\n[constant]\ng = \"9.8 m/s^2\"\n\
-        [recording]\nfile = \"phone.csv\"\ntime = \"time\"\nstill = 30\nsettle = \"0.5 s\"\n\
-        columns = { Ux = \"ax\", Uy = \"ay\", Uz = \"az\" }\n\
+        [recording]\nfile = \"phone.csv\"\nstill = 30\nsettle = \"0.5 s\"\n\
+        [columns]\ntime = \"time\"\nUx = { column = \"ax\" }\nUy = { column = \"ay\" }\nUz = { column = \"az\" }\n\
         [parameter]\nKx = { start = 1 }\nKy = { start = 1 }\nKz = { start = 1 }\n\
         bx = { start = 0 }\nby = { start = 0 }\nbz = { start = 0 }\n";
     let experiment = |toml: &str| {

@@ -1,21 +1,21 @@
-//! Every procedure of the library, on the recordings of `calibrations/`: estimates against another algorithm,
+//! Every procedure of the library, on the recordings of `experiments/`: estimates against another algorithm,
 //! uncertainties and covariances against the scatter of simulated calibrations and against written budgets.
 
 use crate::common::{self, evaluation};
 use std::collections::BTreeSet;
 
-use gumption::calibrate::procedure::PROCEDURES;
 use gumption::calibrate::{
     Calibration, Doubt, Experiment, Purpose, Scatter, Scope, Target, budget, calibrate, estimates,
     read,
 };
 use gumption::distribution::Distribution as Shape;
+use gumption::experiment::procedure::PROCEDURES;
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, Normal, Uniform};
 
-/// A file of `calibrations/` and what comes of it.
+/// A file of `experiments/` and what comes of it.
 struct Example {
     name: String,
     experiment: Experiment,
@@ -23,7 +23,7 @@ struct Example {
 }
 
 fn example(name: &str, toml: &str) -> Example {
-    let folder = common::root().join("calibrations");
+    let folder = common::root().join("experiments");
     let experiment = read(toml, name, &folder, Purpose::Calibrate)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
     let found = calibrate(&experiment).expect("coefficients");
@@ -37,7 +37,7 @@ fn example(name: &str, toml: &str) -> Example {
 /// All calibrations, and the two procedures of 7.2.5 that have no file of their own.
 fn examples() -> Vec<Example> {
     let mut all = Vec::new();
-    for path in common::files("calibrations", "toml") {
+    for path in common::calibrations() {
         let toml = std::fs::read_to_string(&path).expect("a file");
         if !toml.contains("[recording]") {
             continue;

@@ -61,3 +61,15 @@ pub fn assert_fresh(stale: &[String]) {
         stale.join("\n  ")
     );
 }
+
+/// The experiments of the repository that build on a procedure.
+#[allow(dead_code)]
+pub fn calibrations() -> Vec<PathBuf> {
+    let on_procedure = |path: &PathBuf| {
+        let text = std::fs::read_to_string(path).expect("a readable file");
+        text.contains("procedure = ")
+    };
+    let mut all = files("experiments", "toml");
+    all.retain(on_procedure);
+    all
+}

@@ -8,7 +8,7 @@ mod files;
 
 use std::process::Command;
 
-pub use files::{assert_fresh, files, relative, root, stale};
+pub use files::{assert_fresh, calibrations, files, relative, root, stale};
 
 /// The program, without colours and on a page of 100 columns.
 pub fn program() -> Command {

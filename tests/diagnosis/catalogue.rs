@@ -21,7 +21,7 @@ fn two_harmonics_of_one_angle_are_two_effects() {
         let error = 12.0 * libm::sin(turn) + 4.0 * libm::cos(2.0 * turn) + 0.5 * noise.normal();
         let _ = writeln!(rows, "{angle},{error:.4}");
     }
-    let case = "model = \"error = e0\"\n[columns]\nerror = \"output\"\nangle = \"angle\"\n";
+    let case = "equations = \"error = e0\"\n[columns]\nerror = \"output\"\nangle = \"angle\"\n";
     let found = diagnosed("harmonics", &rows, case);
     for (effect, label) in [(0, "1 per turn"), (1, "2 per turn")] {
         assert_eq!(named(&found)[effect], ["periodic"], "{found}");
@@ -56,7 +56,7 @@ fn exchanged_rows_are_found_however_they_bend_the_fit() {
             let [x, y, z] = faces[row % 6];
             let _ = writeln!(rows, "{x},{y},{z},{ax:.5},{ay:.5}");
         }
-        let case = "model = [\"ax = bx + Sxx*gx + Sxy*gy\", \"ay = by + Syx*gx + Syy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = \"stimulus\"\ngy = \"stimulus\"\ngz = \"stimulus\"\n[noise]\nu = \"1 mm/s^2\"\n";
+        let case = "equations = [\"ax = bx + Sxx*gx + Sxy*gy\", \"ay = by + Syx*gx + Syy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = \"stimulus\"\ngy = \"stimulus\"\ngz = \"stimulus\"\n[noise]\nu = \"1 mm/s^2\"\n";
         let found = diagnosed("exchanged", &rows, case);
         let (names, label) = first(&found);
         assert_eq!(names, ["swapped"], "{}", found["statement"]);
@@ -82,7 +82,7 @@ fn dwells_of_one_reading_after_settling_are_no_rows() {
     std::fs::write(folder.join("recording.csv"), rows).expect("written");
     let found = common::cases::diagnosed(
         &folder,
-        "recording = { file = \"recording.csv\", dwells = [\"position\"], settle_rows = 1 }\nmodel = \"U = K0 + K1*sin(head)\"\n[columns]\nposition = \"position\"\nhead = \"angle\"\nU = \"output\"\n",
+        "recording = { file = \"recording.csv\", dwells = [\"position\"], settle = 1 }\nequations = \"U = K0 + K1*sin(head)\"\n[columns]\nposition = \"position\"\nhead = \"angle\"\nU = \"output\"\n",
     );
     assert_eq!(found["verdict"], "none", "{}", found["statement"]);
 }
@@ -97,7 +97,7 @@ fn a_scale_of_its_own_is_no_reversed_polarity() {
         let reading = gain * nominal + 0.01 * noise.normal();
         let _ = writeln!(rows, "{operator},{nominal},{reading:.5}");
     }
-    let case = "model = \"reading = a + b*nominal\"\n[columns]\nreading = \"output\"\nnominal = \"stimulus\"\noperator = \"operator\"\n";
+    let case = "equations = \"reading = a + b*nominal\"\n[columns]\nreading = \"output\"\nnominal = \"stimulus\"\noperator = \"operator\"\n";
     let (names, label) = first(&diagnosed("operators", &rows, case));
     assert_eq!(names, ["level-scale"]);
     assert_eq!(label, "operator B");
@@ -114,7 +114,7 @@ fn a_pendulum_swings_slower_with_the_square_of_its_amplitude() {
         let period = small * (1.0 + amplitude * amplitude / 16.0) + 2e-4 * noise.normal();
         let _ = writeln!(rows, "{length},{amplitude},{period:.7}");
     }
-    let case = "model = \"period = 2*pi*sqrt(L/g)\"\n[columns]\nperiod = \"output\"\nL = \"stimulus\"\namplitude = \"covariate\"\n[parameter.g]\nunit = \"m/s^2\"\nstart = 9.8\n";
+    let case = "equations = \"period = 2*pi*sqrt(L/g)\"\n[columns]\nperiod = \"output\"\nL = \"stimulus\"\namplitude = \"covariate\"\n[parameter.g]\nunit = \"m/s^2\"\nstart = 9.8\n";
     let found = diagnosed("pendulum", &rows, case);
     assert_eq!(named(&found)[0], ["sensitivity-scale-quadratic"], "{found}");
 }
@@ -136,7 +136,7 @@ fn a_loop_on_the_way_down_is_hysteresis() {
             let _ = writeln!(rows, "{pressure},{signal:.6}");
         }
     }
-    let case = "model = \"signal = a + b*pressure\"\n[columns]\nsignal = \"output\"\npressure = \"stimulus\"\n";
+    let case = "equations = \"signal = a + b*pressure\"\n[columns]\nsignal = \"output\"\npressure = \"stimulus\"\n";
     let found = diagnosed("hysteresis", &rows, case);
     assert_eq!(named(&found)[0], ["hysteresis"], "{found}");
 }
@@ -152,7 +152,7 @@ fn a_plain_square_of_what_goes_both_ways_is_no_hysteresis() {
             let _ = writeln!(rows, "{mass},{x:.5}");
         }
     }
-    let case = "model = \"x = x0 + k*mass\"\n[columns]\nx = \"output\"\nmass = \"stimulus\"\n";
+    let case = "equations = \"x = x0 + k*mass\"\n[columns]\nx = \"output\"\nmass = \"stimulus\"\n";
     let found = diagnosed("spring", &rows, case);
     assert_eq!(named(&found)[0], ["quadratic"], "{found}");
 }
@@ -168,7 +168,7 @@ fn a_condition_whose_order_is_open_is_one_name() {
         let y = 1.0 + 2.0 * x + 0.02 * vibration * vibration + 6e-3 * noise.normal();
         let _ = writeln!(rows, "{x},{vibration:.4},{y:.5}");
     }
-    let case = "model = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nvibration = \"covariate\"\n";
+    let case = "equations = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nvibration = \"covariate\"\n";
     let found = diagnosed("orders", &rows, case);
     let first = &found["effects"][0];
     assert_eq!(
@@ -200,7 +200,7 @@ fn a_known_trace_is_held_beside_every_candidate() {
     let folder = folder("likeness");
     std::fs::write(folder.join("recording.csv"), rows).unwrap();
     let file = folder.join("case.toml");
-    std::fs::write(&file, "recording = \"recording.csv\"\nmodel = \"y = a + b*x\"\n[columns]\nt = \"time\"\nx = \"stimulus\"\ny = \"output\"\n").unwrap();
+    std::fs::write(&file, "recording = \"recording.csv\"\nequations = \"y = a + b*x\"\n[columns]\nt = \"time\"\nx = \"stimulus\"\ny = \"output\"\n").unwrap();
     let case = Case::load(&file, Purpose::Diagnosis).unwrap();
     let trace =
         |f: fn(f64, f64) -> f64| DVector::from_iterator(40, course.iter().map(|(t, x)| f(*t, *x)));
@@ -254,7 +254,7 @@ fn readings_that_stay_at_one_value_are_saturated() {
         let output = (2.5 + 0.4 * a).min(4.2) + 0.003 * noise.normal();
         let _ = writeln!(rows, "{a:.4},{output:.5}");
     }
-    let case = "model = \"U = U0 + k*a\"\n[columns]\nU = \"output\"\na = \"stimulus\"\n[noise]\nu = \"0.003 V\"\n";
+    let case = "equations = \"U = U0 + k*a\"\n[columns]\nU = \"output\"\na = \"stimulus\"\n[noise]\nu = \"0.003 V\"\n";
     let found = diagnosed("plateau", &rows, case);
     let (names, label) = first(&found);
     assert_eq!(names, ["saturation"], "{found}");
@@ -271,7 +271,7 @@ fn a_coarse_display_rounds() {
         let y = 0.012 + 0.998 * x + 0.0005 * noise.normal();
         let _ = writeln!(rows, "{x:.4},{:.2}", (y / 0.02).round() * 0.02);
     }
-    let case = "model = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\n[noise]\nu = \"0.0005 mm\"\n";
+    let case = "equations = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\n[noise]\nu = \"0.0005 mm\"\n";
     let found = diagnosed("display", &rows, case);
     assert_eq!(named(&found)[0], ["quantisation"], "{found}");
 }
@@ -287,7 +287,7 @@ fn a_line_with_two_reflections_ripples_along_the_frequency() {
         let loss = 0.4 + 0.05 * f - 20.0 * libm::log10(1.0 + 0.0025 * libm::cos(turn));
         let _ = writeln!(rows, "{f:.2},{:.5}", loss + 0.004 * noise.normal());
     }
-    let case = "model = \"loss = a + b*f\"\n[columns]\nloss = \"output\"\nf = \"stimulus\"\n[noise]\nu = \"0.004 dB\"\n";
+    let case = "equations = \"loss = a + b*f\"\n[columns]\nloss = \"output\"\nf = \"stimulus\"\n[noise]\nu = \"0.004 dB\"\n";
     let found = diagnosed("line", &rows, case);
     let (names, label) = first(&found);
     assert_eq!(names, ["wave"], "{found}");
@@ -310,7 +310,7 @@ fn a_list_that_slipped_by_a_line_is_no_physics() {
             0.1 + 0.02 * load(row - 1) + 1e-4 * noise.normal()
         );
     }
-    let case = "model = \"U = a + b*load\"\n[columns]\nU = \"output\"\nload = \"stimulus\"\n";
+    let case = "equations = \"U = a + b*load\"\n[columns]\nU = \"output\"\nload = \"stimulus\"\n";
     let found = diagnosed("slip", &rows, case);
     assert_eq!(named(&found)[0], ["shifted"], "{found}");
 }
@@ -359,7 +359,7 @@ fn rate_table(shown: impl Fn(usize, [f64; 3], [f64; 3]) -> f64, seed: u64) -> St
 }
 
 const RATE_TABLE: &str = r#"
-model = [
+equations = [
     "wx = bx + Sxx*rate*cx + Sxy*rate*cy + Sxz*rate*cz",
     "wy = by + Syx*rate*cx + Syy*rate*cy + Syz*rate*cz",
     "wz = bz + Szx*rate*cx + Szy*rate*cy + Szz*rate*cz",
@@ -436,7 +436,7 @@ fn stand_case() -> String {
         )
     };
     format!(
-        "model = [\n{}]\n[columns]\nazimuth = \"angle\"\nelevation = \"angle\"\nax = \"output\"\nay = \"output\"\naz = \"output\"\n[noise]\nu = \"2e-5 gn\"\n",
+        "equations = [\n{}]\n[columns]\nazimuth = \"angle\"\nelevation = \"angle\"\nax = \"output\"\nay = \"output\"\naz = \"output\"\n[noise]\nu = \"2e-5 gn\"\n",
         ['x', 'y', 'z'].map(row).concat()
     )
 }

@@ -38,7 +38,7 @@ fn tumble(mounts: &[f64], second: f64, third: f64, seed: u64) -> String {
 
 const TUMBLE: &str = r#"
 recording = "tumble.csv"
-model = "U = K0 + K1*sin(head + mount) + Kd*cos(head + mount)"
+equations = "U = K0 + K1*sin(head + mount) + Kd*cos(head + mount)"
 
 [columns]
 U = "output"
@@ -225,7 +225,7 @@ fn load_cell(curvature: f64, least: f64, seed: u64) -> String {
 
 const LOAD_CELL: &str = r#"
 recording = "load-cell.csv"
-model = "deflection = a + b * load"
+equations = "deflection = a + b * load"
 held_out = { file = "next.csv" }
 
 [columns]
@@ -280,7 +280,7 @@ fn a_random_walk_is_noise_where_it_is_claimed() {
         let _ = writeln!(text, "{:.2},{x},{y:.4}", 0.05 * f64::from(row));
     }
     std::fs::write(folder.join("r.csv"), text).expect("written");
-    let case = "recording = \"r.csv\"\nmodel = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\ntime = \"time\"\n[noise]\nu = \"0.1 mV\"\n";
+    let case = "recording = \"r.csv\"\nequations = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\ntime = \"time\"\n[noise]\nu = \"0.1 mV\"\n";
     assert_ne!(diagnosed(&folder, case)["verdict"], "none");
     let claimed = format!("{case}walk = \"4 mV\"\n");
     assert_eq!(diagnosed(&folder, &claimed)["verdict"], "none");
@@ -331,7 +331,7 @@ fn thermometers_are_compared_in_degrees_celsius() {
         let _ = writeln!(text, "{reference},{:.4}", sensor + 2e-3 * noise.normal());
     }
     std::fs::write(folder.join("r.csv"), text).expect("written");
-    let case = "recording = \"r.csv\"\nmodel = \"sensor = a + b*ref\"\n[columns]\nsensor = \"output\"\nref = \"stimulus\"\n";
+    let case = "recording = \"r.csv\"\nequations = \"sensor = a + b*ref\"\n[columns]\nsensor = \"output\"\nref = \"stimulus\"\n";
     let found = diagnosed(&folder, case);
     // For a temperature the square is a second-order temperature coefficient.
     assert!(named(&found)[0].ends_with("quadratic"), "{found:#}");
@@ -370,7 +370,7 @@ fn variants_are_told_with_their_units() {
     std::fs::write(folder.join("design.csv"), format!("p [bar]\n{rows}")).expect("written");
     let plan = planned(
         &folder,
-        "recording = \"design.csv\"\nmodel = \"y = a + b*p\"\n[columns]\ny = { role = \"output\", unit = \"bar\" }\np = \"stimulus\"\n[noise]\nu = \"2 mbar\"\n",
+        "recording = \"design.csv\"\nequations = \"y = a + b*p\"\n[columns]\ny = { role = \"output\", unit = \"bar\" }\np = \"stimulus\"\n[noise]\nu = \"2 mbar\"\n",
     );
     let square = entry(&plan["effects"], "quadratic");
     assert_eq!(

@@ -27,7 +27,7 @@ fn load_cell(curvature: f64, seed: u64) -> String {
 
 const LOAD_CELL: &str = r#"
 recording = "load-cell.csv"
-model = "deflection = a + b * load"
+equations = "deflection = a + b * load"
 
 [columns]
 deflection = "output"
@@ -139,7 +139,7 @@ fn tumbled(digits: usize, extra: f64) -> String {
 
 #[test]
 fn what_a_parameter_absorbs_but_for_rounding_is_no_coefficient() {
-    let case = "model = \"a = b + S*g\"\n[columns]\nelev = \"angle\"\ng = \"stimulus\"\na = \"output\"\n[noise]\nu = \"0.0008 m/s^2\"\n[diagnosis]\ncatalogue = [\"periodic\"]\n";
+    let case = "equations = \"a = b + S*g\"\n[columns]\nelev = \"angle\"\ng = \"stimulus\"\na = \"output\"\n[noise]\nu = \"0.0008 m/s^2\"\n[diagnosis]\ncatalogue = [\"periodic\"]\n";
     for digits in [4, 6, 12] {
         let found = diagnosed_with("rounded", &tumbled(digits, 0.004), case);
         let improved = &found["improved"];
@@ -155,7 +155,7 @@ fn what_a_parameter_absorbs_but_for_rounding_is_no_coefficient() {
 
 #[test]
 fn parameters_that_only_rounding_tells_apart_are_uncertain() {
-    let case = "model = \"a = b + S*g + C*cos(elev)\"\n[columns]\nelev = \"angle\"\ng = \"stimulus\"\na = \"output\"\n[noise]\nu = \"0.0008 m/s^2\"\n";
+    let case = "equations = \"a = b + S*g + C*cos(elev)\"\n[columns]\nelev = \"angle\"\ng = \"stimulus\"\na = \"output\"\n[noise]\nu = \"0.0008 m/s^2\"\n";
     let found = diagnosed_with("twice", &tumbled(6, 0.0), case);
     for parameter in &found["parameters"].as_array().expect("some")[1..] {
         assert!(parameter["u"].as_f64() > Some(100.0), "{parameter}");
@@ -180,7 +180,7 @@ fn a_term_of_the_model_is_not_unseen() {
     }
     let case = |model: &str, parameters: &str| {
         format!(
-            "model = \"R = {model}\"\n[columns]\nT = \"stimulus\"\nR = \"output\"\n[parameter]\nR0 = {{ unit = \"ohm\" }}\nA = {{ unit = \"1/K\" }}\n{parameters}[noise]\nu = \"0.0004 ohm\"\n"
+            "equations = \"R = {model}\"\n[columns]\nT = \"stimulus\"\nR = \"output\"\n[parameter]\nR0 = {{ unit = \"ohm\" }}\nA = {{ unit = \"1/K\" }}\n{parameters}[noise]\nu = \"0.0004 ohm\"\n"
         )
     };
     let square = case("R0 * (1 + A*T + B*T^2)", "B = { unit = \"1/K^2\" }\n");
@@ -208,7 +208,7 @@ fn what_four_positions_hide_may_be_there_unseen() {
         let a = 2e-3 + 0.999 * sin + 4e-4 * cos + 1e-5 * noise.normal();
         let _ = writeln!(text, "{pos},{a:.6}");
     }
-    let case = "model = \"a = b + S*sin(pos) + m*cos(pos)\"\n[columns]\npos = \"angle\"\na = \"output\"\n[noise]\nu = \"1e-5 gn\"\n";
+    let case = "equations = \"a = b + S*sin(pos) + m*cos(pos)\"\n[columns]\npos = \"angle\"\na = \"output\"\n[noise]\nu = \"1e-5 gn\"\n";
     let ids = unseen(&diagnosed_with("tumble", &text, case));
     for id in ["quadratic", "cubic"] {
         assert!(ids.iter().any(|other| other == id), "{ids:?}");

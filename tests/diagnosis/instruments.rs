@@ -42,7 +42,7 @@ fn a_detector_lies_behind_its_window() {
         let lux = 120.0 / (true_distance * true_distance) * (1.0 + 2e-4 * noise.normal());
         let _ = writeln!(rows, "{distance},{lux:.6}");
     }
-    let case = "model = \"illuminance = I / distance^2\"\n[columns]\ndistance = \"stimulus\"\nilluminance = \"output\"\n[parameter]\nI = { start = 120, unit = \"cd\" }\n";
+    let case = "equations = \"illuminance = I / distance^2\"\n[columns]\ndistance = \"stimulus\"\nilluminance = \"output\"\n[parameter]\nI = { start = 120, unit = \"cd\" }\n";
     let found = diagnosed("photometer", &rows, case);
     assert_eq!(first_names(&found), ["zero-of"], "{found}");
     let (estimate, u) = size(&found);
@@ -61,7 +61,7 @@ fn a_stopwatch_starts_late() {
         let time = (2.0 * height / 9.81).sqrt() + 0.003 + 4e-4 * noise.normal();
         let _ = writeln!(rows, "{height},{time:.6}");
     }
-    let case = "model = \"t = sqrt(2*h/g)\"\n[columns]\nh = \"stimulus\"\nt = \"output\"\n[parameter]\ng = { start = 9.8, unit = \"m/s^2\" }\n";
+    let case = "equations = \"t = sqrt(2*h/g)\"\n[columns]\nh = \"stimulus\"\nt = \"output\"\n[parameter]\ng = { start = 9.8, unit = \"m/s^2\" }\n";
     let found = diagnosed("fall", &rows, case);
     // Rows sorted by height: nothing may be said of a drift.
     assert_eq!(first_names(&found), ["zero"], "{found}");
@@ -82,7 +82,7 @@ fn a_lead_screw_repeats_with_its_pitch() {
             gauge + 8e-4 + screw + 3e-4 * noise.normal()
         );
     }
-    let case = "model = \"reading = a + b*gauge\"\n[columns]\ngauge = \"stimulus\"\nreading = \"output\"\n";
+    let case = "equations = \"reading = a + b*gauge\"\n[columns]\ngauge = \"stimulus\"\nreading = \"output\"\n";
     let found = diagnosed("screw", &rows, case);
     assert_eq!(first_names(&found), ["wave"], "{found}");
     let label = variant(&found, 0);
@@ -105,7 +105,7 @@ fn noise_that_grows_with_the_reading_is_no_physics() {
             let reading = 1.5 + 0.98 * truth + 0.01 * truth * noise.normal();
             let _ = writeln!(rows, "{truth},{reading:.5}");
         }
-        let case = "model = \"reading = a + b*truth\"\n[columns]\ntruth = \"stimulus\"\nreading = \"output\"\n";
+        let case = "equations = \"reading = a + b*truth\"\n[columns]\ntruth = \"stimulus\"\nreading = \"output\"\n";
         let found = diagnosed(&format!("growing-{seed}"), &rows, case);
         names.extend(first_names(&found));
     }
@@ -125,7 +125,7 @@ fn light_that_does_not_go_out_is_one_with_its_second_harmonic() {
             5.0 * cos * cos + 0.06 + 0.01 * noise.normal()
         );
     }
-    let case = "model = \"current = I0 * cos(angle - theta0)^2\"\n[columns]\nangle = \"angle\"\ncurrent = \"output\"\n[parameter]\nI0 = { start = 5, unit = \"uA\" }\ntheta0 = { start = 10, unit = \"deg\" }\n";
+    let case = "equations = \"current = I0 * cos(angle - theta0)^2\"\n[columns]\nangle = \"angle\"\ncurrent = \"output\"\n[parameter]\nI0 = { start = 5, unit = \"uA\" }\ntheta0 = { start = 10, unit = \"deg\" }\n";
     let found = diagnosed("malus", &rows, case);
     let listed = &named_apart(&found)[0];
     for id in ["zero", "periodic"] {
@@ -143,7 +143,7 @@ fn a_time_constant_follows_the_temperature() {
         let level = 80.0 * libm::exp(-t / tau) + 0.05 * noise.normal();
         let _ = writeln!(rows, "{t},{oil},{level:.4}");
     }
-    let case = "model = \"level = h0*exp(-t/tau)\"\n[columns]\nt = \"stimulus\"\noil = \"covariate\"\nlevel = \"output\"\n[parameter]\nh0 = { start = 80, unit = \"mm\" }\ntau = { start = 10, unit = \"s\" }\n";
+    let case = "equations = \"level = h0*exp(-t/tau)\"\n[columns]\nt = \"stimulus\"\noil = \"covariate\"\nlevel = \"output\"\n[parameter]\nh0 = { start = 80, unit = \"mm\" }\ntau = { start = 10, unit = \"s\" }\n";
     let found = diagnosed("outflow", &rows, case);
     let first = &found["effects"][0]["named"][0];
     assert_eq!(first["id"], "parameter-sensitivity", "{found}");
@@ -177,7 +177,7 @@ fn inner_friction_needs_no_column_of_directions() {
         let _ = writeln!(rows, "{},{p},{reading:.2}", 2 * row);
     }
     let case =
-        "model = \"U = a + b*p\"\n[columns]\nt = \"time\"\np = \"stimulus\"\nU = \"output\"\n";
+        "equations = \"U = a + b*p\"\n[columns]\nt = \"time\"\np = \"stimulus\"\nU = \"output\"\n";
     let found = diagnosed("friction", &rows, case);
     assert_eq!(first_names(&found)[0], "hysteresis", "{found}");
 }
@@ -192,7 +192,7 @@ fn the_order_of_rows_alone_says_nothing_of_delays() {
         let reading = travel - side + 3e-4 * noise.normal();
         let _ = writeln!(rows, "{},{travel:.1},{reading:.4}", row + 1);
     }
-    let case = "model = \"reading = a + b*travel\"\n[columns]\nno = \"order\"\ntravel = \"stimulus\"\nreading = \"output\"\n";
+    let case = "equations = \"reading = a + b*travel\"\n[columns]\nno = \"order\"\ntravel = \"stimulus\"\nreading = \"output\"\n";
     let found = diagnosed("gauge", &rows, case);
     let listed = named_apart(&found).concat();
     assert!(listed.iter().any(|id| id == "hysteresis"), "{listed:?}");
@@ -211,7 +211,7 @@ fn a_channel_lags_by_more_than_an_interval() {
         let dut = 0.3 + course(t - 0.23) + 0.2 * noise.normal();
         let _ = writeln!(rows, "{t:.1},{:.4},{dut:.3}", course(t));
     }
-    let case = "model = \"dut = a + b*ref\"\n[columns]\nt = \"time\"\nref = \"stimulus\"\ndut = \"output\"\n";
+    let case = "equations = \"dut = a + b*ref\"\n[columns]\nt = \"time\"\nref = \"stimulus\"\ndut = \"output\"\n";
     let found = diagnosed("skew", &rows, case);
     let first = &named_apart(&found)[0];
     assert_eq!(first[0], "timing-skew", "{found}");
@@ -234,7 +234,7 @@ fn a_frozen_channel_is_no_physics_of_the_sensor() {
         };
         let _ = writeln!(rows, "{t},{truth:.3},{held:.2}");
     }
-    let case = "model = \"dut = a + b*ref\"\n[columns]\nt = \"time\"\nref = \"stimulus\"\ndut = \"output\"\n";
+    let case = "equations = \"dut = a + b*ref\"\n[columns]\nt = \"time\"\nref = \"stimulus\"\ndut = \"output\"\n";
     let found = diagnosed("frozen", &rows, case);
     assert_eq!(first_names(&found), ["stuck"], "{found}");
     assert_eq!(variant(&found, 0), "rows 61 to 80");
@@ -256,7 +256,7 @@ fn soft_iron_stretches_and_turns_the_field() {
         let [x, y, z] = field.map(|b| b + 0.06 * noise.normal());
         let _ = writeln!(rows, "{x:.3},{y:.3},{z:.3}");
     }
-    let case = "model = \"F = sqrt((mx - hx)^2 + (my - hy)^2 + (mz - hz)^2)\"\n[columns]\nmx = \"stimulus\"\nmy = \"stimulus\"\nmz = \"stimulus\"\n[constant]\nF = { value = 48.9, unit = \"uT\" }\n[parameter]\nhx = { start = 0, unit = \"uT\" }\nhy = { start = 0, unit = \"uT\" }\nhz = { start = 0, unit = \"uT\" }\n";
+    let case = "equations = \"F = sqrt((mx - hx)^2 + (my - hy)^2 + (mz - hz)^2)\"\n[columns]\nmx = \"stimulus\"\nmy = \"stimulus\"\nmz = \"stimulus\"\n[constant]\nF = { value = 48.9, unit = \"uT\" }\n[parameter]\nhx = { start = 0, unit = \"uT\" }\nhy = { start = 0, unit = \"uT\" }\nhz = { start = 0, unit = \"uT\" }\n";
     let mut names = first_names(&diagnosed("magnetometer", &rows, case));
     names.sort();
     assert_eq!(names, ["axis-scale", "cross-axis"]);
@@ -273,7 +273,7 @@ fn a_graduation_interpolates_wrongly_between_its_lines() {
             2.5 + 6.2 * libm::sin(phi + 0.6) + 1.1 * libm::sin(90.0 * phi) + 0.35 * noise.normal();
         let _ = writeln!(rows, "{angle:.2},{error:.2}");
     }
-    let case = "model = \"error = e0\"\n[columns]\nangle = \"angle\"\nerror = \"output\"\n";
+    let case = "equations = \"error = e0\"\n[columns]\nangle = \"angle\"\nerror = \"output\"\n";
     let found = diagnosed("graduation", &rows, case);
     assert_eq!(first_names(&found), ["periodic", "wave"], "{found}");
     assert_eq!(variant(&found, 1), "90 per turn");
@@ -296,7 +296,7 @@ fn a_load_off_the_centre_of_the_pan() {
             let _ = writeln!(rows, "{place},{load},{shown:.5}");
         }
     }
-    let case = "model = \"indication = a + b*load\"\n[columns]\nplace = \"position\"\nload = \"stimulus\"\nindication = \"output\"\n";
+    let case = "equations = \"indication = a + b*load\"\n[columns]\nplace = \"position\"\nload = \"stimulus\"\nindication = \"output\"\n";
     let found = diagnosed("pan", &rows, case);
     assert_eq!(first_names(&found), ["level-scale"], "{found}");
     assert_eq!(variant(&found, 0), "place front");
@@ -318,7 +318,7 @@ fn a_thermometer_is_warmed_by_its_current() {
             alone + 0.39 * warmth + 1e-3 * noise.normal()
         );
     }
-    let case = "model = \"R = R0*(1 + A*bath + B*bath^2)\"\n[columns]\ndate = \"time\"\nbath = \"stimulus\"\nI = \"covariate\"\nR = \"output\"\n";
+    let case = "equations = \"R = R0*(1 + A*bath + B*bath^2)\"\n[columns]\ndate = \"time\"\nbath = \"stimulus\"\nI = \"covariate\"\nR = \"output\"\n";
     let found = diagnosed("platinum", &rows, case);
     assert_eq!(first_names(&found), ["self-heating"], "{found}");
 }
@@ -332,7 +332,7 @@ fn what_should_be_so_needs_no_parameter() {
         let _ = writeln!(rows, "{truth},{:.4}", truth + 0.004 + 8e-4 * noise.normal());
     }
     let case =
-        "model = \"reading = truth\"\n[columns]\ntruth = \"stimulus\"\nreading = \"output\"\n";
+        "equations = \"reading = truth\"\n[columns]\ntruth = \"stimulus\"\nreading = \"output\"\n";
     let found = diagnosed("nominal", &rows, case);
     assert!(
         named_apart(&found)[0].contains(&"zero".to_owned()),
@@ -354,7 +354,7 @@ fn a_time_constant_lies_between_those_of_the_grid() {
         }
     }
     let case =
-        "model = \"E = E0 - S*T\"\n[columns]\nt = \"time\"\nT = \"stimulus\"\nE = \"output\"\n";
+        "equations = \"E = E0 - S*T\"\n[columns]\nt = \"time\"\nT = \"stimulus\"\nE = \"output\"\n";
     let found = diagnosed("junction", &rows, case);
     assert_eq!(first_names(&found), ["temperature-lag"], "{found}");
     let label = variant(&found, 0);
@@ -372,7 +372,7 @@ fn a_venturi_has_an_exponent_of_its_own() {
         let dp = 0.043 * libm::pow(flow, 1.99) + 3e-3 * noise.normal();
         let _ = writeln!(rows, "{flow},{dp:.4}");
     }
-    let case = "model = \"dp = k*Q^2\"\n[columns]\nQ = \"stimulus\"\ndp = \"output\"\n";
+    let case = "equations = \"dp = k*Q^2\"\n[columns]\nQ = \"stimulus\"\ndp = \"output\"\n";
     let found = diagnosed("venturi", &rows, case);
     assert_eq!(first_names(&found), ["exponent"], "{found}");
     let (estimate, u) = size(&found);
@@ -396,7 +396,7 @@ fn a_step_within_a_mean_leaves_no_wrong_reading() {
             truth + moved + 0.03 * noise.normal()
         );
     }
-    let case = "model = \"dut = a + b*ref\"\n[columns]\nt = \"time\"\nref = \"stimulus\"\ndut = \"output\"\n";
+    let case = "equations = \"dut = a + b*ref\"\n[columns]\nt = \"time\"\nref = \"stimulus\"\ndut = \"output\"\n";
     let listed = named_apart(&diagnosed("moved", &rows, case));
     assert_eq!(listed.len(), 1, "{listed:?}");
     assert!(listed[0].contains(&"step".to_owned()), "{listed:?}");
@@ -413,7 +413,7 @@ fn an_axis_takes_part_in_the_other_one() {
         let ay = -0.02 + 1.98 * gy + 2e-4 * noise.normal();
         let _ = writeln!(rows, "{gx:.6},{gy:.6},{ax:.5},{ay:.5}");
     }
-    let case = "model = [\"ax = bx + Sx*gx\", \"ay = by + Sy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = \"stimulus\"\ngy = \"stimulus\"\n[noise]\nu = \"0.2 mV\"\n";
+    let case = "equations = [\"ax = bx + Sx*gx\", \"ay = by + Sy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = \"stimulus\"\ngy = \"stimulus\"\n[noise]\nu = \"0.2 mV\"\n";
     let found = diagnosed("two-axes", &rows, case);
     assert_eq!(first_names(&found), ["cross-axis"], "{found:#}");
     assert_eq!(variant(&found, 0), "ax with gy");
@@ -432,7 +432,7 @@ fn scatter_about_set_points_is_no_wave() {
         let read = bath + 0.01 * noise.normal();
         let _ = writeln!(rows, "{},{read:.3},{ohms:.4}", 5 * row);
     }
-    let case = "model = \"R = R0*(1 + A*bath)\"\n[columns]\nR = \"output\"\nbath = \"stimulus\"\nt = \"time\"\n[noise]\nu = \"1 mΩ\"\n";
+    let case = "equations = \"R = R0*(1 + A*bath)\"\n[columns]\nR = \"output\"\nbath = \"stimulus\"\nt = \"time\"\n[noise]\nu = \"1 mΩ\"\n";
     let found = diagnosed("set-points", &rows, case);
     assert!(
         named_apart(&found)

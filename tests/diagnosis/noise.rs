@@ -34,7 +34,7 @@ fn photodiode(seed: u64, u: impl Fn(usize, f64) -> f64) -> String {
 }
 
 const COLUMNS: &str = r#"
-model = "I = dark + s * P"
+equations = "I = dark + s * P"
 
 [columns]
 I = "output"
@@ -150,7 +150,7 @@ fn plans_and_simulations_have_the_noise_of_the_recording() {
 fn noise_that_only_a_recording_shows_is_said_to_be_unknown() {
     let folder = folder("unknown-noise");
     std::fs::write(folder.join("recording.csv"), "P [µW]\n1\n1\n2\n2\n3\n3\n").expect("written");
-    let model = "recording = \"recording.csv\"\nmodel = \"I = dark + s * P\"\n[columns]\nI = { role = \"output\", unit = \"µA\" }\nP = \"stimulus\"\n[parameter]\ns = { start = 0.4 }\n";
+    let model = "recording = \"recording.csv\"\nequations = \"I = dark + s * P\"\n[columns]\nI = { role = \"output\", unit = \"µA\" }\nP = \"stimulus\"\n[parameter]\ns = { start = 0.4 }\n";
     for (claim, why) in [
         ("", "not claimed, and no outputs are recorded"),
         (REPLICATES, "once their outputs are recorded"),
@@ -166,7 +166,7 @@ fn simulated_noise_walks_where_it_is_claimed_to() {
     let folder = folder("simulated-walk");
     let rows: String = (0..200).map(|row| format!("{row},{}\n", row % 7)).collect();
     std::fs::write(folder.join("recording.csv"), format!("t [s],x\n{rows}")).expect("written");
-    let case = "recording = \"recording.csv\"\nmodel = \"y = a + b * x\"\n[columns]\ny = { role = \"output\", unit = \"V\" }\nx = \"stimulus\"\nt = \"time\"\n[parameter]\na = { start = 1 }\nb = { start = 2 }\n[noise]\nu = \"1 mV\"\nwalk = \"1 V\"\n";
+    let case = "recording = \"recording.csv\"\nequations = \"y = a + b * x\"\n[columns]\ny = { role = \"output\", unit = \"V\" }\nx = \"stimulus\"\nt = \"time\"\n[parameter]\na = { start = 1 }\nb = { start = 2 }\n[noise]\nu = \"1 mV\"\nwalk = \"1 V\"\n";
     std::fs::write(folder.join("case.toml"), case).expect("written");
     let (good, simulated) = gumption(&folder, &["simulate", "case.toml"]);
     assert!(good, "{simulated}");

@@ -43,7 +43,7 @@ fn units(found: &Value) -> Vec<String> {
 
 #[test]
 fn units_follow_from_the_columns_of_the_model_alone() {
-    let case = format!("model = \"R = R0*(1 + A*T + B*T^2)\"\n{THERMOMETER}");
+    let case = format!("equations = \"R = R0*(1 + A*T + B*T^2)\"\n{THERMOMETER}");
     let found = diagnosed_with("polynomial", &thermometer(), &case);
     assert_eq!(units(&found), ["Ω", "1/K", "1/K²"], "{found:#}");
 }
@@ -52,7 +52,8 @@ fn units_follow_from_the_columns_of_the_model_alone() {
 fn the_first_error_asks_for_the_units_that_are_open() {
     let folder = folder("open-units");
     std::fs::write(folder.join("recording.csv"), thermometer()).expect("written");
-    let case = format!("recording = \"recording.csv\"\nmodel = \"R = a*b*c*d*T\"\n{THERMOMETER}");
+    let case =
+        format!("recording = \"recording.csv\"\nequations = \"R = a*b*c*d*T\"\n{THERMOMETER}");
     std::fs::write(folder.join("case.toml"), case).expect("written");
     let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
     assert!(!good && told.contains("[parameter] a = { unit"), "{told}");
@@ -74,7 +75,7 @@ const TUMBLE: &str = "[columns]\nhead = \"angle\"\nout = \"output\"\n[noise]\nu 
 
 #[test]
 fn a_misalignment_is_an_angle_like_the_one_it_is_added_to() {
-    let case = format!("model = \"out = K0 + K1*sin(head + d0)\"\n{TUMBLE}");
+    let case = format!("equations = \"out = K0 + K1*sin(head + d0)\"\n{TUMBLE}");
     let found = diagnosed_with("misalignment", &tumble(), &case);
     assert_eq!(units(&found), ["mV", "mV", "°"], "{found:#}");
     let values = parameters(&found);
@@ -86,7 +87,7 @@ fn a_misalignment_is_an_angle_like_the_one_it_is_added_to() {
 fn angles_are_told_without_full_turns() {
     // With these units the search starts a thousand turns away from the minimum.
     let stated = "[parameter]\nK1 = { unit = \"mV·°\" }\nd0 = { unit = \"rad\" }\n";
-    let case = format!("model = \"out = K0 + K1*sin(head + d0)\"\n{TUMBLE}{stated}");
+    let case = format!("equations = \"out = K0 + K1*sin(head + d0)\"\n{TUMBLE}{stated}");
     let found = diagnosed_with("turns", &tumble(), &case);
     let values = parameters(&found);
     assert!(values[2].2.abs() < PI, "{values:?}");
@@ -97,7 +98,7 @@ fn an_angle_is_converted_once() {
     let folder = folder("twice");
     std::fs::write(folder.join("recording.csv"), tumble()).expect("written");
     let case = format!(
-        "recording = \"recording.csv\"\nmodel = \"out = K0 + K1*sin(head*pi/180)\"\n{TUMBLE}"
+        "recording = \"recording.csv\"\nequations = \"out = K0 + K1*sin(head*pi/180)\"\n{TUMBLE}"
     );
     std::fs::write(folder.join("case.toml"), case).expect("written");
     let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
@@ -120,7 +121,7 @@ fn an_improved_case_takes_its_recording_at_rest_with_it() {
         .collect();
     let rest = format!("gyro_dps\n{}\n", rest.join("\n"));
     std::fs::write(folder.join("rest.csv"), &rest).expect("written");
-    let case = "recording = \"recording.csv\"\nmodel = \"w = bias + k*rate\"\n[columns]\ntime = \"time\"\nrate = \"stimulus\"\nw = { role = \"output\", column = \"gyro_dps\" }\n[noise]\nat_rest = { file = \"rest.csv\", column = \"gyro_dps\" }\n";
+    let case = "recording = \"recording.csv\"\nequations = \"w = bias + k*rate\"\n[columns]\ntime = \"time\"\nrate = \"stimulus\"\nw = { role = \"output\", column = \"gyro_dps\" }\n[noise]\nat_rest = { file = \"rest.csv\", column = \"gyro_dps\" }\n";
     assert_ne!(diagnosed(&folder, case)["verdict"], "none");
     let arguments = ["diagnose", "case.toml", "--improved", "improved"];
     assert!(gumption(&folder, &arguments).0);
@@ -168,7 +169,7 @@ fn an_improved_case_has_the_noise_of_the_first_one() {
     std::fs::write(folder.join("recording.csv"), recording).expect("written");
     let case = r#"
 recording = "recording.csv"
-model = ["l = a + b*load", "r = c + d*load"]
+equations = ["l = a + b*load", "r = c + d*load"]
 
 [columns]
 t = { role = "time", column = "clock", unit = "s" }
@@ -209,7 +210,7 @@ fn chinese() -> String {
 fn reports_in_chinese_are_in_chinese() {
     let folder = folder("chinese");
     std::fs::write(folder.join("recording.csv"), chinese()).expect("written");
-    let case = "recording = \"recording.csv\"\nmodel = \"电压 = a + b*位移\"\n[columns]\n\"时间\" = \"time\"\n\"位移\" = \"stimulus\"\n\"室温\" = \"covariate\"\n\"电压\" = \"output\"\n[noise]\nu = \"1 µV\"\n";
+    let case = "recording = \"recording.csv\"\nequations = \"电压 = a + b*位移\"\n[columns]\n\"时间\" = \"time\"\n\"位移\" = \"stimulus\"\n\"室温\" = \"covariate\"\n\"电压\" = \"output\"\n[noise]\nu = \"1 µV\"\n";
     std::fs::write(folder.join("case.toml"), case).expect("written");
     let (good, page) = gumption(&folder, &["diagnose", "case.toml", "--lang", "zh"]);
     assert!(good, "{page}");
@@ -233,7 +234,7 @@ fn reports_on_several_outputs_are_in_chinese_too() {
         let _ = writeln!(text, "{gx:.6},{gy:.6},{ax:.5},{ay:.5}");
     }
     std::fs::write(folder.join("recording.csv"), text).expect("written");
-    let case = "recording = \"recording.csv\"\nmodel = [\"ax = bx + Sx*gx\", \"ay = by + Sy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = { role = \"stimulus\", u_common = \"0.1 mgn\" }\ngy = \"stimulus\"\n[noise]\nu = \"0.2 mV\"\n";
+    let case = "recording = \"recording.csv\"\nequations = [\"ax = bx + Sx*gx\", \"ay = by + Sy*gy\"]\n[columns]\nax = \"output\"\nay = \"output\"\ngx = { role = \"stimulus\", u_common = \"0.1 mgn\" }\ngy = \"stimulus\"\n[noise]\nu = \"0.2 mV\"\n";
     std::fs::write(folder.join("case.toml"), case).expect("written");
     let (good, page) = gumption(&folder, &["diagnose", "case.toml", "--lang", "zh"]);
     assert!(good, "{page}");
@@ -258,7 +259,7 @@ fn uncertainties_in_celsius_are_differences() {
     std::fs::write(folder.join("recording.csv"), text).expect("written");
     let page = |unit: &str| {
         let case = format!(
-            "recording = \"recording.csv\"\nmodel = \"R = R30 * (1 + alpha * (T - 30 '°C'))\"\n[columns]\nR = \"output\"\nT = {{ role = \"stimulus\", u_common = \"0.05 {unit}\" }}\n[noise]\nu = \"2 mΩ\"\n"
+            "recording = \"recording.csv\"\nequations = \"R = R30 * (1 + alpha * (T - 30 '°C'))\"\n[columns]\nR = \"output\"\nT = {{ role = \"stimulus\", u_common = \"0.05 {unit}\" }}\n[noise]\nu = \"2 mΩ\"\n"
         );
         std::fs::write(folder.join("case.toml"), case).expect("written");
         gumption(&folder, &["diagnose", "case.toml"])
@@ -275,7 +276,7 @@ fn a_recording_in_a_code_page_is_refused_as_such() {
     bytes.extend([0xb0, b'C', b')', b'\n']);
     bytes.extend(b"1,2,20\n2,3,20\n3,4,21\n");
     std::fs::write(folder.join("recording.csv"), bytes).expect("written");
-    let case = "recording = \"recording.csv\"\nmodel = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nT = \"covariate\"\n";
+    let case = "recording = \"recording.csv\"\nequations = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nT = \"covariate\"\n";
     std::fs::write(folder.join("case.toml"), case).expect("written");
     let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
     assert!(
@@ -289,7 +290,7 @@ fn dates_with_the_month_in_doubt_are_refused_once() {
     let folder = folder("dates");
     let row = |row: usize, clock: &str| format!("{clock},{row},{}\n", 2 * row);
     let head = "t,x [mm],y [mV]\n";
-    let case = "recording = \"recording.csv\"\nmodel = \"y = a + b*x\"\n[columns]\nt = \"time\"\ny = \"output\"\nx = \"stimulus\"\n";
+    let case = "recording = \"recording.csv\"\nequations = \"y = a + b*x\"\n[columns]\nt = \"time\"\ny = \"output\"\nx = \"stimulus\"\n";
     std::fs::write(folder.join("case.toml"), case).expect("written");
     for (date, mend) in [
         ("3/4/2026 08:41:00 AM", "write 2026-03-04, or 2026-04-03"),

@@ -45,7 +45,7 @@ fn recordings_are_named() {
         }
         let found = json(
             &root,
-            &["diagnose", &format!("cases/{name}.toml"), "--json"],
+            &["diagnose", &format!("experiments/{name}.toml"), "--json"],
         );
         let names = named(&found);
         let right = |id: &&str| names.iter().any(|name| name == id);
@@ -71,7 +71,7 @@ fn report() {
 
 /// What is said of one case, with its first plot.
 fn section(root: &Path, name: &str) -> String {
-    let case = format!("cases/{name}.toml");
+    let case = format!("experiments/{name}.toml");
     let plots = folder(name);
     let target = plots.display().to_string();
     let arguments = ["diagnose", &case, "--markdown", "--plots", &target];

@@ -6,7 +6,7 @@ use crate::common::cases::{folder, gumption};
 
 const CASE: &str = r#"
 recording = "run.csv"
-model = "y = a + b * x"
+equations = "y = a + b * x"
 
 [columns]
 y = "output"

@@ -40,7 +40,7 @@ fn the_power_of_a_current_is_not_divided_by_its_largest_value() {
         let resistance = 100.0 + 0.39 * bath + 0.002 * current * current + 5e-4 * noise.normal();
         let _ = writeln!(rows, "{bath},{current},{resistance:.6}");
     }
-    let case = "model = \"R = R0 + k*bath\"\n[columns]\nR = \"output\"\nbath = \"stimulus\"\nI = \"stimulus\"\n[noise]\nu = \"0.0005 Ω\"\n[diagnosis]\ncatalogue = [\"self-heating\"]\n";
+    let case = "equations = \"R = R0 + k*bath\"\n[columns]\nR = \"output\"\nbath = \"stimulus\"\nI = \"stimulus\"\n[noise]\nu = \"0.0005 Ω\"\n[diagnosis]\ncatalogue = [\"self-heating\"]\n";
     let found = diagnosed("heated", &rows, case);
     let improved = &found["improved"];
     let (text, unit, size) = first(&found);
@@ -68,7 +68,7 @@ fn a_square_is_about_the_zero_of_the_declared_model() {
         ("U = K0 + K1*(a - 5 'gn')", 5.0, "(a - 5 gn)^2"),
     ] {
         let case = format!(
-            "model = \"{model}\"\n[columns]\nU = \"output\"\na = \"stimulus\"\n[noise]\nu = \"0.002 mV\"\n[diagnosis]\ncatalogue = [\"quadratic\"]\n"
+            "equations = \"{model}\"\n[columns]\nU = \"output\"\na = \"stimulus\"\n[noise]\nu = \"0.002 mV\"\n[diagnosis]\ncatalogue = [\"quadratic\"]\n"
         );
         let found = diagnosed("centrifuge", &rows, &case);
         let (found_text, unit, size) = first(&found);
@@ -90,7 +90,7 @@ fn a_law_of_time_counts_from_the_first_row_in_the_users_column() {
         let y = 0.1 + 2.0 * x + 0.05 * libm::exp(-(age - 1.87) / 3.0) + 5e-4 * noise.normal();
         let _ = writeln!(rows, "{age},{x},{y:.6}");
     }
-    let case = "model = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nage = \"time\"\n[noise]\nu = \"0.0005 V\"\n[diagnosis]\ncatalogue = [\"warm-up\"]\n";
+    let case = "equations = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nage = \"time\"\n[noise]\nu = \"0.0005 V\"\n[diagnosis]\ncatalogue = [\"warm-up\"]\n";
     let found = diagnosed("warming", &rows, case);
     let (text, unit, _) = first(&found);
     assert!(text.starts_with("exp(-(age - 1.87 d)/("), "{text}");
@@ -109,7 +109,7 @@ fn sizes_are_per_unit_of_what_they_multiply() {
         let y = 1.0 + 2.0 * x * (1.0 + 0.01 * (t - 20.0)) + 1e-3 * noise.normal();
         let _ = writeln!(rows, "{t},{x},{y:.6}");
     }
-    let case = "model = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nT = \"covariate\"\n[noise]\nu = \"0.001 mV\"\n[diagnosis]\ncatalogue = [\"tempco-scale\", \"tempco-bias\"]\n";
+    let case = "equations = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\nT = \"covariate\"\n[noise]\nu = \"0.001 mV\"\n[diagnosis]\ncatalogue = [\"tempco-scale\", \"tempco-bias\"]\n";
     let found = diagnosed("warm-scale", &rows, case);
     let (text, unit, size) = first(&found);
     assert!(
@@ -137,7 +137,7 @@ fn a_knee_far_from_zero_is_found_and_written_as_it_was_fitted() {
         let u = 1.0 + 2.0 * p + bent + 1e-3 * noise.normal();
         let _ = writeln!(rows, "{},{u:.6}", 101_320.0 + p);
     }
-    let case = "model = \"U = a + b*p\"\n[columns]\nU = \"output\"\np = \"stimulus\"\n[noise]\nu = \"0.001 V\"\n";
+    let case = "equations = \"U = a + b*p\"\n[columns]\nU = \"output\"\np = \"stimulus\"\n[noise]\nu = \"0.001 V\"\n";
     let found = diagnosed("barometer", &rows, case);
     let (text, _, size) = first(&found);
     let knee = text
@@ -149,11 +149,11 @@ fn a_knee_far_from_zero_is_found_and_written_as_it_was_fitted() {
         "{found:#}"
     );
     let model =
-        format!("model = \"U = a + b*(p - 101325 'Pa') + c*max(p - {knee} 'Pa', 0 'Pa')\"\n");
+        format!("equations = \"U = a + b*(p - 101325 'Pa') + c*max(p - {knee} 'Pa', 0 'Pa')\"\n");
     let again = diagnosed(
         "barometer-written",
         &rows,
-        &case.replace("model = \"U = a + b*p\"\n", &model),
+        &case.replace("equations = \"U = a + b*p\"\n", &model),
     );
     let misfit = |quality: &Value| quality["chi_squared"].as_f64().expect("a misfit");
     let (written, fitted) = (misfit(&again["before"]), misfit(&found["after"]));
@@ -175,7 +175,7 @@ fn sizes_of_own_formulas_have_the_unit_that_is_left() {
     }
     let case = |formula: &str| {
         format!(
-            "model = \"U = a + b*F\"\n[columns]\nU = \"output\"\nF = \"stimulus\"\nT = \"covariate\"\n[noise]\nu = \"0.0005 mV\"\n[diagnosis]\ncatalogue = [\"user\"]\n[[candidate]]\nname = \"yielding\"\nformula = \"{formula}\"\n"
+            "equations = \"U = a + b*F\"\n[columns]\nU = \"output\"\nF = \"stimulus\"\nT = \"covariate\"\n[noise]\nu = \"0.0005 mV\"\n[diagnosis]\ncatalogue = [\"user\"]\n[omitted.yielding]\nformula = \"{formula}\"\n"
         )
     };
     for (formula, unit) in [
@@ -207,7 +207,7 @@ fn formulas_add_where_an_origin_is_below_zero() {
             1.0 + 2.0 * x + bent + 5e-4 * noise.normal()
         );
     }
-    let case = "model = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\n[noise]\nu = \"0.5 mV\"\n";
+    let case = "equations = \"y = a + b*x\"\n[columns]\ny = \"output\"\nx = \"stimulus\"\n[noise]\nu = \"0.5 mV\"\n";
     let found = diagnosed("below-zero", &rows, case);
     let (text, _, _) = first(&found);
     assert!(

@@ -44,24 +44,6 @@ fn plans_say_what_hides() {
     }
 }
 
-#[test]
-fn the_schema_is_fresh_and_knows_every_key() {
-    let schema = calibrate::schema();
-    let text = serde_json::to_string_pretty(&schema).expect("a schema is JSON") + "\n";
-    let path = common::root().join("docs/calibration.schema.json");
-    let stale: Vec<String> = common::stale(&path, &text).into_iter().collect();
-    common::assert_fresh(&stale);
-    for file in common::files("calibrations", "toml") {
-        let text = std::fs::read_to_string(&file).expect("a file");
-        let table: toml::Table = text.parse().expect("TOML");
-        for key in table.keys() {
-            assert!(schema["properties"].get(key).is_some(), "{key}");
-        }
-    }
-    let recording = &schema["properties"]["recording"]["properties"];
-    assert!(recording.get("together").is_some() && recording.get("still").is_some());
-}
-
 /// The part of a calibration on shared causes, with readings.
 #[test]
 fn shared_causes_correlate_as_the_page_says() {

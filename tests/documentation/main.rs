@@ -9,5 +9,5 @@
 mod common;
 
 mod calibrate;
-mod cases;
+mod experiment;
 mod pages;

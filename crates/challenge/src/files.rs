@@ -245,19 +245,19 @@ fn then(rig: Rig, what: Further) -> String {
 
 fn model(rig: Rig) -> String {
     match rig {
-        Rig::Tumble => "model = \"U = K0 + K1*sin(head + mount) + Kd*cos(head + mount)\"\n".into(),
-        Rig::Remount => "model = \"U = K0 + K1*sin(head + mount) + Kd*cos(head + mount) + Ks*sin(mount)*cos(head + mount)\"\n".into(),
+        Rig::Tumble => "equations = \"U = K0 + K1*sin(head + mount) + Kd*cos(head + mount)\"\n".into(),
+        Rig::Remount => "equations = \"U = K0 + K1*sin(head + mount) + Kd*cos(head + mount) + Ks*sin(mount)*cos(head + mount)\"\n".into(),
         Rig::Triad => {
             let row = |a: char| format!(
                 "    \"a{a} = b{a} + M{a}x*cos(elevation)*cos(azimuth) + M{a}y*cos(elevation)*sin(azimuth) + M{a}z*sin(elevation)\",\n"
             );
-            format!("model = [\n{}]\n", ['x', 'y', 'z'].map(row).concat())
+            format!("equations = [\n{}]\n", ['x', 'y', 'z'].map(row).concat())
         }
         Rig::RateTable => {
             let row = |a: char| format!(
                 "    \"w{a} = b{a} + S{a}x*rate*cx + S{a}y*rate*cy + S{a}z*rate*cz\",\n"
             );
-            format!("model = [\n{}]\n", ['x', 'y', 'z'].map(row).concat())
+            format!("equations = [\n{}]\n", ['x', 'y', 'z'].map(row).concat())
         }
     }
 }

@@ -10,4 +10,5 @@ use gumption_gum::{budget, propagate};
 
 pub mod calibrate;
 pub mod diagnose;
+pub mod experiment;
 pub mod recording;

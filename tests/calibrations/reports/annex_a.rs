@@ -59,7 +59,7 @@ fn reading(name: &str, repeatability: f64, bits: u32, full_scale: f64) -> String
 /// 7.2.1 for one gyro.
 fn scale_factor(rates: &str, bits: u32) -> Figures {
     let toml = format!(
-        "procedure = \"gyro-scale-factor\"\n[schedule]\n\"omega [deg/s]\" = [{rates}]\n[column.U]\nunit = \"deg/s\"\n\
+        "procedure = \"gyro-scale-factor\"\n[schedule]\n\"omega [deg/s]\" = [{rates}]\n[columns.U]\nunit = \"deg/s\"\n\
          [parameter]\nK = {{ start = 1 }}\nb = {{ start = 0 }}\n[input.e_rate]\ncertificate = {{ U = 2e-4, k = 2 }}\n{}",
         reading("U", REPEATABILITY, bits, FULL_SCALE)
     );
@@ -72,7 +72,7 @@ fn scale_factor(rates: &str, bits: u32) -> Figures {
 fn bias(repeatability: f64) -> Figures {
     let mut toml = String::from(
         "procedure = \"gyro-bias\"\n[schedule]\nposition = [\"x up\", \"x down\", \"y up\", \"y down\", \"z up\", \"z down\"]\n\
-         [column]\nUgx = { unit = \"deg/s\" }\nUgy = { unit = \"deg/s\" }\nUgz = { unit = \"deg/s\" }\n",
+         [columns]\nUgx = { unit = \"deg/s\" }\nUgy = { unit = \"deg/s\" }\nUgz = { unit = \"deg/s\" }\n",
     );
     for axis in ["x", "y", "z"] {
         toml += &reading(&format!("Ug{axis}"), repeatability, 12, 1.0);
@@ -91,7 +91,7 @@ fn cross_coupling() -> Figures {
         .collect();
     let mut toml = format!(
         "procedure = \"gyro-scale-factor-triad\"\n[schedule]\naxis = [{}]\n\"omega [deg/s]\" = [{rates}, {rates}, {rates}]\n\
-         [column]\nUx = {{ unit = \"deg/s\" }}\nUy = {{ unit = \"deg/s\" }}\nUz = {{ unit = \"deg/s\" }}\n\
+         [columns]\nUx = {{ unit = \"deg/s\" }}\nUy = {{ unit = \"deg/s\" }}\nUz = {{ unit = \"deg/s\" }}\n\
          [input.e_rate]\ncertificate = {{ U = 2e-4, k = 2 }}\n\
          [input.f_yx]\ncomponents = [{{ name = \"fixture\", half_width = \"10″\" }}, {{ name = \"axes\", half_width = \"10″\" }}]\n\
          [parameter]\nKxx = {{ start = 1 }}\nKyy = {{ start = 1 }}\nKzz = {{ start = 1 }}\n",
@@ -119,7 +119,7 @@ fn rate_sensitivity(procedure: &str, omega: f64) -> Figures {
     let mut toml = format!(
         "procedure = \"{procedure}\"\n[schedule]\naxis = [\"x\", \"x\", \"y\", \"y\", \"z\", \"z\"]\n\
          \"omega [rad/s]\" = [0, {omega}, 0, {omega}, 0, {omega}]\n\
-         [column]\nUax = {{ unit = \"m/s^2\" }}\nUay = {{ unit = \"m/s^2\" }}\nUaz = {{ unit = \"m/s^2\" }}\n\
+         [columns]\nUax = {{ unit = \"m/s^2\" }}\nUay = {{ unit = \"m/s^2\" }}\nUaz = {{ unit = \"m/s^2\" }}\n\
          [input.e_rate]\ncertificate = {{ U = 2e-4, k = 2 }}\n[parameter]\n"
     );
     for name in ["pxy", "pxz", "pyx", "pyz", "pzx", "pzy"] {

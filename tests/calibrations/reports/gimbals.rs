@@ -12,7 +12,7 @@ fn shown(value: f64, u: f64) -> String {
 
 /// `NAME = NUMBER` in the comments of the recording.
 fn truth(name: &str) -> f64 {
-    let path = common::root().join("calibrations/gimbals-65-positions.csv");
+    let path = common::root().join("experiments/gimbals-65-positions.csv");
     let text = std::fs::read_to_string(path).expect("the recording");
     let rest = text
         .split(&format!("{name} = "))
@@ -24,7 +24,7 @@ fn truth(name: &str) -> f64 {
 
 #[test]
 fn the_report_of_65_positions_is_fresh() {
-    let path = common::root().join("calibrations/gimbals-65-plan.toml");
+    let path = common::root().join("experiments/gimbals-65-plan.toml");
     let schedule = load(&path, Purpose::Plan)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
     let planned = plan(&schedule).expect("a plan");
@@ -33,8 +33,8 @@ fn the_report_of_65_positions_is_fresh() {
     let mut page = Page::new("Accelerometer triad in three gimbals: a schedule of 65 positions");
     page.paragraph(
         "The list of positions of CN 108982918 B is lost. This one is a design of our own: multiples of 45° of the three gimbal angles, chosen by exchange for the greatest determinant of the \
-         information; `calibrations/gimbals-65-positions.csv` has them. `gumption plan calibrations/gimbals-65-plan.toml` predicts what they tell, for readings of 1000 pulses/s per gn \
-         with a standard deviation of 0.005 pulses/s; `gumption calibrate calibrations/gimbals-65-positions.toml` evaluates simulated readings of that scatter, which do not state it. All nineteen parameters, \
+         information; `experiments/gimbals-65-positions.csv` has them. `gumption plan experiments/gimbals-65-plan.toml` predicts what they tell, for readings of 1000 pulses/s per gn \
+         with a standard deviation of 0.005 pulses/s; `gumption calibrate experiments/gimbals-65-positions.toml` evaluates simulated readings of that scatter, which do not state it. All nineteen parameters, \
          those of the base and the gimbals among them, are found together by iterated least squares.",
     );
     page.paragraph(&format!(

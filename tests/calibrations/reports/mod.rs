@@ -14,9 +14,9 @@ use gumption::calibrate::{
     Calibration, Cause, Coefficient, Figures, Origin, Plan, Purpose, calibrate, load, plan, read,
 };
 
-/// The file of `calibrations/`, evaluated.
+/// The file of `experiments/`, evaluated.
 fn calibrated(file: &str) -> Calibration {
-    let path = common::root().join("calibrations").join(file);
+    let path = common::root().join("experiments").join(file);
     let experiment = load(&path, Purpose::Calibrate)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
     calibrate(&experiment).unwrap_or_else(|why| panic!("{file}: {why:?}"))

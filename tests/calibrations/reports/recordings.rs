@@ -11,7 +11,7 @@ use super::{calibrated_text, fresh, named, shared};
 fn norm(file: &str, axes: &str, more: &str, g: f64, start: [f64; 2]) -> String {
     let [k, b] = start;
     format!(
-        "procedure = \"accelerometer-norm\"\n[recording]\nfile = \"{file}\"\naverages = true\n\
+        "procedure = \"accelerometer-norm\"\n[recording]\nfile = \"{file}\"\naverage = \"none\"\n\
          [recording.columns]\nUx = \"acc_x_{axes}\"\nUy = \"acc_y_{axes}\"\nUz = \"acc_z_{axes}\"\n\
          [constant.g]\nvalue = {g}\nunit = \"m/s^2\"\n\
          [parameter]\nKx = {{ start = {k} }}\nKy = {{ start = {k} }}\nKz = {{ start = {k} }}\n\
@@ -126,7 +126,7 @@ fn mpu(page: &mut Page, folder: &Path) {
             + &norm(
                 "mpu9150_tumble_units_0_1.csv",
                 "mps2",
-                "[column.unit]\nholds = \"labels\"\n",
+                "[columns.unit]\nholds = \"labels\"\n",
                 9.80665,
                 [1.0, 0.0],
             )),
@@ -150,7 +150,7 @@ fn load_cell(page: &mut Page, folder: &Path) {
     let equations = |quadratic: &str| {
         format!(
             "equations = [\"deflection = a + b*load{quadratic}\"]\n[parameter]\na = {{ unit = \"1\" }}\nb = {{ unit = \"1\" }}\n{}\
-             [recording]\nfile = \"loadcell_pontius.csv\"\naverages = true\n[recording.columns]\nload = \"load_units\"\n",
+             [recording]\nfile = \"loadcell_pontius.csv\"\naverage = \"none\"\n[columns]\nload = {{ column = \"load_units\" }}\n",
             if quadratic.is_empty() {
                 ""
             } else {

@@ -30,7 +30,7 @@ impl Run {
 
 fn runs() -> Vec<Run> {
     let found = calibrated("tumble-table-1.toml");
-    let path = common::root().join("calibrations/tumble-table-1.csv");
+    let path = common::root().join("experiments/tumble-table-1.csv");
     let text = std::fs::read_to_string(path).expect("the table");
     let mut runs: Vec<Run> = Vec::new();
     for line in text.lines().filter(|line| !line.starts_with('#')).skip(1) {
@@ -84,7 +84,7 @@ fn the_report_of_table_1_is_fresh() {
     page.paragraph(
         "Metrology and Measurement Technology (China) 38 (2018) no. 2, Table 1: two accelerometers, eight runs each, outputs in mV over R = 500 Ω at 0°, 90°, 180° and 270°. \
          Each run gives four readings for the four coefficients of E = R·K1·(K0 + a_i + K2·a_i² + δ·a_p) with a_i = g sin θ, a_p = −g cos θ and g = 1 gn; \
-         `gumption calibrate calibrations/tumble-table-1.toml` finds them run by run. The level angle cannot be told from δ: what is called δ is their difference.",
+         `gumption calibrate experiments/tumble-table-1.toml` finds them run by run. The level angle cannot be told from δ: what is called δ is their difference.",
     );
     page.section("Run by run");
     let rows: Vec<Vec<String>> = runs

@@ -5,13 +5,14 @@ use std::path::Path;
 
 use super::define::{Definer, Purpose, entries};
 use super::dwells::{Dwelling, DwellsBy};
-use super::faults::{KEY, NO_DATA, RECORDING, UNKNOWN_SYMBOL};
+use super::faults::{NO_DATA, RECORDING, UNKNOWN_SYMBOL};
 use super::names::Names;
 use super::points::Points;
 use super::positions::{expected, optional};
 use super::schedule::scheduled;
-use super::tables::{HoldsWord, RecordingTable};
 use crate::budget::{Files, Rejection};
+use crate::experiment::entries::{AverageEntry, RoleWord, Short};
+use crate::experiment::tables::{ColumnTable, HoldsWord, RecordingTable};
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 use crate::recording::{
@@ -29,18 +30,18 @@ pub(super) fn points(
 ) -> Result<Option<Points>, Box<Rejection>> {
     let table = &definer.source.table;
     let recording = table.recording.as_ref();
-    let file = recording.and_then(|recording| recording.value.file.as_ref());
+    let file = recording.and_then(|recording| recording.value.0.file.as_ref());
     let points = match (file, &table.schedule, purpose) {
         (_, Some(_), Purpose::Plan) => scheduled(definer, names),
         (Some(file), _, _) => recorded(definer, names, file, folder, purpose)?,
         (None, _, _) => {
-            if !table.refused && !recording.is_some_and(|recording| recording.value.refused) {
+            if !table.refused && !recording.is_some_and(|recording| recording.value.0.refused) {
                 definer.faults.push(no_data(purpose));
             }
             None
         }
     };
-    let together = recording.and_then(|stated| stated.value.together.as_ref());
+    let together = recording.and_then(|stated| stated.value.0.together.as_ref());
     let Some((points, together)) = points.as_ref().zip(together) else {
         return Ok(points);
     };
@@ -88,13 +89,16 @@ pub(super) fn label_columns(definer: &Definer<'_>) -> Vec<String> {
         add(&separately.value);
     }
     let recording = table.recording.as_ref();
-    let dwells = recording.and_then(|stated| stated.value.dwells.as_ref());
-    let together = recording.and_then(|stated| stated.value.together.as_ref());
-    for column in dwells.iter().chain(&together).flat_map(|list| &list.value) {
+    let dwells = recording.and_then(|stated| stated.value.0.dwells.as_ref());
+    let dwells = dwells.iter().flat_map(|list| &list.value.0);
+    let together = recording.and_then(|stated| stated.value.0.together.as_ref());
+    let together = together.iter().flat_map(|list| &list.value);
+    for column in dwells.chain(together) {
         add(&column.value);
     }
-    for (name, entry) in entries(&table.column) {
-        let holds = entry.value.holds.as_ref().map(|word| word.value);
+    for (name, entry) in entries(&table.columns) {
+        let table = &entry.value.0;
+        let holds = table.holds.as_ref().map(|word| word.value);
         if holds == Some(HoldsWord::Labels) {
             add(name);
         }
@@ -117,7 +121,7 @@ fn recorded(
     let Some(stated) = definer.source.table.recording.as_ref() else {
         return Ok(None);
     };
-    let Some(requests) = requests(definer, names, &stated.value, &found) else {
+    let Some(requests) = requests(definer, names, &stated.value.0, &found) else {
         return Ok(None);
     };
     let recording =
@@ -125,11 +129,28 @@ fn recorded(
     Ok(averaged(definer, names, &recording, stated, purpose))
 }
 
+/// What the file says of a column.
+fn column<'t>(definer: &Definer<'t>, role: &str) -> Option<&'t ColumnTable> {
+    let mut columns = entries(&definer.source.table.columns).iter();
+    let (_, entry) = columns.find(|(name, _)| name == role)?;
+    Some(&entry.value.0)
+}
+
 /// The header of a role: as the file says, else the role's own name.
-fn header<'t>(table: &'t RecordingTable, role: &'t str) -> &'t str {
-    let columns = entries(&table.columns);
-    let mapped = columns.iter().find(|(name, _)| name == role);
-    mapped.map_or(role, |(_, header)| header.value.as_str())
+fn header<'t>(definer: &Definer<'t>, role: &'t str) -> &'t str {
+    let stated = column(definer, role).and_then(|table| table.column.as_ref());
+    stated.map_or(role, |header| header.value.as_str())
+}
+
+/// The column of time.
+fn time<'t>(definer: &Definer<'t>) -> Option<&'t str> {
+    let mut columns = entries(&definer.source.table.columns).iter();
+    let is_time = |table: &ColumnTable| {
+        let role = table.role.as_ref();
+        role.is_some_and(|role| role.value == RoleWord::Time)
+    };
+    let (name, _) = columns.find(|(_, entry)| is_time(&entry.value.0))?;
+    Some(name)
 }
 
 fn is_there(found: &[Heading], header: &str) -> bool {
@@ -149,12 +170,9 @@ fn requests(
     let before = definer.faults.len();
     let mut requests = Vec::new();
     for (role, place) in &names.columns {
-        let header = header(table, role);
-        let entry = entries(&definer.source.table.column)
-            .iter()
-            .find(|(name, _)| name == role)
-            .map(|(_, entry)| entry.value.clone());
-        let mapped = entries(&table.columns).iter().any(|(name, _)| name == role);
+        let header = header(definer, role);
+        let entry = column(definer, role);
+        let mapped = entry.is_some_and(|entry| entry.column.is_some());
         if !mapped && !is_there(found, header) {
             let declared = entry.is_some();
             definer
@@ -163,28 +181,28 @@ fn requests(
             continue;
         }
         let mut request = Request::numbers(role, header);
-        if let Some(unit) = entry.as_ref().and_then(|entry| entry.unit.as_ref()) {
+        if let Some(unit) = entry.and_then(|entry| entry.unit.as_ref()) {
             request = request.in_unit(definer.unit(unit)?);
         }
-        if let Some(like) = entry.as_ref().and_then(|entry| entry.like.as_ref()) {
+        if let Some(like) = entry.and_then(|entry| entry.like.as_ref()) {
             request = request.like(definer.unit(like)?);
         }
         requests.push(request);
     }
     for role in &names.optional {
-        let header = header(table, role);
+        let header = header(definer, role);
         let known = requests.iter().any(|request| request.role == *role);
         if !known && is_there(found, header) {
             requests.push(Request::numbers(role, header));
         }
     }
     for role in label_columns(definer) {
-        requests.push(Request::labels(&role, header(table, &role)));
+        requests.push(Request::labels(&role, header(definer, &role)));
     }
-    for stated in [&table.time, &table.steps].into_iter().flatten() {
-        let role = &stated.value;
-        if !requests.iter().any(|request| request.role == *role) {
-            requests.push(Request::numbers(role, header(table, role)));
+    let steps = table.steps.as_ref().map(|steps| steps.value.as_str());
+    for role in [time(definer), steps].into_iter().flatten() {
+        if !requests.iter().any(|request| request.role == role) {
+            requests.push(Request::numbers(role, header(definer, role)));
         }
     }
     (definer.faults.len() == before).then_some(requests)
@@ -207,7 +225,7 @@ fn not_recorded(
         )
         .label("a column of the recording")
         .help(format!(
-            "say which column it is: [recording] columns = {{ {role} = \"…\" }}; there are {listed}"
+            "say which column it is: [columns] {role} = {{ column = \"…\" }}; there are {listed}"
         ));
     }
     let fault = Fault::new(
@@ -233,10 +251,10 @@ fn averaged(
     definer: &mut Definer<'_>,
     names: &Names,
     recording: &Recording,
-    stated: &Stated<RecordingTable>,
+    stated: &Stated<Short<RecordingTable>>,
     purpose: Purpose,
 ) -> Option<Points> {
-    let table = &stated.value;
+    let table = &stated.value.0;
     let findings = findings(definer, names, recording, table);
     let grave = findings
         .iter()
@@ -261,23 +279,10 @@ fn averaged(
     if refused {
         return None;
     }
-    let tells_dwells = table.tells_dwells();
     let samples = table.holds_samples();
     let mut points = if purpose == Purpose::Plan || !samples {
         Points::of_rows(recording)
     } else {
-        if !tells_dwells {
-            let place = table
-                .averages
-                .as_ref()
-                .map_or(stated.key.clone(), |s| s.span.clone());
-            definer.faults.push(
-                Fault::new(KEY, place, "samples are averaged in dwells, and nothing tells the dwells apart")
-                    .label("samples")
-                    .help("name the columns of labels that do, dwells = [\"position\"], or the stimulus, steps = \"omega\"; or write still = 50 for stretches at rest of 50 rows and more"),
-            );
-            return None;
-        }
         let dwelling = dwelling(definer, names, recording, table)?;
         let (points, lost) = Points::of_dwells(recording, &dwelling);
         for dwell in &lost {
@@ -321,7 +326,7 @@ fn dwelling(
     recording: &Recording,
     table: &RecordingTable,
 ) -> Option<Dwelling> {
-    let time = table.time.as_ref().map(|stated| stated.value.clone());
+    let time = time(definer).map(str::to_owned);
     let unit = time
         .as_ref()
         .and_then(|role| recording.column(role))
@@ -357,7 +362,7 @@ fn dwells_by(names: &Names, table: &RecordingTable) -> DwellsBy {
             rows: usize::try_from(rows.value).unwrap_or(usize::MAX),
         },
         (labels, ..) => {
-            let labels = labels.iter().flat_map(|list| texts(&list.value));
+            let labels = labels.iter().flat_map(|list| texts(&list.value.0));
             DwellsBy::Labels(labels.map(str::to_owned).collect())
         }
     }
@@ -371,8 +376,8 @@ impl RecordingTable {
 
     /// Whether its rows are samples.
     fn holds_samples(&self) -> bool {
-        let averages = self.averages.as_ref().map(|stated| stated.value);
-        averages.map_or(self.tells_dwells(), |averages| !averages)
+        let average = self.average.as_ref().map(|stated| stated.value);
+        average != Some(AverageEntry::Nothing) && self.tells_dwells()
     }
 }
 
@@ -387,12 +392,14 @@ fn findings(
     table: &RecordingTable,
 ) -> Vec<Finding> {
     let mut outputs: Vec<&str> = names.responses.iter().map(String::as_str).collect();
-    let ranges: Vec<(&str, [f64; 2])> = entries(&table.ranges)
+    let ranges: Vec<(&str, [f64; 2])> = entries(&definer.source.table.columns)
         .iter()
-        .filter_map(|(role, range)| match range.value.as_slice() {
-            [low, high] => Some((role.as_str(), [low.value, high.value])),
-            _ => None,
-        })
+        .filter_map(
+            |(role, entry)| match entry.value.0.range.as_ref()?.value.as_slice() {
+                [low, high] => Some((role.as_str(), [low.value, high.value])),
+                _ => None,
+            },
+        )
         .collect();
     let positions = definer.source.table.positions.as_ref();
     let expected: Vec<&str> = positions.map_or_else(Vec::new, |stated| expected(&stated.value));
@@ -406,10 +413,10 @@ fn findings(
     let mut findings = check(
         recording,
         &Checks {
-            time: table.time.as_ref().map(|stated| stated.value.as_str()),
+            time: time(definer),
             outputs: &outputs,
             ranges: &ranges,
-            dwells: &dwells.map_or_else(Vec::new, |list| texts(&list.value)),
+            dwells: &dwells.map_or_else(Vec::new, |list| texts(&list.value.0)),
             expected: column.map(|column| (column.value.as_str(), expected.as_slice())),
             fewest: 1,
         },
@@ -419,7 +426,7 @@ fn findings(
         Problem::LabelUnknown { label, .. } => !optional.contains(label.as_str()),
         _ => true,
     });
-    if !samples && table.averages.is_none() && recording.rows() > MANY {
+    if !samples && table.average.is_none() && recording.rows() > MANY {
         findings.push(Finding {
             problem: Problem::EachRow,
             column: None,

@@ -6,22 +6,28 @@
 use std::path::Path;
 
 use super::data;
-use super::doubts;
-use super::experiment::{Experiment, Heading, Input, Observed, Parameter, Scatter, Weights, Words};
+use super::doubts::{self, Doubts};
+use super::experiment::{
+    Act, Doubt, Experiment, Heading, Input, Observed, Parameter, Scatter, Scope, Target, Weights,
+    Words,
+};
 use super::faults::{KEY, NO_EQUATIONS, NO_PARAMETERS, UNIT};
+use super::inferred;
 use super::names::{Kind, Names};
 use super::points::Points;
 use super::positions;
-use super::source::{self, Source};
-use super::tables::{CalibrationTable, ScatterWord, WeightsWord};
 use crate::budget::doubts::text_of;
-use crate::budget::{Rejection, Remark};
+use crate::budget::{Evaluation, Rejection, Remark};
+use crate::distribution::{Distribution, Normal};
 use crate::equations::{EquationText, Equations, Quantity};
+pub(super) use crate::experiment::source::entries;
+use crate::experiment::source::{self, Source};
+use crate::experiment::tables::{ExperimentTable, NoiseWord, WeightsWord};
 use crate::fault::Fault;
 use crate::model::{Role, Symbol, outline};
 use crate::quantity::{Unit, UnitTable};
+use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
-use gumption_format::toml::{Amount, Named};
 
 /// What an experiment is read for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,9 +60,11 @@ pub fn read(
 ) -> Result<Experiment, Rejection> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let reject = |faults| Rejection::new(name, text, faults);
-    let source = source::read(text).map_err(&reject)?;
+    let mut source = source::read(text).map_err(&reject)?;
+    let units = units_of(&source.table);
+    inferred::add(&mut source, &units, folder);
     let mut definer = Definer {
-        units: units_of(&source.table),
+        units,
         faults: source.faults.clone(),
         source: &source,
     };
@@ -79,7 +87,7 @@ pub fn read(
     }
 }
 
-fn units_of(table: &CalibrationTable) -> UnitTable {
+fn units_of(table: &ExperimentTable) -> UnitTable {
     let mut units = UnitTable::default();
     let stated = entries(&table.unit);
     let pairs = stated
@@ -90,29 +98,25 @@ fn units_of(table: &CalibrationTable) -> UnitTable {
     units
 }
 
-/// The named entries of an optional table.
-pub(super) fn entries<T>(named: &Option<Stated<Named<T>>>) -> &[(String, Stated<T>)] {
-    named.as_ref().map_or(&[], |stated| &stated.value.entries)
-}
-
-impl Source {
-    /// A fault inside the procedure's text, at the place of the procedure's name.
-    fn in_own_text(&self, mut fault: Fault) -> Fault {
-        let own = |span: &std::ops::Range<usize>| span.start <= self.own;
-        fault.related.retain(|(span, _)| own(span));
-        let Some(procedure) = self.procedure.as_ref().filter(|_| !own(&fault.span)) else {
-            return fault;
-        };
-        let line = self.text[..fault.span.start]
-            .rfind('\n')
-            .map_or(0, |at| at + 1);
-        let said = self.text[line..].lines().next().unwrap_or_default().trim();
-        fault.message = format!(
-            "{}, in the procedure {}: {said}",
-            fault.message, procedure.value
-        );
-        fault.span = procedure.span.clone();
-        fault
+/// The inputs of an experiment, and the errors of inputs and readings, for columns in these units.
+///
+/// # Errors
+/// All faults.
+pub(crate) fn doubts_of(
+    source: &Source,
+    columns: &[Quantity],
+    folder: &Path,
+) -> Result<Doubts, Vec<Fault>> {
+    let mut definer = Definer {
+        units: units_of(&source.table),
+        faults: Vec::new(),
+        source,
+    };
+    let found = Names::of(&mut definer, Purpose::Calibrate)
+        .and_then(|names| doubts::of(&mut definer, &names, columns, folder));
+    match found {
+        Some(doubts) if definer.faults.is_empty() => Ok(doubts),
+        _ => Err(definer.faults),
     }
 }
 
@@ -133,7 +137,7 @@ impl Definer<'_> {
         if table
             .equations
             .as_ref()
-            .is_none_or(|list| list.value.is_empty())
+            .is_none_or(|list| list.value.0.is_empty())
         {
             // A procedure that is not there would have had them.
             if !table.refused && self.source.procedure.is_none() {
@@ -179,7 +183,8 @@ impl Definer<'_> {
                 unit: column.unit.clone(),
             })
             .collect();
-        let doubts = doubts::of(self, names, &columns, folder)?;
+        let mut doubts = doubts::of(self, names, &columns, folder)?;
+        let is_stated = self.noise(names, &columns, &mut doubts)?;
         let constants: Vec<Symbol> = doubts
             .constants
             .iter()
@@ -204,7 +209,7 @@ impl Definer<'_> {
         let texts: Vec<EquationText<'_>> = table
             .equations
             .iter()
-            .flat_map(|list| &list.value)
+            .flat_map(|list| &list.value.0)
             .map(equation_text)
             .collect();
         let equations = Equations::compile_after(
@@ -241,11 +246,7 @@ impl Definer<'_> {
             doubts: doubts.doubts,
             omitted,
             results,
-            scatter: table.scatter.as_ref().map(|word| match word.value {
-                ScatterWord::Residuals => Scatter::Residuals,
-                ScatterWord::Dwells => Scatter::Dwells,
-                ScatterWord::Stated => Scatter::Stated,
-            }),
+            scatter: self.scatter(is_stated),
             weights: match table.weights.as_ref().map(|word| word.value) {
                 Some(WeightsWord::Readings) => Weights::Readings,
                 _ => Weights::Equal,
@@ -259,6 +260,72 @@ impl Definer<'_> {
                 remarks
             },
         })
+    }
+
+    /// What tells the scatter.
+    fn scatter(&self, is_stated: bool) -> Option<Scatter> {
+        if is_stated {
+            return Some(Scatter::Stated);
+        }
+        let noise = self.source.table.noise.as_ref();
+        let from = noise.and_then(|noise| noise.value.from.as_ref());
+        from.map(|word| match word.value {
+            NoiseWord::Residuals => Scatter::Residuals,
+            NoiseWord::Dwells => Scatter::Dwells,
+            NoiseWord::Stated => Scatter::Stated,
+        })
+    }
+
+    /// The noise that `[noise]` states as a number is an error of each reading; whether it does.
+    fn noise(&mut self, names: &Names, columns: &[Quantity], doubts: &mut Doubts) -> Option<bool> {
+        let Some(noise) = self.source.table.noise.as_ref().map(|noise| &noise.value) else {
+            return Some(false);
+        };
+        let Some(stated) = &noise.u else {
+            let others = [
+                (noise.replicates.is_some(), "replicates"),
+                (noise.at_rest.is_some(), "at_rest"),
+                (noise.budget.is_some(), "budget"),
+            ];
+            let other = others.iter().find(|(is_there, _)| *is_there);
+            doubts.remarks.extend(other.map(|(_, key)| Remark {
+                en: format!("The noise of `{key}` is that of a diagnosis; here the residuals tell the scatter."),
+                zh: format!("`{key}` 给出的噪声用于诊断；此处的分散性由残差确定。"),
+            }));
+            return Some(false);
+        };
+        let dof = noise.dof.as_ref().map_or(f64::INFINITY, |dof| dof.value.0);
+        for name in &names.responses {
+            let Some(column) = columns.iter().find(|column| column.name == *name) else {
+                continue;
+            };
+            let unit = column.unit.difference();
+            let u = self.amount(stated, &unit)?;
+            if u <= 0.0 || dof <= 0.0 {
+                let message = "a standard uncertainty and its degrees of freedom are positive";
+                let fault = Fault::new(KEY, stated.span.clone(), message);
+                self.faults.push(fault.label("expected a positive number"));
+                return None;
+            }
+            doubts.doubts.push(Doubt {
+                name: format!("{name}.noise"),
+                acts: vec![Act {
+                    on: Target::Reading(name.clone()),
+                    coefficient: 1.0,
+                }],
+                scope: Scope::Each,
+                u,
+                dof,
+                unit,
+                distribution: Distribution::Normal(Normal { mean: 0.0, sd: u }),
+                evaluation: match dof.is_finite() {
+                    true => Evaluation::TypeA,
+                    false => Evaluation::TypeB,
+                },
+                how: "u".to_owned(),
+            });
+        }
+        Some(true)
     }
 
     fn responses(
@@ -299,16 +366,16 @@ impl Definer<'_> {
     /// The unit of a response that is not recorded yet.
     fn planned_unit(&self, name: &str) -> Option<Unit> {
         let table = &self.source.table;
-        let column = entries(&table.column)
+        let column = entries(&table.columns)
             .iter()
             .find(|(other, _)| other == name);
         let reading = entries(&table.reading)
             .iter()
             .find(|(other, _)| other == name);
         let stated = column
-            .and_then(|(_, entry)| entry.value.unit.as_ref())
+            .and_then(|(_, entry)| entry.value.0.unit.as_ref())
             .or_else(|| reading.and_then(|(_, entry)| entry.value.input.unit.as_ref()))
-            .or_else(|| column.and_then(|(_, entry)| entry.value.like.as_ref()));
+            .or_else(|| column.and_then(|(_, entry)| entry.value.0.like.as_ref()));
         stated.map_or_else(
             || Some(Unit::one()),
             |stated| self.units.parse(&stated.value).ok(),

@@ -11,7 +11,6 @@ use super::define::{Definer, entries, words};
 use super::experiment::{Doubt, Input, Prior};
 use super::faults::{KEY, STATE_INPUT};
 use super::names::{Kind, Names};
-use super::tables::{KnownTable, SharedTable};
 use crate::budget::doubts::checked;
 use crate::budget::tables::{ConstantEntry, Sources};
 use crate::budget::tables::{
@@ -19,6 +18,7 @@ use crate::budget::tables::{
 };
 use crate::budget::{Budget, Remark};
 use crate::equations::Quantity;
+use crate::experiment::tables::{KnownTable, SharedTable};
 use crate::fault::Fault;
 use crate::model::{Role, Symbol};
 use crate::quantity::Unit;
@@ -26,7 +26,7 @@ use gumption_format::toml::Stated;
 use gumption_format::toml::{Amount, Named, OneOrMany};
 
 /// What the file says of inputs, readings and constants.
-pub(super) struct Doubts {
+pub(crate) struct Doubts {
     pub inputs: Vec<Input>,
     pub doubts: Vec<Doubt>,
     /// Parameters that are inputs as well.

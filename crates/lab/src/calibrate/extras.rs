@@ -37,7 +37,7 @@ impl Definer<'_> {
     /// say what it needs.
     fn has_columns(
         &self,
-        entry: &Stated<super::tables::OmittedTable>,
+        entry: &Stated<crate::experiment::tables::OmittedTable>,
         symbols: &[Quantity],
     ) -> bool {
         let term = entry.value.term.as_ref();
@@ -46,7 +46,7 @@ impl Definer<'_> {
         }
         let missing = |name: &String| {
             !symbols.iter().any(|symbol| symbol.name == *name)
-                && entries(&self.source.table.column)
+                && entries(&self.source.table.columns)
                     .iter()
                     .any(|(other, _)| other == name)
         };
@@ -57,7 +57,7 @@ impl Definer<'_> {
     fn omitted_one(
         &mut self,
         name: &str,
-        entry: &Stated<super::tables::OmittedTable>,
+        entry: &Stated<crate::experiment::tables::OmittedTable>,
         equations: &Equations,
         symbols: &[Quantity],
         constants: &[Symbol],

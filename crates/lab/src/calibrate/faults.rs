@@ -24,7 +24,7 @@ codes! {
     TOO_FEW = "C0111", "there are too few points", "测量点太少",
         "The parameters cannot be found from fewer readings than parameters. To tell their scatter from the residuals, there must be more.";
     SCATTER = "C0112", "the scatter of the readings is not known", "读数的分散性未知",
-        "With as many parameters as readings there are no residuals; averages without their samples do not tell their scatter. State the errors of the readings in [reading.NAME] and write scatter = \"stated\".";
+        "With as many parameters as readings there are no residuals; averages without their samples do not tell their scatter. State the errors of the readings in [reading.NAME] and write noise.from = \"stated\".";
     START = "C0113", "a search has no place to begin", "参数搜索缺少起始值",
         "The equations are not linear in the parameters. State roughly where the search begins: [parameter.K] start = 0.2. Parameters that enter linearly once the others are held need none.";
     KEY = "C0114", "a key has no meaning here", "该键在此处不适用",

@@ -3,11 +3,10 @@
 //! A calibration procedure is a set of measurement equations with what is known of references, schedule and
 //! omitted effects; one engine does the rest for all of them.
 //!
+//! The file, its tables and the procedures of the library: [`crate::experiment`].
+//!
 //! | chapter | holds |
 //! |---|---|
-//! | `tables` | every table of a calibration file |
-//! | [`procedure`] | the procedures of the library: calibration files themselves |
-//! | `source` | the tables of a file over those of its procedure |
 //! | `define` | from tables to a checked experiment, or all faults |
 //! | `names`, `parameters`, `extras` | what names are; units; omitted effects and results |
 //! | `doubts`, `components` | inputs and readings; the errors that make them uncertain |
@@ -43,20 +42,18 @@ mod extras;
 pub mod faults;
 mod gain;
 mod identify;
+mod inferred;
 mod limits;
 mod names;
 mod parameters;
 mod plan;
 mod points;
 mod positions;
-pub mod procedure;
 mod scatter;
 mod schedule;
 mod signs;
-mod source;
 mod stack;
 mod swaps;
-pub mod tables;
 #[cfg(test)]
 mod tests;
 mod together;
@@ -68,7 +65,9 @@ pub use calibration::{
     Calibration, Coefficient, Figures, PartScatter, Residual, calibrate, estimates,
 };
 pub use causes::{Cause, Contribution, Origin};
+pub(crate) use define::doubts_of;
 pub use define::{Purpose, load, read};
+pub(crate) use doubts::Doubts;
 pub use dwells::{Dwelling, DwellsBy};
 pub use experiment::{
     Act, Doubt, Experiment, FunctionResult, Heading, Input, Observed, Omitted, Parameter, Prior,
@@ -79,5 +78,4 @@ pub use limits::Limit;
 pub use plan::{Plan, plan};
 pub use points::{PointColumn, Points};
 pub use scatter::{Misfit, ResponseScatter, ScatterTest};
-pub use tables::schema;
 pub use trouble::Trouble;

@@ -52,7 +52,7 @@ impl Names {
             own.extend(given);
             needs.extend(needed);
         }
-        for text in table.equations.iter().flat_map(|list| &list.value) {
+        for text in table.equations.iter().flat_map(|list| &list.value.0) {
             if let Some((given, needed)) = definer.outlined(text) {
                 needs.extend(needed.into_iter().filter(|(name, _)| !own.contains(name)));
                 if let Some(given) = given.last() {

@@ -88,7 +88,7 @@ impl Definer<'_> {
             .model
             .as_ref()
             .map_or("", |model| model.value.as_str());
-        for text in table.equations.iter().flat_map(|list| &list.value) {
+        for text in table.equations.iter().flat_map(|list| &list.value.0) {
             let Ok(outline) = outline(&format!("{shared}\n{}", text.value), &self.units) else {
                 continue;
             };

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use super::define::Definer;
 use super::faults::POSITION;
 use super::points::{PointColumn, Points};
-use super::tables::PositionsTable;
+use crate::experiment::tables::PositionsTable;
 use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
 use gumption_format::toml::Stated;

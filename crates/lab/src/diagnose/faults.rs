@@ -4,7 +4,7 @@ use crate::fault::codes;
 
 codes! {
     MISSING = "D0101", "a case lacks something", "案例文件缺少必需的内容",
-        "A case names a recording, a model and what the columns of the recording are.\n\n    recording = \"load.csv\"\n    model = \"deflection = a + b * load\"\n    [columns]\n    deflection = \"output\"\n    load = \"stimulus\"\n    run = \"run\"";
+        "An experiment names a recording, its equations and what the columns of the recording are.\n\n    recording = \"load.csv\"\n    equations = \"deflection = a + b * load\"\n    [columns]\n    deflection = \"output\"\n    load = \"stimulus\"\n    run = \"run\"";
     LEFT_SIDE = "D0102", "a model does not say what it describes", "模型左边未指明所描述的量",
         "The left side of a model is a column with the role \"output\", or a constant that the right side should give in every row (as in `g = sqrt(x^2 + y^2 + z^2)`).";
     UNKNOWN_NAME = "D0103", "a name stands for nothing", "名称没有所指的对象",
@@ -24,7 +24,7 @@ codes! {
     UNIT_CLASH = "D0110", "two units do not fit", "两处单位不一致",
         "A unit in the case contradicts the unit in the first line of the recording, or has another dimension than it should.";
     CANDIDATE = "D0111", "an explanation of the user's own is not clear", "自定义的解释不明确",
-        "A candidate has a `name` and a `formula` of columns, parameters and constants. `node` names the parameter or column that it changes; without it, it adds to the output.\n\n    [[candidate]]\n    name = \"mount sag\"\n    formula = \"sin(phi) * cos(phi)\"";
+        "An omitted effect has a `term`, linear in its own name, or a `formula` of what it adds per unit of its size; with a formula, `node` names the parameter or column that it changes.\n\n    [omitted.mount_sag]\n    term = \"mount_sag * sin(phi) * cos(phi)\"";
     SETTING = "D0112", "a setting is out of range", "设置超出允许范围",
         "alpha is a probability between 0 and 0.5; u and dof are positive.";
     ROWS = "D0113", "rows beside the recording are not clear", "记录以外的数据行说明不清",

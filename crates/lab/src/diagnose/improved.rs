@@ -38,8 +38,8 @@ pub fn improved(case: &Case, diagnosis: &Diagnosis) -> Option<Vec<(&'static str,
         .map(|model| model_text(model))
         .collect();
     text += &match models.as_slice() {
-        [one] => format!("model = {one}\n"),
-        several => format!("model = [\n    {},\n]\n", several.join(",\n    ")),
+        [one] => format!("equations = {one}\n"),
+        several => format!("equations = [\n    {},\n]\n", several.join(",\n    ")),
     };
     if !case.own_units.is_empty() {
         text += "\n[unit]\n";

@@ -156,7 +156,7 @@ impl Finding {
             Problem::Constant { .. } => {
                 "check that the output is connected; if its noise is below the resolution, state the resolution".into()
             }
-            Problem::EachRow => "if they are samples, say what tells dwells apart: `dwells`, `steps` or `still`; if each is an average, write averages = true".into(),
+            Problem::EachRow => "if they are samples, say what tells dwells apart: `dwells`, `steps` or `still`; if each is an average, write average = \"none\"".into(),
             Problem::TooFew { .. } => "record longer, or at more points".into(),
             Problem::LabelAgain { .. } => "each stretch is a dwell of its own; rename it if it is not the same".into(),
             Problem::LabelAbsent { .. } => "record it, or take it off the list".into(),
@@ -188,7 +188,7 @@ impl Finding {
                 "请剔除停在极限处的行，或换大量程重新测量：极限处的平均值有偏".into()
             }
             Problem::Constant { .. } => "请检查输出是否接通；若噪声低于分辨力，请给出分辨力".into(),
-            Problem::EachRow => "若为采样，请用 dwells、steps 或 still 指明驻留段；若每行即平均值，请写 averages = true".into(),
+            Problem::EachRow => "若为采样，请用 dwells、steps 或 still 指明驻留段；若每行即平均值，请写 average = \"none\"".into(),
             Problem::TooFew { .. } => "请延长记录或增加测量点".into(),
             Problem::LabelAgain { .. } => "每段各为一个驻留段；若非同一位置请改名".into(),
             Problem::LabelAbsent { .. } => "请补测该位置，或将其从清单中去掉".into(),

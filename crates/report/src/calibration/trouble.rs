@@ -13,12 +13,12 @@ pub(super) fn sentences(trouble: &Trouble, l: Language) -> String {
             format!("{readings} 个读数不能确定 {parameters} 个参数；请增加测量点或减少参数。"),
         ),
         Trouble::NoScatter { response, readings, parameters } => l.pick(
-            format!("The scatter of {response} is not known: {} and {parameters} parameters leave no residuals. Measure at more points, or state the errors of the readings in [reading.{response}] and write scatter = \"stated\".", counted(*readings)),
-            format!("{response} 的分散性未知：{readings} 个读数、{parameters} 个参数，没有残差。请增加测量点，或在 [reading.{response}] 中给出读数误差并写 scatter = \"stated\"。"),
+            format!("The scatter of {response} is not known: {} and {parameters} parameters leave no residuals. Measure at more points, or state the errors of the readings in [reading.{response}] and write noise.from = \"stated\".", counted(*readings)),
+            format!("{response} 的分散性未知：{readings} 个读数、{parameters} 个参数，没有残差。请增加测量点，或在 [reading.{response}] 中给出读数误差并写 noise.from = \"stated\"。"),
         ),
         Trouble::NoSamples => l.pick(
-            "scatter = \"dwells\" needs the samples of each dwell, and every row of this recording is one point. Name the columns that tell dwells apart, dwells = […], or write scatter = \"residuals\".".into(),
-            "scatter = \"dwells\" 需要每个驻留段的采样，而本记录每行即一个点。请用 dwells = […] 指明区分驻留段的列，或写 scatter = \"residuals\"。".into(),
+            "noise.from = \"dwells\" needs the samples of each dwell, and every row of this recording is one point. Name the columns that tell dwells apart, dwells = […], or write noise.from = \"residuals\".".into(),
+            "noise.from = \"dwells\" 需要每个驻留段的采样，而本记录每行即一个点。请用 dwells = […] 指明区分驻留段的列，或写 noise.from = \"residuals\"。".into(),
         ),
         Trouble::NoWeights { response } => l.pick(
             format!("weights = \"readings\" needs the standard uncertainty of every reading of {response}: state it in [reading.{response}], average samples in dwells, or write weights = \"equal\"."),

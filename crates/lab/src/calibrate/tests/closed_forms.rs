@@ -58,7 +58,7 @@ fn a_line_has_the_closed_form_and_a_common_error_does_not_average() {
 #[test]
 fn an_error_of_each_point_averages() {
     let each = RATE.replace("u = 1e-4", "u = 1e-4\nscope = \"each\"") + "\n";
-    let each = format!("scatter = \"stated\"\n{each}");
+    let each = format!("noise.from = \"stated\"\n{each}");
     let experiment = experiment(&each, RATES);
     let found = calibrate(&experiment).expect("coefficients");
     let k = &found.figures.coefficients[0];
@@ -74,7 +74,7 @@ fn an_error_of_each_point_averages() {
 fn an_error_by_level_is_shared_within_the_level() {
     let csv = "omega [deg/s],day,U [mV]\n-100,1,-200\n100,1,200\n-100,2,-200\n100,2,200\n";
     let toml = RATE.replace("u = 1e-4", "u = 1e-4\nby = \"day\"");
-    let toml = format!("scatter = \"stated\"\n{toml}");
+    let toml = format!("noise.from = \"stated\"\n{toml}");
     let found = calibrate(&experiment(&toml, csv)).expect("coefficients");
     near(
         found.figures.coefficients[0].u,
@@ -153,7 +153,7 @@ unit = "V"
 fn the_four_point_tumble() {
     let toml = r#"
 procedure = "accelerometer-tumble-4"
-scatter = "stated"
+noise.from = "stated"
 [constant]
 g = "1 gn"
 [input.R]
@@ -229,7 +229,7 @@ fn a_plan_predicts_the_uncertainty_of_the_calibration() {
         .replace("K = {}", "K = { start = 2 }")
         .replace("b = {}", "b = { start = 1 }")
         + "[reading.U]\nu = 0.1\n[schedule]\n\"omega [deg/s]\" = [-100, -50, 0, 50, 100]\n";
-    let toml = toml.replace("[parameter]", "[column.U]\nunit = \"mV\"\n[parameter]");
+    let toml = toml.replace("[parameter]", "[columns.U]\nunit = \"mV\"\n[parameter]");
     let plan = plan(&planned(&toml)).expect("a plan");
     let figures = plan.figures.expect("figures");
     let k = &figures.coefficients[0];
@@ -240,7 +240,7 @@ fn a_plan_predicts_the_uncertainty_of_the_calibration() {
 #[test]
 fn a_partly_known_parameter_is_between_known_and_unknown() {
     // b is known to be 1 ± 0.2, the readings scatter by 0.1.
-    let toml = "scatter = \"stated\"\nweights = \"readings\"\n".to_owned()
+    let toml = "noise.from = \"stated\"\nweights = \"readings\"\n".to_owned()
         + RATE
         + "[input.b]\nvalue = 1\nunit = \"mV\"\nu = 0.2\n[reading.U]\nu = 0.1\n";
     let found = calibrate(&experiment(&toml, RATES)).expect("coefficients");
@@ -377,7 +377,7 @@ fn a_shared_source_is_one_error() {
 fn correlated_readings_correlate_the_coefficients() {
     let toml = r#"
 equations = ["U = K*omega + b", "V = L*omega + c"]
-scatter = "stated"
+noise.from = "stated"
 [parameter]
 K = {}
 b = {}

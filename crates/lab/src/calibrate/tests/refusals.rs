@@ -124,7 +124,7 @@ fn positions_must_be_known_and_complete() {
 
 #[test]
 fn times_must_go_forward() {
-    let toml = RATE.to_owned() + "time = \"t\"\n";
+    let toml = RATE.to_owned() + "[columns]\nt = \"time\"\n";
     says(
         &toml,
         "t [s],omega [deg/s],U [mV]\n0,0,1\n2,1,2\n1,2,3\n",
@@ -154,7 +154,7 @@ fn what_cannot_be_found_is_said() {
     let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n2,3\n";
     let found = trouble(&no_start, csv);
     assert!(matches!(found, Trouble::NoStart { .. }), "{found:?}");
-    let dwells = format!("scatter = \"dwells\"\n{RATE}");
+    let dwells = format!("noise.from = \"dwells\"\n{RATE}");
     assert_eq!(trouble(&dwells, csv), Trouble::NoSamples);
 }
 
@@ -198,7 +198,8 @@ fn saturated_samples_are_warned_of() {
             csv += &format!("{position},{value}\n");
         }
     }
-    let toml = POSITIONS.to_owned() + "dwells = [\"position\"]\nranges = { U = [-10, 10] }\n";
+    let toml =
+        POSITIONS.to_owned() + "dwells = [\"position\"]\n[columns]\nU = { range = [-10, 10] }\n";
     let experiment = experiment(&toml, &csv);
     assert!(
         experiment
@@ -288,7 +289,7 @@ fn positions_are_averaged_together() {
 /// positive with the one, negative with the other.
 #[test]
 fn exchanged_labels_are_found_by_the_response_that_sees_them() {
-    const TRIAD: &str = "procedure = \"accelerometer-six-positions\"\nconstant.g = \"1 gn\"\n[recording]\nfile = \"run.csv\"\naverages = true\n";
+    const TRIAD: &str = "procedure = \"accelerometer-six-positions\"\nconstant.g = \"1 gn\"\n[recording]\nfile = \"run.csv\"\naverage = \"none\"\n";
     let mut lines = vec!["position,Uax [V],Uay [V],Uaz [V]".to_owned()];
     for turn in 0..2 {
         for (axis, name) in ["x", "y", "z"].iter().enumerate() {
@@ -326,7 +327,7 @@ fn exchanged_labels_are_found_by_the_response_that_sees_them() {
 /// Two ways of one axis exchanged throughout: no residual shows it, the sign of the scale factor does.
 #[test]
 fn a_sign_unlike_the_others_is_told() {
-    const TRIAD: &str = "procedure = \"accelerometer-six-positions\"\nconstant.g = \"1 gn\"\n[recording]\nfile = \"run.csv\"\naverages = true\n";
+    const TRIAD: &str = "procedure = \"accelerometer-six-positions\"\nconstant.g = \"1 gn\"\n[recording]\nfile = \"run.csv\"\naverage = \"none\"\n";
     let good = "position,Uax [V],Uay [V],Uaz [V]\nx up,1.001,0,0\nx down,-1,0.001,0\ny up,0,1,0.001\ny down,0,-1,0\nz up,0,0,1\nz down,0.001,0,-1\n";
     let of = |csv: &str| {
         calibrate(&experiment(TRIAD, csv))
@@ -354,7 +355,7 @@ fn a_sign_unlike_the_others_is_told() {
 /// What a procedure says of an input holds of the parameter that the file makes of it, and the other way round.
 #[test]
 fn inputs_and_parameters_that_change_places_keep_their_units() {
-    let toml = "procedure = \"accelerometer-tumble\"\nconstant.g = \"9.8 m/s^2\"\n[parameter.theta0]\n[input.delta_o]\nu = 1e-5\n[input.K2]\nvalue = 1e-5\nu = 1e-6\n[recording]\nfile = \"run.csv\"\naverages = true\n";
+    let toml = "procedure = \"accelerometer-tumble\"\nconstant.g = \"9.8 m/s^2\"\n[parameter.theta0]\n[input.delta_o]\nu = 1e-5\n[input.K2]\nvalue = 1e-5\nu = 1e-6\n[recording]\nfile = \"run.csv\"\naverage = \"none\"\n";
     let rows: String = (0..12)
         .map(|i| {
             let angle = f64::from(30 * i);

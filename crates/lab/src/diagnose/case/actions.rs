@@ -2,9 +2,10 @@
 
 use super::check::Checker;
 use super::rows::{Complete, Rows, continued};
-use super::tables::{ActionTable, CaseTable, OrderWord, RowsEntry};
 use super::{Action, Column, Data};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};
+use crate::experiment::entries::RowsEntry;
+use crate::experiment::tables::{ActionTable, ExperimentTable, OrderWord};
 use crate::fault::Fault;
 use crate::recording::Labels;
 use gumption_format::toml::Stated;
@@ -12,7 +13,12 @@ use gumption_format::toml::{Cell, Named, OneOrMany};
 
 impl Checker<'_> {
     /// The actions of a case with a recording of so many rows.
-    pub fn actions(&mut self, file: &CaseTable, columns: &[Column], rows: usize) -> Vec<Action> {
+    pub fn actions(
+        &mut self,
+        file: &ExperimentTable,
+        columns: &[Column],
+        rows: usize,
+    ) -> Vec<Action> {
         let list = file
             .action
             .as_ref()
@@ -193,7 +199,7 @@ impl Checker<'_> {
 /// The rows of a recording once more, in the same order or the last one first: what was applied is that
 /// of the row, times go on in the same steps after a pause, runs are new ones, and conditions follow the same course as before.
 pub(in crate::diagnose) fn repeated(recorded: &Rows, columns: &[Column], reversed: bool) -> Rows {
-    use super::tables::RoleWord::{Count, Covariate, Order, Run, Time, Uncertainty};
+    use crate::experiment::entries::RoleWord::{Count, Covariate, Order, Run, Time, Uncertainty};
     let count = recorded.count;
     let forth: Vec<usize> = (0..count).collect();
     let places: Vec<usize> = if reversed {

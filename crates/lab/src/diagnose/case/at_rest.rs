@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::tables::RoleWord;
 use super::{Column, Observed, Response, RestReadings};
 use crate::budget::{Files, Rejection};
+use crate::experiment::entries::RoleWord;
 use crate::quantity::{Unit, UnitTable};
 use crate::recording::{Heading, Recording, Request};
 

@@ -2,10 +2,10 @@
 
 use super::check::Checker;
 use super::declared::Declared;
-use super::tables::CaseTable;
 use super::{Column, UserCandidate};
 use crate::diagnose::faults::{CANDIDATE, UNKNOWN_NAME};
 use crate::equations::{EquationText, Equations, Quantity};
+use crate::experiment::tables::{ExperimentTable, OmittedTable};
 use crate::fault::{Fault, nearest};
 use crate::model::{Role, Symbol, outline};
 use crate::quantity::Unit;
@@ -17,27 +17,18 @@ const LEFT: &str = "the_candidate";
 /// The user's own explanations.
 pub(super) fn candidates(
     checker: &mut Checker<'_>,
-    file: &CaseTable,
+    file: &ExperimentTable,
     columns: &[Column],
     constants: &[Symbol],
     declared: &Declared,
 ) -> Vec<UserCandidate> {
-    let list = file
-        .candidate
-        .as_ref()
-        .map_or(&[][..], |list| list.value.0.as_slice());
+    let named = file.omitted.as_ref();
+    let list = named.map_or(&[][..], |named| named.value.entries.as_slice());
     let mut found = Vec::new();
-    for stated in list {
+    for (name, stated) in list {
         let table = &stated.value;
-        let (Some(name), Some(formula)) = (&table.name, &table.formula) else {
-            checker.faults.push(
-                Fault::new(
-                    CANDIDATE,
-                    stated.span.clone(),
-                    "a candidate has a `name` and a `formula`",
-                )
-                .label("expected both"),
-            );
+        let before = checker.faults.len();
+        let Some(formula) = per_unit(checker, name, stated) else {
             continue;
         };
         if let Some(node) = &table.node {
@@ -57,21 +48,78 @@ pub(super) fn candidates(
                 continue;
             }
         }
-        if let Some(equations) = formula_of(checker, formula, columns, constants, declared) {
+        let equations = formula_of(checker, &formula, columns, constants, declared);
+        if equations.is_none() && checker.source.is_base(&stated.key) {
+            // What a procedure offers need not be recorded.
+            checker.faults.truncate(before);
+        }
+        if let Some(equations) = equations {
             let numbers = &equations;
-            let unit = unit_of(checker, formula, columns, constants, declared, numbers);
+            let unit = unit_of(checker, &formula, columns, constants, declared, numbers);
+            let typical = table.typical.as_ref();
+            let node = table.node.as_ref().or(table.response.as_ref());
             found.push(UserCandidate {
-                name: name.value.clone(),
+                name: name.clone(),
                 formula: formula.value.clone(),
                 unit: unit.unwrap_or_else(Unit::one),
                 equations,
-                node: table.node.as_ref().map(|node| node.value.clone()),
-                typical: table.typical.as_ref().map(|typical| typical.value),
+                node: node.map(|node| node.value.clone()),
+                typical: typical.map(|typical| typical.value.number),
                 description: table.description.as_ref().map(|text| text.value.clone()),
             });
         }
     }
     found
+}
+
+/// What an omitted effect adds per unit of its size: its formula, or its term with the size 1.
+fn per_unit(
+    checker: &mut Checker<'_>,
+    name: &str,
+    stated: &Stated<OmittedTable>,
+) -> Option<Stated<String>> {
+    let table = &stated.value;
+    match (&table.formula, &table.term) {
+        (Some(formula), None) => Some(formula.clone()),
+        (None, Some(term)) => Some(term.map(|term| with_size_one(term, name))),
+        (one, _) => {
+            if !table.refused {
+                let label = match one {
+                    Some(_) => "keep one of `term` and `formula`",
+                    None => "expected `term` or `formula`",
+                };
+                let message = format!("what does the omitted effect {name} add?");
+                let fault = Fault::new(CANDIDATE, stated.key.clone(), message).label(label);
+                let help = format!("write for example term = \"{name} * x^2\"");
+                checker.faults.push(fault.help(help));
+            }
+            None
+        }
+    }
+}
+
+/// A term with 1 in place of its size.
+fn with_size_one(term: &str, size: &str) -> String {
+    let of_name = |c: char| c.is_alphanumeric() || c == '_';
+    let mut text = String::new();
+    let mut rest = term;
+    while let Some(at) = rest.find(size) {
+        let behind = &rest[at + size.len()..];
+        let alone = !text.ends_with(of_name) && !rest[..at].ends_with(of_name);
+        let alone = alone && !behind.starts_with(of_name);
+        text += &rest[..at];
+        text += if alone { "1" } else { size };
+        rest = behind;
+    }
+    text += rest;
+    let text = text.trim();
+    let factor = text.strip_prefix('1').map(str::trim_start);
+    let factor = factor
+        .and_then(|text| text.strip_prefix('*'))
+        .map(str::trim_start);
+    // The first factor of a product alone: 1*a + b keeps its one.
+    let is_product = |text: &&str| !text.contains(['+', '-']);
+    factor.filter(is_product).unwrap_or(text).to_owned()
 }
 
 /// A formula whose value is a number in whatever unit it has.

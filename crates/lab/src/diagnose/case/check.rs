@@ -2,22 +2,20 @@
 
 use std::path::Path;
 
-use toml::de::DeTable;
-
-use super::tables::CaseTable;
-use super::{Case, Purpose, candidates, columns, declared};
-use crate::budget::hints::HINTS;
+use super::{Case, Column, Data, Purpose, candidates, columns, declared};
 use crate::budget::{Files, Rejection};
 use crate::diagnose::faults::{MISSING, SETTING, UNIT_CLASH};
+use crate::experiment::entries::RoleWord;
+use crate::experiment::source::{self, Source};
+use crate::experiment::tables::ExperimentTable;
 use crate::fault::Fault;
 use crate::model::{Role as SymbolRole, Symbol};
 use crate::quantity::{Unit, UnitTable};
 use crate::recording::{Heading, Recording, Request, headings, text_of};
 use gumption_format::toml::Amount;
 use gumption_format::toml::StringMap;
-use gumption_format::toml::faults::{NOT_UTF8, UNREADABLE_FILE};
-use gumption_format::toml::syntax_faults;
-use gumption_format::toml::{Reader, Stated, read_table};
+use gumption_format::toml::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE};
+use gumption_format::toml::{OneOrMany, Stated};
 
 /// Reads and checks a case.
 pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
@@ -36,55 +34,61 @@ pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Ca
         reject("", vec![fault.help("save the file as UTF-8")])
     })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
-    let (table, errors) = DeTable::parse_recoverable(&text);
-    if !errors.is_empty() {
-        return Err(reject(&text, syntax_faults(&errors, &text)));
+    let source = source::read(&text).map_err(|faults| reject(&text, faults))?;
+    if source.faults.iter().any(|fault| fault.code == TOML_SYNTAX) {
+        return Err(reject(&text, source.faults));
     }
-    let mut reader = Reader::new(&text, &HINTS);
-    let file = read_table::<CaseTable>(table.get_ref(), "a case", &mut reader);
     let mut checker = Checker {
-        text: &text,
+        source: &source,
+        text: &source.text,
         folder: path.parent().unwrap_or_else(|| Path::new("")),
         files,
         purpose,
         units: UnitTable::default(),
-        faults: reader.faults,
+        stated: Vec::new(),
+        faults: source.faults.clone(),
     };
-    checker.units(&file);
-    checker.case(&file, path, &name)
+    checker.units(&source.table);
+    checker.case(&source.table, path, &name)
 }
 
 /// What is needed everywhere while a case is checked.
 pub(super) struct Checker<'a> {
+    pub source: &'a Source,
+    /// The text of the file, and behind it that of its procedure.
     pub text: &'a str,
     pub folder: &'a Path,
     pub files: Files<'a>,
     pub purpose: Purpose,
     pub units: UnitTable,
+    /// Standard uncertainty of each reading of a column by itself, as `[reading]` states it; in the order of the
+    /// columns.
+    pub stated: Vec<f64>,
     pub faults: Vec<Fault>,
 }
 
 impl Checker<'_> {
-    fn case(mut self, file: &CaseTable, path: &Path, name: &str) -> Result<Case, Rejection> {
-        let (Some(recording), Some(models)) = (&file.recording, &file.model) else {
+    fn case(mut self, file: &ExperimentTable, path: &Path, name: &str) -> Result<Case, Rejection> {
+        let models = models(file);
+        let (Some(recording), Some(models)) = (&file.recording, &models) else {
             self.missing(file);
-            return Err(Rejection::new(name, self.text, self.faults));
+            return Err(self.rejection(name));
         };
         let Some(csv) = recording.value.0.file.as_ref() else {
             self.faults.push(
                 Fault::new(MISSING, recording.key.clone(), "the recording has no file")
                     .label("`file` is missing"),
             );
-            return Err(Rejection::new(name, self.text, self.faults));
+            return Err(self.rejection(name));
         };
         let csv_path = self.folder.join(&csv.value);
         let headings = self.headings(&csv_path)?;
-        let constants = self.constants(file);
+        let mut constants = self.constants(file);
         // They need no column: what is wrong in them is told beside wrong columns.
         let settings = self.settings(file);
         let wanted = self.wanted(file, models, &headings, &constants);
         if !self.faults.is_empty() {
-            return Err(Rejection::new(name, self.text, self.faults));
+            return Err(self.rejection(name));
         }
         let present = wanted.iter().filter(|w| w.present);
         let requests: Vec<Request> = present.map(|w| w.request.clone()).collect();
@@ -93,8 +97,13 @@ impl Checker<'_> {
         if rows == 0 {
             self.faults
                 .push(columns::nothing_left(csv, &wanted, &recorded));
-            return Err(Rejection::new(name, self.text, self.faults));
+            return Err(self.rejection(name));
         }
+        if !positions(&mut self, file, &mut columns) {
+            return Err(self.rejection(name));
+        }
+        let with_inputs = self.with_inputs(file, &mut columns, &mut constants, rows);
+        let file = &with_inputs;
         let declared = declared::with_points(&mut self, file, models, &mut columns, &constants);
         let noise = self.noise(file, &columns, declared.as_ref());
         let averaging = self.averaging(file, &columns);
@@ -107,7 +116,7 @@ impl Checker<'_> {
             None => Vec::new(),
         };
         let (Some(declared), true) = (declared, self.faults.is_empty()) else {
-            return Err(Rejection::new(name, self.text, self.faults));
+            return Err(self.rejection(name));
         };
         Ok(Case {
             title: file.title.as_ref().map_or_else(
@@ -121,7 +130,7 @@ impl Checker<'_> {
             ),
             reference: file.reference.as_ref().map(|text| text.value.clone()),
             note: file.note.as_ref().map(|text| text.value.clone()),
-            text: self.text.to_owned(),
+            text: self.text[..self.source.own].to_owned(),
             path: path.to_path_buf(),
             units: self.units,
             own_units: own_units(file),
@@ -142,19 +151,31 @@ impl Checker<'_> {
         })
     }
 
-    fn missing(&mut self, file: &CaseTable) {
+    /// All faults, at their places in the file itself.
+    fn rejection(self, name: &str) -> Rejection {
+        let source = self.source;
+        let faults = self.faults.into_iter();
+        let faults = faults.map(|fault| source.in_own_text(fault)).collect();
+        Rejection::new(name, &source.text[..source.own], faults)
+    }
+
+    fn missing(&mut self, file: &ExperimentTable) {
         for (present, key, example) in [
             (
                 file.recording.is_some(),
                 "recording",
                 "recording = \"readings.csv\"",
             ),
-            (file.model.is_some(), "model", "model = \"y = a + b * x\""),
+            (
+                file.equations.is_some(),
+                "equations",
+                "equations = \"y = a + b * x\"",
+            ),
         ] {
             let stated = file.present.iter().any(|(name, _)| *name == key);
             if !present && !stated {
                 self.faults.push(
-                    Fault::new(MISSING, 0..0, format!("the case has no `{key}`"))
+                    Fault::new(MISSING, 0..0, format!("the experiment has no `{key}`"))
                         .label("missing in this file")
                         .help(format!("add for example {example}")),
                 );
@@ -168,7 +189,7 @@ impl Checker<'_> {
         headings(&text, &self.units).map_err(|fault| Rejection::new(&name, &text, vec![*fault]))
     }
 
-    fn units(&mut self, file: &CaseTable) {
+    fn units(&mut self, file: &ExperimentTable) {
         let Some(named) = &file.unit else { return };
         for (name, definition) in &named.value.entries {
             if self.units.define(name, &definition.value).is_err() {
@@ -261,7 +282,7 @@ impl Checker<'_> {
         None
     }
 
-    fn constants(&mut self, file: &CaseTable) -> Vec<Symbol> {
+    fn constants(&mut self, file: &ExperimentTable) -> Vec<Symbol> {
         let Some(named) = &file.constant else {
             return Vec::new();
         };
@@ -302,7 +323,69 @@ impl Checker<'_> {
     }
 }
 
-fn own_units(file: &CaseTable) -> Vec<(String, String)> {
+/// The equations, each behind the statements that all of them see.
+fn models(file: &ExperimentTable) -> Option<Stated<OneOrMany<String>>> {
+    let mut models = file.equations.clone()?;
+    if let Some(shared) = &file.model {
+        for model in &mut models.value.0 {
+            model.value = format!("{}\n{}", shared.value.trim_end(), model.value);
+        }
+    }
+    Some(models)
+}
+
+/// Adds the quantities that labels stand for; whether that was possible.
+fn positions(checker: &mut Checker<'_>, file: &ExperimentTable, columns: &mut Vec<Column>) -> bool {
+    let Some(table) = file.positions.as_ref().map(|stated| &stated.value) else {
+        return true;
+    };
+    let (Some(name), Some(gives), Some(at)) = (&table.column, &table.gives, &table.at) else {
+        return true;
+    };
+    let Some(labels) = checker
+        .known(name, columns)
+        .and_then(|place| columns[place].labels().cloned())
+    else {
+        return false;
+    };
+    for (place, given) in gives.value.iter().enumerate() {
+        let stated = table.units.as_ref();
+        let unit = stated.and_then(|units| units.value.get(place));
+        let Some(unit) = checker.unit(unit) else {
+            return false;
+        };
+        let value = |label: &String| {
+            let mut entries = at.value.entries.iter();
+            let (_, values) = entries.find(|(other, _)| other == label)?;
+            values.value.get(place).map(|value| value.value)
+        };
+        let values: Vec<Option<f64>> = labels.levels.iter().map(value).collect();
+        if let Some(level) = values.iter().position(Option::is_none) {
+            let label = &labels.levels[level];
+            let message = format!("the position \"{label}\" has no value of {}", given.value);
+            let fault = Fault::new(MISSING, at.key.clone(), message);
+            checker.faults.push(fault.label("the known positions"));
+            return false;
+        }
+        let of_row = labels.of_row.iter();
+        let numbers = of_row.map(|level| values.get(*level as usize).copied().flatten());
+        columns.push(Column {
+            name: given.value.clone(),
+            header: given.value.clone(),
+            role: RoleWord::Stimulus,
+            unit,
+            data: Data::Numbers(numbers.map(|value| value.unwrap_or(f64::NAN)).collect()),
+            u: None,
+            u_common: None,
+            full_scale: None,
+            resolution: None,
+            as_difference: false,
+        });
+    }
+    true
+}
+
+fn own_units(file: &ExperimentTable) -> Vec<(String, String)> {
     let named = file.unit.as_ref().map_or(&[][..], |n| &n.value.entries);
     let pairs = named
         .iter()

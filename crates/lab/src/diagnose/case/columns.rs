@@ -3,10 +3,11 @@
 use std::ops::Range;
 
 use super::check::Checker;
-use super::tables::{CaseTable, ColumnTable, RoleWord};
 use super::{Column, Data, Purpose};
 use crate::budget::writing::key;
-use crate::diagnose::faults::{MISSING, TOO_FEW, UNKNOWN_NAME};
+use crate::diagnose::faults::{TOO_FEW, UNKNOWN_NAME};
+use crate::experiment::entries::RoleWord;
+use crate::experiment::tables::{ColumnTable, ExperimentTable, HoldsWord};
 use crate::fault::{Fault, nearest};
 use crate::model::Symbol;
 use crate::quantity::Unit;
@@ -18,7 +19,7 @@ impl Checker<'_> {
     /// The columns that take part: the declared ones, and those that only the model names.
     pub fn wanted(
         &mut self,
-        file: &CaseTable,
+        file: &ExperimentTable,
         models: &Stated<OneOrMany<String>>,
         headings: &[Heading],
         constants: &[Symbol],
@@ -32,20 +33,7 @@ impl Checker<'_> {
             let table = &stated.value.0;
             let role = match &table.role {
                 Some(role) => role.value,
-                None => {
-                    if !table.refused {
-                        self.faults.push(
-                            Fault::new(
-                                MISSING,
-                                stated.key.clone(),
-                                format!("the column {name} has no role"),
-                            )
-                            .label("`role` is missing")
-                            .help(format!("write for example {name} = \"covariate\"")),
-                        );
-                    }
-                    continue;
-                }
+                None => self.role_in(models, name, table),
             };
             if role == RoleWord::Ignore {
                 continue;
@@ -55,6 +43,12 @@ impl Checker<'_> {
                 .iter()
                 .any(|h| h.text == *header || h.name == *header);
             let expected = self.purpose == Purpose::Plan && role == RoleWord::Output;
+            // What a procedure can use need not be there.
+            let offered = self.source.is_base(&stated.key)
+                && matches!(role, RoleWord::Covariate | RoleWord::Factor);
+            if !present && offered {
+                continue;
+            }
             if !present && !expected {
                 let asked = table.column.as_ref();
                 let span = asked.map_or(&stated.key, |column| &column.span).clone();
@@ -104,6 +98,35 @@ impl Checker<'_> {
             }
         }
         wanted
+    }
+
+    /// The role that a column has by its place in the equations.
+    fn role_in(
+        &self,
+        models: &Stated<OneOrMany<String>>,
+        name: &str,
+        table: &ColumnTable,
+    ) -> RoleWord {
+        let outlines = models.value.0.iter();
+        let outlines: Vec<_> = outlines
+            .filter_map(|model| crate::model::outline(&model.value, &self.units).ok())
+            .collect();
+        let holds = table.holds.as_ref().map(|word| word.value);
+        if holds == Some(HoldsWord::Labels) {
+            RoleWord::Factor
+        } else if outlines
+            .iter()
+            .any(|outline| outline.gives.iter().any(|(given, _)| given == name))
+        {
+            RoleWord::Output
+        } else if outlines
+            .iter()
+            .any(|outline| outline.needs.iter().any(|(needed, _)| needed == name))
+        {
+            RoleWord::Stimulus
+        } else {
+            RoleWord::Covariate
+        }
     }
 
     /// The columns without the rows that lack a value.
@@ -173,9 +196,9 @@ impl Checker<'_> {
             let fault = Fault::new(
                 UNKNOWN_NAME,
                 name.span.clone(),
-                format!("the case has no column {}", name.value),
+                format!("the experiment has no column {}", name.value),
             )
-            .label("not a column of this case");
+            .label("not a column of this experiment");
             self.faults.push(match nearest(&name.value, names) {
                 Some(near) => fault.help(format!("did you mean \"{near}\"?")),
                 None => fault.help("declare it below [columns]"),

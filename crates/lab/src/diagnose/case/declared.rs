@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use super::check::Checker;
 use super::parameters::{Named, inferred_units, no_start, parameter, startable};
-use super::tables::{CaseTable, RoleWord};
 use super::{Column, Data, Observed, Parameter, Response};
 use crate::diagnose::faults::{LEFT_SIDE, ROLE, UNKNOWN_NAME};
 use crate::equations::{EquationText, Equations, Quantity};
+use crate::experiment::entries::RoleWord;
+use crate::experiment::tables::ExperimentTable;
 use crate::fault::{Fault, nearest};
 use crate::model::faults::{CLASH, EXPONENT, NOT_ONE, POINT, RESERVED, RESULT_UNIT};
 use crate::model::{Outline, Role as SymbolRole, Symbol, outline};
@@ -27,7 +28,7 @@ pub(super) type Models = Stated<OneOrMany<String>>;
 /// with both in °C, the columns count as differences from 0 °C.
 pub(super) fn with_points(
     checker: &mut Checker<'_>,
-    file: &CaseTable,
+    file: &ExperimentTable,
     models: &Models,
     columns: &mut [Column],
     constants: &[Symbol],
@@ -53,7 +54,7 @@ pub(super) fn with_points(
 /// Reads the models; nothing if they have faults.
 pub(super) fn declared(
     checker: &mut Checker<'_>,
-    file: &CaseTable,
+    file: &ExperimentTable,
     models: &Models,
     columns: &[Column],
     constants: &[Symbol],
@@ -199,7 +200,7 @@ fn response(
         checker.faults.push(
             Fault::new(LEFT_SIDE, model.span.clone(), "the model has no left side")
                 .label("expected an output, `=` and the formula for it")
-                .help("write for example model = \"y = a + b * x\""),
+                .help("write for example equations = \"y = a + b * x\""),
         );
         return None;
     };
@@ -249,7 +250,7 @@ fn response(
     checker.faults.push(match nearest(name, names.clone()) {
         Some(near) => fault.help(format!("did you mean `{near}`?")),
         None => fault.help(format!(
-            "the columns of the case are: {}",
+            "the columns of the experiment are: {}",
             names.collect::<Vec<_>>().join(", ")
         )),
     });
@@ -259,7 +260,7 @@ fn response(
 /// Every name that is neither a column nor a constant is a parameter.
 fn parameter_names(
     checker: &mut Checker<'_>,
-    file: &CaseTable,
+    file: &ExperimentTable,
     outlines: &[(&Stated<String>, Outline)],
     columns: &[Column],
     constants: &[Symbol],

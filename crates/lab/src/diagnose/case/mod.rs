@@ -6,28 +6,25 @@ mod candidates;
 mod check;
 mod columns;
 mod declared;
+mod inputs;
 mod noise;
 mod parameters;
 mod rows;
 mod settings;
-mod tables;
 
 use std::path::{Path, PathBuf};
-
-use serde_json::{Value, json};
 
 use crate::budget::{Files, Rejection};
 use crate::equations::Equations;
 use crate::model::Symbol;
 use crate::quantity::{Unit, UnitTable};
 use crate::recording::Labels;
-use gumption_format::toml::KeyRow;
 
+pub use crate::experiment::entries::RoleWord as Role;
 pub(super) use actions::repeated;
 pub(super) use at_rest::hours;
 pub use rows::Rows;
 pub(super) use rows::interval;
-pub use tables::RoleWord as Role;
 
 /// A checked case.
 #[derive(Debug, Clone)]
@@ -344,54 +341,4 @@ impl Column {
             _ => None,
         }
     }
-}
-
-/// What a file of the program is, by its keys.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// A case: a recording, or columns, and a model.
-    Case,
-    /// A calibration: equations, or a procedure.
-    Calibration,
-    /// A budget: measurands or inputs.
-    Budget,
-    /// None of them.
-    Unknown,
-}
-
-/// Recognises a file by its keys, also one with faults.
-pub fn kind_of(text: &str) -> Kind {
-    let (table, _) = toml::de::DeTable::parse_recoverable(text);
-    let has = |keys: &[&str]| keys.iter().any(|key| table.get_ref().contains_key(*key));
-    if has(&["equations", "procedure", "schedule"]) {
-        Kind::Calibration
-    } else if has(&["measurand", "input"]) {
-        Kind::Budget
-    } else if has(&["recording", "columns"]) {
-        Kind::Case
-    } else if has(&["model"]) {
-        Kind::Budget
-    } else {
-        Kind::Unknown
-    }
-}
-
-/// JSON Schema (draft-07) of case files, for editors.
-pub fn schema() -> Value {
-    use gumption_format::toml::FromToml;
-    let mut schema = tables::CaseTable::schema();
-    if let Value::Object(entries) = &mut schema {
-        let draft = "http://json-schema.org/draft-07/schema#";
-        entries.insert("$schema".into(), json!(draft));
-        entries.insert("title".into(), json!("gumption case"));
-    }
-    schema
-}
-
-/// The reference of keys, table by table.
-pub fn keys() -> Vec<KeyRow> {
-    use gumption_format::toml::Table;
-    let mut rows = Vec::new();
-    tables::CaseTable::rows("", &mut rows);
-    rows
 }

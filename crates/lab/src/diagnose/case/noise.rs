@@ -5,9 +5,10 @@ use std::ops::Range;
 use super::at_rest::hours;
 use super::check::Checker;
 use super::declared::Declared;
-use super::tables::{CaseTable, NoiseTable, RoleWord, StaticTable};
 use super::{Column, NoiseClaim, NoiseOrigin, Observed, Response};
 use crate::diagnose::faults::{NOISE, SETTING};
+use crate::experiment::entries::RoleWord;
+use crate::experiment::tables::{ExperimentTable, NoiseTable, NoiseWord, StaticTable};
 use crate::fault::Fault;
 use crate::propagate;
 use gumption_format::toml::Stated;
@@ -15,7 +16,7 @@ use gumption_format::toml::Stated;
 impl Checker<'_> {
     pub fn noise(
         &mut self,
-        file: &CaseTable,
+        file: &ExperimentTable,
         columns: &[Column],
         declared: Option<&Declared>,
     ) -> NoiseClaim {
@@ -54,7 +55,7 @@ impl Checker<'_> {
         if let Some(column) = per_row {
             return NoiseClaim::PerRow(column);
         }
-        let dof = table.dof.as_ref().map_or(f64::INFINITY, |dof| dof.value);
+        let dof = table.dof.as_ref().map_or(f64::INFINITY, |dof| dof.value.0);
         if dof <= 0.0 {
             self.faults.push(Fault::new(
                 SETTING,
@@ -93,7 +94,55 @@ impl Checker<'_> {
         if let Some(path) = &table.budget {
             return self.budget(path, responses);
         }
-        NoiseClaim::Estimated
+        match table.from.as_ref().map(|word| word.value) {
+            Some(NoiseWord::Stated) => self.of_readings(stated.span.clone(), responses),
+            Some(NoiseWord::Dwells) => self.of_dwells(file, stated.span.clone(), columns),
+            _ => NoiseClaim::Estimated,
+        }
+    }
+
+    /// The errors that `[reading]` states of each reading are all there is.
+    fn of_readings(&mut self, place: Range<usize>, responses: &[Response]) -> NoiseClaim {
+        let of = |response: &Response| match response.observed {
+            Observed::Column(column) => self.stated.get(column).copied().unwrap_or(0.0),
+            Observed::Constant(_) => 0.0,
+        };
+        let u: Vec<f64> = responses.iter().map(of).collect();
+        if u.iter().any(|u| *u <= 0.0) {
+            let fault = Fault::new(NOISE, place, "no error of the readings is stated");
+            self.faults.push(
+                fault
+                    .label("the stated errors are all there is")
+                    .help("state it: [reading.NAME] with u = …, or noise = { u = … }"),
+            );
+            return NoiseClaim::Estimated;
+        }
+        NoiseClaim::Stated {
+            walk: vec![0.0; u.len()],
+            u,
+            dof: f64::INFINITY,
+            origin: NoiseOrigin::Case,
+        }
+    }
+
+    /// Rows of one dwell differ by noise only.
+    fn of_dwells(
+        &mut self,
+        file: &ExperimentTable,
+        place: Range<usize>,
+        columns: &[Column],
+    ) -> NoiseClaim {
+        let recording = file.recording.as_ref();
+        let Some(dwells) = recording.and_then(|stated| stated.value.0.dwells.as_ref()) else {
+            let fault = Fault::new(NOISE, place, "no labels tell the dwells apart");
+            let help = "name their columns: recording = { file = \"…\", dwells = [\"position\"] }";
+            self.faults
+                .push(fault.label("samples of each dwell").help(help));
+            return NoiseClaim::Estimated;
+        };
+        let names = dwells.value.0.iter();
+        let found = names.filter_map(|name| self.known(name, columns));
+        NoiseClaim::Replicates(found.collect())
     }
 
     fn at_rest(

@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use super::check::Checker;
 use super::declared::Models;
-use super::tables::ParameterTable;
 use super::{Column, Data, Parameter, Purpose, Response};
 use crate::diagnose::faults::{MISSING, PER, START};
 use crate::equations::{EquationText, Equations, Quantity};
+use crate::experiment::tables::ParameterTable;
 use crate::fault::Fault;
 use crate::model::{Outline, Role as SymbolRole, Symbol};
 use crate::quantity::Unit;

@@ -4,9 +4,10 @@
 use std::collections::BTreeMap;
 
 use super::check::Checker;
-use super::tables::{CaseTable, RoleWord};
 use super::{Case, Column, Data, HeldOut};
 use crate::diagnose::faults::{MISSING, ROWS};
+use crate::experiment::entries::RoleWord;
+use crate::experiment::tables::ExperimentTable;
 use crate::fault::Fault;
 use crate::recording::{Content, Labels, Recording, Request, headings, text_of};
 use gumption_format::toml::Stated;
@@ -158,7 +159,7 @@ pub(super) enum Complete {
 
 impl Checker<'_> {
     /// The recording that is to be predicted.
-    pub fn held_out(&mut self, file: &CaseTable, columns: &[Column]) -> Option<HeldOut> {
+    pub fn held_out(&mut self, file: &ExperimentTable, columns: &[Column]) -> Option<HeldOut> {
         let stated = file.held_out.as_ref()?;
         let Some(path) = &stated.value.file else {
             if !stated.value.refused {

@@ -1,24 +1,22 @@
 //! How rows are averaged, and how the diagnosis is run.
 
 use super::check::Checker;
-use super::tables::{AverageEntry, CaseTable, DiagnosisTable};
-use super::{Averaging, Blocks, Column, Settings};
+use super::{Averaging, Blocks, Column, Role, Settings};
 use crate::diagnose::catalogue::effects;
 use crate::diagnose::faults::{ROLE, SETTING, UNKNOWN_NAME};
+use crate::experiment::entries::AverageEntry;
+use crate::experiment::tables::{DiagnosisTable, ExperimentTable};
 use crate::fault::{Fault, nearest};
-use gumption_format::toml::Stated;
+use gumption_format::toml::{Amount, Stated};
 
 impl Checker<'_> {
-    pub fn averaging(&mut self, file: &CaseTable, columns: &[Column]) -> Averaging {
+    pub fn averaging(&mut self, file: &ExperimentTable, columns: &[Column]) -> Averaging {
         let table = file
             .recording
             .as_ref()
             .map(|stated| stated.value.0.clone())
             .unwrap_or_default();
-        let settle = table
-            .settle_rows
-            .as_ref()
-            .map_or(0, |rows| rows.value as usize);
+        let settle = self.settle(table.settle.as_ref(), columns);
         let blocks = match (&table.dwells, &table.average) {
             (Some(names), _) => {
                 let mut found = Vec::new();
@@ -50,7 +48,37 @@ impl Checker<'_> {
         Averaging { blocks, settle }
     }
 
-    pub fn settings(&mut self, file: &CaseTable) -> Settings {
+    /// Rows that are left out at the beginning of each dwell; a time counts by the usual interval.
+    fn settle(&mut self, stated: Option<&Stated<Amount>>, columns: &[Column]) -> usize {
+        let Some(stated) = stated else { return 0 };
+        let timed = columns.iter().find(|column| column.role == Role::Time);
+        let Some((column, times)) = timed.and_then(|c| c.numbers().map(|times| (c, times))) else {
+            if stated.value.unit.is_some() {
+                let message = "a time to settle needs a column with the role \"time\"";
+                let fault = Fault::new(SETTING, stated.span.clone(), message);
+                self.faults.push(
+                    fault
+                        .label("no column of time")
+                        .help("state rows: settle = 5"),
+                );
+            }
+            return stated.value.number.max(0.0) as usize;
+        };
+        let Some(settle) = self.quantity(stated, &column.unit) else {
+            return 0;
+        };
+        let mut intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        intervals.sort_by(f64::total_cmp);
+        let usual = intervals.get(intervals.len() / 2).copied();
+        let rows = (settle / usual.unwrap_or(1.0)).ceil();
+        if rows.is_finite() {
+            rows.max(0.0) as usize
+        } else {
+            0
+        }
+    }
+
+    pub fn settings(&mut self, file: &ExperimentTable) -> Settings {
         let table = file
             .diagnosis
             .as_ref()

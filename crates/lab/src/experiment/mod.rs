@@ -1,0 +1,77 @@
+//! The experiment: one file that `calibrate`, `plan`, `simulate` and `diagnose` read.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | [`tables`], [`entries`] | every table of the file: its keys, its reader, its schema, its reference |
+//! | `hints` | what writers of experiments mistake, also wordings of former versions |
+//! | [`procedure`] | the procedures of the library: experiments themselves |
+//! | `source` | the tables of a file over those of its procedure |
+
+pub mod entries;
+mod hints;
+pub mod procedure;
+pub(crate) mod source;
+pub mod tables;
+
+use gumption_format::toml::{FromToml, KeyRow, Table};
+use serde_json::{Value, json};
+
+use procedure::PROCEDURES;
+use tables::ExperimentTable;
+
+/// JSON Schema (draft-07) of experiments, for editors.
+pub fn schema() -> Value {
+    let mut schema = ExperimentTable::schema();
+    if let Value::Object(entries) = &mut schema {
+        let draft = "http://json-schema.org/draft-07/schema#";
+        entries.insert("$schema".into(), json!(draft));
+        entries.insert("title".into(), json!("gumption experiment"));
+        if let Some(Value::Object(properties)) = entries.get_mut("properties")
+            && let Some(Value::Object(procedure)) = properties.get_mut("procedure")
+        {
+            let names = PROCEDURES.iter().map(|procedure| procedure.name);
+            procedure.insert("enum".into(), names.collect());
+        }
+    }
+    schema
+}
+
+/// The reference of keys, table by table.
+pub fn keys() -> Vec<KeyRow> {
+    let mut rows = Vec::new();
+    ExperimentTable::rows("", &mut rows);
+    rows
+}
+
+/// What a file of the program is, by its keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// An experiment whose plan is about the coefficients that it would find: it has a schedule, or builds on a
+    /// procedure, and lists no further measurements to choose from.
+    Schedule,
+    /// Any other experiment: its plan is about the effects that it would tell apart.
+    Experiment,
+    /// A budget: measurands or inputs.
+    Budget,
+    /// None of them.
+    Unknown,
+}
+
+/// Recognises a file by its keys, also one with faults.
+pub fn kind_of(text: &str) -> Kind {
+    let (table, _) = toml::de::DeTable::parse_recoverable(text);
+    let has = |keys: &[&str]| keys.iter().any(|key| table.get_ref().contains_key(*key));
+    if has(&["schedule", "procedure"]) && !has(&["action"]) {
+        Kind::Schedule
+    } else if has(&["equations", "procedure"]) {
+        Kind::Experiment
+    } else if has(&["measurand", "input"]) {
+        Kind::Budget
+    } else if has(&["recording", "columns"]) {
+        Kind::Experiment
+    } else if has(&["model"]) {
+        Kind::Budget
+    } else {
+        Kind::Unknown
+    }
+}

@@ -81,7 +81,7 @@
 //! From a recording and measurement equations, or a procedure of the library, to coefficients with their covariance.
 //!
 //! ```
-//! let calibration = gumption::calibrate("calibrations/gyro-scale-factor.toml")?;
+//! let calibration = gumption::calibrate("experiments/gyro-scale-factor.toml")?;
 //! for coefficient in &calibration.figures.coefficients {
 //!     println!("{} = {}, u = {}", coefficient.name, coefficient.value, coefficient.u);
 //! }
@@ -104,7 +104,7 @@
 //! std::fs::write(folder.join("recording.csv"), recording)?;
 //! std::fs::write(folder.join("line.toml"), r#"
 //!     recording = "recording.csv"
-//!     model = "y = a + b*x"
+//!     equations = "y = a + b*x"
 //!     [columns]
 //!     x = "stimulus"
 //!     y = "output"

@@ -430,7 +430,7 @@ fn listed(name: &str, text: &str) -> String {
     }
     section += "```\n\n| kind | name | unit | what it is |\n|---|---|---|---|\n";
     for (kind, key) in [
-        ("column", "column"),
+        ("column", "columns"),
         ("parameter", "parameter"),
         ("input", "input"),
         ("result", "result"),

@@ -353,7 +353,7 @@ fn plan_knows_what_a_file_is() {
     let folder = folder("kinds");
     for (text, part) in [
         ("[measurand.y]\nmodel = \"a\"\n", "is a budget"),
-        ("title = \"x\"\n", "is neither a calibration"),
+        ("title = \"x\"\n", "is no experiment"),
     ] {
         std::fs::write(folder.join("file.toml"), text).expect("written");
         let (good, told) = gumption(&folder, &["plan", "file.toml"]);

@@ -67,7 +67,7 @@ fn diagnoses_and_their_plans_are_what_their_schemas_say() {
     let (of_diagnosis, of_outlook) = (diagnosis_schema(), outlook_schema());
     let mut checked = 0;
     for name in ["tumble_table_1", "loadcell_pontius", "mpu9150_tumble"] {
-        let file = root().join(format!("cases/{name}.toml"));
+        let file = root().join(format!("experiments/{name}.toml"));
         // Some recordings do not lie beside the program.
         let Ok(case) = case::Case::load(&file, case::Purpose::Diagnosis) else {
             continue;

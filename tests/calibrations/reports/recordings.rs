@@ -12,7 +12,7 @@ fn norm(file: &str, axes: &str, more: &str, g: f64, start: [f64; 2]) -> String {
     let [k, b] = start;
     format!(
         "procedure = \"accelerometer-norm\"\n[recording]\nfile = \"{file}\"\naverage = \"none\"\n\
-         [recording.columns]\nUx = \"acc_x_{axes}\"\nUy = \"acc_y_{axes}\"\nUz = \"acc_z_{axes}\"\n\
+         [columns]\nUx = {{ column = \"acc_x_{axes}\" }}\nUy = {{ column = \"acc_y_{axes}\" }}\nUz = {{ column = \"acc_z_{axes}\" }}\n\
          [constant.g]\nvalue = {g}\nunit = \"m/s^2\"\n\
          [parameter]\nKx = {{ start = {k} }}\nKy = {{ start = {k} }}\nKz = {{ start = {k} }}\n\
          bx = {{ start = {b} }}\nby = {{ start = {b} }}\nbz = {{ start = {b} }}\n{more}"

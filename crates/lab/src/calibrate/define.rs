@@ -12,10 +12,10 @@ use super::experiment::{
     Words,
 };
 use super::faults::{KEY, NO_EQUATIONS, NO_PARAMETERS, UNIT};
-use super::inferred;
 use super::names::{Kind, Names};
 use super::points::Points;
 use super::positions;
+use super::{inferred, prior};
 use crate::budget::doubts::text_of;
 use crate::budget::{Evaluation, Rejection, Remark};
 use crate::distribution::{Distribution, Normal};
@@ -63,6 +63,7 @@ pub fn read(
     let mut source = source::read(text).map_err(&reject)?;
     let units = units_of(&source.table);
     inferred::add(&mut source, &units, folder);
+    prior::add(&mut source);
     let mut definer = Definer {
         units,
         faults: source.faults.clone(),

@@ -49,6 +49,7 @@ mod parameters;
 mod plan;
 mod points;
 mod positions;
+mod prior;
 mod scatter;
 mod schedule;
 mod signs;

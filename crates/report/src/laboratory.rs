@@ -38,11 +38,12 @@ fn holds(schema: &Value, document: &Document, file: &Path) {
 fn calibrations_and_their_plans_are_what_their_schemas_say() {
     let (of_calibration, of_plan) = (calibration_schema(), plan_schema());
     let (mut found, mut planned) = (0, 0);
-    for file in files("calibrations") {
+    for file in files("experiments") {
         for language in [Language::English, Language::Chinese] {
-            // Some are plans, and some have nothing to plan with.
-            if let Ok(experiment) = calibrate::load(&file, Purpose::Calibrate) {
-                let result = calibrate::calibrate(&experiment).unwrap();
+            // Some are plans, some have nothing to plan with, and some leave coefficients open.
+            if let Ok(experiment) = calibrate::load(&file, Purpose::Calibrate)
+                && let Ok(result) = calibrate::calibrate(&experiment)
+            {
                 holds(
                     &of_calibration,
                     &calibration(&experiment, &result, language),

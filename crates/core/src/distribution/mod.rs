@@ -140,8 +140,11 @@ pub struct Entry {
     pub word: Word,
     stated: fn(&Given) -> Result<Parametric<Distribution>, ParameterError>,
     of_width: fn(Width, f64, &str) -> Result<Spread<Distribution>, ParameterError>,
-    between: fn(f64, f64) -> Option<(Spread<Distribution>, f64)>,
+    between: fn(f64, f64) -> Option<SpreadAndShift>,
 }
+
+/// A spread, and how far its expectation lies above the value of the quantity.
+type SpreadAndShift = (Spread<Distribution>, f64);
 
 impl Entry {
     const fn new<D: Univariate>() -> Entry

@@ -24,7 +24,7 @@ pub(super) trait Symmetric {
     }
 
     /// The x below which a fraction p lies.
-    fn from_below(&self, p: f64) -> f64 {
+    fn at_fraction_below(&self, p: f64) -> f64 {
         if p < 0.5 {
             self.on_side(p, -1.0)
         } else {
@@ -33,7 +33,7 @@ pub(super) trait Symmetric {
     }
 
     /// The x above which a fraction q lies.
-    fn from_above(&self, q: f64) -> f64 {
+    fn at_fraction_above(&self, q: f64) -> f64 {
         if q < 0.5 {
             self.on_side(q, 1.0)
         } else {
@@ -68,19 +68,16 @@ pub(super) trait Symmetric {
 macro_rules! symmetric {
     () => {
         fn shifted(&self, by: f64) -> Self {
-            Self {
-                lower: self.lower + by,
-                upper: self.upper + by,
-                ..*self
-            }
+            let mut shifted = *self;
+            shifted.lower += by;
+            shifted.upper += by;
+            shifted
         }
 
         fn mirrored(&self) -> Option<Self> {
-            Some(Self {
-                lower: -self.upper,
-                upper: -self.lower,
-                ..*self
-            })
+            let mut mirrored = *self;
+            (mirrored.lower, mirrored.upper) = (-self.upper, -self.lower);
+            Some(mirrored)
         }
 
         fn is_symmetric(&self) -> bool {
@@ -104,11 +101,11 @@ macro_rules! symmetric {
         }
 
         fn quantile(&self, p: f64) -> f64 {
-            self.from_below(p)
+            self.at_fraction_below(p)
         }
 
         fn upper_quantile(&self, q: f64) -> f64 {
-            self.from_above(q)
+            self.at_fraction_above(q)
         }
 
         fn support(&self) -> (f64, f64) {

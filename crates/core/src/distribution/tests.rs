@@ -597,7 +597,8 @@ fn quantiles_agree_with_statrs() {
     use statrs::distribution as peer;
     use statrs::distribution::ContinuousCDF;
 
-    let pairs: [(Distribution, Box<dyn Fn(f64) -> f64>); 6] = [
+    type Cdf = Box<dyn Fn(f64) -> f64>;
+    let pairs: [(Distribution, Cdf); 6] = [
         (Normal { mean: 1.0, sd: 2.0 }.into(), {
             let peer = peer::Normal::new(1.0, 2.0).unwrap();
             Box::new(move |x| peer.cdf(x))

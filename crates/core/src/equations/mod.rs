@@ -6,8 +6,8 @@
 //! any row. What a symbol stands for is the business of whoever fills the vector of values.
 //!
 //! ```
-//! use gumption::equations::{EquationText, Equations, Quantity};
-//! use gumption::quantity::UnitTable;
+//! use gumption_core::equations::{EquationText, Equations, Quantity};
+//! use gumption_core::quantity::UnitTable;
 //!
 //! let units = UnitTable::default();
 //! let quantity = |name: &str, unit: &str| {

@@ -26,8 +26,8 @@
 //! # A tour
 //!
 //! ```
-//! use gumption::quantity::UnitTable;
-//! use gumption::recording::{Average, Recording, Request, by_label};
+//! use gumption_core::quantity::UnitTable;
+//! use gumption_lab::recording::{Average, Recording, Request, by_label};
 //!
 //! let text = "time [s],position,U [mV]\n0,up,1.02\n1,up,1.00\n2,up,1.01\n3,down,-1.03\n4,down,-1.01\n";
 //! let requests = [

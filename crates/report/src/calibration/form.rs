@@ -350,7 +350,7 @@ form! {
         /// What.
         message: String = l.pick(finding.message(), finding.message_zh()),
         /// What to do.
-        advice: String = l.pick(finding.advice(), finding.advice_zh()).into(),
+        advice: String = l.pick(finding.advice(), finding.advice_zh()),
         /// Line of the file; 0 for the whole.
         line: usize = finding.line,
         /// How often.

@@ -66,7 +66,7 @@ impl Checker<'_> {
                     as_difference: false,
                 });
             } else {
-                let known = (input.value, error.common.hypot(error.by.1));
+                let known = (input.value, libm::hypot(error.common, error.by.1));
                 let per = (error.by.1 > 0.0).then(|| error.by.0.clone());
                 prior(&mut file, &input.name, &input.unit, known, per);
             }
@@ -77,19 +77,19 @@ impl Checker<'_> {
         for column in columns.iter_mut() {
             let error = Error::of(&doubts, &Target::Reading(column.name.clone()));
             let common = error.common;
-            let each = error.each.hypot(error.by.1);
+            let each = libm::hypot(error.each, error.by.1);
             if common > 0.0 {
-                column.u_common = Some(column.u_common.unwrap_or(0.0).hypot(common));
+                column.u_common = Some(libm::hypot(column.u_common.unwrap_or(0.0), common));
             }
             // What the residuals tell of the noise of an output holds its own errors already.
             if each > 0.0 && column.role != RoleWord::Output {
-                column.u = Some(column.u.unwrap_or(0.0).hypot(each));
+                column.u = Some(libm::hypot(column.u.unwrap_or(0.0), each));
             }
         }
         self.stated = columns
             .iter()
             .map(|column| Error::of(&doubts, &Target::Reading(column.name.clone())))
-            .map(|error| error.each.hypot(error.by.1))
+            .map(|error| libm::hypot(error.each, error.by.1))
             .collect();
         file
     }
@@ -121,10 +121,10 @@ impl Error {
         for doubt in &doubts.doubts {
             let u = effect(doubt, target);
             match &doubt.scope {
-                Scope::Common => error.common = error.common.hypot(u),
-                Scope::Each => error.each = error.each.hypot(u),
+                Scope::Common => error.common = libm::hypot(error.common, u),
+                Scope::Each => error.each = libm::hypot(error.each, u),
                 Scope::By(column) if u > 0.0 => {
-                    error.by = (column.clone(), error.by.1.hypot(u));
+                    error.by = (column.clone(), libm::hypot(error.by.1, u));
                 }
                 Scope::By(_) => {}
             }

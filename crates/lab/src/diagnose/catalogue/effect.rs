@@ -250,6 +250,10 @@ mod tests {
             };
             let mut found = Vec::new();
             for (name, text) in &files {
+                // There a word is a key of the user's file.
+                if name.starts_with("src/experiment/") {
+                    continue;
+                }
                 assert!(!text.contains(&quoted), "{name} has {id} as a text");
                 if names(text) {
                     let form = name.strip_prefix(FOLDER).unwrap_or(name);

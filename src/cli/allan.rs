@@ -41,7 +41,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Err(rejection) => return output::refused(&rejection, args.form.lang),
     };
     analysed(args, &recording)
-        .unwrap_or_else(|why| output::complain(&format!("{}: {why}", args.file.display())))
+        .unwrap_or_else(|why| output::complain(format!("{}: {why}", args.file.display())))
 }
 
 fn analysed(args: &Args, recording: &Recording) -> Result<Outcome, Complaint> {

@@ -77,7 +77,7 @@ fn budgets(args: &Args, experiment: &Experiment, found: &Calibration) -> Outcome
             Some((name, path)) => match names.iter().position(|other| *other == name) {
                 Some(place) => (vec![place], path),
                 None => {
-                    return output::complain(&format!(
+                    return output::complain(format!(
                         "there is no coefficient {name}; there are {}",
                         names.join(", ")
                     ));

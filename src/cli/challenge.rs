@@ -77,20 +77,20 @@ fn write(out: &Path, request: &Request) -> Outcome {
     let case = challenge(request);
     if let Some(further) = request.further.filter(|w| !w.is_possible(case.truth.rig)) {
         let rig = case.truth.rig.name();
-        return output::complain(&format!(
+        return output::complain(format!(
             "this case is a calibration on the rig {rig}, which cannot do `{further}`"
         ));
     }
     let handed_out = out.join("case");
     let truth_path = out.join("truth.json");
     if truth_path.exists() {
-        return output::complain(&format!(
+        return output::complain(format!(
             "{} exists already; a sealed truth is not overwritten, so give another folder",
             truth_path.display()
         ));
     }
     if let Err(error) = std::fs::create_dir_all(&handed_out) {
-        return output::complain(&format!(
+        return output::complain(format!(
             "cannot create the folder {}: {error}",
             handed_out.display()
         ));
@@ -101,7 +101,7 @@ fn write(out: &Path, request: &Request) -> Outcome {
         .map(|file| (handed_out.join(file.name), file.text))
         .collect();
     files.push((truth_path.clone(), case.truth_text.clone()));
-    output::replace_all(&files).max(output::print(&format!(
+    output::replace_all(&files).max(output::print(format!(
         "To hand out: {}\nTo keep:     {}\nSHA-256 of the truth, which the case file states too:\n{}\n",
         handed_out.display(),
         truth_path.display(),

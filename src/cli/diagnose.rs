@@ -86,7 +86,7 @@ fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis, document: &Document) 
 
 fn files(folder: &Path, contents: Vec<(String, String)>) -> Outcome {
     if let Err(error) = std::fs::create_dir_all(folder) {
-        return output::complain(&format!(
+        return output::complain(format!(
             "cannot create the folder {}: {error}",
             folder.display()
         ));

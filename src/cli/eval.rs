@@ -101,7 +101,7 @@ fn save(rows: &[Row], path: &Path, language: Language) -> Outcome {
     let folder = budget::Files::Disk.identity(folder);
     match report::saved(&reports, &folder) {
         Ok(text) => output::replace(path, text),
-        Err(why) => output::complain(&format!("nothing is saved: {why}")),
+        Err(why) => output::complain(format!("nothing is saved: {why}")),
     }
 }
 

@@ -85,7 +85,7 @@ impl Section {
 pub(super) fn run(args: &Args) -> Outcome {
     let topics = topics();
     if args.topic.is_empty() {
-        return output::print(&overview(&topics));
+        return output::print(overview(&topics));
     }
     let wanted = args.topic.join(" ");
     let section = Section::ALL
@@ -93,8 +93,8 @@ pub(super) fn run(args: &Args) -> Outcome {
         .find(|s| s.name() == folded(&wanted));
     if args.markdown {
         return match section {
-            Some(section) => output::print(&pages::page(section, &topics)),
-            None => output::complain(&format!(
+            Some(section) => output::print(pages::page(section, &topics)),
+            None => output::complain(format!(
                 "--markdown prints whole sections: {}",
                 Section::ALL.map(Section::name).join(", ")
             )),
@@ -103,9 +103,9 @@ pub(super) fn run(args: &Args) -> Outcome {
     let mut texts: Vec<String> = section.map(|s| listed(s, &topics)).into_iter().collect();
     texts.extend(found(&wanted, &topics).iter().map(|t| t.explained()));
     if texts.is_empty() {
-        return output::complain(&unknown(&wanted, &topics));
+        return output::complain(unknown(&wanted, &topics));
     }
-    output::print(&texts.join("\n"))
+    output::print(texts.join("\n"))
 }
 
 /// Everything of that name; in a section where `u` and `U` are two topics, the one that is spelt alike.

@@ -22,7 +22,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Outcome {
     match graded(args) {
         Ok(graded) => args.form.write(&grade::document(&graded, args.form.lang)),
-        Err(refused) => output::complain(&words(&refused)),
+        Err(refused) => output::complain(words(&refused)),
     }
 }
 

@@ -21,7 +21,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     let outcome = output::create(&args.path, template.as_ref());
     if outcome == Outcome::Done {
         let path = args.path.display();
-        return output::print(&format!(
+        return output::print(format!(
             "Wrote {path}. Edit it, then run `gumption eval {path}`.\n"
         ));
     }

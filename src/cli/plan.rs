@@ -24,17 +24,17 @@ pub(super) fn run(args: &Args) -> Outcome {
     let text = match std::fs::read(&args.file) {
         Ok(bytes) => bytes,
         Err(error) => {
-            return output::complain(&format!("cannot read {}: {error}", args.file.display()));
+            return output::complain(format!("cannot read {}: {error}", args.file.display()));
         }
     };
     match kind_of(&String::from_utf8_lossy(&text)) {
         Kind::Experiment => case(&args.file, &args.form),
         Kind::Schedule => calibrate::plan(&args.file, &args.form),
-        Kind::Budget => output::complain(&format!(
+        Kind::Budget => output::complain(format!(
             "{} is a budget, which has no design to plan; evaluate it with `gumption eval`",
             args.file.display()
         )),
-        Kind::Unknown => output::complain(&format!(
+        Kind::Unknown => output::complain(format!(
             "{} is no experiment: it would have `equations` or a `procedure`",
             args.file.display()
         )),

@@ -51,5 +51,5 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Grade => challenge::grade::grade_schema(),
         Which::Verification => report::verification_schema(),
     };
-    output::print(&format!("{schema:#}\n"))
+    output::print(format!("{schema:#}\n"))
 }

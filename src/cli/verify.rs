@@ -71,7 +71,7 @@ fn missing_claims(args: &Args, verification: &Verification) -> Outcome {
     if names.is_empty() || args.files.is_empty() {
         Outcome::Done
     } else if verification.examples.is_empty() {
-        output::complain(&format!(
+        output::complain(format!(
             "nothing to compare: no [claim] in {names} (docs/budget-file.md, Claims)"
         ))
     } else {
@@ -177,7 +177,7 @@ fn outcome(verification: &Verification) -> Outcome {
 
 fn write_dossier(folder: &Path, verification: &Verification, language: Language) -> Outcome {
     if let Err(error) = std::fs::create_dir_all(folder) {
-        return output::complain(&format!(
+        return output::complain(format!(
             "cannot create the folder {}: {error}",
             folder.display()
         ));

@@ -156,7 +156,7 @@ fn tables() -> String {
     }
     text += "\n| crate | module | uses of its crate |\n|---|---|---|\n";
     for krate in CRATES {
-        for (module, used) in folders(&sources(krate)) {
+        for (module, used) in folders(sources(krate)) {
             let used: Vec<&str> = used.iter().map(String::as_str).collect();
             let _ = writeln!(text, "| {krate} | {module} | {} |", used.join(", "));
         }

@@ -83,9 +83,7 @@ impl Sources {
                 // A crate that the root imports under its name is none of its modules.
                 break;
             };
-            let Some((next, further)) = self.resolve(&target, origin) else {
-                return None;
-            };
+            let (next, further) = self.resolve(&target, origin)?;
             rest = [&further[..], &rest[1..]].concat();
             target = next;
         }

@@ -1,6 +1,6 @@
 //! Evaluation of a budget: GUM (first and second order) and Monte Carlo, side by side.
 //!
-//! [`evaluate`] gives one [`Evaluation`], from which every renderer of [`crate::report`] draws.
+//! [`evaluate`] gives one [`Evaluation`], from which every report draws.
 
 mod claims;
 mod covariance;

@@ -1,7 +1,7 @@
 //! Saved results: what `gumption eval --save` writes and `from = { result = … }` reads.
 //!
 //! A result is saved in linear form, y + Σ c·E over the elementary components E of its budget, each with the
-//! file that states it and its name there ([`Identity`](crate::budget::chain::Identity)). Two results that are read
+//! file that states it and its name there ([`Identity`]). Two results that are read
 //! back are therefore correlated as they were, and so are a saved result and a budget that uses the same
 //! files directly. Numbers read back as the same doubles.
 

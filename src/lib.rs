@@ -132,11 +132,11 @@
 //! | [`least_squares`] | parameters of a response from observed points |
 //! | [`model`] | the model language: text → checked program → values, derivatives, blocks |
 //! | [`equations`] | measurement equations over rows of data |
-//! | [`budget`] | the file format and the checked budget |
+//! | [`mod@budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
-//! | [`calibrate`] | recordings and measurement equations → coefficients |
-//! | [`diagnose`] | which physics a measurement model left out of a recording |
+//! | [`mod@calibrate`] | recordings and measurement equations → coefficients |
+//! | [`mod@diagnose`] | which physics a measurement model left out of a recording |
 //! | [`challenge`] | sealed cases with something concealed, and the grading of a diagnosis |
 //! | [`verify`] | published examples held against their published figures |
 //! | [`document`] | what every command composes: blocks for people, a typed form for machines |

@@ -7,7 +7,9 @@ use gumption::budget::KeyRow;
 use gumption::distribution::Kind;
 use gumption::distribution::stating::Word;
 use gumption::fault::{Code, nearest};
-use gumption::{budget, calibrate, diagnose, distribution, equations, model, quantity, recording};
+use gumption::{
+    budget, calibrate, diagnose, distribution, equations, experiment, model, quantity, recording,
+};
 
 use super::concepts::CONCEPTS;
 use super::{Outcome, output};
@@ -324,6 +326,7 @@ fn codes() -> impl Iterator<Item = &'static Code> {
         quantity::faults::CODES,
         recording::faults::CODES,
         equations::faults::CODES,
+        experiment::faults::CODES,
         calibrate::faults::CODES,
         diagnose::faults::CODES,
     ];

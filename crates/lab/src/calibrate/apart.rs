@@ -1,8 +1,8 @@
 //! Points that stand apart from all others.
 
-use super::calibration::Residual;
-use super::experiment::Words;
+use super::residual::Residual;
 use super::scatter::ResponseScatter;
+use super::words::Words;
 use crate::special::student_t_sf;
 
 /// A point whose residual the scatter of the others does not explain.

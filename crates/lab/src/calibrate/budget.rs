@@ -6,8 +6,9 @@
 
 use std::fmt::Write;
 
-use super::calibration::{Calibration, Coefficient};
-use super::causes::{Cause, Origin};
+use super::calibration::Calibration;
+use super::cause::{Cause, Origin};
+use super::coefficient::Coefficient;
 use super::components::lower_factor;
 use super::experiment::{Doubt, Experiment, Scope};
 use crate::budget::writing::{key, quoted};

@@ -3,18 +3,21 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::apart::{Apart, apart};
-use super::causes::{Cause, Contribution, causes};
-use super::experiment::{Experiment, Scatter, Weights, Words};
+use super::cause::{Cause, Contribution};
+use super::causes::causes;
+use super::coefficient::Coefficient;
+use super::experiment::{Experiment, Scatter, Weights};
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
 use super::limits::{Limit, limits};
+use super::residual::Residual;
 use super::scatter::{ResponseScatter, Scatters, weights};
 use super::signs::reversed;
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
 use super::trouble::Trouble;
+use super::words::Words;
 use crate::least_squares::Solution;
-use crate::quantity::Unit;
 use crate::special::{student_t_sf, student_t_two_sided_quantile};
 
 /// A calibration that was evaluated.
@@ -62,36 +65,6 @@ pub struct Figures {
     pub covariance: DMatrix<f64>,
     /// What their uncertainty comes from.
     pub causes: Vec<Cause>,
-}
-
-/// A coefficient.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Coefficient {
-    /// As the equations call it.
-    pub name: String,
-    /// What it is.
-    pub description: Option<Words>,
-    /// Its unit.
-    pub unit: Unit,
-    /// Estimate; for a plan, the value that was assumed.
-    pub value: f64,
-    /// Standard uncertainty.
-    pub u: f64,
-    /// Effective degrees of freedom (GUM G.4.1).
-    pub dof: f64,
-    /// Coverage factor.
-    pub k: f64,
-    /// The probability that a coefficient that is zero comes out as far from it (two-sided t test).
-    pub p_value: f64,
-}
-
-impl Coefficient {
-    /// Whether it differs from zero beyond chance; `None` where no test says so.
-    pub fn is_significant(&self) -> Option<bool> {
-        /// Usual level of a test.
-        const RARE: f64 = 0.05;
-        (!self.p_value.is_nan()).then_some(self.p_value < RARE)
-    }
 }
 
 impl Figures {
@@ -171,21 +144,6 @@ impl PartScatter {
             range: range.map_or(f64::NAN, |(most, least)| most - least),
         }
     }
-}
-
-/// What is left of a reading.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Residual {
-    /// The point.
-    pub point: Words,
-    /// The response.
-    pub response: String,
-    /// What was read.
-    pub observed: f64,
-    /// What the equation gives.
-    pub fitted: f64,
-    /// Their difference over its standard deviation, s·√(1 − h); NaN where that is zero.
-    pub standardised: f64,
 }
 
 /// The values of the coefficients alone, parameters first.

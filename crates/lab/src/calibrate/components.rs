@@ -2,12 +2,13 @@
 
 use nalgebra::DMatrix;
 
-use super::define::{Definer, entries};
-use super::doubts::Known;
+use super::definer::Definer;
 use super::experiment::{Act, Doubt, Scope, Target};
 use super::faults::KEY;
+use super::known::Known;
 use crate::budget::{Budget, Evaluation, Group, Owner};
 use crate::distribution::{Distribution, Normal};
+use crate::experiment::source::entries;
 use crate::experiment::tables::ScopeWord;
 use crate::fault::Fault;
 use crate::quantity::Unit;

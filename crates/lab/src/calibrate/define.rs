@@ -6,37 +6,29 @@
 use std::path::Path;
 
 use super::data;
+use super::definer::Definer;
 use super::doubts::{self, Doubts};
 use super::experiment::{
     Act, Doubt, Experiment, Heading, Input, Observed, Parameter, Scatter, Scope, Target, Weights,
-    Words,
 };
-use super::faults::{KEY, NO_EQUATIONS, NO_PARAMETERS, UNIT};
+use super::faults::{KEY, NO_EQUATIONS, NO_PARAMETERS};
 use super::names::{Kind, Names};
 use super::points::Points;
 use super::positions;
+use super::purpose::Purpose;
+use super::symbols::{equation_text, quantity};
+use super::words::words;
 use super::{inferred, prior};
 use crate::budget::doubts::text_of;
 use crate::budget::{Evaluation, Rejection, Remark};
 use crate::distribution::{Distribution, Normal};
 use crate::equations::{EquationText, Equations, Quantity};
-pub(super) use crate::experiment::source::entries;
-use crate::experiment::source::{self, Source};
+use crate::experiment::source::{self, Source, entries};
 use crate::experiment::tables::{ExperimentTable, NoiseWord, WeightsWord};
 use crate::fault::Fault;
 use crate::model::{Role, Symbol, outline};
 use crate::quantity::{Unit, UnitTable};
-use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
-
-/// What an experiment is read for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Purpose {
-    /// Its readings.
-    Calibrate,
-    /// Its schedule, before there are readings.
-    Plan,
-}
 
 /// Reads and checks a calibration file and what it names.
 ///
@@ -119,13 +111,6 @@ pub(crate) fn doubts_of(
         Some(doubts) if definer.faults.is_empty() => Ok(doubts),
         _ => Err(definer.faults),
     }
-}
-
-/// What all checks share.
-pub(super) struct Definer<'s> {
-    pub units: UnitTable,
-    pub faults: Vec<Fault>,
-    pub source: &'s Source,
 }
 
 impl Definer<'_> {
@@ -359,74 +344,6 @@ impl Definer<'_> {
         responses
     }
 
-    /// The unit of a response that is not recorded yet, for its errors.
-    pub(super) fn response_unit(&self, name: &str) -> Unit {
-        self.planned_unit(name).unwrap_or_else(Unit::one)
-    }
-
-    /// The unit of a response that is not recorded yet.
-    fn planned_unit(&self, name: &str) -> Option<Unit> {
-        let table = &self.source.table;
-        let column = entries(&table.columns)
-            .iter()
-            .find(|(other, _)| other == name);
-        let reading = entries(&table.reading)
-            .iter()
-            .find(|(other, _)| other == name);
-        let stated = column
-            .and_then(|(_, entry)| entry.value.0.unit.as_ref())
-            .or_else(|| reading.and_then(|(_, entry)| entry.value.input.unit.as_ref()))
-            .or_else(|| column.and_then(|(_, entry)| entry.value.0.like.as_ref()));
-        stated.map_or_else(
-            || Some(Unit::one()),
-            |stated| self.units.parse(&stated.value).ok(),
-        )
-    }
-
-    /// A stated unit.
-    pub(super) fn unit(&mut self, stated: &Stated<String>) -> Option<Unit> {
-        match self.units.parse(&stated.value) {
-            Ok(unit) => Some(unit),
-            Err(error) => {
-                self.faults
-                    .push(Fault::from(error).moved(|_| stated.span.clone()));
-                None
-            }
-        }
-    }
-
-    /// A stated amount in a unit.
-    pub(super) fn amount(&mut self, stated: &Stated<Amount>, unit: &Unit) -> Option<f64> {
-        let Some((text, place)) = &stated.value.unit else {
-            return Some(stated.value.number);
-        };
-        let own = match self.units.parse(text) {
-            Ok(own) => own,
-            Err(error) => {
-                self.faults
-                    .push(Fault::from(error).moved(|_| place.clone()));
-                return None;
-            }
-        };
-        // A size of 1 °C where the quantity is in K is a difference.
-        let own = match unit.is_point() {
-            true => own,
-            false => own.difference(),
-        };
-        let converted = own.conversion_to(unit);
-        if converted.is_none() {
-            self.faults.push(
-                Fault::new(
-                    UNIT,
-                    place.clone(),
-                    format!("{} cannot be converted to {}", own.symbol, unit.symbol),
-                )
-                .label(format!("expected {} or a unit like it", unit.symbol)),
-            );
-        }
-        converted.map(|conversion| conversion.apply(stated.value.number))
-    }
-
     /// The outputs of a procedure of the library are alike; a remark where their units are not.
     fn unlike(&self, responses: &[Quantity]) -> Option<Remark> {
         self.source.procedure.as_ref()?;
@@ -561,35 +478,4 @@ fn unused(name: &str, place: std::ops::Range<usize>, what: &str) -> Fault {
     )
     .label("not used")
     .help("use it in an equation, or remove it")
-}
-
-pub(super) fn equation_text(stated: &Stated<String>) -> EquationText<'_> {
-    EquationText {
-        text: &stated.value,
-        at: stated.span.clone(),
-    }
-}
-
-pub(super) fn words(en: &Option<Stated<String>>, zh: &Option<Stated<String>>) -> Option<Words> {
-    let en = en.as_ref()?.value.clone();
-    let zh = zh
-        .as_ref()
-        .map_or_else(|| en.clone(), |zh| zh.value.clone());
-    Some(Words { en, zh })
-}
-
-pub(super) fn quantity(name: &str, unit: &Unit) -> Quantity {
-    Quantity {
-        name: name.to_owned(),
-        unit: unit.clone(),
-    }
-}
-
-/// A symbol for the inference of units, where its place does not matter.
-pub(super) fn symbol(quantity: Quantity) -> Symbol {
-    Symbol {
-        name: quantity.name,
-        unit: quantity.unit,
-        role: Role::Input(0),
-    }
 }

@@ -7,10 +7,12 @@
 use std::path::Path;
 
 use super::components;
-use super::define::{Definer, entries, words};
+use super::definer::Definer;
 use super::experiment::{Doubt, Input, Prior};
 use super::faults::{KEY, STATE_INPUT};
+use super::known::Known;
 use super::names::{Kind, Names};
+use super::words::words;
 use crate::budget::doubts::checked;
 use crate::budget::tables::{ConstantEntry, Sources};
 use crate::budget::tables::{
@@ -18,6 +20,7 @@ use crate::budget::tables::{
 };
 use crate::budget::{Budget, Remark};
 use crate::equations::Quantity;
+use crate::experiment::source::entries;
 use crate::experiment::tables::{KnownTable, SharedTable};
 use crate::fault::Fault;
 use crate::model::{Role, Symbol};
@@ -34,36 +37,6 @@ pub(crate) struct Doubts {
     pub constants: Vec<(String, Unit, Vec<f64>)>,
     pub coverage_probability: f64,
     pub remarks: Vec<Remark>,
-}
-
-/// A quantity before its check.
-pub(super) struct Known<'t> {
-    pub name: &'t str,
-    pub entry: &'t Stated<KnownTable>,
-    unit: Unit,
-    /// Its unit in the unit of the readings; 1 for inputs.
-    pub factor: f64,
-    pub is_reading: bool,
-}
-
-impl Known<'_> {
-    /// Readings and inputs may have the same name; in the budget they may not.
-    pub fn own_name(&self) -> String {
-        match self.is_reading {
-            true => format!("{}_reading", self.name),
-            false => self.name.to_owned(),
-        }
-    }
-
-    fn table(&self) -> &InputTable {
-        &self.entry.value.input
-    }
-
-    /// Whether nothing doubts it.
-    fn is_exact(&self) -> bool {
-        let table = self.table();
-        table.components.is_none() && table.component.present.is_empty()
-    }
 }
 
 /// Checks `[input]`, `[reading]` and `[constant]`.

@@ -1,7 +1,7 @@
 //! From the samples of a recording to the averages of its dwells.
 
-use super::experiment::Words;
 use super::points::{PointColumn, Points};
+use super::words::Words;
 use crate::quantity::Unit;
 use crate::recording::{
     Average, Column, Cut, Data, Dwell, Finding, Labels, Problem, Recording, Settling, Steps,

@@ -1,19 +1,11 @@
 //! A checked experiment: points, equations, what is estimated and what is doubted.
 
 use super::points::Points;
+use super::words::Words;
 use crate::budget::{Evaluation, Remark};
 use crate::distribution::Distribution;
 use crate::equations::{Equations, Quantity};
 use crate::quantity::{Unit, UnitTable};
-
-/// A text in both languages; Chinese is the English one where nobody has translated it.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Words {
-    /// English.
-    pub en: String,
-    /// Chinese.
-    pub zh: String,
-}
 
 /// What is said of a calibration besides numbers.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -259,21 +251,6 @@ impl Experiment {
             separately: None,
             same_sign: self.same_sign.clone(),
             ..self.clone()
-        }
-    }
-}
-
-impl Words {
-    /// In both languages.
-    pub fn new(en: String, zh: String) -> Words {
-        Words { en, zh }
-    }
-
-    /// The same in both languages.
-    pub fn plain(text: &str) -> Words {
-        Words {
-            en: text.to_owned(),
-            zh: text.to_owned(),
         }
     }
 }

@@ -1,9 +1,12 @@
 //! Omitted effects and results: what a file says besides its equations.
 
-use super::define::{Definer, entries, equation_text, quantity, symbol, words};
+use super::definer::Definer;
 use super::experiment::{FunctionResult, Input, Omitted, Parameter};
 use super::faults::{RESULT, TERM};
+use super::symbols::{equation_text, quantity, symbol};
+use super::words::words;
 use crate::equations::{EquationText, Equations, Quantity};
+use crate::experiment::source::entries;
 use crate::fault::Fault;
 use crate::model::{Symbol, outline};
 use crate::quantity::Unit;

@@ -3,8 +3,6 @@
 use crate::fault::codes;
 
 codes! {
-    NO_PROCEDURE = "C0101", "a procedure is not in the library", "内置库中没有该测量程序",
-        "`procedure` names a procedure of the library. A file without it states its own `equations`.";
     NO_EQUATIONS = "C0102", "a calibration has no equations", "校准文件没有给出测量方程",
         "What is observed, and how it depends on the coefficients, is said by `equations`, or by a `procedure` of the library.\n\n    equations = [\"U = K*omega + b\"]";
     NO_PARAMETERS = "C0103", "a calibration estimates nothing", "校准文件没有待求的参数",

@@ -1,7 +1,7 @@
 //! Averages that an instrument could not exceed.
 
-use super::experiment::Words;
 use super::stack::{Row, Stack};
+use super::words::Words;
 use crate::least_squares::Solution;
 
 /// A value at which readings of a response stay, although its equation says that they differ.

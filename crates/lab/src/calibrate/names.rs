@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::define::{Definer, Purpose, entries};
+use super::definer::Definer;
 use super::faults::NAME_TWICE;
+use super::purpose::Purpose;
+use crate::experiment::source::entries;
 use crate::fault::Fault;
 use crate::model::outline;
 use gumption_format::toml::Stated;

@@ -1,10 +1,13 @@
 //! Parameters and their units: stated, like other quantities, or as the equations determine them.
 
-use super::define::{Definer, entries, quantity, symbol, words};
+use super::definer::Definer;
 use super::doubts::Doubts;
 use super::experiment::Parameter;
 use super::faults::UNIT;
+use super::symbols::{quantity, symbol};
+use super::words::words;
 use crate::equations::Quantity;
+use crate::experiment::source::entries;
 use crate::fault::Fault;
 use crate::model::{Symbol, outline};
 use crate::quantity::Unit;

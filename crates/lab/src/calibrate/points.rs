@@ -1,6 +1,6 @@
 //! The points of an experiment: what was set and what was read, once for each.
 
-use super::experiment::Words;
+use super::words::Words;
 use crate::quantity::Unit;
 use crate::recording::{Average, Data, Finding, Labels, Recording};
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::define::Definer;
+use super::definer::Definer;
 use super::faults::POSITION;
 use super::points::{PointColumn, Points};
 use crate::experiment::tables::PositionsTable;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::causes::{Cause, Origin};
+use super::cause::{Cause, Origin};
 use super::experiment::{Experiment, Observed, Scatter, Scope, Target, Weights};
 use super::gain::{Gain, levels};
 use super::stack::{Row, Stack};

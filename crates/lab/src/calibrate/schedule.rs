@@ -1,11 +1,12 @@
 //! The points of an experiment that is planned.
 
-use super::data::label_columns;
-use super::define::{Definer, entries};
-use super::experiment::Words;
+use super::definer::Definer;
 use super::faults::SCHEDULE;
+use super::label_columns::label_columns;
 use super::names::Names;
 use super::points::{PointColumn, Points};
+use super::words::Words;
+use crate::experiment::source::entries;
 use crate::fault::Fault;
 use crate::quantity::Unit;
 use crate::recording::{Heading, Labels};

@@ -1,6 +1,6 @@
 //! Coefficients whose sign is not that of others like them: the two ways of an axis in each other's place.
 
-use super::calibration::Coefficient;
+use super::coefficient::Coefficient;
 
 /// So many standard uncertainties must a coefficient be from zero for its sign to tell something.
 const SURE: f64 = 5.0;

@@ -3,8 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::experiment::{Experiment, Observed, Target};
+use super::identify::combinations;
 use super::trouble::Trouble;
-use crate::least_squares::{Errors, Problem, Response, Scale, Solution, Spread, solve};
+use super::words::Words;
+use crate::least_squares::{Errors, Failure, Problem, Response, Scale, Solution, Spread, solve};
 
 /// One observed value: a response in a point, or what is known of a parameter beforehand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -190,7 +192,41 @@ impl<'e> Stack<'e> {
             x,
             start,
         };
-        solve(&problem).map_err(|failure| Trouble::of(failure, self))
+        solve(&problem).map_err(|failure| self.trouble(failure))
+    }
+
+    /// Why least squares refuses these readings.
+    fn trouble(&self, failure: Failure) -> Trouble {
+        match failure {
+            Failure::TooFewPoints { points, parameters } => Trouble::TooFew {
+                readings: points,
+                parameters,
+            },
+            Failure::Indistinct { .. } => {
+                let ones = vec![1.0; self.rows.len()];
+                let at = self
+                    .start()
+                    .unwrap_or_else(|_| vec![1.0; self.experiment.parameters.len()]);
+                let jacobian = self.jacobian(&at, &ones);
+                Trouble::Undetermined {
+                    combinations: combinations(&jacobian, &self.experiment.parameters),
+                }
+            }
+            Failure::Undefined { point } | Failure::NotFinite { point, .. } => {
+                let (point, response) = match self.rows.get(point) {
+                    Some(Row::Reading { point, response }) => (
+                        self.experiment.points.names[*point].clone(),
+                        self.experiment.equations.responses()[*response]
+                            .name
+                            .clone(),
+                    ),
+                    _ => (Words::default(), String::new()),
+                };
+                Trouble::Undefined { point, response }
+            }
+            Failure::NoConvergence { iterations, .. } => Trouble::NoConvergence { iterations },
+            _ => Trouble::Unsolvable,
+        }
     }
 
     /// Where the search begins: stated values, zero for some of the others, and for the rest, which enter

@@ -2,10 +2,11 @@
 
 use nalgebra::DMatrix;
 
-use super::experiment::{Experiment, Words};
+use super::experiment::Experiment;
 use super::gain::Gain;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
+use super::words::Words;
 use crate::least_squares::Solution;
 
 /// Larger experiments are not searched: their pairs are too many.

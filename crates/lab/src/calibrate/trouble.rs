@@ -1,11 +1,9 @@
 //! Why an experiment gives no coefficients.
 
-use super::experiment::Words;
 use super::faults::{SCATTER, START, TOO_FEW};
-use super::identify::{Combination, combinations};
-use super::stack::Stack;
+use super::identify::Combination;
+use super::words::Words;
 use crate::fault::Code;
-use crate::least_squares::Failure;
 
 /// Why an experiment gives no coefficients.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,39 +78,6 @@ impl Trouble {
             | Trouble::Undefined { .. }
             | Trouble::NoConvergence { .. }
             | Trouble::Unsolvable => None,
-        }
-    }
-
-    pub(super) fn of(failure: Failure, stack: &Stack<'_>) -> Trouble {
-        match failure {
-            Failure::TooFewPoints { points, parameters } => Trouble::TooFew {
-                readings: points,
-                parameters,
-            },
-            Failure::Indistinct { .. } => {
-                let ones = vec![1.0; stack.rows.len()];
-                let at = stack
-                    .start()
-                    .unwrap_or_else(|_| vec![1.0; stack.experiment.parameters.len()]);
-                let jacobian = stack.jacobian(&at, &ones);
-                Trouble::Undetermined {
-                    combinations: combinations(&jacobian, &stack.experiment.parameters),
-                }
-            }
-            Failure::Undefined { point } | Failure::NotFinite { point, .. } => {
-                let (point, response) = match stack.rows.get(point) {
-                    Some(super::stack::Row::Reading { point, response }) => (
-                        stack.experiment.points.names[*point].clone(),
-                        stack.experiment.equations.responses()[*response]
-                            .name
-                            .clone(),
-                    ),
-                    _ => (Words::default(), String::new()),
-                };
-                Trouble::Undefined { point, response }
-            }
-            Failure::NoConvergence { iterations, .. } => Trouble::NoConvergence { iterations },
-            _ => Trouble::Unsolvable,
         }
     }
 }

@@ -8,6 +8,7 @@
 //! | `source` | the tables of a file over those of its procedure |
 
 pub mod entries;
+pub mod faults;
 mod hints;
 pub mod procedure;
 pub(crate) mod source;

@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 
 use super::entries::Short;
+use super::faults::NO_PROCEDURE;
 use super::hints::HINTS;
 use super::procedure::{PROCEDURES, procedure_named};
 use super::tables::ExperimentTable;
 use crate::budget::faults::UNUSED;
-use crate::calibrate::faults::NO_PROCEDURE;
 use crate::fault::{Fault, nearest};
 use gumption_format::toml::Named;
 use gumption_format::toml::tables_of;

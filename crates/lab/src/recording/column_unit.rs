@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::faults::{NO_UNIT, UNIT, UNIT_CLASH};
 use super::heading::Heading;
-use super::reader::Request;
+use super::request::Request;
 use crate::fault::Fault;
 use crate::quantity::{Unit, hint_for_clash};
 

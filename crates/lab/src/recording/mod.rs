@@ -58,6 +58,7 @@ mod heading;
 mod noise;
 mod power_law;
 mod reader;
+mod request;
 mod segment;
 mod sheet;
 #[cfg(test)]
@@ -70,8 +71,8 @@ pub use checks::{Checks, Finding, Problem, Severity, check};
 pub use heading::Heading;
 pub use noise::{Coefficient, Noises};
 pub use power_law::PowerLaw;
-pub use reader::text_of;
-pub use reader::{Content, Request, headings};
+pub use reader::{headings, text_of};
+pub use request::{Content, Request};
 pub use segment::{Cut, Dwell, Settling, Steps, Stillness, by_label, by_steps, by_stillness};
 pub use sheet::{Row, Sheet};
 

@@ -1,6 +1,6 @@
 //! Further measurements that the user could make.
 
-use super::check::Checker;
+use super::checker::Checker;
 use super::rows::{Complete, Rows, continued};
 use super::{Action, Column, Data};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};

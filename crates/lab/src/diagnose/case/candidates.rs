@@ -1,6 +1,6 @@
 //! The user's own explanations.
 
-use super::check::Checker;
+use super::checker::Checker;
 use super::declared::Declared;
 use super::{Column, UserCandidate};
 use crate::diagnose::faults::{CANDIDATE, UNKNOWN_NAME};

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::check::Checker;
+use super::checker::Checker;
 use super::{Column, Data, Purpose};
 use crate::budget::writing::key;
 use crate::diagnose::faults::{TOO_FEW, UNKNOWN_NAME};

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::check::Checker;
+use super::checker::Checker;
+use super::models::Models;
 use super::parameters::{Named, inferred_units, no_start, parameter, startable};
 use super::{Column, Data, Observed, Parameter, Response};
 use crate::diagnose::faults::{LEFT_SIDE, ROLE, UNKNOWN_NAME};
@@ -12,7 +13,6 @@ use crate::experiment::tables::ExperimentTable;
 use crate::fault::{Fault, nearest};
 use crate::model::faults::{CLASH, EXPONENT, NOT_ONE, POINT, RESERVED, RESULT_UNIT};
 use crate::model::{Outline, Role as SymbolRole, Symbol, outline};
-use gumption_format::toml::OneOrMany;
 use gumption_format::toml::Stated;
 
 /// The declared model of a case.
@@ -21,8 +21,6 @@ pub(super) struct Declared {
     pub responses: Vec<Response>,
     pub equations: Equations,
 }
-
-pub(super) type Models = Stated<OneOrMany<String>>;
 
 /// Reads the models. Where they use a temperature with an origin like an amount, as in `t = a + b * ref`
 /// with both in °C, the columns count as differences from 0 °C.

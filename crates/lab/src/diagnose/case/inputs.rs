@@ -3,7 +3,7 @@
 
 use gumption_format::toml::{Amount, Named, Stated};
 
-use super::check::Checker;
+use super::checker::Checker;
 use super::{Column, Data};
 use crate::calibrate::{Doubt, Doubts, Scope, Target, doubts_of};
 use crate::equations::Quantity;

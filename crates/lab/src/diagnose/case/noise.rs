@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::at_rest::hours;
-use super::check::Checker;
+use super::checker::Checker;
 use super::declared::Declared;
 use super::{Column, NoiseClaim, NoiseOrigin, Observed, Response};
 use crate::diagnose::faults::{NOISE, SETTING};

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::check::Checker;
-use super::declared::Models;
+use super::checker::Checker;
+use super::models::Models;
 use super::{Column, Data, Parameter, Purpose, Response};
 use crate::diagnose::faults::{MISSING, PER, START};
 use crate::equations::{EquationText, Equations, Quantity};

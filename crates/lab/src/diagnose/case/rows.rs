@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::check::Checker;
+use super::checker::Checker;
 use super::{Case, Column, Data, HeldOut};
 use crate::diagnose::faults::{MISSING, ROWS};
 use crate::experiment::entries::RoleWord;

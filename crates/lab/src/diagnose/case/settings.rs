@@ -1,6 +1,6 @@
 //! How rows are averaged, and how the diagnosis is run.
 
-use super::check::Checker;
+use super::checker::Checker;
 use super::{Averaging, Blocks, Column, Role, Settings};
 use crate::diagnose::catalogue::effects;
 use crate::diagnose::faults::{ROLE, SETTING, UNKNOWN_NAME};

@@ -1,0 +1,36 @@
+//! An input or a reading before its check.
+
+use crate::budget::tables::InputTable;
+use crate::experiment::tables::KnownTable;
+use crate::quantity::Unit;
+use gumption_format::toml::Stated;
+
+/// A quantity before its check.
+pub(super) struct Known<'t> {
+    pub name: &'t str,
+    pub entry: &'t Stated<KnownTable>,
+    pub unit: Unit,
+    /// Its unit in the unit of the readings; 1 for inputs.
+    pub factor: f64,
+    pub is_reading: bool,
+}
+
+impl Known<'_> {
+    /// Readings and inputs may have the same name; in the budget they may not.
+    pub fn own_name(&self) -> String {
+        match self.is_reading {
+            true => format!("{}_reading", self.name),
+            false => self.name.to_owned(),
+        }
+    }
+
+    pub fn table(&self) -> &InputTable {
+        &self.entry.value.input
+    }
+
+    /// Whether nothing doubts it.
+    pub fn is_exact(&self) -> bool {
+        let table = self.table();
+        table.components.is_none() && table.component.present.is_empty()
+    }
+}

@@ -1,0 +1,31 @@
+//! Symbols and texts of equations from what a file states.
+
+use crate::equations::{EquationText, Quantity};
+use crate::model::{Role, Symbol};
+use crate::quantity::Unit;
+use gumption_format::toml::Stated;
+
+/// An equation and its place.
+pub(super) fn equation_text(stated: &Stated<String>) -> EquationText<'_> {
+    EquationText {
+        text: &stated.value,
+        at: stated.span.clone(),
+    }
+}
+
+/// A name with its unit.
+pub(super) fn quantity(name: &str, unit: &Unit) -> Quantity {
+    Quantity {
+        name: name.to_owned(),
+        unit: unit.clone(),
+    }
+}
+
+/// A symbol for the inference of units, where its place does not matter.
+pub(super) fn symbol(quantity: Quantity) -> Symbol {
+    Symbol {
+        name: quantity.name,
+        unit: quantity.unit,
+        role: Role::Input(0),
+    }
+}

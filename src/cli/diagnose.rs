@@ -38,6 +38,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     if let Some(seed) = args.seed {
         case.settings.seed = seed;
     }
+    remarks(&case, args.form.lang);
     let steps = Steps::shown("diagnosis");
     let found = diagnose::diagnose(&case, &|share| steps.at(share));
     drop(steps);
@@ -48,6 +49,16 @@ pub(super) fn run(args: &Args) -> Outcome {
             args.form.write(&document).max(beside)
         }
         Err(failure) => failed(&args.case, &case, &failure, args.form.lang),
+    }
+}
+
+/// Says what the file states and the command does not use.
+pub(super) fn remarks(case: &Case, lang: Language) {
+    for remark in &case.remarks {
+        output::warn(&match lang {
+            Language::English => format!("note: {}\n", remark.en),
+            Language::Chinese => format!("注：{}\n", remark.zh),
+        });
     }
 }
 

@@ -46,6 +46,7 @@ fn case(file: &Path, form: &Form) -> Outcome {
         Ok(case) => case,
         Err(rejection) => return output::refused(&rejection, form.lang),
     };
+    super::diagnose::remarks(&case, form.lang);
     let steps = Steps::shown("plan");
     let found = diagnose::plan(&case, &|share| steps.at(share));
     drop(steps);

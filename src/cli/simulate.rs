@@ -6,7 +6,7 @@ use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Failure, simulate};
 use gumption::report::{self, Language};
 
-use super::diagnose::failed;
+use super::diagnose::{failed, remarks};
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -27,6 +27,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Ok(case) => case,
         Err(rejection) => return output::refused(&rejection, Language::English),
     };
+    remarks(&case, Language::English);
     match simulate(&case, args.seed) {
         Ok(simulation) => {
             let noise = report::assumed_noise(&case, &simulation.noise, Language::English);

@@ -10,6 +10,7 @@ mod common;
 
 mod gyros;
 mod library;
+mod refusals;
 mod reports;
 mod rest;
 mod studies;

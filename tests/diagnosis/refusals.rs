@@ -192,3 +192,23 @@ fn noise_that_is_stated_twice_is_told_by_both() {
         "{text}"
     );
 }
+
+#[test]
+fn what_only_a_calibration_uses_is_remarked_on() {
+    let folder = folder("disused");
+    std::fs::write(folder.join("run.csv"), recording(|_, _| None)).expect("written");
+    let case = CASE.replace(
+        "recording = \"run.csv\"",
+        "recording = { file = \"run.csv\", together = [\"run\"] }\nseparately = \"run\"",
+    );
+    std::fs::write(folder.join("case.toml"), case).expect("written");
+    let output = crate::common::program()
+        .current_dir(&folder)
+        .args(["simulate", "case.toml"])
+        .output()
+        .expect("the program runs");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    for key in ["`together` of the recording", "`separately`"] {
+        assert!(said.contains(key), "{said}");
+    }
+}

@@ -265,11 +265,11 @@ fn every_finding_is_in_the_page_of_the_results() {
 }
 
 #[test]
-fn every_profile_is_in_the_page_of_the_budget_file() {
-    let page = read("docs/budget-file.md");
+fn every_profile_is_in_the_page_of_profiles() {
+    let page = read("docs/reference/profiles.md");
     for profile in budget::PROFILES {
         assert!(
-            page.contains(&format!("| `{}`", profile.name)),
+            page.contains(&format!("## {}: ", profile.name)),
             "{}",
             profile.name
         );

@@ -65,6 +65,20 @@ fn no_data(purpose: Purpose) -> Fault {
     }
 }
 
+/// Whether the first line of the recording can be read, where a file names one.
+pub(super) fn readable(definer: &Definer<'_>, folder: &Path) -> Result<(), Box<Rejection>> {
+    let recording = definer.source.table.recording.as_ref();
+    let Some(file) = recording.and_then(|recording| recording.value.0.file.as_ref()) else {
+        return Ok(());
+    };
+    let path = folder.join(&file.value);
+    let shown = path.display().to_string();
+    let text = text_of(Files::Disk, &path, &shown)?;
+    headings(&text, &definer.units)
+        .map(|_| ())
+        .map_err(|fault| Box::new(Rejection::new(&shown, &text, vec![*fault])))
+}
+
 fn recorded(
     definer: &mut Definer<'_>,
     names: &Names,
@@ -147,6 +161,17 @@ fn requests(
             request = request.like(definer.unit(like)?);
         }
         requests.push(request);
+    }
+    let declared = entries(&definer.source.table.columns).iter();
+    for (role, entry) in declared {
+        let is_named = names.columns.iter().any(|(name, _)| name == role)
+            || names.responses.contains(role)
+            || definer.given().contains(role);
+        let is_own = !definer.source.is_base(&entry.key);
+        if is_own && !is_named && !is_there(found, header(definer, role)) {
+            let fault = not_recorded(role, entry.key.clone(), true, found, names);
+            definer.faults.push(fault);
+        }
     }
     for role in &names.optional {
         let header = header(definer, role);

@@ -5,7 +5,6 @@
 
 use std::path::Path;
 
-use super::data;
 use super::definer::Definer;
 use super::doubts::{self, Doubts};
 use super::experiment::{
@@ -18,6 +17,7 @@ use super::positions;
 use super::purpose::Purpose;
 use super::symbols::{equation_text, quantity};
 use super::words::words;
+use super::{contrary, data};
 use super::{inferred, prior};
 use crate::budget::doubts::text_of;
 use crate::budget::{Evaluation, Rejection, Remark};
@@ -132,13 +132,20 @@ impl Definer<'_> {
                     .as_ref()
                     .map_or(0..0, |list| list.span.clone());
                 self.faults.push(
-                    Fault::new(NO_EQUATIONS, place, "the calibration has no equations")
-                        .help("name a `procedure`, or write equations = [\"U = K*omega + b\"]"),
+                    Fault::new(NO_EQUATIONS, place, "the calibration has no equations").help(
+                        match table.model.is_some() {
+                            true => "`model` holds statements that all equations see; the equation of an output is written equations = \"U = K*omega + b\"",
+                            false => "name a `procedure`, or write equations = [\"U = K*omega + b\"]",
+                        },
+                    ),
                 );
             }
             return Ok(None);
         }
+        contrary::check(self);
         if entries(&table.parameter).is_empty() {
+            // Parameters that are not listed follow from the recording: without it, that is what is wrong.
+            data::readable(self, folder)?;
             self.faults.push(
                 Fault::new(NO_PARAMETERS, 0..0, "the calibration has no parameters")
                     .help("list what is to be found: [parameter], then a line `K = {}` for each"),
@@ -243,6 +250,7 @@ impl Definer<'_> {
             remarks: {
                 let mut remarks = doubts.remarks;
                 remarks.extend(self.unlike(&responses.quantities));
+                remarks.extend(contrary::remarks(table));
                 remarks
             },
         })

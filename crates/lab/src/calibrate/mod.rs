@@ -36,6 +36,7 @@ mod cause;
 mod causes;
 mod coefficient;
 mod components;
+mod contrary;
 mod data;
 mod define;
 mod definer;

@@ -211,7 +211,7 @@ impl Definer<'_> {
     }
 
     /// Quantities that positions give.
-    fn given(&self) -> Vec<String> {
+    pub(super) fn given(&self) -> Vec<String> {
         self.given_places()
             .into_iter()
             .map(|(name, _)| name)

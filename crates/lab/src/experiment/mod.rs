@@ -66,9 +66,11 @@ pub fn kind_of(text: &str) -> Kind {
         Kind::Schedule
     } else if has(&["equations", "procedure"]) {
         Kind::Experiment
+    } else if has(&["recording"]) {
+        Kind::Experiment
     } else if has(&["measurand", "input"]) {
         Kind::Budget
-    } else if has(&["recording", "columns"]) {
+    } else if has(&["columns"]) {
         Kind::Experiment
     } else if has(&["model"]) {
         Kind::Budget

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::checker::Checker;
 use super::models::models;
-use super::{Case, Column, Data, Purpose, candidates, columns, declared};
+use super::{Case, Column, Data, Purpose, candidates, columns, declared, disused};
 use crate::budget::{Files, Rejection};
 use crate::diagnose::faults::{MISSING, UNIT_CLASH};
 use crate::experiment::entries::RoleWord;
@@ -114,6 +114,7 @@ impl Checker<'_> {
             ),
             reference: file.reference.as_ref().map(|text| text.value.clone()),
             note: file.note.as_ref().map(|text| text.value.clone()),
+            remarks: disused::remarks(self.source, &self.source.table),
             text: self.text[..self.source.own].to_owned(),
             path: path.to_path_buf(),
             units: self.units,
@@ -161,7 +162,10 @@ impl Checker<'_> {
                 self.faults.push(
                     Fault::new(MISSING, 0..0, format!("the experiment has no `{key}`"))
                         .label("missing in this file")
-                        .help(format!("add for example {example}")),
+                        .help(match key == "equations" && file.model.is_some() {
+                            true => "`model` holds statements that all equations see; the equation of an output is written equations = \"y = a + b * x\"".to_owned(),
+                            false => format!("add for example {example}"),
+                        }),
                 );
             }
         }

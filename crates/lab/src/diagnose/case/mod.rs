@@ -7,6 +7,7 @@ mod check;
 mod checker;
 mod columns;
 mod declared;
+mod disused;
 mod inputs;
 mod models;
 mod noise;
@@ -16,7 +17,7 @@ mod settings;
 
 use std::path::{Path, PathBuf};
 
-use crate::budget::{Files, Rejection};
+use crate::budget::{Files, Rejection, Remark};
 use crate::equations::Equations;
 use crate::model::Symbol;
 use crate::quantity::{Unit, UnitTable};
@@ -37,6 +38,8 @@ pub struct Case {
     pub reference: Option<String>,
     /// Anything the reader should know.
     pub note: Option<String>,
+    /// What the file states and a diagnosis does not use.
+    pub remarks: Vec<Remark>,
     /// The text of the case file.
     pub text: String,
     /// The case file's path.

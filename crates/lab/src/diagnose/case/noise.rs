@@ -27,12 +27,16 @@ impl Checker<'_> {
             return per_row.map_or(NoiseClaim::Estimated, NoiseClaim::PerRow);
         };
         let table = &stated.value;
+        // A column of the role "u" is what `from = "stated"` means.
+        let is_stated = |from: &Stated<NoiseWord>| from.value == NoiseWord::Stated;
+        let from = table.from.as_ref();
+        let from = from.is_some_and(|from| per_row.is_none() || !is_stated(from));
         let ways = [
             ("`u`", table.u.is_some()),
             ("`replicates`", table.replicates.is_some()),
             ("`at_rest`", table.at_rest.is_some()),
             ("`budget`", table.budget.is_some()),
-            ("`from`", table.from.is_some()),
+            ("`from`", from),
             ("a column with the role \"u\"", per_row.is_some()),
         ];
         let present = ways.iter().filter(|(_, is_there)| *is_there);

@@ -1,0 +1,80 @@
+//! What an experiment states in two ways, and what it states that a calibration does not use.
+
+use super::definer::Definer;
+use super::faults::KEY;
+use crate::budget::Remark;
+use crate::experiment::entries::RoleWord;
+use crate::experiment::source::entries;
+use crate::experiment::tables::{ExperimentTable, NoiseTable};
+use crate::fault::Fault;
+
+/// Faults of keys that would change the result of a calibration, and cannot.
+pub(super) fn check(definer: &mut Definer<'_>) {
+    let table = &definer.source.table;
+    let per = entries(&table.parameter)
+        .iter()
+        .filter_map(|(name, entry)| Some((name, entry.value.per.as_ref()?)));
+    let faults: Vec<Fault> = per
+        .map(|(name, column)| {
+            let message = format!("a calibration finds one value of {name} for all rows");
+            Fault::new(KEY, column.span.clone(), message)
+                .label("`per` is used by `diagnose` and `simulate`")
+                .help(format!(
+                    "write separately = \"{}\" at the top of the file: the rows of each label are calibrated by themselves",
+                    column.value
+                ))
+        })
+        .chain(table.noise.as_ref().and_then(|noise| {
+            let ways = ways(&noise.value);
+            (ways.len() > 1).then(|| {
+                Fault::new(KEY, noise.span.clone(), "the noise is to be stated in one way")
+                    .label(format!("stated by {}", ways.join(" and ")))
+                    .help("keep one of them")
+            })
+        }))
+        .collect();
+    definer.faults.extend(faults);
+}
+
+/// The keys of `[noise]` that each say all of it.
+fn ways(noise: &NoiseTable) -> Vec<&'static str> {
+    let ways = [
+        ("`u`", noise.u.is_some()),
+        ("`replicates`", noise.replicates.is_some()),
+        ("`at_rest`", noise.at_rest.is_some()),
+        ("`budget`", noise.budget.is_some()),
+        ("`from`", noise.from.is_some()),
+    ];
+    let stated = ways.iter().filter(|(_, is_there)| *is_there);
+    stated.map(|(way, _)| *way).collect()
+}
+
+/// Remarks on what is stated of the noise and not used by a calibration.
+pub(super) fn remarks(table: &ExperimentTable) -> Vec<Remark> {
+    let noise = table.noise.as_ref().map(|noise| &noise.value);
+    let of_noise = |is_there: fn(&NoiseTable) -> bool| noise.is_some_and(is_there);
+    let columns = entries(&table.columns);
+    let keys = [
+        ("walk", of_noise(|noise| noise.walk.is_some())),
+        ("resolution", of_noise(|noise| noise.resolution.is_some())),
+    ];
+    let of_noise = keys.iter().filter(|(_, is_there)| *is_there).map(|(key, _)| Remark {
+        en: format!("`{key}` of [noise] is used by `diagnose` only; state such an error of the readings below [reading.NAME]."),
+        zh: format!("[noise] 的 `{key}` 仅用于 `diagnose`；此类读数误差请在 [reading.NAME] 中给出。"),
+    });
+    let of_columns = columns.iter().filter_map(|(name, entry)| {
+        let column = &entry.value.0;
+        let is_u = column.role.as_ref().is_some_and(|role| role.value == RoleWord::Uncertainty);
+        let used = [
+            (is_u, "u"),
+            (column.u.is_some(), "u"),
+            (column.u_common.is_some(), "u_common"),
+        ];
+        let (_, key) = used.iter().find(|(is_there, _)| *is_there)?;
+        Some(Remark {
+            en: format!("`{key}` of the column {name} is used by `diagnose` and `simulate` only; state the error of its readings below [reading.NAME]."),
+            zh: format!("列 {name} 的 `{key}` 仅用于 `diagnose` 和 `simulate`；其读数误差请在 [reading.NAME] 中给出。"),
+        })
+    });
+    of_noise.chain(of_columns).collect()
+}

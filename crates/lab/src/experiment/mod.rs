@@ -64,9 +64,7 @@ pub fn kind_of(text: &str) -> Kind {
     let has = |keys: &[&str]| keys.iter().any(|key| table.get_ref().contains_key(*key));
     if has(&["schedule", "procedure"]) && !has(&["action"]) {
         Kind::Schedule
-    } else if has(&["equations", "procedure"]) {
-        Kind::Experiment
-    } else if has(&["recording"]) {
+    } else if has(&["equations", "procedure", "recording"]) {
         Kind::Experiment
     } else if has(&["measurand", "input"]) {
         Kind::Budget

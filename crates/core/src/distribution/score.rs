@@ -4,7 +4,8 @@ use gumption_lanes::quantile::Curve;
 
 use crate::special::{normal_cdf, normal_sf};
 
-/// Normal scores of tables: no number of (0, 1) has one further out.
+/// Normal scores of tables. Beyond them lies a probability of Φ(−8.5) ≈ 10⁻¹⁷ on either side, less than half the last digit of a
+/// number next to 1 (2⁻⁵⁴ ≈ 6·10⁻¹⁷).
 pub(super) const SCORES: [f64; 2] = [-8.5, 8.5];
 
 /// A function of probabilities as a function of normal scores. It is given from either end: `lower` of the probability

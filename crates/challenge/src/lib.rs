@@ -28,9 +28,6 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
-use gumption_core::special;
-use gumption_report as report;
-
 mod case;
 mod climate;
 mod effect;

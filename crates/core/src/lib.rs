@@ -31,8 +31,6 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
-use gumption_fault as fault;
-
 pub mod dd;
 pub mod distribution;
 pub mod equations;

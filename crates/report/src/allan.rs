@@ -2,14 +2,14 @@
 
 use serde_json::Value;
 
-use crate::document::{Axis, Block, Document, Layer, Marks, Panel, Plot, Tone};
-use crate::document::{ColumnKind, Table};
 use crate::language::Language;
-use crate::machine::{self, Machine, Number, record};
 use crate::number::{TABLE_DIGITS, aligned, freedom, grouped, in_unit, probability, significant};
-use crate::quantity::Unit;
-use crate::recording::{Allan, Coefficient, Noises, PowerLaw};
 use crate::symbol;
+use gumption_core::quantity::Unit;
+use gumption_format::document::{Axis, Block, Document, Layer, Marks, Panel, Plot, Tone};
+use gumption_format::document::{ColumnKind, Table};
+use gumption_format::machine::{self, Machine, Number, record};
+use gumption_lab::recording::{Allan, Coefficient, Noises, PowerLaw};
 
 /// An Allan deviation, ready to be shown.
 #[derive(Debug, Clone, Copy)]

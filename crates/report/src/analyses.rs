@@ -1,15 +1,15 @@
 //! What the readings say of themselves: statistics, analyses of variance, tests for outliers.
 
-use crate::budget::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
-use crate::statistics::{Line, OutlierTest, Policy, Ratio, Verdict};
+use gumption_core::statistics::{Line, OutlierTest, Policy, Ratio, Verdict};
+use gumption_gum::budget::{Analysis, Anova, Finding, NestedAnova, Outlier, Statistics};
 
 use super::language::{Language, Word};
 use super::number::{
     NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, print, significant,
 };
 use super::{Report, difference_symbol, symbol};
-use crate::document::Block;
-use crate::document::{Cell, ColumnKind, Row, Table};
+use gumption_format::document::Block;
+use gumption_format::document::{Cell, ColumnKind, Row, Table};
 
 /// Series of readings that are shown; more of them are in the JSON output.
 const MOST: usize = 40;

@@ -1,14 +1,14 @@
 //! What a certificate claims beside what the evaluation gives.
 
-use crate::budget::{Claim, Figure, Part};
-use crate::propagate::{Comparison, Method, compare_claims};
-use crate::quantity::Decimal;
+use gumption_core::quantity::Decimal;
+use gumption_gum::budget::{Claim, Figure, Part};
+use gumption_gum::propagate::{Comparison, Method, compare_claims};
 
 use super::Report;
 use super::language::{Language, Word};
 use super::number::{NONE, at_place, exact, print, significant};
-use crate::document::Block;
-use crate::document::{Cell, ColumnKind, Row, Table};
+use gumption_format::document::Block;
+use gumption_format::document::{Cell, ColumnKind, Row, Table};
 
 /// Stable name of a figure for machines.
 pub(super) fn code(what: &Figure) -> &'static str {

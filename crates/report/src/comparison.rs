@@ -1,9 +1,9 @@
 //! GUM and Monte Carlo side by side, with the verdict of JCGM 101 clause 8.
 
-use crate::propagate::{
+use gumption_core::quantity::Unit;
+use gumption_gum::propagate::{
     Clause8, Coverage, CoverageBasis, FindingKind, MeasurandResult, Quasi, Run, Validation,
 };
-use crate::quantity::Unit;
 
 use super::language::{Language, Word};
 use super::number::{
@@ -13,8 +13,8 @@ use super::number::{
 use super::quasi;
 use super::remarks::tolerance;
 use super::{Report, difference_symbol, symbol};
-use crate::document::Block;
-use crate::document::{Cell, ColumnKind, Table};
+use gumption_format::document::Block;
+use gumption_format::document::{Cell, ColumnKind, Table};
 
 /// The table and the verdict for one measurand.
 pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {

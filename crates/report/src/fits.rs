@@ -1,14 +1,14 @@
 //! Least-squares fits: formula, parameters, how well the curve describes the data.
 
-use crate::budget::{Fit, FitColumn, FitVerdict, LackOfFit, LackOfFitTest};
-use crate::quantity::Decimal;
+use gumption_core::quantity::Decimal;
+use gumption_gum::budget::{Fit, FitColumn, FitVerdict, LackOfFit, LackOfFitTest};
 
 use super::language::{Language, Word};
 use super::number::{STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, in_unit, significant};
 use super::statement::coefficient;
 use super::{Report, difference_symbol, joint, symbol};
-use crate::document::Block;
-use crate::document::{Cell, Column, ColumnKind, Table};
+use gumption_format::document::Block;
+use gumption_format::document::{Cell, Column, ColumnKind, Table};
 
 /// Points up to which the data stand in the report, beside the curve.
 const MOST_POINTS: usize = 25;

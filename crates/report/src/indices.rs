@@ -1,12 +1,12 @@
 //! Sobol' sensitivity indices as a table.
 
-use crate::propagate::{SensitivityIndices, SobolIndex};
+use gumption_gum::propagate::{SensitivityIndices, SobolIndex};
 
 use super::Report;
 use super::language::Language;
 use super::number::{at_place, grouped, print};
-use crate::document::Block;
-use crate::document::{Cell, ColumnKind, Table};
+use gumption_format::document::Block;
+use gumption_format::document::{Cell, ColumnKind, Table};
 
 /// Indices with a standard error of less than half of 10⁻³ are printed with three decimals.
 const PLACE: i32 = -3;
@@ -102,7 +102,7 @@ fn sentences(report: &Report<'_>, indices: &SensitivityIndices, of: &[SobolIndex
 mod tests {
     use super::super::{Language, evaluation, fixtures};
     use super::*;
-    use crate::render::{Page, markdown::markdown, text::text};
+    use gumption_format::render::{Page, markdown::markdown, text::text};
 
     fn case() -> fixtures::Case {
         let mut case = fixtures::resistor();

@@ -6,8 +6,8 @@ use super::language::{Language, Word};
 use super::number::{TABLE_DIGITS, freedom, in_unit, probability, significant};
 use super::statement::coefficient;
 use super::{Report, symbol};
-use crate::document::Block;
-use crate::document::{Cell, Column, ColumnKind, Table};
+use gumption_format::document::Block;
+use gumption_format::document::{Cell, Column, ColumnKind, Table};
 
 /// Correlation matrices and the factors of the coverage regions.
 pub(super) fn blocks(report: &Report<'_>) -> Vec<Block> {

@@ -10,9 +10,9 @@ use super::{
     Language, calibration, calibration_schema, diagnosis, diagnosis_schema, outlook,
     outlook_schema, plan, plan_schema,
 };
-use crate::calibrate::{self, Purpose};
-use crate::diagnose::{self, case};
-use crate::document::Document;
+use gumption_format::document::Document;
+use gumption_lab::calibrate::{self, Purpose};
+use gumption_lab::diagnose::{self, case};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

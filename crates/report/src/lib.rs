@@ -6,14 +6,6 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
-use gumption_core::{distribution, quantity, special, statistics};
-#[cfg(test)]
-use gumption_format::render;
-use gumption_format::{document, machine};
-use gumption_gum::{budget, propagate};
-use gumption_lab::{calibrate, diagnose, recording};
-use gumption_verify as verify;
-
 mod allan;
 mod analyses;
 mod budget_table;
@@ -57,9 +49,9 @@ pub use save::{Unsaved, saved};
 pub use statement::statement;
 pub use verification::{Detail, dossier, verification, verification_schema};
 
-use crate::budget::Budget;
-use crate::propagate::{Evaluation, FindingKind};
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
+use gumption_gum::budget::Budget;
+use gumption_gum::propagate::{Evaluation, FindingKind};
 
 /// One evaluated budget, ready to be shown.
 #[derive(Debug, Clone, Copy)]

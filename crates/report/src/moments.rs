@@ -1,6 +1,6 @@
 //! Why a result has no mean or no standard deviation, as sentences.
 
-use crate::propagate::{Consequence, MissingMoments, Side};
+use gumption_gum::propagate::{Consequence, MissingMoments, Side};
 
 use super::language::Language;
 use super::number::{freedom, print};

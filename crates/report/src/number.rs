@@ -1,7 +1,7 @@
 //! How numbers look in tables and sentences: significant digits, alignment with an uncertainty,
 //! percentages, counts.
 
-use crate::quantity::{Decimal, PowerStyle, Rounding, Style};
+use gumption_core::quantity::{Decimal, PowerStyle, Rounding, Style};
 
 /// Shown where a number does not exist.
 pub(super) const NONE: &str = "—";
@@ -12,7 +12,7 @@ pub(super) const TABLE_DIGITS: u8 = 3;
 
 /// Powers of ten as `×10^-5`: legible in every font of a terminal.
 pub(super) const STYLE: Style = Style {
-    grouping: crate::quantity::Grouping::None,
+    grouping: gumption_core::quantity::Grouping::None,
     power: PowerStyle::Caret,
 };
 

@@ -1,7 +1,7 @@
 //! Blocks from phrases in both languages.
 
-use crate::document::{Block, Cell, Column, ColumnKind, Row, Table};
 use crate::language::Language;
+use gumption_format::document::{Block, Cell, Column, ColumnKind, Row, Table};
 
 /// The head of a section.
 pub(super) fn section(l: Language, en: &str, zh: &str) -> Block {

@@ -1,6 +1,6 @@
 //! Whether quasi-random points took the place of random trials, in words.
 
-use crate::propagate::{Quasi, QuasiRun, Run, WhyRandom};
+use gumption_gum::propagate::{Quasi, QuasiRun, Run, WhyRandom};
 
 use super::language::Language;
 use super::number::{grouped, significant};

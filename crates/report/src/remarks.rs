@@ -1,9 +1,9 @@
 //! Findings as sentences: what was found, what follows from it, what to do.
 
-use crate::budget::CoverageRule;
-use crate::document::{Finding as Remark, Severity};
-use crate::propagate::{Basis, CoverageBasis, EvaluationError, FindingKind, is_residue};
-use crate::special::student_t_two_sided_quantile;
+use gumption_core::special::student_t_two_sided_quantile;
+use gumption_format::document::{Finding as Remark, Severity};
+use gumption_gum::budget::CoverageRule;
+use gumption_gum::propagate::{Basis, CoverageBasis, EvaluationError, FindingKind, is_residue};
 
 use super::fits::test_figures;
 use super::language::Language;

@@ -5,13 +5,13 @@ use std::path::{Component as Step, Path};
 use std::sync::Arc;
 
 use super::Report;
-use crate::budget::chain::{Identity, Part};
-use crate::budget::saved::{
+use gumption_gum::budget::chain::{Identity, Part};
+use gumption_gum::budget::saved::{
     ComponentEntry, Document, FileEntry, GroupEntry, LawEntry, RemarkEntry, ResultEntry, TermEntry,
     TypeEntry,
 };
-use crate::budget::{Component, Evaluation as Kind, Law, Owner, RESULT_FORMAT};
-use crate::propagate::{Clause8, MeasurandResult};
+use gumption_gum::budget::{Component, Evaluation as Kind, Law, Owner, RESULT_FORMAT};
+use gumption_gum::propagate::{Clause8, MeasurandResult};
 use nalgebra::DMatrix;
 
 /// The results of the rows of one file, as the text of a file in `folder` that `from = { result = … }`

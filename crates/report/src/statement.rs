@@ -4,12 +4,12 @@
 //! result that rests on Monte Carlo states half the width of its coverage interval as U where that
 //! interval is symmetric about y, and the interval itself where it is not.
 
-use crate::budget::{Conventions, CoverageRule, StatementForm};
-use crate::propagate::{
+use gumption_core::quantity::{Decimal, Rounded, Unit, space_before};
+use gumption_gum::budget::{Conventions, CoverageRule, StatementForm};
+use gumption_gum::propagate::{
     Basis, Coverage, CoverageBasis, Freedom, IntervalKind, MonteCarlo, Reported,
     ReportedUncertainty, StatedProbability,
 };
-use crate::quantity::{Decimal, Rounded, Unit, space_before};
 
 use super::language::Language;
 use super::number::{

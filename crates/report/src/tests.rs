@@ -5,8 +5,8 @@ use unicode_width::UnicodeWidthStr;
 
 use super::fixtures::{self, Case};
 use super::{Language, Report, evaluation, evaluation_schema, evaluations, statement};
-use crate::budget::{CoverageRule, StatementForm};
-use crate::render::{self, Page};
+use gumption_format::render::{self, Page};
+use gumption_gum::budget::{CoverageRule, StatementForm};
 
 fn text(report: &Report<'_>, page: Page) -> String {
     render::text::text(&evaluation(report), page)

@@ -5,8 +5,8 @@ use gumption_format::machine::{self, Machine, Number, record};
 use serde_json::Value;
 
 use super::score::{Finding, Graded, GradedEffect};
-use crate::report::Language;
 use crate::truth::TrueEffect;
+use gumption_report::Language;
 
 /// The document of a graded diagnosis.
 pub fn document(graded: &Graded, language: Language) -> Document {

@@ -6,7 +6,7 @@ use super::record::{Outcome, Record};
 use super::report::{Study, detected, is_listed, table};
 use super::trial::Ablation;
 use crate::scenario::{Class, NoiseKnowledge};
-use crate::special::chi_squared_sf;
+use gumption_core::special::chi_squared_sf;
 
 /// Probability that χ²/dof of noise alone is between 0.8 and 1.3.
 fn by_noise(dof: f64) -> f64 {

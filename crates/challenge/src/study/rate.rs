@@ -1,6 +1,6 @@
 //! How often something happened.
 
-use crate::special::inverse_beta_regularized;
+use gumption_core::special::inverse_beta_regularized;
 
 /// Successes out of a number of trials.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

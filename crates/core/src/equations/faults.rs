@@ -1,6 +1,6 @@
 //! Codes of the faults in measurement equations.
 
-use crate::fault::codes;
+use gumption_fault::codes;
 
 codes! {
     NO_RESPONSE = "Q0101", "the left side of an equation is not observed", "方程左边不是观测量",

@@ -29,12 +29,12 @@ pub mod faults;
 
 use std::ops::Range;
 
-use crate::fault::{Fault, nearest};
 use crate::model::faults::LEFT_SIDE;
 use crate::model::{
     MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile, outline,
 };
 use crate::quantity::{Unit, UnitTable};
+use gumption_fault::{Fault, nearest};
 
 use faults::{NO_RESPONSE, TWO_EQUATIONS};
 

@@ -14,8 +14,8 @@ use super::parser;
 use super::printer;
 use super::syntax::{Expr, Name, Node, Span, Statement};
 use super::{Model, ModelFault, Output, Place, Request, Role, Symbol};
-use crate::fault::Fault;
 use crate::quantity::Unit;
+use gumption_fault::Fault;
 
 /// The value of a measurand and where it comes from.
 pub struct Outcome {

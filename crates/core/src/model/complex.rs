@@ -10,8 +10,8 @@ use super::lower::{Kind, Lowering, Value, wrong_count};
 use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;
-use crate::fault::Fault;
 use crate::quantity::Unit;
+use gumption_fault::Fault;
 
 /// Real and imaginary part in one unit.
 struct Pair {

@@ -11,8 +11,8 @@ use super::printer;
 use super::reductions::vector_argument;
 use super::syntax::{Expr, Node};
 use super::units::{Operand, in_words};
-use crate::fault::Fault;
 use crate::quantity::{Dimension, Unit};
+use gumption_fault::Fault;
 
 /// A call of a function of curves.
 pub fn call(

@@ -6,9 +6,9 @@ use super::lower::{Lowering, Value, wrong_count};
 use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;
-use crate::fault::Fault;
 use crate::quantity::Unit;
 use crate::special;
+use gumption_fault::Fault;
 
 /// A function of exactly known numbers.
 struct Row {

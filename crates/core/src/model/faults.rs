@@ -1,6 +1,6 @@
 //! Codes of the faults in a model text.
 
-use crate::fault::codes;
+use gumption_fault::codes;
 
 codes! {
     UNEXPECTED = "M0101", "something else was expected here", "公式在此处不符合语法",

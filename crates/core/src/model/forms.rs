@@ -7,8 +7,8 @@ use super::lower::{Kind, Lowering, Value};
 use super::printer;
 use super::syntax::{Expr, Infix, Node};
 use super::units::Operand;
-use crate::fault::Fault;
 use crate::quantity::{Dimension, Factor, Unit};
+use gumption_fault::Fault;
 
 /// kelvin(T).
 pub fn kelvin(l: &mut Lowering<'_>, argument: &Expr) -> Option<Value> {

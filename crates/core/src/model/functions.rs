@@ -12,8 +12,8 @@ use super::reductions::{fold, pair, reduce, vector_argument};
 use super::syntax::{Expr, Name};
 use super::units::Operand;
 use super::{complex, curves, exact, space};
-use crate::fault::{Fault, nearest};
 use crate::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 
 /// Lowers a call.
 pub fn call(l: &mut Lowering<'_>, e: &Expr, name: &Name, arguments: &[Expr]) -> Option<Value> {

@@ -8,7 +8,7 @@ use super::jet::Jet;
 use super::notice::{Notice, Office, shown};
 use super::operation::{Rule, Smoothness};
 use super::{ModelFault, Output, Place};
-use crate::fault::Fault;
+use gumption_fault::Fault;
 
 /// Whether every operation is smooth inside its domain.
 pub fn smooth(graph: &Graph) -> bool {

@@ -2,7 +2,7 @@
 
 use super::faults;
 use super::syntax::Span;
-use crate::fault::Fault;
+use gumption_fault::Fault;
 
 /// A token and where it stands.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,8 +11,8 @@ use super::printer;
 use super::syntax::{Expr, Infix, Node, Statement};
 use super::units::in_words;
 use super::{MeasurandSource, Place};
-use crate::fault::Fault;
 use crate::quantity::{Dimension, Unit, hint_for_clash, revolutions_as_angle, unit_of_angle};
+use gumption_fault::Fault;
 
 /// A measurand may be a vector of up to so many elements.
 const MOST_ELEMENTS: usize = 100;

@@ -58,8 +58,8 @@ pub use tree::Leaf;
 
 use jet::Jet;
 
-use crate::fault::Fault;
 use crate::quantity::{Unit, UnitTable};
+use gumption_fault::Fault;
 
 /// A name that a model may use.
 #[derive(Debug, Clone)]

@@ -11,8 +11,8 @@ use super::check::{Check, unknowns};
 use super::parser;
 use super::printer;
 use super::syntax::{Expr, Infix, Name, Node, Span, Statement};
-use crate::fault::Fault;
 use crate::quantity::{Dimension, Unit, UnitTable};
+use gumption_fault::Fault;
 
 /// A text of statements, the last of which gives a quantity a value: `b = y1 + y2*(t - t0)`.
 #[derive(Debug, Clone)]

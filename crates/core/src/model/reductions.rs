@@ -6,8 +6,8 @@ use super::lower::{Lowering, Value};
 use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;
-use crate::fault::Fault;
 use crate::quantity::Unit;
+use gumption_fault::Fault;
 
 /// An argument that must be a vector.
 pub fn vector_argument(l: &mut Lowering<'_>, function: &str, e: &Expr) -> Option<Value> {

@@ -5,8 +5,8 @@ use super::lower::{Kind, Lowering};
 use super::printer;
 use super::syntax::{Expr, Infix, Node};
 use super::units::{Joined, Operand};
-use crate::fault::Fault;
 use crate::quantity::Unit;
+use gumption_fault::Fault;
 
 impl Lowering<'_> {
     /// Sum or difference with the arithmetic of temperature scales: point - point is a difference,

@@ -7,8 +7,8 @@ use super::lower::{Kind, Lowering, Value, wrong_count};
 use super::printer;
 use super::syntax::Expr;
 use super::units::Operand;
-use crate::fault::Fault;
 use crate::quantity::Unit;
+use gumption_fault::Fault;
 
 /// A call of a function of vectors in space.
 pub fn call(

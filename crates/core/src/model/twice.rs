@@ -4,8 +4,8 @@ use super::faults;
 use super::lower::Lowering;
 use super::printer;
 use super::syntax::{Expr, Infix, Node};
-use crate::fault::Fault;
 use crate::quantity::{Dimension, Unit};
+use gumption_fault::Fault;
 
 impl Lowering<'_> {
     /// Reports terms of the argument of `sin`, `cos` or `tan` that hold the factor of their unit once more.

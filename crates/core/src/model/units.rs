@@ -5,8 +5,8 @@ use super::graph::Id;
 use super::lower::{Kind, Lowering, Value};
 use super::printer;
 use super::syntax::{Expr, Node, Span};
-use crate::fault::Fault;
 use crate::quantity::{Dimension, Factor, Unit, hint_for_clash, revolutions_as_angle};
+use gumption_fault::Fault;
 
 /// A quantity and the expression it came from.
 #[derive(Clone, Copy)]

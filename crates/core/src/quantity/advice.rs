@@ -4,7 +4,7 @@ use super::builtin::{PREFIXES, Prefixes, UNITS};
 use super::chinese::by_chinese_name;
 use super::faults::{UNKNOWN_UNIT, UnitError};
 use super::syntax::NamedTerm;
-use crate::fault::nearest;
+use gumption_fault::nearest;
 
 /// A unit that a space or a bracket has torn in two, so that it would be a product: `deg C`, `dB(A)`.
 pub(super) fn torn(terms: &[NamedTerm]) -> Option<UnitError> {

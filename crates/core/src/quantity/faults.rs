@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::fault::{Code, Fault};
+use gumption_fault::{Code, Fault};
 
 /// Why a unit text was refused.
 #[derive(Debug, Clone, PartialEq)]

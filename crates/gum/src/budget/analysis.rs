@@ -1,8 +1,10 @@
 //! What the statistical analysis of readings found (GUM 4.2, H.5), for the report and for claims.
 
 use super::NamedFigure;
-use crate::quantity::Unit;
-use crate::statistics::{Nested, OneWay, OutlierTest, Policy, Ratio, Suspect, Verdict, Verdicts};
+use gumption_core::quantity::Unit;
+use gumption_core::statistics::{
+    Nested, OneWay, OutlierTest, Policy, Ratio, Suspect, Verdict, Verdicts,
+};
 
 /// An analysis of the readings behind one component.
 #[derive(Debug, Clone, PartialEq)]
@@ -145,7 +147,7 @@ impl Statistics {
 }
 
 /// Sum of squares, degrees of freedom and mean square of a line of the table.
-fn line(name: &str, line: &crate::statistics::Line) -> [Entry; 3] {
+fn line(name: &str, line: &gumption_core::statistics::Line) -> [Entry; 3] {
     [
         entry(format!("anova.ss_{name}"), line.ss, 2),
         entry(format!("anova.df_{name}"), line.df, 0),

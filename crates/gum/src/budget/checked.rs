@@ -8,8 +8,8 @@ use super::conventions::{Conventions, MonteCarloSettings};
 use super::decision::{Conformity, Detection, Following, Follows};
 use super::fit::Fit;
 use super::remark::Remark;
-use crate::model::Model;
-use crate::quantity::Unit;
+use gumption_core::model::Model;
+use gumption_core::quantity::Unit;
 
 /// A file that was accepted.
 #[derive(Debug, Clone)]

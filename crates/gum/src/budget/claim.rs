@@ -3,7 +3,7 @@
 
 use gumption_format::toml::words;
 
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// What somebody states about one measurand; compared, never used.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]

@@ -3,8 +3,8 @@
 use gumption_format::toml::words;
 use nalgebra::DMatrix;
 
-use crate::distribution::Distribution;
-use crate::quantity::Unit;
+use gumption_core::distribution::Distribution;
+use gumption_core::quantity::Unit;
 
 /// An input quantity X_i.
 #[derive(Debug, Clone, PartialEq)]

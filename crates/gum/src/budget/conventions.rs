@@ -2,7 +2,7 @@
 
 use gumption_format::toml::words;
 
-use crate::quantity::{Rounding, RoundingRule};
+use gumption_core::quantity::{Rounding, RoundingRule};
 
 /// The conventions on which guides differ, after profile and overrides.
 #[derive(Debug, Clone, PartialEq)]

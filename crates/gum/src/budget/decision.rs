@@ -2,7 +2,7 @@
 //! recognition of a small effect (ISO 11929). For both, u is needed at other values of the measurand than
 //! the one that was found: [`Budget::at`].
 
-use crate::distribution::Distribution;
+use gumption_core::distribution::Distribution;
 
 /// Values between two limits; a missing limit is infinite.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]

@@ -7,9 +7,11 @@ use std::ops::Range;
 use serde_json::{Map, Value, json};
 use toml::de::DeValue;
 
-use crate::distribution::stating::{Given, ParameterError, ParameterRule, Parametric, Takes, Word};
-use crate::distribution::{Distribution, Entry, REGISTRY, kind_named};
-use crate::fault::Fault;
+use gumption_core::distribution::stating::{
+    Given, ParameterError, ParameterRule, Parametric, Takes, Word,
+};
+use gumption_core::distribution::{Distribution, Entry, REGISTRY, kind_named};
+use gumption_fault::Fault;
 use gumption_format::toml::faults::{UNKNOWN_KEY, UNKNOWN_WORD, WRONG_TYPE};
 use gumption_format::toml::{
     Dof, FromToml, Key, KeyRow, Raw, Reader, Stated, described, in_order, inner, unknown_word,

@@ -6,8 +6,8 @@ use std::path::Path;
 use super::Budget;
 use super::check::{self, Origin, Variant};
 use super::tables::FileTable;
-use crate::fault::{Fault, Rejection};
-use crate::files::Files;
+use gumption_fault::{Fault, Rejection};
+use gumption_format::files::Files;
 
 /// The checked budget of tables whose places are in `text`; CSV files are looked up in `directory`.
 ///

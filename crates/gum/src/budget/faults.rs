@@ -1,6 +1,6 @@
 //! The faults of a budget file, each with its stable code and its explanation.
 
-use crate::fault::codes;
+use gumption_fault::codes;
 
 codes! {
 MISSING_KEY = "B0109", "a required key is missing", "缺少必需的键",

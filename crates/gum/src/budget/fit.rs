@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::claim::NamedFigure;
-use crate::least_squares::Observed;
-use crate::quantity::Unit;
+use gumption_core::least_squares::Observed;
+use gumption_core::quantity::Unit;
 
 /// A `[fit.NAME]` with its solution. Its parameters are inputs of the budget.
 #[derive(Debug, Clone)]

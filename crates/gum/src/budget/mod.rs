@@ -49,5 +49,5 @@ pub use reader::{keys, load, load_from, load_under, read, schema, template};
 pub use remark::Remark;
 pub use saved::{RESULT_FORMAT, result_schema};
 
-pub use crate::fault::Rejection;
-pub use crate::files::Files;
+pub use gumption_fault::Rejection;
+pub use gumption_format::files::Files;

@@ -9,8 +9,8 @@ use std::rc::Rc;
 
 use super::checked::Loaded;
 use super::saved::SavedResults;
-use crate::fault::Rejection;
-use crate::files::Files;
+use gumption_fault::Rejection;
+use gumption_format::files::Files;
 
 /// Reads and checks a budget of this content.
 pub(super) type ReadBudget = fn(&OpenFiles<'_>, &Path, Vec<u8>) -> Result<Loaded, Rejection>;

@@ -1,7 +1,7 @@
 //! Profiles: the conventions on which guides differ.
 
 use super::conventions::{Conventions, CoverageRule, DofRule, OutputShape, StatementForm, TScale};
-use crate::quantity::Rounding;
+use gumption_core::quantity::Rounding;
 
 /// A named set of conventions.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,7 +8,7 @@ use toml::de::{DeArray, DeString, DeTable, DeValue};
 
 use super::faults::{SERIES, UNKNOWN_NAME};
 use super::tables::{FileTable, SeriesTable};
-use crate::fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::{Cell, amount_parts};
 use gumption_format::toml::{Raw, Stated, Table};
 

@@ -22,7 +22,7 @@ use super::gum::MeasurandForm;
 use super::result::{Coverage, CoverageBasis};
 use super::shape::Shape;
 use crate::budget::{Component, Conventions, CoverageRule, DofRule, OutputShape};
-use crate::distribution::{Distribution, rectangular};
+use gumption_core::distribution::{Distribution, rectangular};
 
 /// The largest ratio of all others to the dominant contributions, EA-4/02 S9.10.
 const REMAINDER: f64 = 0.3;
@@ -248,8 +248,8 @@ mod tests {
     use super::super::freedom;
     use super::*;
     use crate::budget::TScale;
-    use crate::distribution::{Normal, Uniform, Univariate, rectangular};
-    use crate::quantity::Rounding;
+    use gumption_core::distribution::{Normal, Uniform, Univariate, rectangular};
+    use gumption_core::quantity::Rounding;
 
     const INF: f64 = f64::INFINITY;
 

@@ -7,9 +7,9 @@ use crate::budget::{
     Budget, Component, Conventions, CoverageRule, DofRule, Evaluation, Group, Heading, Input, Law,
     Measurand, MonteCarloSettings, OutputShape, Owner, Points, TScale, Term, Trials,
 };
-use crate::distribution::{Distribution, Normal, Uniform};
-use crate::model::{MeasurandSource, Request, Role, Symbol, compile};
-use crate::quantity::{Rounding, Unit, UnitTable};
+use gumption_core::distribution::{Distribution, Normal, Uniform};
+use gumption_core::model::{MeasurandSource, Request, Role, Symbol, compile};
+use gumption_core::quantity::{Rounding, Unit, UnitTable};
 
 /// A component of the first input, of dimension one.
 pub(super) fn component(name: &str, distribution: Distribution, u: f64, dof: f64) -> Component {

@@ -9,7 +9,7 @@ use super::result::{
 use super::second_order::{self, SecondOrderOutcome, Terms};
 use super::validation::{self, numerical_tolerance};
 use crate::budget::{Budget, CoverageRule, FitVerdict, Group, Law, Owner};
-use crate::model::Notice;
+use gumption_core::model::Notice;
 
 /// Poles and ends of domains are looked for within this many standard uncertainties.
 const REACH: f64 = 4.0;

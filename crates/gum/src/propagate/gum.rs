@@ -12,7 +12,7 @@ use super::error::EvaluationError;
 use super::freedom;
 use super::result::Contribution;
 use crate::budget::{Budget, Input};
-use crate::model::Model;
+use gumption_core::model::Model;
 
 /// A budget made linear at its estimates.
 #[derive(Debug, Clone)]

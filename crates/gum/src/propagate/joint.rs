@@ -15,8 +15,8 @@ use super::gum::Linear;
 use super::monte_carlo::Outcome;
 use super::result::{Freedom, JointResult};
 use crate::budget::Budget;
-use crate::model::Output;
-use crate::special::{
+use gumption_core::model::Output;
+use gumption_core::special::{
     chi_squared_quantile, f_quantile, normal_cdf, normal_quantile, student_t_two_sided_quantile,
 };
 
@@ -218,7 +218,7 @@ impl Lattice {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::special::{normal_pdf, normal_two_sided_quantile, student_t_two_sided};
+    use gumption_core::special::{normal_pdf, normal_two_sided_quantile, student_t_two_sided};
 
     const INF: f64 = f64::INFINITY;
 

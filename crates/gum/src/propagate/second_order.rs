@@ -13,7 +13,7 @@
 //! and not the standard deviation.
 //!
 //! The derivatives along one direction cost one sweep through the model. Directions that move
-//! different blocks of inputs ([`crate::model::Model::interactions`]) share a sweep, and the sums
+//! different blocks of inputs ([`gumption_core::model::Model::interactions`]) share a sweep, and the sums
 //! run only over directions that have a block in common: Σ xᵢ² takes one sweep for any number of
 //! inputs. A formula that uses every input once, as x₁x₂…x_n, takes one pass, and one whose terms overlap
 //! little, as x₁x₂ + x₂x₃ + …, a few sweeps ([`sparse`]); so does one in which many inputs meet in few values,
@@ -34,7 +34,7 @@ pub(super) use sums::{SecondOrderOutcome, Terms, matters};
 
 use super::gum::{Linear, MeasurandForm};
 use crate::budget::Budget;
-use crate::model::Along;
+use gumption_core::model::Along;
 
 /// Second-order terms of every measurand.
 pub(super) fn evaluate(budget: &Budget, linear: &Linear) -> Vec<SecondOrderOutcome> {

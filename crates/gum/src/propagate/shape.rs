@@ -4,8 +4,10 @@
 //! convolution with a normal remainder, in closed form; where another distribution does, the
 //! convolution is an integral over that distribution's quantiles.
 
-use crate::distribution::Distribution;
-use crate::special::{normal_cdf, normal_pdf, student_t_two_sided, student_t_two_sided_quantile};
+use gumption_core::distribution::Distribution;
+use gumption_core::special::{
+    normal_cdf, normal_pdf, student_t_two_sided, student_t_two_sided_quantile,
+};
 
 /// A zero-mean distribution.
 #[derive(Debug, Clone)]
@@ -179,7 +181,9 @@ fn simpson(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::distribution::{Arcsine, Discrete, Empirical, Exponential, Triangular, Uniform};
+    use gumption_core::distribution::{
+        Arcsine, Discrete, Empirical, Exponential, Triangular, Uniform,
+    };
 
     fn close(a: f64, b: f64, tolerance: f64) {
         assert!((a - b).abs() <= tolerance, "{a} is not {b}");

@@ -3,7 +3,7 @@
 use super::draft::Draft;
 use super::*;
 use crate::budget::{Budget, CoverageRule};
-use crate::distribution::{Arcsine, Distribution};
+use gumption_core::distribution::{Arcsine, Distribution};
 
 const INF: f64 = f64::INFINITY;
 

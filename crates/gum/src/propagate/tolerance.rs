@@ -5,7 +5,7 @@ use super::monte_carlo::{batch_size, least_batch};
 use super::result::{MeasurandResult, Run};
 use super::validation;
 use crate::budget::{Budget, NamedFigure};
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// The figures of a finished evaluation.
 pub(super) fn figures(

@@ -3,7 +3,7 @@
 use super::residual::Residual;
 use super::scatter::ResponseScatter;
 use super::words::Words;
-use crate::special::student_t_sf;
+use gumption_core::special::student_t_sf;
 
 /// A point whose residual the scatter of the others does not explain.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,9 +11,9 @@ use super::cause::{Cause, Origin};
 use super::coefficient::Coefficient;
 use super::components::lower_factor;
 use super::experiment::{Doubt, Experiment, Scope};
-use crate::budget::writing::{key, quoted};
-use crate::distribution::{Distribution, Normal, Uniform, Univariate};
-use crate::quantity::Unit;
+use gumption_core::distribution::{Distribution, Normal, Uniform, Univariate};
+use gumption_core::quantity::Unit;
+use gumption_gum::budget::writing::{key, quoted};
 
 /// More errors of one cause than these are summed up as one, of normal distribution.
 const LONGEST: usize = 100;

@@ -17,8 +17,8 @@ use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
 use super::trouble::Trouble;
 use super::words::Words;
-use crate::least_squares::Solution;
-use crate::special::{student_t_sf, student_t_two_sided_quantile};
+use gumption_core::least_squares::Solution;
+use gumption_core::special::{student_t_sf, student_t_two_sided_quantile};
 
 /// A calibration that was evaluated.
 #[derive(Debug, Clone)]

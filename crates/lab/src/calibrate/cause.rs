@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 
 use super::experiment::Scope;
-use crate::budget::Evaluation;
-use crate::distribution::Distribution;
+use gumption_core::distribution::Distribution;
+use gumption_gum::budget::Evaluation;
 
 /// A cause of doubt and what it does to the coefficients.
 #[derive(Debug, Clone, PartialEq)]

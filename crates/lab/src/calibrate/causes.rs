@@ -7,7 +7,7 @@ use super::experiment::{Doubt, Scope, Target};
 use super::gain::Gain;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
-use crate::budget::Evaluation;
+use gumption_gum::budget::Evaluation;
 
 /// All causes that act on any coefficient.
 pub(super) fn causes(stack: &Stack<'_>, gain: &Gain, scatters: &Scatters, u: &[f64]) -> Vec<Cause> {

@@ -1,7 +1,7 @@
 //! A coefficient with its uncertainty.
 
 use super::words::Words;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// A coefficient.
 #[derive(Debug, Clone, PartialEq)]

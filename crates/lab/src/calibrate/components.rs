@@ -6,13 +6,13 @@ use super::definer::Definer;
 use super::experiment::{Act, Doubt, Scope, Target};
 use super::faults::KEY;
 use super::known::Known;
-use crate::budget::{Budget, Evaluation, Group, Owner};
-use crate::distribution::{Distribution, Normal};
 use crate::experiment::source::entries;
 use crate::experiment::tables::ScopeWord;
-use crate::fault::Fault;
-use crate::quantity::Unit;
+use gumption_core::distribution::{Distribution, Normal};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
+use gumption_gum::budget::{Budget, Evaluation, Group, Owner};
 
 /// Every component as an error, correlated ones as sums of independent errors; `inputs` are the names of
 /// the inputs that the equations see.

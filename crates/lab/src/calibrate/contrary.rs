@@ -2,11 +2,11 @@
 
 use super::definer::Definer;
 use super::faults::KEY;
-use crate::budget::Remark;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ExperimentTable, NoiseTable};
-use crate::fault::Fault;
+use gumption_fault::Fault;
+use gumption_gum::budget::Remark;
 
 /// Faults of keys that would change the result of a calibration, and cannot.
 pub(super) fn check(definer: &mut Definer<'_>) {

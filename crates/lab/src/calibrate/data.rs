@@ -12,17 +12,17 @@ use super::points::Points;
 use super::positions::{expected, optional};
 use super::purpose::Purpose;
 use super::schedule::scheduled;
-use crate::budget::{Files, Rejection};
 use crate::experiment::entries::{AverageEntry, RoleWord, Short};
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ColumnTable, RecordingTable};
-use crate::fault::{Fault, nearest};
-use crate::quantity::Unit;
 use crate::recording::{
     Checks, Finding, Heading, Problem, Recording, Request, Settling, Severity, check, headings,
     text_of,
 };
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
+use gumption_gum::budget::{Files, Rejection};
 
 /// The points; `None` after faults of the calibration file.
 pub(super) fn points(

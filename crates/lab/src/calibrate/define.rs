@@ -19,16 +19,16 @@ use super::symbols::{equation_text, quantity};
 use super::words::words;
 use super::{contrary, data};
 use super::{inferred, prior};
-use crate::budget::doubts::text_of;
-use crate::budget::{Evaluation, Rejection, Remark};
-use crate::distribution::{Distribution, Normal};
-use crate::equations::{EquationText, Equations, Quantity};
 use crate::experiment::source::{self, Source, entries};
 use crate::experiment::tables::{ExperimentTable, NoiseWord, WeightsWord};
-use crate::fault::Fault;
-use crate::model::{Role, Symbol, outline};
-use crate::quantity::{Unit, UnitTable};
+use gumption_core::distribution::{Distribution, Normal};
+use gumption_core::equations::{EquationText, Equations, Quantity};
+use gumption_core::model::{Role, Symbol, outline};
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
+use gumption_gum::budget::doubts::text_of;
+use gumption_gum::budget::{Evaluation, Rejection, Remark};
 
 /// Reads and checks a calibration file and what it names.
 ///

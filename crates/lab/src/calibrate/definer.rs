@@ -2,8 +2,8 @@
 
 use super::faults::UNIT;
 use crate::experiment::source::{Source, entries};
-use crate::fault::Fault;
-use crate::quantity::{Unit, UnitTable};
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_fault::Fault;
 use gumption_format::toml::{Amount, Stated};
 
 /// What all checks share.

@@ -13,20 +13,20 @@ use super::faults::{KEY, STATE_INPUT};
 use super::known::Known;
 use super::names::{Kind, Names};
 use super::words::words;
-use crate::budget::doubts::checked;
-use crate::budget::tables::{ConstantEntry, Sources};
-use crate::budget::tables::{
-    ConstantTable, CorrelationTable, FileTable, InputTable, MeasurandTable, SourceTable,
-};
-use crate::budget::{Budget, Remark};
-use crate::equations::Quantity;
 use crate::experiment::source::entries;
 use crate::experiment::tables::{KnownTable, SharedTable};
-use crate::fault::Fault;
-use crate::model::{Role, Symbol};
-use crate::quantity::Unit;
+use gumption_core::equations::Quantity;
+use gumption_core::model::{Role, Symbol};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Amount, Named, OneOrMany};
+use gumption_gum::budget::doubts::checked;
+use gumption_gum::budget::tables::{ConstantEntry, Sources};
+use gumption_gum::budget::tables::{
+    ConstantTable, CorrelationTable, FileTable, InputTable, MeasurandTable, SourceTable,
+};
+use gumption_gum::budget::{Budget, Remark};
 
 /// What the file says of inputs, readings and constants.
 pub(crate) struct Doubts {
@@ -349,7 +349,7 @@ fn file(definer: &Definer<'_>, known: &[Known<'_>]) -> FileTable {
         ..InputTable::default()
     };
     filler.component.u = Some(at(
-        crate::budget::variants::Amounts::One(Amount {
+        gumption_gum::budget::variants::Amounts::One(Amount {
             number: 1.0,
             unit: None,
         }),

@@ -2,11 +2,11 @@
 
 use super::points::{PointColumn, Points};
 use super::words::Words;
-use crate::quantity::Unit;
 use crate::recording::{
     Average, Column, Cut, Data, Dwell, Finding, Labels, Problem, Recording, Settling, Steps,
     Stillness, by_label, by_steps, by_stillness,
 };
+use gumption_core::quantity::Unit;
 
 /// What tells dwells apart.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,10 +2,10 @@
 
 use super::points::Points;
 use super::words::Words;
-use crate::budget::{Evaluation, Remark};
-use crate::distribution::Distribution;
-use crate::equations::{Equations, Quantity};
-use crate::quantity::{Unit, UnitTable};
+use gumption_core::distribution::Distribution;
+use gumption_core::equations::{Equations, Quantity};
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_gum::budget::{Evaluation, Remark};
 
 /// What is said of a calibration besides numbers.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -5,11 +5,11 @@ use super::experiment::{FunctionResult, Input, Omitted, Parameter};
 use super::faults::{RESULT, TERM};
 use super::symbols::{equation_text, quantity, symbol};
 use super::words::words;
-use crate::equations::{EquationText, Equations, Quantity};
 use crate::experiment::source::entries;
-use crate::fault::Fault;
-use crate::model::{Symbol, outline};
-use crate::quantity::Unit;
+use gumption_core::equations::{EquationText, Equations, Quantity};
+use gumption_core::model::{Symbol, outline};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 impl Definer<'_> {

@@ -1,6 +1,6 @@
 //! Codes of the faults in calibration files.
 
-use crate::fault::codes;
+use gumption_fault::codes;
 
 codes! {
     NO_EQUATIONS = "C0102", "a calibration has no equations", "校准文件没有给出测量方程",

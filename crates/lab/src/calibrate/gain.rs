@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use super::experiment::{Experiment, Observed, Scope, Target};
 use super::stack::{Row, Stack};
-use crate::least_squares::Solution;
+use gumption_core::least_squares::Solution;
 
 /// Derivatives of the coefficients (parameters, then results), one row for each, one column for each
 /// observed value.

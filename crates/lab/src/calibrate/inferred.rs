@@ -4,13 +4,13 @@ use std::path::Path;
 
 use gumption_format::toml::{Named, Stated};
 
-use crate::budget::Files;
 use crate::experiment::source::{Source, entries};
 use crate::experiment::tables::ParameterTable;
-use crate::fault::nearest;
-use crate::model::outline;
-use crate::quantity::UnitTable;
 use crate::recording::{Heading, headings, text_of};
+use gumption_core::model::outline;
+use gumption_core::quantity::UnitTable;
+use gumption_fault::nearest;
+use gumption_gum::budget::Files;
 
 /// Lists the parameters of a file that has no `[parameter]`.
 pub(super) fn add(source: &mut Source, units: &UnitTable, folder: &Path) {

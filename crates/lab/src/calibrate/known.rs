@@ -1,9 +1,9 @@
 //! An input or a reading before its check.
 
-use crate::budget::tables::InputTable;
 use crate::experiment::tables::KnownTable;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 use gumption_format::toml::Stated;
+use gumption_gum::budget::tables::InputTable;
 
 /// A quantity before its check.
 pub(super) struct Known<'t> {

@@ -2,7 +2,7 @@
 
 use super::stack::{Row, Stack};
 use super::words::Words;
-use crate::least_squares::Solution;
+use gumption_core::least_squares::Solution;
 
 /// A value at which readings of a response stay, although its equation says that they differ.
 #[derive(Debug, Clone, PartialEq)]

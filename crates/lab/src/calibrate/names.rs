@@ -7,8 +7,8 @@ use super::definer::Definer;
 use super::faults::NAME_TWICE;
 use super::purpose::Purpose;
 use crate::experiment::source::entries;
-use crate::fault::Fault;
-use crate::model::outline;
+use gumption_core::model::outline;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 use gumption_format::toml::StringMap;
 

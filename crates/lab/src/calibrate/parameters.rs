@@ -6,11 +6,11 @@ use super::experiment::Parameter;
 use super::faults::UNIT;
 use super::symbols::{quantity, symbol};
 use super::words::words;
-use crate::equations::Quantity;
 use crate::experiment::source::entries;
-use crate::fault::Fault;
-use crate::model::{Symbol, outline};
-use crate::quantity::Unit;
+use gumption_core::equations::Quantity;
+use gumption_core::model::{Symbol, outline};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 impl Definer<'_> {

@@ -1,8 +1,8 @@
 //! The points of an experiment: what was set and what was read, once for each.
 
 use super::words::Words;
-use crate::quantity::Unit;
 use crate::recording::{Average, Data, Finding, Labels, Recording};
+use gumption_core::quantity::Unit;
 
 /// The points of an experiment, column by column.
 #[derive(Debug, Clone, PartialEq, Default)]

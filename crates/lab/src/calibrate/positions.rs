@@ -6,8 +6,8 @@ use super::definer::Definer;
 use super::faults::POSITION;
 use super::points::{PointColumn, Points};
 use crate::experiment::tables::PositionsTable;
-use crate::fault::{Fault, nearest};
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 
 /// Labels that must occur.

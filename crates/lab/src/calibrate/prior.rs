@@ -2,10 +2,10 @@
 
 use gumption_format::toml::{Named, Stated};
 
-use crate::budget::tables::{ComponentTable, InputTable};
-use crate::budget::variants::Amounts;
 use crate::experiment::source::Source;
 use crate::experiment::tables::{KnownTable, ParameterTable};
+use gumption_gum::budget::tables::{ComponentTable, InputTable};
+use gumption_gum::budget::variants::Amounts;
 
 /// Lists every parameter with a `value` and its `u` among the inputs too, unless it stands there already.
 pub(super) fn add(source: &mut Source) {

@@ -7,9 +7,9 @@ use super::experiment::{Experiment, Observed, Scatter, Scope, Target, Weights};
 use super::gain::{Gain, levels};
 use super::stack::{Row, Stack};
 use super::trouble::Trouble;
-use crate::budget::Evaluation;
-use crate::least_squares::Solution;
-use crate::special::chi_squared_sf;
+use gumption_core::least_squares::Solution;
+use gumption_core::special::chi_squared_sf;
+use gumption_gum::budget::Evaluation;
 
 /// The scatter of each response.
 pub(super) struct Scatters {

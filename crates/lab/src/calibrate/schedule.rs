@@ -7,9 +7,9 @@ use super::names::Names;
 use super::points::{PointColumn, Points};
 use super::words::Words;
 use crate::experiment::source::entries;
-use crate::fault::Fault;
-use crate::quantity::Unit;
 use crate::recording::{Heading, Labels};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Cell;
 use gumption_format::toml::Stated;
 

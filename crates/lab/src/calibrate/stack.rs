@@ -6,7 +6,9 @@ use super::experiment::{Experiment, Observed, Target};
 use super::identify::combinations;
 use super::trouble::Trouble;
 use super::words::Words;
-use crate::least_squares::{Errors, Failure, Problem, Response, Scale, Solution, Spread, solve};
+use gumption_core::least_squares::{
+    Errors, Failure, Problem, Response, Scale, Solution, Spread, solve,
+};
 
 /// One observed value: a response in a point, or what is known of a parameter beforehand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

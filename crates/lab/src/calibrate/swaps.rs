@@ -7,7 +7,7 @@ use super::gain::Gain;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
 use super::words::Words;
-use crate::least_squares::Solution;
+use gumption_core::least_squares::Solution;
 
 /// Larger experiments are not searched: their pairs are too many.
 const MOST_POINTS: usize = 100;

@@ -1,8 +1,8 @@
 //! Symbols and texts of equations from what a file states.
 
-use crate::equations::{EquationText, Quantity};
-use crate::model::{Role, Symbol};
-use crate::quantity::Unit;
+use gumption_core::equations::{EquationText, Quantity};
+use gumption_core::model::{Role, Symbol};
+use gumption_core::quantity::Unit;
 use gumption_format::toml::Stated;
 
 /// An equation and its place.

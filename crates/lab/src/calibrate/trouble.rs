@@ -3,7 +3,7 @@
 use super::faults::{SCATTER, START, TOO_FEW};
 use super::identify::Combination;
 use super::words::Words;
-use crate::fault::Code;
+use gumption_fault::Code;
 
 /// Why an experiment gives no coefficients.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,8 +6,8 @@ use nalgebra::DVector;
 use super::case::{Case, Column, Data, Parameter, Role};
 use super::catalogue::{FittedModel, Node, Term, Variation};
 use super::evidence::{Baseline, TRACE};
-use crate::equations::{EquationText, Equations, Quantity};
-use crate::quantity::Unit;
+use gumption_core::equations::{EquationText, Equations, Quantity};
+use gumption_core::quantity::Unit;
 
 /// A case with effects in its model.
 #[derive(Debug)]

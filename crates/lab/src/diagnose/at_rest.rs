@@ -10,7 +10,7 @@
 use gumption_lanes::{Block, Generator, LANES, level};
 use nalgebra::DMatrix;
 
-use crate::special::chi_squared_quantile;
+use gumption_core::special::chi_squared_quantile;
 
 /// Readings of an instrument that nothing happens to; each is averaged like a row of the recording.
 #[derive(Debug, Clone, Copy)]
@@ -274,7 +274,7 @@ impl Random {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::special::normal_quantile;
+    use gumption_core::special::normal_quantile;
     use nalgebra::DVector;
 
     fn readings(count: usize, white: f64, walk: f64, seed: u64) -> (Vec<f64>, Vec<f64>) {

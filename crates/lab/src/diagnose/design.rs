@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::case::{Blocks, Case, Data, Observed, Role, interval};
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// Prolonged recordings in time are averaged in blocks, unless the case says otherwise.
 const MOST_BLOCKS: usize = 400;

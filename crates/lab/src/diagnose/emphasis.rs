@@ -9,7 +9,7 @@ use super::parts::Confirmation;
 use super::plan::{Outlook, Promise};
 use super::run::Diagnosis;
 use super::separation::Separating;
-use crate::special::chi_squared_sf;
+use gumption_core::special::chi_squared_sf;
 
 /// What is smaller than this part of a parameter's u does not change it.
 const MATTERS: f64 = 0.1;

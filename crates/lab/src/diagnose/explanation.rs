@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::catalogue::{Cell, EffectId, FittedModel, Pattern, Variation, Words};
 use super::evidence::{self, Baseline, Separability, Standing};
 use super::prolonged::{Prolonged, Recorded};
-use crate::special::normal_quantile;
+use gumption_core::special::normal_quantile;
 
 /// An explanation among others for the same mismatch.
 #[derive(Debug, Clone, PartialEq)]

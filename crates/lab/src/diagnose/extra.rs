@@ -3,8 +3,8 @@
 //! otherwise, with specimens exchanged.
 
 use super::case::{Case, Column, Data, Role, Rows, repeated};
-use crate::quantity::UnitTable;
 use crate::recording::Labels;
+use gumption_core::quantity::UnitTable;
 
 /// A measurement that may follow.
 #[derive(Debug, Clone)]

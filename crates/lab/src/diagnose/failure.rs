@@ -5,7 +5,7 @@ use std::fmt::{self, Display};
 use super::evidence::Refusal;
 use super::faults::{NOT_FITTED, START, TOO_FEW};
 use super::fit::NoFit;
-use crate::fault::Code;
+use gumption_fault::Code;
 
 /// Why a case could not be diagnosed.
 #[derive(Debug, Clone, PartialEq)]

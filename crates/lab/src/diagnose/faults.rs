@@ -1,6 +1,6 @@
 //! Codes of the faults in a case file.
 
-use crate::fault::codes;
+use gumption_fault::codes;
 
 codes! {
     MISSING = "D0101", "a case lacks something", "案例文件缺少必需的内容",

@@ -6,7 +6,7 @@ use std::fmt::{self, Display};
 use nalgebra::{DMatrix, DVector};
 
 use super::design::{Design, Linear};
-use crate::least_squares::{self, Residuals, Stuck, minimise};
+use gumption_core::least_squares::{self, Residuals, Stuck, minimise};
 
 /// The model at its best.
 #[derive(Debug, Clone)]

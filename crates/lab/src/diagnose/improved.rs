@@ -4,9 +4,9 @@
 use super::Diagnosis;
 use super::case::{Case, Column, Data, NoiseClaim, NoiseOrigin, Role};
 use super::simulate::{heading, recorded};
-use crate::budget::writing::{key, quoted};
-use crate::files::Files;
 use crate::recording::{Heading, text_of};
+use gumption_format::files::Files;
+use gumption_gum::budget::writing::{key, quoted};
 
 /// Name of the recording beside the improved case.
 const RECORDING: &str = "recording.csv";
@@ -155,7 +155,7 @@ fn is_found_by_name(column: &Column, case: &Case) -> bool {
 }
 
 fn constants(case: &Case) -> String {
-    use crate::model::Role as SymbolRole;
+    use gumption_core::model::Role as SymbolRole;
     let mut text = String::new();
     for constant in &case.constants {
         if text.is_empty() {

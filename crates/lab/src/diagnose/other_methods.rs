@@ -5,7 +5,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::evidence::{Question, Shape};
-use crate::special::{chi_squared_sf, f_sf};
+use gumption_core::special::{chi_squared_sf, f_sf};
 
 /// A direction with less than this share (squared) of its length left counts as dependent.
 const DEPENDENT: f64 = 1e-6;

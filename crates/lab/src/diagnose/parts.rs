@@ -12,7 +12,7 @@ use super::design::Design;
 use super::evidence::Fitted;
 use super::fit::Fit;
 use super::noise::Claimed;
-use crate::special::{chi_squared_sf, f_sf};
+use gumption_core::special::{chi_squared_sf, f_sf};
 
 /// Checks of an adopted effect.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,7 +10,7 @@ use gumption_lanes::{Block, Generator, LANES, level};
 
 use super::design::Design;
 use super::noise_growth::{self, Growth, Spread};
-use crate::special::chi_squared_quantile;
+use gumption_core::special::chi_squared_quantile;
 
 /// Gain in −2 ln L from which noise counts as growing: exceeded by chance in 5 % of recordings (one-sided,
 /// χ² of one degree of freedom). Growth that is missed costs false alarms, growth in vain next to nothing.

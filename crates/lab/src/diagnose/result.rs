@@ -14,8 +14,8 @@ use super::design::{Design, UnknownKind};
 use super::fit;
 use super::omitted::Omitted;
 use super::run::Diagnosis;
-use crate::budget::writing::{key, quoted};
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
+use gumption_gum::budget::writing::{key, quoted};
 
 /// Lines that are smaller than this part of every parameter's u are left out.
 const MATTERS: f64 = 0.01;

@@ -9,9 +9,9 @@ use super::design::Design;
 use super::fit::{Fit, NoFit};
 use super::noise::{self, Claimed};
 use super::{chance, confirm};
-use crate::quantity::UnitTable;
 use crate::recording::Heading;
-use crate::special::normal_two_sided_quantile;
+use gumption_core::quantity::UnitTable;
+use gumption_core::special::normal_two_sided_quantile;
 
 /// Coverage probability of the band.
 const COVERAGE: f64 = 0.95;

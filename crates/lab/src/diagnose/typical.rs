@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::case::{Case, Observed};
 use super::catalogue::{Cell, FittedModel, Node, Usual, Variation};
-use crate::quantity::UnitTable;
+use gumption_core::quantity::UnitTable;
 
 /// Columns of a variation in units in which each shifts the output by one unit at most.
 pub struct Unified {

@@ -1,6 +1,6 @@
 //! Codes of the faults in experiment files.
 
-use crate::fault::codes;
+use gumption_fault::codes;
 
 codes! {
     NO_PROCEDURE = "C0101", "a procedure is not in the library", "内置库中没有该测量程序",

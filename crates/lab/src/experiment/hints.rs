@@ -3,7 +3,7 @@
 use gumption_format::toml::{Hints, Table};
 
 use super::tables::ExperimentTable;
-use crate::budget::hints as budget;
+use gumption_gum::budget::hints as budget;
 
 /// The mistakes of writers of experiments.
 pub static HINTS: Hints = Hints {

@@ -7,11 +7,11 @@ use super::faults::NO_PROCEDURE;
 use super::hints::HINTS;
 use super::procedure::{PROCEDURES, procedure_named};
 use super::tables::ExperimentTable;
-use crate::budget::faults::UNUSED;
-use crate::fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Named;
 use gumption_format::toml::tables_of;
 use gumption_format::toml::{Stated, Table};
+use gumption_gum::budget::faults::UNUSED;
 
 /// The tables of a file over those of its procedure.
 pub(crate) struct Source {

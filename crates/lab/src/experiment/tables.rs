@@ -3,7 +3,7 @@
 use gumption_format::toml::{Amount, Cell, Date, Dof, Named, OneOrMany, Stated, table, words};
 
 use super::entries::{AverageEntry, RoleWord, RowsEntry, Short, Shorthand};
-use crate::budget::tables::{
+use gumption_gum::budget::tables::{
     ConstantEntry, ConventionsTable, CorrelationTable, InputTable, MonteCarloTable, SourceTable,
 };
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::power_law::{PowerLaw, equivalent_dof};
-use crate::special::{chi_squared_quantile, chi_squared_upper_quantile};
+use gumption_core::special::{chi_squared_quantile, chi_squared_upper_quantile};
 
 /// The fewest readings that have an Allan deviation at more than two averaging times.
 const FEWEST: usize = 16;

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::special::student_t_sf;
-use crate::statistics::{Dd, Series};
+use gumption_core::special::student_t_sf;
+use gumption_core::statistics::{Dd, Series};
 
 /// Longer series are taken in blocks of successive readings, so that their serial correlation takes
 /// no time that grows with the square of their length.

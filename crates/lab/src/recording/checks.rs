@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::{Column, Data, Labels, Recording};
-use crate::fault::nearest;
+use gumption_fault::nearest;
 
 /// What is to be looked at. Roles that the recording lacks are passed over.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::faults::{NO_UNIT, UNIT, UNIT_CLASH};
 use super::heading::Heading;
 use super::request::Request;
-use crate::fault::Fault;
-use crate::quantity::{Unit, hint_for_clash};
+use gumption_core::quantity::{Unit, hint_for_clash};
+use gumption_fault::Fault;
 
 /// The unit of a column of numbers, of which the header and the asker must not say different things.
 ///

@@ -1,6 +1,6 @@
 //! Codes of the faults in a recording.
 
-use crate::fault::codes;
+use gumption_fault::codes;
 
 codes! {
     UNREADABLE = "R0101", "a recording cannot be read", "记录无法读取",

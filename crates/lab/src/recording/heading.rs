@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::quantity::{Unit, UnitError, UnitTable};
+use gumption_core::quantity::{Unit, UnitError, UnitTable};
 
 /// What the first line says of a column.
 #[derive(Debug, Clone, PartialEq)]

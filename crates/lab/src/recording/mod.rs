@@ -16,8 +16,8 @@
 //! | `power_law` | covariances of Allan variances for noise of a power law |
 //! | `noise` | white noise, bias instability and rate random walk from an Allan deviation |
 //!
-//! What makes a recording unreadable is a [`Fault`](crate::fault::Fault) in a
-//! [`Rejection`](crate::fault::Rejection), drawn under the user's own lines; what makes it doubtful is
+//! What makes a recording unreadable is a [`Fault`](gumption_fault::Fault) in a
+//! [`Rejection`](gumption_fault::Rejection), drawn under the user's own lines; what makes it doubtful is
 //! a [`Finding`], which says how grave it is. Nothing is repaired, and no value is made up: a missing
 //! value is NaN, and every later step leaves it out and counts it.
 //!
@@ -76,7 +76,7 @@ pub use request::{Content, Request};
 pub use segment::{Cut, Dwell, Settling, Steps, Stillness, by_label, by_steps, by_stillness};
 pub use sheet::{Row, Sheet};
 
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// Columns of equal length, in the order in which they were asked for.
 #[derive(Debug, Clone, PartialEq)]

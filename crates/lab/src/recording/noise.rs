@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::allan::Allan;
 use super::power_law::{PowerLaw, covariances};
-use crate::special::{chi_squared_sf, normal_quantile};
+use gumption_core::special::{chi_squared_sf, normal_quantile};
 
 /// The noise of an instrument: σ²(τ) = N²/τ + B² · 2 ln 2/π + K² τ/3.
 ///

@@ -12,9 +12,9 @@ use super::heading::Heading;
 use super::request::{Content, Request};
 use super::sheet::{Row, SHOWN, Sheet};
 use super::{Column, Data, Labels, Recording};
-use crate::fault::{Fault, Rejection, nearest};
-use crate::files::Files;
-use crate::quantity::{Unit, UnitTable};
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_fault::{Fault, Rejection, nearest};
+use gumption_format::files::Files;
 
 impl Recording {
     /// Reads the columns asked for from a file.

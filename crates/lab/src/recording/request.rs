@@ -1,6 +1,6 @@
 //! A column that is asked for.
 
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// A column that is asked for.
 #[derive(Debug, Clone, PartialEq)]

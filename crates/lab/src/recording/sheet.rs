@@ -6,7 +6,7 @@ use std::ops::Range;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::faults::{NO_HEADER, NO_ROWS, ROW_LENGTH};
-use crate::fault::Fault;
+use gumption_fault::Fault;
 
 /// A CSV text whose first line was read.
 ///

@@ -2,11 +2,11 @@
 
 use super::common::SMALL;
 use crate::comparison;
-use crate::document::{Cell, ColumnKind, Table};
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, aligned, freedom, percent, probability, significant};
-use crate::propagate::{CoverageBasis, Freedom, Gum};
 use crate::{Report, difference_symbol, symbol};
+use gumption_format::document::{Cell, ColumnKind, Table};
+use gumption_gum::propagate::{CoverageBasis, Freedom, Gum};
 
 pub(super) fn elision(language: Language, gum: &Gum, elided: &[usize]) -> String {
     let largest = elided

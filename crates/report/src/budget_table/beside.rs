@@ -1,14 +1,14 @@
 //! What stands beside the table: origins of components, correlations, constants.
 
 use super::common::{LONG, SMALL, kind};
-use crate::budget::Component;
-use crate::document::Block;
-use crate::document::{ColumnKind, Row, Table};
 use crate::how;
 use crate::language::{Language, Word};
 use crate::number::exact;
 use crate::statement::coefficient;
 use crate::{Report, symbol};
+use gumption_format::document::Block;
+use gumption_format::document::{ColumnKind, Row, Table};
+use gumption_gum::budget::Component;
 
 /// How each u was found, and from which certificate.
 pub(crate) fn origins(report: &Report<'_>) -> Vec<Block> {

@@ -1,6 +1,6 @@
 //! What the parts of a budget table have in common.
 
-use crate::budget::Evaluation as Kind;
+use gumption_gum::budget::Evaluation as Kind;
 
 /// Rows that a reader takes in; a longer budget is sorted and its small rows are summed up.
 pub(super) const LONG: usize = 40;

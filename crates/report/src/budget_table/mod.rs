@@ -5,13 +5,13 @@ mod below;
 mod beside;
 mod common;
 
-use crate::budget::{Component, Input, Owner, Term};
-use crate::document::Block;
-use crate::document::{Cell, ColumnKind, Row, Table};
 use crate::language::{Language, Word};
 use crate::number::{NONE, TABLE_DIGITS, aligned, freedom, percent, significant};
-use crate::propagate::{Contribution, FindingKind, Gum, is_residue};
 use crate::{Report, difference_symbol, symbol};
+use gumption_format::document::Block;
+use gumption_format::document::{Cell, ColumnKind, Row, Table};
+use gumption_gum::budget::{Component, Input, Owner, Term};
+use gumption_gum::propagate::{Contribution, FindingKind, Gum, is_residue};
 
 use common::{LONG, SMALL, kind};
 

@@ -1,15 +1,15 @@
 //! What the uncertainty of each coefficient comes from.
 
-use crate::calibrate::{Cause, Contribution, Figures, Origin, Scope};
-use crate::document::{
-    Block, Cell,
-    ColumnKind::{Bar, Names, Numbers, Words},
-    Row, Table,
-};
 use crate::language::{Language, Word};
 use crate::number::{freedom, in_unit, percent, significant};
 use crate::phrase::{named_row, numbers_beside, section, table};
 use crate::symbol;
+use gumption_format::document::{
+    Block, Cell,
+    ColumnKind::{Bar, Names, Numbers, Words},
+    Row, Table,
+};
+use gumption_lab::calibrate::{Cause, Contribution, Figures, Origin, Scope};
 
 use super::sections::{DIGITS, head_of, shown_u};
 
@@ -109,7 +109,7 @@ fn all_budgets(figures: &Figures, l: Language) -> Table {
             scope if scope.is_empty() => cause_name(cause, l),
             scope => format!("{} ({scope})", cause_name(cause, l)),
         };
-        let of = |(index, one): (usize, &crate::calibrate::Coefficient)| match cause
+        let of = |(index, one): (usize, &gumption_lab::calibrate::Coefficient)| match cause
             .contributes(index, one.u)
         {
             part if part.is_nothing => "0".to_owned(),

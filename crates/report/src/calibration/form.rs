@@ -3,15 +3,15 @@
 use nalgebra::DMatrix;
 use serde_json::Value;
 
-use crate::calibrate::{
+use crate::language::Language;
+use gumption_core::quantity::Unit;
+use gumption_format::machine::{self, Machine, Number, all, form};
+use gumption_lab::calibrate::{
     Alias, Apart, Calibration, Cause, Coefficient, Combination, Contribution, Experiment, Figures,
     Identifiability, Limit, Misfit, NearAlias, Omitted, Origin, Plan, Residual, ResponseScatter,
     Scatter, ScatterTest, Scope, Words,
 };
-use crate::language::Language;
-use crate::machine::{self, Machine, Number, all, form};
-use crate::quantity::Unit;
-use crate::recording::Finding;
+use gumption_lab::recording::Finding;
 
 use super::causes::cause_name;
 use super::sections::said;

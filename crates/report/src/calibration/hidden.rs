@@ -1,12 +1,12 @@
 //! What an experiment tells apart, and what hides in its coefficients.
 
-use crate::calibrate::{Alias, Experiment, Figures, Identifiability, Omitted, Plan};
-use crate::document::Block;
 use crate::language::Language;
 use crate::number::{percent, significant};
 use crate::phrase::section;
-use crate::quantity::Unit;
 use crate::symbol;
+use gumption_core::quantity::Unit;
+use gumption_format::document::Block;
+use gumption_lab::calibrate::{Alias, Experiment, Figures, Identifiability, Omitted, Plan};
 
 use super::sections::said;
 use super::trouble::{changes, in_words};

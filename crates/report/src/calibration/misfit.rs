@@ -1,17 +1,17 @@
 //! What the equations leave of the readings, and what a reader must know.
 
-use crate::calibrate::{
-    Apart, Calibration, Experiment, Limit, Misfit, ResponseScatter, Scatter, ScatterTest, Words,
-};
-use crate::document::{
-    Block,
-    ColumnKind::{Names, Numbers},
-    Table,
-};
 use crate::language::{Language, Word};
 use crate::number::{NONE, aligned, freedom, significant};
 use crate::phrase::{section, table};
 use crate::symbol;
+use gumption_format::document::{
+    Block,
+    ColumnKind::{Names, Numbers},
+    Table,
+};
+use gumption_lab::calibrate::{
+    Apart, Calibration, Experiment, Limit, Misfit, ResponseScatter, Scatter, ScatterTest, Words,
+};
 
 use super::sections::{DIGITS, said, shown_u};
 use super::trouble::counted;

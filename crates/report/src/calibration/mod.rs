@@ -7,9 +7,9 @@ mod misfit;
 mod sections;
 mod trouble;
 
-use crate::calibrate::{Calibration, Experiment, Plan, Trouble};
-use crate::document::{Block, Document};
 use crate::language::Language;
+use gumption_format::document::{Block, Document};
+use gumption_lab::calibrate::{Calibration, Experiment, Plan, Trouble};
 
 pub use form::{calibration_schema, plan_schema};
 

@@ -1,16 +1,16 @@
 //! The sections of the report of a calibration.
 
-use crate::calibrate::{Calibration, Coefficient, Experiment, Figures, PartScatter, Words};
-use crate::document::{
-    Block,
-    ColumnKind::{Names, Numbers, Wrapped},
-    Row,
-};
 use crate::joint::matrix;
 use crate::language::{Language, Word};
 use crate::number::{NONE, aligned, freedom, in_unit, probability, significant};
 use crate::phrase::{named_row, numbers_beside, paragraph, section, table};
 use crate::symbol;
+use gumption_format::document::{
+    Block,
+    ColumnKind::{Names, Numbers, Wrapped},
+    Row,
+};
+use gumption_lab::calibrate::{Calibration, Coefficient, Experiment, Figures, PartScatter, Words};
 
 /// Digits of standard uncertainties.
 pub(super) const DIGITS: u8 = 3;

@@ -1,6 +1,6 @@
 //! Why an experiment gives no coefficients, and combinations of parameters in words.
 
-use crate::calibrate::{Combination, Trouble};
+use gumption_lab::calibrate::{Combination, Trouble};
 
 use crate::language::Language;
 use crate::number::significant;

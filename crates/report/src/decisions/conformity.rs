@@ -1,13 +1,13 @@
 //! One conformity assessment: its section and its sentence.
 
 use super::words::{Rows, chance, with_unit};
-use crate::budget::{Conformity, DecisionRule, Interval};
-use crate::document::Block;
 use crate::language::Language;
 use crate::number::{NONE, TABLE_DIGITS, aligned, exact, print};
-use crate::propagate::{ConformityResult, Verdict};
-use crate::quantity::Unit;
 use crate::{Report, difference_symbol, symbol};
+use gumption_core::quantity::Unit;
+use gumption_format::document::Block;
+use gumption_gum::budget::{Conformity, DecisionRule, Interval};
+use gumption_gum::propagate::{ConformityResult, Verdict};
 
 /// One conformity assessment.
 pub(super) struct Assessment<'a> {

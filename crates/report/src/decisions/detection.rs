@@ -1,13 +1,13 @@
 //! Characteristic limits of one measurand: their section and their sentence.
 
 use super::words::{Rows, with_unit};
-use crate::budget::Detection;
-use crate::document::Block;
 use crate::language::Language;
 use crate::number::{TABLE_DIGITS, aligned, at_place, exact, print, probability, significant};
-use crate::propagate::{DetectionLimit, DetectionResult};
-use crate::quantity::Unit;
 use crate::{Report, difference_symbol, symbol};
+use gumption_core::quantity::Unit;
+use gumption_format::document::Block;
+use gumption_gum::budget::Detection;
+use gumption_gum::propagate::{DetectionLimit, DetectionResult};
 
 /// Characteristic limits of one measurand.
 pub(super) struct Limits<'a> {

@@ -8,8 +8,8 @@ mod rule;
 mod words;
 
 use crate::Report;
-use crate::document::Block;
-use crate::propagate::Verdict;
+use gumption_format::document::Block;
+use gumption_gum::propagate::Verdict;
 
 use conformity::Assessment;
 use detection::Limits;

@@ -4,7 +4,7 @@ use super::conformity::Assessment;
 use super::words::{Rows, chance, related};
 use crate::language::Language;
 use crate::number::{NONE, significant};
-use crate::propagate::Verdict;
+use gumption_gum::propagate::Verdict;
 
 impl Assessment<'_> {
     /// What is known of the item that was measured.

@@ -2,8 +2,8 @@
 
 use super::conformity::Assessment;
 use super::words::with_unit;
-use crate::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY};
 use crate::number::{exact, probability};
+use gumption_gum::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY};
 
 impl Assessment<'_> {
     /// The rule, with its guard band or probability.

@@ -1,8 +1,8 @@
 //! What the sections of decisions have in common: rows, and probabilities in words.
 
-use crate::document::Block;
 use crate::number::{at_place, print, significant};
-use crate::quantity::space_before;
+use gumption_core::quantity::space_before;
+use gumption_format::document::Block;
 
 /// Rows of a section: label and text.
 #[derive(Default)]

@@ -1,15 +1,15 @@
 //! A diagnosis as blocks: verdict, where, what, the improvement, what remains open.
 
-use crate::diagnose::case::Case;
-use crate::diagnose::evidence::{Alternative, Slot};
-use crate::diagnose::{Diagnosis, Doubt};
-use crate::document::{
-    Block,
-    ColumnKind::{Names as NamesColumn, Numbers},
-};
 use crate::language::Language;
 use crate::number::{NONE, aligned, significant};
 use crate::phrase::{section, table};
+use gumption_format::document::{
+    Block,
+    ColumnKind::{Names as NamesColumn, Numbers},
+};
+use gumption_lab::diagnose::case::Case;
+use gumption_lab::diagnose::evidence::{Alternative, Slot};
+use gumption_lab::diagnose::{Diagnosis, Doubt};
 
 use super::labels::spoken;
 use super::names::{Names, quantity};

@@ -2,10 +2,10 @@
 
 use serde_json::Value;
 
-use crate::diagnose::case::Case;
-use crate::diagnose::{Claimed, Outlook, Promise, Prospect};
 use crate::language::Language;
-use crate::machine::{self, Machine, Number, all, form};
+use gumption_format::machine::{self, Machine, Number, all, form};
+use gumption_lab::diagnose::case::Case;
+use gumption_lab::diagnose::{Claimed, Outlook, Promise, Prospect};
 
 use super::names::Names;
 use super::noise::assumed_noise;

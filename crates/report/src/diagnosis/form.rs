@@ -2,17 +2,17 @@
 
 use serde_json::Value;
 
-use crate::diagnose::case::Case;
-use crate::diagnose::catalogue::Term;
-use crate::diagnose::evidence::{
+use crate::language::Language;
+use gumption_format::machine::{self, Machine, Number, all, form, numbers};
+use gumption_lab::diagnose::case::Case;
+use gumption_lab::diagnose::catalogue::Term;
+use gumption_lab::diagnose::evidence::{
     self, Alternative, Level, Located, Rival, Slot, State, Variant, Verdict, Worth,
 };
-use crate::diagnose::{
+use gumption_lab::diagnose::{
     Addition, Adopted, Claimed, Diagnosis, Extra, HeldOutQuality, ModelVersion, Prediction,
     Quality, Separating, Trouble, Unsettled,
 };
-use crate::language::Language;
-use crate::machine::{self, Machine, Number, all, form, numbers};
 
 use super::names::Names;
 use super::noise::noise;

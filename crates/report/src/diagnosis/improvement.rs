@@ -1,17 +1,17 @@
 //! The improved model: its terms, how much better it describes the recording, and what it changes in the
 //! parameters.
 
-use crate::diagnose::case::Case;
-use crate::diagnose::{Adopted, Agreement, Diagnosis, HeldOutQuality, Quality};
-use crate::document::{
-    Block,
-    ColumnKind::{Names, Numbers, Wrapped},
-    Row, Table,
-};
 use crate::language::Language;
 use crate::number::{aligned, freedom, in_unit, significant};
 use crate::phrase::{named_row, paragraph, section, table};
 use crate::symbol;
+use gumption_format::document::{
+    Block,
+    ColumnKind::{Names, Numbers, Wrapped},
+    Row, Table,
+};
+use gumption_lab::diagnose::case::Case;
+use gumption_lab::diagnose::{Adopted, Agreement, Diagnosis, HeldOutQuality, Quality};
 
 use super::labels::spoken;
 use super::names::unknown;

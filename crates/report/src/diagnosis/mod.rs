@@ -14,10 +14,10 @@ mod plots;
 mod statement;
 mod words;
 
-use crate::diagnose::case::Case;
-use crate::diagnose::{Diagnosis, Outlook};
-use crate::document::Document;
 use crate::language::Language;
+use gumption_format::document::Document;
+use gumption_lab::diagnose::case::Case;
+use gumption_lab::diagnose::{Diagnosis, Outlook};
 
 pub use expected::outlook_schema;
 pub use form::diagnosis_schema;

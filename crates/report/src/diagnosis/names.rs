@@ -1,10 +1,10 @@
 //! Names of effects, in a language.
 
-use crate::diagnose::catalogue::{Cell, Words};
-use crate::diagnose::evidence::{Alternative, Slot};
-use crate::diagnose::{Diagnosis, Outlook};
 use crate::language::Language;
 use crate::number::percent;
+use gumption_lab::diagnose::catalogue::{Cell, Words};
+use gumption_lab::diagnose::evidence::{Alternative, Slot};
+use gumption_lab::diagnose::{Diagnosis, Outlook};
 
 use super::labels::{formula_in, spoken};
 

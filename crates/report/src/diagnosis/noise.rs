@@ -1,9 +1,9 @@
 //! Where the noise of a recording comes from, in words.
 
-use crate::diagnose::case::{Case, NoiseClaim};
-use crate::diagnose::{Claimed, Origin};
 use crate::language::Language;
 use crate::number::{freedom, significant};
+use gumption_lab::diagnose::case::{Case, NoiseClaim};
+use gumption_lab::diagnose::{Claimed, Origin};
 
 use super::words::p_is;
 

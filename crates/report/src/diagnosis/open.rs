@@ -1,15 +1,15 @@
 //! What a diagnosis leaves open: effects that the recording does not exclude, and explanations that it
 //! cannot tell apart.
 
-use crate::diagnose::{Diagnosis, Estimated, Separating, Unseen};
-use crate::document::{
+use crate::language::Language;
+use crate::number::{percent, significant};
+use crate::phrase::{paragraph, section, table};
+use gumption_format::document::{
     Block,
     ColumnKind::{Names as NamesColumn, Numbers, Wrapped},
     Table,
 };
-use crate::language::Language;
-use crate::number::{percent, significant};
-use crate::phrase::{paragraph, section, table};
+use gumption_lab::diagnose::{Diagnosis, Estimated, Separating, Unseen};
 
 use super::names::{Names, unknown};
 use super::words::measure;

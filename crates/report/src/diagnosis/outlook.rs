@@ -1,15 +1,15 @@
 //! A plan as blocks: what an experiment can see and tell apart.
 
-use crate::diagnose::case::Case;
-use crate::diagnose::{Outlook, Promise};
-use crate::document::{
+use crate::language::Language;
+use crate::number::{NONE, percent, significant};
+use crate::phrase::{paragraph, section, table};
+use gumption_format::document::{
     Block,
     ColumnKind::{Names as NamesColumn, Numbers, Wrapped},
     Table,
 };
-use crate::language::Language;
-use crate::number::{NONE, percent, significant};
-use crate::phrase::{paragraph, section, table};
+use gumption_lab::diagnose::case::Case;
+use gumption_lab::diagnose::{Outlook, Promise};
 
 use super::names::{Names, unknown};
 use super::noise::assumed_noise;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::diagnose::{Estimated, Measure, Omitted};
-use crate::machine::{Number, form};
+use gumption_format::machine::{Number, form};
+use gumption_lab::diagnose::{Estimated, Measure, Omitted};
 
 use super::names::Names;
 

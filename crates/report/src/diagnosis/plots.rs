@@ -2,11 +2,11 @@
 
 use nalgebra::DVector;
 
-use crate::diagnose::Diagnosis;
-use crate::diagnose::case::{Case, Role};
-use crate::document::{Axis, Layer, Marks, Panel, Plot, Tone};
 use crate::language::Language;
 use crate::symbol;
+use gumption_format::document::{Axis, Layer, Marks, Panel, Plot, Tone};
+use gumption_lab::diagnose::Diagnosis;
+use gumption_lab::diagnose::case::{Case, Role};
 
 /// One plot for each column that the residuals may follow.
 pub(super) fn plots(case: &Case, diagnosis: &Diagnosis, l: Language) -> Vec<Plot> {

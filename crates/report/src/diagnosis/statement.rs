@@ -1,8 +1,8 @@
 //! The verdict of a diagnosis in one sentence.
 
-use crate::diagnose::evidence::{Alternative, Slot};
-use crate::diagnose::{Conclusion, Diagnosis, Nameless};
 use crate::language::Language;
+use gumption_lab::diagnose::evidence::{Alternative, Slot};
+use gumption_lab::diagnose::{Conclusion, Diagnosis, Nameless};
 
 use super::names::Names;
 use super::words::chance;

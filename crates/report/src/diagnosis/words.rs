@@ -1,10 +1,10 @@
 //! Phrases of a diagnosis: measurements, probabilities, why there is none.
 
-use crate::diagnose::case::Case;
-use crate::diagnose::evidence::Refusal;
-use crate::diagnose::{Failure, Measure, ModelVersion, NoFit, Trouble, Unsettled};
 use crate::language::Language;
 use crate::number::{percent, significant};
+use gumption_lab::diagnose::case::Case;
+use gumption_lab::diagnose::evidence::Refusal;
+use gumption_lab::diagnose::{Failure, Measure, ModelVersion, NoFit, Trouble, Unsettled};
 
 /// A further measurement as a phrase.
 pub(super) fn measure(measure: &Measure, l: Language) -> String {

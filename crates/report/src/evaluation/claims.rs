@@ -1,9 +1,10 @@
 //! Claimed beside obtained figures.
 
-use crate::budget::{Claim, Confidence};
-use crate::machine::Number;
-use crate::propagate::{Method, compare_claims};
-use crate::{Report, claim, machine::record};
+use crate::{Report, claim};
+use gumption_format::machine::Number;
+use gumption_format::machine::record;
+use gumption_gum::budget::{Claim, Confidence};
+use gumption_gum::propagate::{Method, compare_claims};
 
 record! {
     /// A claim with its comparison.

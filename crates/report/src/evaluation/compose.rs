@@ -1,15 +1,15 @@
 //! The report as a sequence of blocks, in the order in which it is read.
 
-use crate::budget::{CoverageRule, TScale};
-use crate::quantity::Rounding;
+use gumption_core::quantity::Rounding;
+use gumption_gum::budget::{CoverageRule, TScale};
 
-use crate::document::Block;
 use crate::language::{Language, Word};
 use crate::number::{exact, probability};
 use crate::{
     Report, analyses, budget_table, claim, comparison, decisions, fits, indices, joint, remarks,
     statement,
 };
+use gumption_format::document::Block;
 
 /// All blocks of a report.
 pub(super) fn compose(report: &Report<'_>) -> Vec<Block> {

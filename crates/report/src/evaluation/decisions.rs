@@ -1,9 +1,10 @@
 //! Verdicts: conformity with a tolerance, decision threshold and detection limit.
 
-use crate::budget::{Conformity, Detection, Interval};
-use crate::machine::{Number, numbers};
-use crate::propagate::{ConformityResult, DetectionResult};
-use crate::{Report, decisions, machine::record};
+use crate::{Report, decisions};
+use gumption_format::machine::record;
+use gumption_format::machine::{Number, numbers};
+use gumption_gum::budget::{Conformity, Detection, Interval};
+use gumption_gum::propagate::{ConformityResult, DetectionResult};
 
 record! {
     /// A conformity assessment (JCGM 106).

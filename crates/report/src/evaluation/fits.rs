@@ -1,10 +1,10 @@
 //! Least-squares fits in the machine form.
 
-use crate::budget::{Fit, FitVerdict, LackOfFitTest};
+use gumption_gum::budget::{Fit, FitVerdict, LackOfFitTest};
 
 use super::matrix::matrix;
-use crate::machine::record;
-use crate::machine::{Number, numbers};
+use gumption_format::machine::record;
+use gumption_format::machine::{Number, numbers};
 
 record! {
     /// A least-squares fit whose parameters are inputs.

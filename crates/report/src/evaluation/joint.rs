@@ -1,9 +1,9 @@
 //! The joint result of several measurands.
 
 use super::matrix::matrix;
-use crate::machine::Number;
-use crate::machine::record;
-use crate::propagate::JointResult;
+use gumption_format::machine::Number;
+use gumption_format::machine::record;
+use gumption_gum::propagate::JointResult;
 
 record! {
     /// Joint result (JCGM 102).

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::machine::{Number, numbers};
+use gumption_format::machine::{Number, numbers};
 
 /// The rows of a matrix.
 pub(super) fn matrix(m: &DMatrix<f64>) -> Vec<Vec<Number>> {

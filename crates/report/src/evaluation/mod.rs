@@ -17,7 +17,7 @@ use serde_json::Value;
 
 use self::whole::EvaluationJson;
 use crate::Report;
-use crate::document::Document;
+use gumption_format::document::Document;
 
 /// One evaluated budget.
 pub fn evaluation(report: &Report<'_>) -> Document {
@@ -44,5 +44,5 @@ fn of(report: &Report<'_>, in_full: bool) -> Document {
 
 /// JSON Schema of the output of `gumption eval --json`: one evaluation, or an array of them.
 pub fn evaluation_schema() -> Value {
-    crate::machine::schema::<EvaluationJson<'_>>("gumption eval --json")
+    gumption_format::machine::schema::<EvaluationJson<'_>>("gumption eval --json")
 }

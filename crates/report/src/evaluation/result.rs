@@ -1,11 +1,12 @@
 //! The result of one measurand by each method.
 
-use crate::machine::{Number, numbers};
-use crate::propagate::{
+use crate::Report;
+use gumption_format::machine::record;
+use gumption_format::machine::{Number, numbers};
+use gumption_gum::propagate::{
     Basis, Clause8, Contribution, Coverage, CoverageBasis, Freedom, Gum, MeasurandResult,
     MonteCarlo, Reported, ReportedUncertainty, StatedProbability, Validation,
 };
-use crate::{Report, machine::record};
 
 record! {
     /// Both methods for one measurand.

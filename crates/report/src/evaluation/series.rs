@@ -1,14 +1,14 @@
 //! A series: the same budget once per row, as compact tables: results, claims, repetitions.
 
-use crate::budget::Figure;
-use crate::propagate::{Clause8, Comparison};
+use gumption_gum::budget::Figure;
+use gumption_gum::propagate::{Clause8, Comparison};
 
-use crate::document::{Block, Cell, ColumnKind, Finding, Table};
 use crate::language::Word;
 use crate::number::{
     NONE, STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, print, probability, significant,
 };
 use crate::{Report, claim, remarks, symbol};
+use gumption_format::document::{Block, Cell, ColumnKind, Finding, Table};
 
 /// The rows of a series.
 pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {

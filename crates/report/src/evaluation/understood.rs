@@ -4,15 +4,15 @@ use serde_json::Value;
 
 use super::matrix::matrix;
 use crate::analyses;
-use crate::budget::chain::TakenResult;
-use crate::budget::{
+use gumption_core::distribution::{Distribution, Parameter};
+use gumption_core::quantity::Rounding;
+use gumption_format::machine::record;
+use gumption_format::machine::{Number, numbers};
+use gumption_gum::budget::chain::TakenResult;
+use gumption_gum::budget::{
     Analysis, Component, Constant, CoverageRule, DofRule, Evaluation as Kind, Group, Input, Law,
     OutputShape, Owner, TScale,
 };
-use crate::distribution::{Distribution, Parameter};
-use crate::machine::record;
-use crate::machine::{Number, numbers};
-use crate::quantity::Rounding;
 
 record! {
     /// Heading of the file.
@@ -182,7 +182,7 @@ record! {
     }
 }
 
-pub(super) fn heading(stated: &crate::budget::Heading) -> Heading<'_> {
+pub(super) fn heading(stated: &gumption_gum::budget::Heading) -> Heading<'_> {
     Heading {
         title: &stated.title,
         method: stated.method.as_deref(),
@@ -194,7 +194,7 @@ pub(super) fn heading(stated: &crate::budget::Heading) -> Heading<'_> {
     }
 }
 
-pub(super) fn conventions(c: &crate::budget::Conventions) -> Conventions<'_> {
+pub(super) fn conventions(c: &gumption_gum::budget::Conventions) -> Conventions<'_> {
     Conventions {
         profile: &c.profile,
         overrides: c.overrides.iter().map(String::as_str).collect(),

@@ -9,13 +9,14 @@ use super::understood::{
     AnalysisJson, ComponentJson, ConstantJson, Conventions, GroupJson, Heading, InputJson,
     TakenJson,
 };
-use crate::budget::{Adaptive, NamedFigure, Remark};
 use crate::indices::names;
-use crate::propagate::{Finding, Quasi, Run, SobolIndex};
-use crate::{Report, language::Language, machine::record, remarks, statement};
+use crate::{Report, language::Language, remarks, statement};
+use gumption_format::machine::record;
+use gumption_gum::budget::{Adaptive, NamedFigure, Remark};
+use gumption_gum::propagate::{Finding, Quasi, Run, SobolIndex};
 
 use super::{claims, decisions, fits, joint, result, understood};
-use crate::machine::{Machine, Number, numbers};
+use gumption_format::machine::{Machine, Number, numbers};
 
 record! {
     /// One evaluated budget.

@@ -1,9 +1,9 @@
 //! The dossier: what was verified, with what, how, the result; then every example.
 
-use crate::document::Block;
-use crate::document::{Cell, ColumnKind, Table};
 use crate::language::Language;
-use crate::verify::{Verdict, Verification};
+use gumption_format::document::Block;
+use gumption_format::document::{Cell, ColumnKind, Table};
+use gumption_verify::{Verdict, Verification};
 
 use super::{example, words};
 

@@ -1,17 +1,17 @@
 //! One example: where its figures come from, each published figure beside the one obtained, the verdict.
 
-use crate::budget::{Figure, Part};
-use crate::propagate::Comparison;
-use crate::quantity::{Decimal, Rounding, Unit};
-use crate::verify::{Example, Problem, Row};
+use gumption_core::quantity::{Decimal, Rounding, Unit};
+use gumption_gum::budget::{Figure, Part};
+use gumption_gum::propagate::Comparison;
+use gumption_verify::{Example, Problem, Row};
 
 use super::words;
 use crate::claim::{self, last_place};
-use crate::document::Block;
-use crate::document::{Cell, ColumnKind, Table};
 use crate::language::{Language, Word};
 use crate::number::{NONE, at_place, exact, grouped, print, significant};
 use crate::{Report, difference_symbol, remarks, symbol};
+use gumption_format::document::Block;
+use gumption_format::document::{Cell, ColumnKind, Table};
 
 /// Heading, origin, figures and verdict of an example.
 pub(super) fn blocks(number: usize, example: &Example, l: Language) -> Vec<Block> {

@@ -4,9 +4,9 @@ use serde_json::Value;
 
 use crate::claim;
 use crate::language::Language;
-use crate::machine::{Machine, Number, record};
-use crate::propagate::{Comparison, Method};
-use crate::verify::{Example, Row, Verdict, Verification};
+use gumption_format::machine::{Machine, Number, record};
+use gumption_gum::propagate::{Comparison, Method};
+use gumption_verify::{Example, Row, Verdict, Verification};
 
 use super::{dossier, example, words};
 
@@ -133,7 +133,7 @@ impl Machine for VerificationJson<'_> {
 
 /// JSON Schema of `verification.json` and of the output of `gumption verify --json`.
 pub fn verification_schema() -> Value {
-    crate::machine::schema::<VerificationJson<'_>>("gumption verify --json")
+    gumption_format::machine::schema::<VerificationJson<'_>>("gumption verify --json")
 }
 
 /// The machine form of a verification.

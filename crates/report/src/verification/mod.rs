@@ -5,9 +5,9 @@ mod example;
 mod json;
 mod words;
 
-use crate::document::{Block, Document};
 use crate::language::Language;
-use crate::verify::{Verdict, Verification};
+use gumption_format::document::{Block, Document};
+use gumption_verify::{Verdict, Verification};
 
 pub use json::verification_schema;
 
@@ -43,10 +43,10 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::budget::Files;
-    use crate::propagate::{MonteCarloChoice, Options};
-    use crate::render::{Page, markdown::markdown, text::text};
-    use crate::verify::{Environment, Example};
+    use gumption_format::render::{Page, markdown::markdown, text::text};
+    use gumption_gum::budget::Files;
+    use gumption_gum::propagate::{MonteCarloChoice, Options};
+    use gumption_verify::{Environment, Example};
 
     const FILE: &str = r#"
 title = "Current"

@@ -1,7 +1,7 @@
 //! Headings, counts and verdicts in words.
 
 use crate::language::Language;
-use crate::verify::{Example, Verdict, Verification};
+use gumption_verify::{Example, Verdict, Verification};
 
 /// The heading of an example, which the table of contents refers to.
 pub(super) fn heading(number: usize, l: Language) -> String {

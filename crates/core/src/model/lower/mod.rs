@@ -9,7 +9,6 @@ mod vectors;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::fault::Fault;
 use crate::model::faults;
 use crate::model::graph::{Builder, Id, Label};
 use crate::model::operation::{binary_row, unary};
@@ -17,6 +16,7 @@ use crate::model::printer;
 use crate::model::syntax::{Expr, Name, Span};
 use crate::model::{Place, Symbol};
 use crate::quantity::{Unit, UnitTable};
+use gumption_fault::Fault;
 
 /// Expressions and calls inside one another, with user functions written out.
 const MAX_DEPTH: usize = 160;

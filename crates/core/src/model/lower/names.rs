@@ -1,11 +1,11 @@
 //! What stands alone: numbers, units, names.
 
 use super::{Binding, Lowering, Value};
-use crate::fault::{Fault, nearest};
 use crate::model::catalogue;
 use crate::model::faults;
 use crate::model::syntax::{Expr, Span, UnitText};
 use crate::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 
 impl Lowering<'_> {
     pub fn literal(&mut self, value: f64, unit: Option<&UnitText>) -> Option<Value> {

@@ -1,12 +1,12 @@
 //! Operators, element by element.
 
 use super::{Kind, Lowering, Value};
-use crate::fault::Fault;
 use crate::model::faults;
 use crate::model::graph::{Builder, Id};
 use crate::model::printer;
 use crate::model::syntax::{Expr, Infix, Span};
 use crate::model::units::Operand;
+use gumption_fault::Fault;
 
 impl Lowering<'_> {
     pub fn power(&mut self, whole: &Expr, base: &Expr, exponent: &Expr) -> Option<Value> {

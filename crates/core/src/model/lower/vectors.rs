@@ -1,12 +1,12 @@
 //! Vectors, their elements, and choices between values.
 
 use super::{Kind, Lowering, Value};
-use crate::fault::Fault;
 use crate::model::faults;
 use crate::model::printer;
 use crate::model::syntax::{Expr, Node};
 use crate::model::units::Operand;
 use crate::quantity::Unit;
+use gumption_fault::Fault;
 
 impl Lowering<'_> {
     /// Values in the unit of the first, as one vector.

@@ -1,9 +1,9 @@
 //! Moving through the tokens.
 
 use super::{Parser, fault};
-use crate::fault::Fault;
 use crate::model::faults;
 use crate::model::lexer::{Kind, Token};
+use gumption_fault::Fault;
 
 impl Parser<'_> {
     /// The next token; line ends inside brackets do not count.

@@ -5,10 +5,10 @@ mod operands;
 mod operators;
 mod statements;
 
-use crate::fault::{Code, Fault};
 use crate::model::faults;
 use crate::model::lexer::{Kind, Token, tokens};
 use crate::model::syntax::{Span, Statement};
+use gumption_fault::{Code, Fault};
 
 type Parsed<T> = Result<T, Box<Fault>>;
 

@@ -1,10 +1,10 @@
 //! Operands: numbers, names, calls, brackets, signs, alternatives.
 
 use super::{MapBox, Parsed, Parser, fault};
-use crate::fault::Fault;
 use crate::model::faults;
 use crate::model::lexer::{Kind, Token};
 use crate::model::syntax::{Expr, MINUS, NOT, Name, Node, Span, UnitText};
+use gumption_fault::Fault;
 
 impl Parser<'_> {
     /// A number, name, call, bracket or sign, with an index if there is one.

@@ -1,10 +1,10 @@
 //! Expressions: operands between operators, by how tight these bind.
 
 use super::{MapBox, Parsed, Parser, fault};
-use crate::fault::Fault;
 use crate::model::faults;
 use crate::model::lexer::{Kind, Token};
 use crate::model::syntax::{Expr, Infix, Node, Span};
+use gumption_fault::Fault;
 
 /// Brackets, signs and calls inside one another.
 const MAX_DEPTH: usize = 64;

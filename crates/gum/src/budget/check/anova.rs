@@ -11,8 +11,8 @@ use crate::budget::faults::{GROUPS, MISSING_KEY, NO_SCATTER};
 use crate::budget::tables::{BetweenWord, ComponentTable, GroupColumnTable, GroupSummaryTable};
 use crate::budget::variants::{Groups, ReadingsOf};
 use crate::budget::{Anova, Finding, NestedAnova};
-use crate::fault::Fault;
-use crate::statistics::{Dd, Group, Nested, Of, OneWay, Policy, Uncertainty, Verdict};
+use gumption_core::statistics::{Dd, Group, Nested, Of, OneWay, Policy, Uncertainty, Verdict};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// Groups, or groups of subgroups.
@@ -177,7 +177,7 @@ impl Checker<'_> {
         &mut self,
         verdict: Verdict,
         [en, zh]: [&str; 2],
-        ratio: &crate::statistics::Ratio,
+        ratio: &gumption_core::statistics::Ratio,
         request: &Request<'_>,
     ) {
         let owner = request.owner;

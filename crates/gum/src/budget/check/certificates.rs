@@ -6,10 +6,10 @@ use super::checker::Checker;
 use super::draft::{Context, Core, show};
 use crate::budget::faults::{DOF, K_AND_P, NO_COVERAGE_FACTOR, NOT_POSITIVE, PROBABILITY};
 use crate::budget::tables::{CertificateTable, ComponentTable};
-use crate::distribution::stating::Width;
-use crate::distribution::{Entry, Normal};
-use crate::fault::Fault;
-use crate::special::student_t_two_sided_quantile;
+use gumption_core::distribution::stating::Width;
+use gumption_core::distribution::{Entry, Normal};
+use gumption_core::special::student_t_two_sided_quantile;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {

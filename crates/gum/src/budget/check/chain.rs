@@ -15,8 +15,8 @@ use crate::budget::faults::SAVED_STALE;
 use crate::budget::saved::SavedResults;
 use crate::budget::tables::FileTable;
 use crate::budget::{Budget, Component, Group, Input, Loaded, Owner, Remark, TScale, Term};
-use crate::distribution::Distribution;
-use crate::fault::Fault;
+use gumption_core::distribution::Distribution;
+use gumption_fault::Fault;
 
 /// A budget while results of other files come into it.
 struct Merge<'a> {

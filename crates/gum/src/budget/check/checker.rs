@@ -8,8 +8,8 @@ use super::fits::Scatter;
 use crate::budget::open_files::OpenFiles;
 use crate::budget::tables::FileTable;
 use crate::budget::{Conventions, NamedFigure, Remark, TScale};
-use crate::fault::Fault;
-use crate::quantity::{Unit, UnitTable};
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_fault::Fault;
 
 /// Where a budget comes from, and with it the files that it names.
 #[derive(Debug, Clone, Copy)]

@@ -6,8 +6,8 @@ use super::register::Register;
 use crate::budget::faults::{CLAIM, LIMITS, NOT_POSITIVE, UNKNOWN_NAME};
 use crate::budget::tables::{ClaimTable, FileTable, InputClaimTable, MethodWord, ToleranceTable};
 use crate::budget::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
-use crate::fault::{Fault, nearest};
-use crate::quantity::{Decimal, Unit};
+use gumption_core::quantity::{Decimal, Unit};
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 

@@ -5,8 +5,8 @@ use super::entries::entries;
 use crate::budget::Constant;
 use crate::budget::faults::NO_ESTIMATE;
 use crate::budget::tables::FileTable;
-use crate::fault::Fault;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 
 impl Checker<'_> {
     /// Reads `[constant]`.

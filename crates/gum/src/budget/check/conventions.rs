@@ -8,8 +8,8 @@ use crate::budget::tables::{
 };
 use crate::budget::variants::TrialsEntry;
 use crate::budget::{Adaptive, Conventions, CoverageRule, MonteCarloSettings, Points, Trials};
-use crate::fault::{Fault, nearest};
-use crate::quantity::Rounding;
+use gumption_core::quantity::Rounding;
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::UNKNOWN_WORD;
 

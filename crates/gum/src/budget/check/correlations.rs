@@ -15,7 +15,7 @@ use crate::budget::faults::{
 };
 use crate::budget::tables::{CorrelationTable, FileTable};
 use crate::budget::{Component, Group, Owner};
-use crate::fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::WRONG_TYPE;
 

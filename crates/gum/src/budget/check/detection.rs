@@ -6,8 +6,8 @@ use super::register::Register;
 use crate::budget::Detection;
 use crate::budget::faults::{DETECTION, MISSING_KEY, NOT_POSITIVE};
 use crate::budget::tables::{DetectionTable, FileTable};
-use crate::fault::Fault;
-use crate::special::normal_sf;
+use gumption_core::special::normal_sf;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// α and β where the file states none (ISO 11929).

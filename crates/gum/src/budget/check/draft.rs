@@ -6,10 +6,10 @@ use super::checker::Checker;
 use crate::budget::faults::{DOF, NOT_POSITIVE};
 use crate::budget::tables::ComponentTable;
 use crate::budget::{Certificate, Evaluation, Finding, Follows, TScale};
-use crate::distribution::{Distribution, Normal, StudentT};
-use crate::fault::Fault;
-use crate::quantity::Unit;
-pub(super) use crate::quantity::show;
+use gumption_core::distribution::{Distribution, Normal, StudentT};
+use gumption_core::quantity::Unit;
+pub(super) use gumption_core::quantity::show;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// What a component is drafted for.

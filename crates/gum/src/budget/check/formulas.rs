@@ -9,10 +9,12 @@ use super::register::Register;
 use crate::budget::faults::{NO_MEASURAND, UNUSED};
 use crate::budget::tables::{FileTable, MeasurandTable};
 use crate::budget::{Constant, Measurand};
-use crate::fault::Fault;
-use crate::model::faults::{NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
-use crate::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile};
-use crate::quantity::Unit;
+use gumption_core::model::faults::{NO_MODEL, UNKNOWN_FUNCTION, UNKNOWN_NAME};
+use gumption_core::model::{
+    MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile,
+};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 use gumption_format::toml::StringMap;
 

@@ -6,9 +6,9 @@ use super::ways::Way;
 use crate::budget::distributions::{self, DistributionEntry};
 use crate::budget::faults::{COUNT, DISTRIBUTION, MISSING_KEY, TOO_FEW_READINGS};
 use crate::budget::tables::{ComponentTable, PriorWord};
-use crate::distribution::stating::Parametric;
-use crate::distribution::{Distribution, Empirical, StudentT, binomial, poisson};
-use crate::fault::Fault;
+use gumption_core::distribution::stating::Parametric;
+use gumption_core::distribution::{Distribution, Empirical, StudentT, binomial, poisson};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {

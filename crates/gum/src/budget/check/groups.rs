@@ -10,8 +10,8 @@ use super::register::{Register, t_dof};
 use super::statement::{ROUNDING, Statement};
 use crate::budget::faults::{NOT_SEMIDEFINITE, UNATTAINABLE};
 use crate::budget::{Component, Group, Law};
-use crate::distribution::{Distribution, StudentT, latent_correlation};
-use crate::fault::Fault;
+use gumption_core::distribution::{Distribution, StudentT, latent_correlation};
+use gumption_fault::Fault;
 
 impl Checker<'_> {
     pub(super) fn group(

@@ -12,8 +12,8 @@ use crate::budget::faults::{LIMITS, NAME_TWICE, NO_ESTIMATE, TWO_ESTIMATES, TWO_
 use crate::budget::tables::{ComponentTable, FileTable, InputTable, ResolutionWord};
 use crate::budget::variants::ReadingsOf;
 use crate::budget::{Follows, Owner};
-use crate::fault::Fault;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// A reason for doubt of one input.

@@ -14,7 +14,7 @@ use super::type_a::{mean_and_squares, student};
 use crate::budget::faults::{CORRELATION_TWICE, JOINT, MODIFIER, NOT_SEMIDEFINITE, TWO_WAYS};
 use crate::budget::tables::{FileTable, JointTable};
 use crate::budget::{Evaluation, Group, Owner, TScale};
-use crate::fault::Fault;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 pub(super) type Matrix = Stated<Vec<Stated<Vec<Stated<f64>>>>>;

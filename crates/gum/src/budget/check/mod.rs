@@ -43,10 +43,10 @@ use std::path::Path;
 
 use super::tables::FileTable;
 use super::{Budget, Component, Heading, MonteCarloSettings, NamedFigure, Owner, Row, Trials};
-use crate::fault::Fault;
 pub(super) use checker::Origin;
 use checker::{Checker, Source};
 use entries::{entries, shared};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// One evaluation: the file itself, or with the values of a row of its series in place.

@@ -7,7 +7,7 @@ use super::checker::Checker;
 use super::entries::{entries, shared};
 use crate::budget::faults::{BAD_NAME, NAME_TWICE};
 use crate::budget::tables::FileTable;
-use crate::fault::Fault;
+use gumption_fault::Fault;
 
 /// Whether the model language reads the text as one name.
 fn is_identifier(name: &str) -> bool {

@@ -8,9 +8,9 @@ use super::taken::{Formula, Taken};
 use crate::budget::faults::UNKNOWN_NAME;
 use crate::budget::tables::InputTable;
 use crate::budget::{Analysis, Component, Following, Follows, Input, Owner, Term};
-use crate::distribution::{Distribution, StudentT};
-use crate::fault::{Fault, nearest};
-use crate::quantity::Unit;
+use gumption_core::distribution::{Distribution, StudentT};
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 
 /// One `[input.X]`.

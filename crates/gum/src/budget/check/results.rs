@@ -10,8 +10,8 @@ use crate::budget::faults::{
 };
 use crate::budget::open_files::Missing;
 use crate::budget::tables::{FromTable, InputTable};
-use crate::fault::{Fault, nearest};
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 use gumption_format::toml::faults::UNREADABLE_FILE;
 

@@ -7,10 +7,10 @@ use super::draft::{Context, Core, show};
 use crate::budget::distributions::DistributionEntry;
 use crate::budget::faults::{DISTRIBUTION, DOF, MISSING_KEY, MODIFIER, NO_COVERAGE_FACTOR};
 use crate::budget::tables::ComponentTable;
-use crate::distribution::stating::{Bell, ParameterError, ParameterRule, Width, Word};
-use crate::distribution::{Distribution, Entry, Normal, REGISTRY, Uniform};
-use crate::fault::Fault;
-use crate::special::student_t_two_sided_quantile;
+use gumption_core::distribution::stating::{Bell, ParameterError, ParameterRule, Width, Word};
+use gumption_core::distribution::{Distribution, Entry, Normal, REGISTRY, Uniform};
+use gumption_core::special::student_t_two_sided_quantile;
+use gumption_fault::Fault;
 
 /// A width from the file, whose shape is still to be found.
 struct Unshaped<'a> {

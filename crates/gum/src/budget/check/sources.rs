@@ -8,8 +8,8 @@ use super::ways::Way;
 use crate::budget::faults::{TWO_ESTIMATES, UNIT_CLASH, UNKNOWN_NAME, UNUSED, VECTOR};
 use crate::budget::tables::SourceTable;
 use crate::budget::{Follows, Owner};
-use crate::fault::{Fault, nearest};
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {

@@ -4,7 +4,7 @@ use super::checker::Checker;
 use super::draft::Context;
 use crate::budget::faults::{MISSING_KEY, NOT_POSITIVE, UNIT};
 use crate::budget::tables::SpecificationTable;
-use crate::fault::Fault;
+use gumption_fault::Fault;
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 

@@ -9,8 +9,8 @@ use gumption_format::toml::Stated;
 use crate::budget::Loaded;
 use crate::budget::faults::FROM;
 use crate::budget::saved::SavedResults;
-use crate::fault::Fault;
-use crate::model::Model;
+use gumption_core::model::Model;
+use gumption_fault::Fault;
 
 /// What an input takes over.
 #[derive(Debug, Clone)]

@@ -11,9 +11,9 @@ use crate::budget::faults::{
 use crate::budget::tables::{ComponentTable, OutlierWord, PooledTable};
 use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
-use crate::distribution::{Distribution, StudentT};
-use crate::fault::Fault;
-use crate::statistics::{Dd, OutlierTest, Series, pooled};
+use gumption_core::distribution::{Distribution, StudentT};
+use gumption_core::statistics::{Dd, OutlierTest, Series, pooled};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// Mean and sum of squared deviations, by two passes.

@@ -9,9 +9,9 @@ use crate::budget::Owner;
 use crate::budget::faults::VECTOR;
 use crate::budget::tables::{ComponentTable, InputTable};
 use crate::budget::variants::{Amounts, Numbers};
-use crate::fault::Fault;
-use crate::quantity::Unit;
-use crate::statistics::Series;
+use gumption_core::quantity::Unit;
+use gumption_core::statistics::Series;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// Elements of a vector. More of them would keep the Monte Carlo method busy for hours.

@@ -8,8 +8,8 @@ use crate::budget::distributions::DistributionEntry;
 use crate::budget::faults::{MISSING_KEY, MODIFIER, NO_DOUBT, TWO_WAYS};
 use crate::budget::tables::{CertificateTable, ComponentTable};
 use crate::budget::{Certificate, Evaluation, Follows};
-use crate::distribution::Distribution as Shape;
-use crate::fault::Fault;
+use gumption_core::distribution::Distribution as Shape;
+use gumption_fault::Fault;
 
 /// Declares the ways in which a component can state its uncertainty: the key that states it, what the component is called
 /// in the budget table where the file gives it no name, whether the way determines the estimate by itself, and which other

@@ -16,8 +16,8 @@ use serde_json::Value;
 
 use crate::budget::chain::{Ensemble, Identity, Member, Part};
 use crate::budget::{Certificate, Component, Evaluation, Law, Owner, Remark};
-use crate::distribution::Distribution;
-use crate::quantity::{Unit, UnitTable};
+use gumption_core::distribution::Distribution;
+use gumption_core::quantity::{Unit, UnitTable};
 
 pub use schema::result_schema;
 
@@ -75,7 +75,7 @@ pub struct ResultEntry {
     /// Combined standard uncertainty, first order; follows from the terms.
     pub standard_uncertainty: f64,
     /// Effective degrees of freedom; follow from the terms.
-    #[serde(with = "crate::distribution::extended")]
+    #[serde(with = "gumption_core::distribution::extended")]
     pub effective_degrees_of_freedom: f64,
     /// Whether the model is linear in everything that is uncertain.
     pub linear: bool,
@@ -114,7 +114,7 @@ pub struct ComponentEntry {
     /// Standard uncertainty as GUM propagates it.
     pub standard_uncertainty: f64,
     /// Degrees of freedom.
-    #[serde(with = "crate::distribution::extended")]
+    #[serde(with = "gumption_core::distribution::extended")]
     pub degrees_of_freedom: f64,
     /// Distribution of the deviation.
     pub distribution: Distribution,

@@ -3,7 +3,7 @@
 use super::component::ComponentTable;
 use super::list::List;
 use crate::budget::variants::RowLabel;
-use crate::fault::Fault;
+use gumption_fault::Fault;
 use gumption_format::toml::faults::WRONG_TYPE;
 use gumption_format::toml::{Amount, FromToml, KeyRow, Named, Raw, Reader, table};
 use serde_json::Value;

@@ -6,13 +6,13 @@ use super::limits::{Limits, Situation};
 use super::mixture::{Region, expectation};
 use super::response::Response;
 use crate::budget::{Budget, Conformity, Interval};
-use crate::distribution::Distribution;
 use crate::propagate::result::{
     Basis, Clause8, Conformance, ConformityResult, CoverageBasis, GlobalRisk, MeasurandResult,
     Verdict,
 };
 use crate::propagate::{monte_carlo, validation};
-use crate::special::{student_t_cdf, student_t_sf};
+use gumption_core::distribution::Distribution;
+use gumption_core::special::{student_t_cdf, student_t_sf};
 
 /// All assessments of a budget, in its order.
 pub(super) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityResult> {
@@ -244,7 +244,7 @@ fn risks(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::distribution::{Normal, StudentT, Uniform};
+    use gumption_core::distribution::{Normal, StudentT, Uniform};
 
     fn close(found: f64, expected: f64, relative: f64) {
         assert!(
@@ -268,7 +268,10 @@ mod tests {
         let sum: f64 = (0..panels)
             .flat_map(|i| {
                 let low = a * f64::from(i) / f64::from(panels);
-                crate::special::gauss_legendre(low, a * f64::from(i + 1) / f64::from(panels))
+                gumption_core::special::gauss_legendre(
+                    low,
+                    a * f64::from(i + 1) / f64::from(panels),
+                )
             })
             .map(|(x, w)| w * (-0.5 * h * h * (1.0 + x * x)).exp() / (1.0 + x * x))
             .sum();
@@ -278,7 +281,7 @@ mod tests {
     /// Φ₂(h, k; ρ) by Owen (1956), for h·k > 0.
     fn bivariate_normal(h: f64, k: f64, rho: f64) -> f64 {
         let root = (1.0 - rho * rho).sqrt();
-        let phi = crate::special::normal_cdf;
+        let phi = gumption_core::special::normal_cdf;
         0.5 * phi(h) + 0.5 * phi(k)
             - owen_t(h, (k / h - rho) / root)
             - owen_t(k, (h / k - rho) / root)
@@ -309,7 +312,7 @@ mod tests {
             let measured_sd = f64::hypot(sd, u);
             let (h, k, rho) = (limit / sd, accept / measured_sd, sd / measured_sd);
             let both = bivariate_normal(h, k, rho);
-            let phi = crate::special::normal_cdf;
+            let phi = gumption_core::special::normal_cdf;
             // The closed form is a difference of numbers near one.
             assert!((found.consumer - (phi(k) - both)).abs() < 1e-14, "{sd} {u}");
             assert!((found.producer - (phi(h) - both)).abs() < 1e-14, "{sd} {u}");
@@ -337,12 +340,12 @@ mod tests {
             dof: NORMAL,
         };
         let found = risks(&process, tolerance, &simple(acceptance), &kernel);
-        let density = |y: f64| crate::special::normal_pdf(y / sd) / sd;
+        let density = |y: f64| gumption_core::special::normal_pdf(y / sd) / sd;
         let panels = 400;
         let brute: f64 = (0..panels)
             .flat_map(|i| {
                 let low = 0.6 + 1.5 * f64::from(i) / f64::from(panels);
-                crate::special::gauss_legendre(low, low + 1.5 / f64::from(panels))
+                gumption_core::special::gauss_legendre(low, low + 1.5 / f64::from(panels))
             })
             .map(|(y, w)| w * density(y) * kernel.inside(acceptance, y))
             .sum();
@@ -361,7 +364,7 @@ mod tests {
             (0.99, 0.199_916_84, 0.202_438_66),
         ];
         for (itp, pfa, conditional) in table {
-            let sd = 1.0 / crate::special::normal_two_sided_quantile(itp);
+            let sd = 1.0 / gumption_core::special::normal_two_sided_quantile(itp);
             let process = Distribution::Normal(Normal { mean: 0.0, sd });
             let tolerance = Interval {
                 lower: -1.0,

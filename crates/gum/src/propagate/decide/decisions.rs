@@ -2,7 +2,7 @@
 
 use crate::budget::{Budget, Conformity, Detection, NamedFigure};
 use crate::propagate::result::{ConformityResult, DetectionResult};
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// What was decided.
 pub(in crate::propagate) struct Decisions {

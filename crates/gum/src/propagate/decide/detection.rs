@@ -9,7 +9,7 @@ use crate::propagate::options::Workers;
 use crate::propagate::result::{
     BestEstimate, CharacteristicLimits, DetectionLimit, DetectionResult,
 };
-use crate::special::{normal_cdf, normal_pdf, normal_quantile, normal_upper_quantile};
+use gumption_core::special::{normal_cdf, normal_pdf, normal_quantile, normal_upper_quantile};
 
 /// Characteristic limits of every measurand that a budget asks for, in its order.
 pub(super) fn characteristic_limits(evidence: &Evidence<'_>) -> Vec<DetectionResult> {
@@ -247,7 +247,7 @@ mod tests {
                     .flat_map(|i| {
                         let step = (to - from) / 400.0;
                         let low = from + step * f64::from(i);
-                        crate::special::gauss_legendre(low, low + step)
+                        gumption_core::special::gauss_legendre(low, low + step)
                     })
                     .map(|(y, w)| w * f(y) * normal_pdf(y - z))
                     .sum()

@@ -2,7 +2,7 @@
 //! of freedom, with a standard uncertainty that may depend on the value.
 
 use crate::budget::Interval;
-use crate::special::{student_t_cdf, student_t_pdf, student_t_sf};
+use gumption_core::special::{student_t_cdf, student_t_pdf, student_t_sf};
 
 /// A measurement as a source of errors.
 pub(super) struct Kernel<'a> {

@@ -4,7 +4,7 @@
 //! just there, the stated probability holds.
 
 use crate::budget::{DecisionRule, Guard, Interval};
-use crate::special::{student_t_cdf, student_t_sf, student_t_upper_quantile};
+use gumption_core::special::{student_t_cdf, student_t_sf, student_t_upper_quantile};
 
 /// Where measured values lead to which decision.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,7 +6,7 @@
 //! range is cut where g turns, so that every panel holds a smooth piece.
 
 use crate::budget::Interval;
-use crate::distribution::Distribution;
+use gumption_core::distribution::Distribution;
 
 /// Which values count.
 #[derive(Debug, Clone, Copy)]
@@ -147,7 +147,7 @@ fn double_exponential(a: f64, b: f64, f: &dyn Fn(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::distribution::{
+    use gumption_core::distribution::{
         Arcsine, Beta, CurvilinearTrapezoid, Discrete, Exponential, Gamma, LogNormal, Normal,
         StudentT, Trapezoidal, Triangular, Uniform,
     };

@@ -28,7 +28,7 @@ use super::moments::{Moments, Pivot};
 use crate::budget::Adaptive;
 use crate::propagate::result::AdaptiveRun;
 use crate::propagate::validation::numerical_tolerance;
-use crate::special::student_t_upper_quantile;
+use gumption_core::special::student_t_upper_quantile;
 
 /// Batches of Stein's first stage.
 const FIRST_STAGE: u64 = 10;

@@ -5,8 +5,8 @@ use gumption_lanes::Block;
 use super::engine::Source;
 use super::joint_draw::{JointDraw, Scratch};
 use crate::budget::Budget;
-use crate::model::{BlockRunner, Model};
 use crate::propagate::progress::Progress;
+use gumption_core::model::{BlockRunner, Model};
 
 /// Draws the inputs of a budget and evaluates its model, block by block.
 pub(super) struct BudgetSource<'b> {

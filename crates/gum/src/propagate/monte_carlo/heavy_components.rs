@@ -6,8 +6,8 @@
 //! component takes part in a nonlinear operation (an arctangent bounds it) only the trials can tell.
 
 use crate::budget::{Budget, Component, Group, Input, Law};
-use crate::distribution::{Distribution, StudentT};
 use crate::propagate::result::MissingMoments;
+use gumption_core::distribution::{Distribution, StudentT};
 
 /// A t-distributed component with ν ≤ 2 that enters an output linearly.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,7 +126,7 @@ mod tests {
 
     use super::super::samples::{component, input};
     use super::*;
-    use crate::distribution::Normal;
+    use gumption_core::distribution::Normal;
 
     fn t(name: &str, dof: f64) -> Component {
         component(

@@ -19,8 +19,8 @@ use super::joint_draw::JointDraw;
 use super::outcome::{FirstOrder, Outcome};
 use super::thread_pool::parallel_map;
 use crate::budget::Budget;
-use crate::model::BlockRunner;
 use crate::propagate::result::{SensitivityIndices, SobolIndex};
+use gumption_core::model::BlockRunner;
 
 /// Trials of A and of B, where the model is quick.
 const TRIALS: u64 = 1 << 20;

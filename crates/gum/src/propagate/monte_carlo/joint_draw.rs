@@ -17,8 +17,8 @@ use nalgebra::DMatrix;
 use super::assembly::{self, Assembly, Straight};
 use super::factor::lower_factor;
 use crate::budget::{Component, Group, Input, Law};
-use crate::distribution::{Distribution, Normal};
-use crate::special::{normal_cdf, normal_sf};
+use gumption_core::distribution::{Distribution, Normal};
+use gumption_core::special::{normal_cdf, normal_sf};
 
 /// Draws trials of all inputs.
 pub(super) struct JointDraw<'b> {
@@ -299,7 +299,7 @@ fn from_normal(margin: &Distribution, z: f64) -> f64 {
 mod tests {
     use super::super::samples::{component, input};
     use super::*;
-    use crate::distribution::{Exponential, StudentT, Uniform};
+    use gumption_core::distribution::{Exponential, StudentT, Uniform};
 
     fn normal(name: &str, sd: f64) -> Component {
         component(name, Distribution::Normal(Normal { mean: 0.0, sd }), sd)

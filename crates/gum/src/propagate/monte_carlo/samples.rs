@@ -5,11 +5,11 @@ use gumption_lanes::{Block, LANES};
 
 use super::engine::Source;
 use crate::budget::{Component, Evaluation, Input, Owner, Term};
-use crate::distribution::{
+use gumption_core::distribution::{
     Arcsine, Beta, CurvilinearTrapezoid, Distribution, Exponential, Gamma, LogNormal, Normal,
     StudentT, Trapezoidal, Triangular, Uniform,
 };
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// SplitMix64 with the usual transforms.
 pub(super) struct Stream(u64);

@@ -4,7 +4,7 @@ use gumption_format::document::Severity;
 
 use super::monte_carlo::MissingMoments;
 use crate::budget::LackOfFit;
-use crate::model::Notice;
+use gumption_core::model::Notice;
 
 /// Something the reader must know before using the numbers.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]

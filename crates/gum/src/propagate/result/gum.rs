@@ -1,6 +1,6 @@
 //! What the law of propagation of uncertainty finds.
 
-use crate::distribution::Kind;
+use gumption_core::distribution::Kind;
 
 /// Law of propagation of uncertainty, first order (GUM 5.1.2, 5.2.2).
 #[derive(Debug, Clone, serde::Serialize)]
@@ -31,7 +31,7 @@ pub struct Contribution {
     /// Share of u²(y), also under correlation (Kessel): c_i Σ_j c_j u(x_i, x_j) / u²(y); sums to 1.
     pub share: f64,
     /// ν of the input or component.
-    #[serde(serialize_with = "crate::distribution::extended::serialize")]
+    #[serde(serialize_with = "gumption_core::distribution::extended::serialize")]
     pub dof: f64,
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::spread::Spread;
-use crate::model::Neighbours;
+use gumption_core::model::Neighbours;
 
 /// Second derivatives with respect to x and s.
 #[derive(Debug, Clone, PartialEq)]

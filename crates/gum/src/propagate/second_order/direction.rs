@@ -2,7 +2,7 @@
 
 use super::super::covariance::Covariance;
 use crate::budget::{Component, Input};
-use crate::distribution::Distribution;
+use gumption_core::distribution::Distribution;
 
 /// Third and fourth standardised moment of a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq)]

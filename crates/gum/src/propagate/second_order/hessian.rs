@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 
 use super::bordered::{Bordered, dot};
 use super::spread::Spread;
-use crate::model::Neighbours;
+use gumption_core::model::Neighbours;
 
 /// The Hessian of f: A + B S + SᵀBᵀ + SᵀM S = A + U W Uᵀ with U = (B, Sᵀ).
 #[derive(Debug, Clone, PartialEq)]

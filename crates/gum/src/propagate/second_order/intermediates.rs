@@ -24,8 +24,8 @@ use super::sparse::sweeps;
 use super::spread::Spread;
 use super::sums::{SecondOrderOutcome, Sums, unit};
 use crate::budget::Budget;
-use crate::model::{Cut, Neighbours};
 use crate::propagate::gum::Linear;
+use gumption_core::model::{Cut, Neighbours};
 
 /// Most numbers that the Hessians of all measurands are kept with.
 const MOST_NUMBERS: usize = 1 << 24;

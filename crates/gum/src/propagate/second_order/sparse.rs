@@ -8,8 +8,8 @@
 use super::direction::{Direction, movers};
 use super::sums::{SecondOrderOutcome, Sums, unit};
 use crate::budget::Budget;
-use crate::model::Neighbours;
 use crate::propagate::gum::Linear;
+use gumption_core::model::Neighbours;
 
 /// The outcomes of all measurands, where inputs are independent and interact with few others.
 pub(super) fn outcomes(

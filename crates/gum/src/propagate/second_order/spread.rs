@@ -4,8 +4,8 @@ use nalgebra::DMatrix;
 
 use super::direction::{Moments, NORMAL, moments};
 use crate::budget::Budget;
-use crate::model::Neighbours;
 use crate::propagate::gum::Linear;
+use gumption_core::model::Neighbours;
 
 /// Independent parts of inputs, and groups of correlated ones.
 pub(super) struct Spread<'a> {

@@ -2,10 +2,10 @@
 
 use super::direction::{Direction, Moments};
 use super::hessian::Hessian;
-use crate::model::{Along, Leaf};
 use crate::propagate::gum::MeasurandForm;
 use crate::propagate::result::SecondOrder;
 use crate::propagate::validation::numerical_tolerance;
+use gumption_core::model::{Along, Leaf};
 
 /// What the second order says about one measurand.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,10 +3,10 @@ use nalgebra::DMatrix;
 use super::direction::{Moments, NORMAL, moments};
 use super::*;
 use crate::budget::{Group, Input, Law, Term};
-use crate::distribution::{Distribution, StudentT, Uniform};
 use crate::propagate::covariance::Covariance;
 use crate::propagate::result::SecondOrder;
-use crate::quantity::Unit;
+use gumption_core::distribution::{Distribution, StudentT, Uniform};
+use gumption_core::quantity::Unit;
 
 const INF: f64 = f64::INFINITY;
 

@@ -321,7 +321,7 @@ file = "run.csv"
 
 #[test]
 fn written_budgets_give_the_same_uncertainty_by_both_methods() {
-    use crate::propagate::{Options, evaluate};
+    use gumption_gum::propagate::{Options, evaluate};
     let toml = RATE.to_owned()
         + "[reading.U]\nhalf_width = 0.1\n[input.e_scale]\nu = 3e-4\ndof = 7\nscope = \"each\"\n";
     let toml = toml.replace("(1 + e_rate)", "(1 + e_rate + e_scale)");
@@ -329,7 +329,7 @@ fn written_budgets_give_the_same_uncertainty_by_both_methods() {
     let found = calibrate(&experiment).expect("coefficients");
     for places in [vec![0], vec![1], vec![0, 1]] {
         let text = super::super::budget(&experiment, &found, &places);
-        let loaded = crate::budget::read(&text, "budget.toml", "".as_ref())
+        let loaded = gumption_gum::budget::read(&text, "budget.toml", "".as_ref())
             .unwrap_or_else(|rejection| panic!("{}\n{text}", rejection.render(false)));
         let budget = &loaded.rows[0].budget;
         let evaluation = evaluate(budget, &Options::default()).expect("a result");

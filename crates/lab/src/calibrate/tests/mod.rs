@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::{Experiment, Purpose, read};
-use crate::budget::Rejection;
+use gumption_gum::budget::Rejection;
 
 /// A folder with a recording, removed afterwards.
 struct Folder(PathBuf);

@@ -6,8 +6,8 @@ use super::{Action, Column, Data};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};
 use crate::experiment::entries::RowsEntry;
 use crate::experiment::tables::{ActionTable, ExperimentTable, OrderWord};
-use crate::fault::Fault;
 use crate::recording::Labels;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Cell, Named, OneOrMany};
 

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::{Column, Observed, Response, RestReadings};
-use crate::budget::{Files, Rejection};
 use crate::experiment::entries::RoleWord;
-use crate::quantity::{Unit, UnitTable};
 use crate::recording::{Heading, Recording, Request};
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_gum::budget::{Files, Rejection};
 
 /// Readings of every response: of the column that is named, or of the one that is called like the
 /// output. Times are those of the column that is called like the time of the recording, if it is there.

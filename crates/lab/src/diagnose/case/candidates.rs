@@ -4,11 +4,11 @@ use super::checker::Checker;
 use super::declared::Declared;
 use super::{Column, UserCandidate};
 use crate::diagnose::faults::{CANDIDATE, UNKNOWN_NAME};
-use crate::equations::{EquationText, Equations, Quantity};
 use crate::experiment::tables::{ExperimentTable, OmittedTable};
-use crate::fault::{Fault, nearest};
-use crate::model::{Role, Symbol, outline};
-use crate::quantity::Unit;
+use gumption_core::equations::{EquationText, Equations, Quantity};
+use gumption_core::model::{Role, Symbol, outline};
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 
 /// The left side of a candidate: no user calls a column so.

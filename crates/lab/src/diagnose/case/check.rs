@@ -5,16 +5,16 @@ use std::path::Path;
 use super::checker::Checker;
 use super::models::models;
 use super::{Case, Column, Data, Purpose, candidates, columns, declared, disused};
-use crate::budget::{Files, Rejection};
 use crate::diagnose::faults::{MISSING, UNIT_CLASH};
 use crate::experiment::entries::RoleWord;
 use crate::experiment::source;
 use crate::experiment::tables::ExperimentTable;
-use crate::fault::Fault;
-use crate::model::{Role as SymbolRole, Symbol};
-use crate::quantity::{Unit, UnitTable};
 use crate::recording::{Heading, Recording, Request, headings, text_of};
+use gumption_core::model::{Role as SymbolRole, Symbol};
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_fault::Fault;
 use gumption_format::toml::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE};
+use gumption_gum::budget::{Files, Rejection};
 
 /// Reads and checks a case.
 pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {

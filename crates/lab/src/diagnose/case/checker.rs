@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use super::Purpose;
-use crate::budget::Files;
 use crate::diagnose::faults::{SETTING, UNIT_CLASH};
 use crate::experiment::source::Source;
-use crate::fault::Fault;
-use crate::quantity::{Unit, UnitTable};
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_fault::Fault;
 use gumption_format::toml::{Amount, Stated, StringMap};
+use gumption_gum::budget::Files;
 
 /// What is needed everywhere while a case is checked.
 pub(super) struct Checker<'a> {

@@ -4,16 +4,16 @@ use std::ops::Range;
 
 use super::checker::Checker;
 use super::{Column, Data, Purpose};
-use crate::budget::writing::key;
 use crate::diagnose::faults::{TOO_FEW, UNKNOWN_NAME};
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::{ColumnTable, ExperimentTable, HoldsWord};
-use crate::fault::{Fault, nearest};
-use crate::model::Symbol;
-use crate::quantity::Unit;
 use crate::recording::{Content, Heading, Labels, Recording, Request};
+use gumption_core::model::Symbol;
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Amount, OneOrMany};
+use gumption_gum::budget::writing::key;
 
 impl Checker<'_> {
     /// The columns that take part: the declared ones, and those that only the model names.
@@ -79,7 +79,7 @@ impl Checker<'_> {
                 || declared.iter().any(|(declared, _)| declared == name)
         };
         for model in &models.value.0 {
-            let Ok(outline) = crate::model::outline(&model.value, &self.units) else {
+            let Ok(outline) = gumption_core::model::outline(&model.value, &self.units) else {
                 continue;
             };
             let given = outline
@@ -109,7 +109,7 @@ impl Checker<'_> {
     ) -> RoleWord {
         let outlines = models.value.0.iter();
         let outlines: Vec<_> = outlines
-            .filter_map(|model| crate::model::outline(&model.value, &self.units).ok())
+            .filter_map(|model| gumption_core::model::outline(&model.value, &self.units).ok())
             .collect();
         let holds = table.holds.as_ref().map(|word| word.value);
         if holds == Some(HoldsWord::Labels) {

@@ -7,12 +7,12 @@ use super::models::Models;
 use super::parameters::{Named, inferred_units, no_start, parameter, startable};
 use super::{Column, Data, Observed, Parameter, Response};
 use crate::diagnose::faults::{LEFT_SIDE, ROLE, UNKNOWN_NAME};
-use crate::equations::{EquationText, Equations, Quantity};
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::ExperimentTable;
-use crate::fault::{Fault, nearest};
-use crate::model::faults::{CLASH, EXPONENT, NOT_ONE, POINT, RESERVED, RESULT_UNIT};
-use crate::model::{Outline, Role as SymbolRole, Symbol, outline};
+use gumption_core::equations::{EquationText, Equations, Quantity};
+use gumption_core::model::faults::{CLASH, EXPONENT, NOT_ONE, POINT, RESERVED, RESULT_UNIT};
+use gumption_core::model::{Outline, Role as SymbolRole, Symbol, outline};
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 
 /// The declared model of a case.

@@ -1,9 +1,9 @@
 //! What a file states that a diagnosis does not use: it is said, not passed over.
 
-use crate::budget::Remark;
 use crate::experiment::source::Source;
 use crate::experiment::tables::{ExperimentTable, RecordingTable};
 use gumption_format::toml::Stated;
+use gumption_gum::budget::Remark;
 
 /// Remarks on keys of the file itself that only calibrations use.
 pub(super) fn remarks(source: &Source, file: &ExperimentTable) -> Vec<Remark> {

@@ -6,11 +6,11 @@ use gumption_format::toml::{Amount, Named, Stated};
 use super::checker::Checker;
 use super::{Column, Data};
 use crate::calibrate::{Doubt, Doubts, Scope, Target, doubts_of};
-use crate::equations::Quantity;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::{ExperimentTable, ParameterTable};
-use crate::model::{Role, Symbol, outline};
-use crate::quantity::Unit;
+use gumption_core::equations::Quantity;
+use gumption_core::model::{Role, Symbol, outline};
+use gumption_core::quantity::Unit;
 
 impl Checker<'_> {
     /// The tables with inputs as parameters; exactly known ones join the constants, those with an error for

@@ -17,11 +17,11 @@ mod settings;
 
 use std::path::{Path, PathBuf};
 
-use crate::budget::{Files, Rejection, Remark};
-use crate::equations::Equations;
-use crate::model::Symbol;
-use crate::quantity::{Unit, UnitTable};
 use crate::recording::Labels;
+use gumption_core::equations::Equations;
+use gumption_core::model::Symbol;
+use gumption_core::quantity::{Unit, UnitTable};
+use gumption_gum::budget::{Files, Rejection, Remark};
 
 pub use crate::experiment::entries::RoleWord as Role;
 pub(super) use actions::repeated;

@@ -9,9 +9,9 @@ use super::{Column, NoiseClaim, NoiseOrigin, Observed, Response};
 use crate::diagnose::faults::{NOISE, SETTING};
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::{ExperimentTable, NoiseTable, NoiseWord, StaticTable};
-use crate::fault::Fault;
-use crate::propagate;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
+use gumption_gum::propagate;
 
 impl Checker<'_> {
     pub fn noise(
@@ -200,7 +200,7 @@ impl Checker<'_> {
                 .push(Fault::new(NOISE, path.span.clone(), message));
             NoiseClaim::Estimated
         };
-        let loaded = match crate::budget::load(&self.folder.join(&path.value)) {
+        let loaded = match gumption_gum::budget::load(&self.folder.join(&path.value)) {
             Ok(loaded) => loaded,
             Err(rejection) => {
                 let first = rejection

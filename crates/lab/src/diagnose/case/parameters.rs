@@ -6,11 +6,11 @@ use super::checker::Checker;
 use super::models::Models;
 use super::{Column, Data, Parameter, Purpose, Response};
 use crate::diagnose::faults::{MISSING, PER, START};
-use crate::equations::{EquationText, Equations, Quantity};
 use crate::experiment::tables::ParameterTable;
-use crate::fault::Fault;
-use crate::model::{Outline, Role as SymbolRole, Symbol};
-use crate::quantity::Unit;
+use gumption_core::equations::{EquationText, Equations, Quantity};
+use gumption_core::model::{Outline, Role as SymbolRole, Symbol};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// A name of a parameter, its place in the model, and what the case states of it.

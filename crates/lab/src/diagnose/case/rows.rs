@@ -8,8 +8,8 @@ use super::{Case, Column, Data, HeldOut};
 use crate::diagnose::faults::{MISSING, ROWS};
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::ExperimentTable;
-use crate::fault::Fault;
 use crate::recording::{Content, Labels, Recording, Request, headings, text_of};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// Rows with a value for each column of a case, in their order.

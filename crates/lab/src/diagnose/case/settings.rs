@@ -6,7 +6,7 @@ use crate::diagnose::catalogue::effects;
 use crate::diagnose::faults::{ROLE, SETTING, UNKNOWN_NAME};
 use crate::experiment::entries::AverageEntry;
 use crate::experiment::tables::{DiagnosisTable, ExperimentTable};
-use crate::fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::{Amount, Stated};
 
 impl Checker<'_> {

@@ -8,7 +8,7 @@ use super::modifiers::{map, range};
 use super::{Cell, EffectId, Modifier, Term, Variants, Variation};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
-use crate::quantity::UnitTable;
+use gumption_core::quantity::UnitTable;
 
 /// Highest harmonic.
 pub(super) const HIGHEST: u32 = 4;

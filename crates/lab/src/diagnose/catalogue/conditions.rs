@@ -7,7 +7,7 @@ use super::modifiers::{centred, correlation, figure, lag, levels_of, map, map2, 
 use super::sharp::sharpened;
 use super::{Cell, EffectId, Modifier, Term, Variants, Words};
 use crate::diagnose::case::Role;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// Odds beforehand that pressure or humidity acts on an instrument, over those of another condition: they are
 /// recorded because laboratories record them.

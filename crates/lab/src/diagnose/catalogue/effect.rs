@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use serde::Deserialize;
 
-use crate::language::Language;
+use gumption_fault::language::Language;
 
 // `EffectId`, with a variant for each entry, in their order.
 include!(concat!(env!("OUT_DIR"), "/effect_id.rs"));

@@ -6,7 +6,7 @@ use super::{Finer, Modifier, Term};
 use crate::diagnose::case::{Case, Role};
 use crate::diagnose::design::{Clock, Design};
 use crate::diagnose::fit::Fit;
-use crate::quantity::{Unit, UnitTable};
+use gumption_core::quantity::{Unit, UnitTable};
 
 /// A quantity of the model that can be disturbed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

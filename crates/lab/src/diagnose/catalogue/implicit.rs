@@ -5,7 +5,7 @@ use super::fitted::{FittedModel, Node};
 use super::modifiers::{map, range, rounded};
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::evidence::Place;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// Disturbances of each column that the model uses.
 pub(super) fn cells(fitted: &FittedModel<'_>, used: &[usize]) -> Vec<Cell> {

@@ -15,7 +15,7 @@ use super::modifiers::{
 use super::{Cell, EffectId, Modifier, Term, Variation, Words};
 use crate::diagnose::case::Role;
 use crate::diagnose::evidence::Place;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// Cells of the inputs of all axes; none where a column is the input.
 pub(super) fn cells(fitted: &FittedModel<'_>) -> Vec<Cell> {

@@ -63,7 +63,7 @@ pub use fitted::{FittedModel, Node};
 
 use super::case::Case;
 use super::evidence;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// What the placeholders of an effect's texts stand for.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

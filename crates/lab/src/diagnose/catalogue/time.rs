@@ -7,7 +7,7 @@ use super::modifiers::{figure, grid, map, range};
 use super::sharp::{self, sharpened};
 use super::{Cell, EffectId, Modifier, Term, Variants};
 use crate::diagnose::case::Role;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// More steps than that are not scanned.
 const MOST_STEPS: usize = 80;

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 pub(super) const ALONE: f64 = 0.99;
 
 use super::selection;
-use crate::special::student_t_two_sided_quantile;
+use gumption_core::special::student_t_two_sided_quantile;
 
 /// The answer in one word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -8,7 +8,7 @@ use super::findings::{Fitted, Rival};
 use super::question::{Kind, Question, Shape};
 use super::remainders::Remainders;
 use super::space::{Frame, Space};
-use crate::special::normal_cdf;
+use gumption_core::special::normal_cdf;
 
 /// Two explanations of which less than this share of λ distinguishes them are one.
 const ALIAS: f64 = 0.01;

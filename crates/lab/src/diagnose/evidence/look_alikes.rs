@@ -221,7 +221,7 @@ mod tests {
     use super::super::noise::{Covariance, Noise};
     use super::super::question::{Atom, Candidate, Settings, Shape};
     use super::*;
-    use crate::special::normal_quantile;
+    use gumption_core::special::normal_quantile;
 
     const ROWS: usize = 80;
 

@@ -5,7 +5,7 @@
 //! the truth too seldom. Given that l is above a limit c, its density is φ(l − λ)/Φ(λ − c); with all λ alike
 //! beforehand, the root mean square of l − λ is what u is multiplied by.
 
-use crate::special::normal_cdf;
+use gumption_core::special::normal_cdf;
 
 /// Strength about which effects begin to be named: few below it have a name of their own (reports/diagnosis.md,
 /// detection against strength).

@@ -6,7 +6,7 @@ use super::directions::left;
 use super::findings::ALONE;
 use super::look_alikes::stays;
 use super::refusal::Refusal;
-use crate::special::normal_cdf;
+use gumption_core::special::normal_cdf;
 
 /// A rival explanation in a design, as it is seen beside the fitted parameters
 /// ([`Baseline::project`](super::Baseline::project)).

@@ -1,11 +1,11 @@
 //! Dwells and their averages.
 
 use super::normals;
-use crate::quantity::UnitTable;
 use crate::recording::{
     Average, Cut, Drift, Dwell, Recording, Settling, Steps, Stillness, TooFew, by_label, by_steps,
     by_stillness,
 };
+use gumption_core::quantity::UnitTable;
 
 fn ranges(dwells: &[Dwell]) -> Vec<(usize, usize)> {
     dwells

@@ -1,9 +1,9 @@
 //! Reading, with its faults, and checks.
 
-use crate::fault::Fault;
-use crate::quantity::UnitTable;
 use crate::recording::faults::*;
 use crate::recording::{Checks, Content, Finding, Problem, Recording, Request, Severity, check};
+use gumption_core::quantity::UnitTable;
+use gumption_fault::Fault;
 
 const NO_CHECKS: Checks = Checks {
     time: None,
@@ -33,7 +33,7 @@ fn only(text: &str, request: Request) -> Fault {
     faults.remove(0)
 }
 
-fn unit(symbol: &str) -> crate::quantity::Unit {
+fn unit(symbol: &str) -> gumption_core::quantity::Unit {
     UnitTable::default().parse(symbol).expect("a unit")
 }
 
@@ -178,7 +178,7 @@ fn overloads_and_words_are_missing_numbers() {
 
 #[test]
 fn a_file_that_cannot_be_read() {
-    use crate::files::Files;
+    use gumption_format::files::Files;
     let library = Files::Library(&[("a/b.csv", b"\xff\xfe"), ("c.csv", b"x\n1")]);
     let open = |path: &str| {
         Recording::open(library, path.as_ref(), &[], &UnitTable::default())

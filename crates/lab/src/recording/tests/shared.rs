@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::quantity::UnitTable;
 use crate::recording::{
     Average, Checks, Drift, Recording, Request, Severity, Steps, by_label, by_steps, check,
 };
+use gumption_core::quantity::UnitTable;
 
 /// The folder, beside the project or one further up.
 fn folder() -> Option<PathBuf> {

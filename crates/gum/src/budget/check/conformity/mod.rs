@@ -12,8 +12,8 @@ use crate::budget::check::{Checker, entries};
 use crate::budget::faults::{CLAIM, NAME_TWICE, RELATIVE_UNCLEAR, TOLERANCE};
 use crate::budget::tables::{ConformityTable, FileTable};
 use crate::budget::{Conformity, Interval};
-use crate::fault::Fault;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 

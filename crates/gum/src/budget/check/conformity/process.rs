@@ -5,9 +5,9 @@ use crate::budget::check::Checker;
 use crate::budget::distributions::{self, DistributionEntry};
 use crate::budget::faults::{MISSING_KEY, PROCESS, TWO_WAYS};
 use crate::budget::tables::ProcessTable;
-use crate::distribution::{Distribution, Normal};
-use crate::fault::Fault;
-use crate::special::normal_two_sided_quantile;
+use gumption_core::distribution::{Distribution, Normal};
+use gumption_core::special::normal_two_sided_quantile;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {

@@ -7,7 +7,7 @@ use crate::budget::check::Checker;
 use crate::budget::faults::{DECISION_RULE, LIMITS, NOT_POSITIVE, TOLERANCE, TWO_WAYS};
 use crate::budget::tables::{ConformityTable, RuleWord};
 use crate::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY, Interval};
-use crate::fault::Fault;
+use gumption_fault::Fault;
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 

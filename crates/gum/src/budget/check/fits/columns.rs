@@ -15,9 +15,9 @@ use crate::budget::faults::{
 };
 use crate::budget::tables::{FitColumnTable, FitTable};
 use crate::budget::variants::Numbers;
-use crate::fault::Fault;
-use crate::least_squares::Spread;
-use crate::quantity::Unit;
+use gumption_core::least_squares::Spread;
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// Points of a fit. More of them would need more memory than is good for a budget.

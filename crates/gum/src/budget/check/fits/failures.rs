@@ -9,8 +9,8 @@ use crate::budget::faults::{FIT_ERRORS, FIT_FAILED, FIT_INDISTINCT, FIT_POINTS, 
 use crate::budget::fit::column_of;
 use crate::budget::tables::FitTable;
 use crate::budget::variants::Numbers;
-use crate::fault::Fault;
-use crate::least_squares::{Failure, Observed};
+use gumption_core::least_squares::{Failure, Observed};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// A fit that has no solution.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use crate::budget::fit::Fit;
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
 
 /// A fit that was found, and where its parameters went.
 pub(crate) struct Fitted {

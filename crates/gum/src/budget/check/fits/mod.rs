@@ -27,9 +27,9 @@ use crate::budget::faults::{NAME_TWICE, UNUSED};
 use crate::budget::fit::Fit;
 use crate::budget::tables::{FileTable, FitTable, MeasurandTable};
 use crate::budget::{Constant, Evaluation, Group, Input, Owner};
-use crate::fault::Fault;
-use crate::model::Model;
-use crate::quantity::Unit;
+use gumption_core::model::Model;
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Named;
 use gumption_format::toml::Stated;
 

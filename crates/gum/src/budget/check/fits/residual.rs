@@ -5,8 +5,8 @@ use super::super::draft::{Context, Core, show};
 use crate::budget::faults::{MODIFIER, RESIDUAL_OF, UNIT_CLASH, UNKNOWN_NAME};
 use crate::budget::tables::ComponentTable;
 use crate::budget::variants::ReadingsOf;
-use crate::fault::{Fault, nearest};
-use crate::quantity::Unit;
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 
 impl Checker<'_> {

@@ -10,8 +10,8 @@ use super::formula::Formula;
 use crate::budget::faults::{FIT_COLUMNS, FIT_ERRORS};
 use crate::budget::fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest};
 use crate::budget::tables::{FitTable, ScaleWord};
-use crate::fault::Fault;
-use crate::least_squares::{self, Errors, Problem, Scale, Solution, Spread};
+use gumption_core::least_squares::{self, Errors, Problem, Scale, Solution, Spread};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// Residuals of this share of the largest response are what the arithmetic leaves of none.

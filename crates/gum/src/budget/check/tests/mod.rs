@@ -10,7 +10,7 @@ mod ways;
 use std::path::Path;
 
 use crate::budget::{Budget, Figure, Law, Rejection, TScale, read};
-use crate::distribution::Distribution;
+use gumption_core::distribution::Distribution;
 
 fn refused(text: &str) -> Rejection {
     read(text, "budget.toml", Path::new("")).expect_err("the file has a fault")
@@ -19,8 +19,9 @@ fn refused(text: &str) -> Rejection {
 /// Codes of the faults, each with the text that it points at.
 fn faults(text: &str) -> Vec<(&'static str, String)> {
     let rejection = refused(text);
-    let shown =
-        |fault: &crate::fault::Fault| text.get(fault.span.clone()).unwrap_or_default().to_string();
+    let shown = |fault: &gumption_fault::Fault| {
+        text.get(fault.span.clone()).unwrap_or_default().to_string()
+    };
     rejection
         .faults
         .iter()

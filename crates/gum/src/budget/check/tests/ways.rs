@@ -1,7 +1,7 @@
 //! Ways to state an uncertainty.
 
 use super::*;
-use crate::distribution::{CurvilinearTrapezoid, StudentT};
+use gumption_core::distribution::{CurvilinearTrapezoid, StudentT};
 
 #[test]
 fn type_a_of_a_mean_a_single_reading_and_several() {

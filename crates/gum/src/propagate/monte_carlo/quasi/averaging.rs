@@ -174,7 +174,7 @@ impl<'b> Survey<'b> {
         }
     }
 
-    fn distribution(&self, component: usize) -> &'b crate::distribution::Distribution {
+    fn distribution(&self, component: usize) -> &'b gumption_core::distribution::Distribution {
         &self.budget.components[component].distribution
     }
 
@@ -268,7 +268,7 @@ impl<'b> Survey<'b> {
     fn alone(
         &self,
         degree: u8,
-        fits: impl Fn(&crate::distribution::Distribution) -> bool,
+        fits: impl Fn(&gumption_core::distribution::Distribution) -> bool,
     ) -> Option<usize> {
         let fits = |component: usize| {
             self.group[component].is_none() && fits(self.distribution(component))

@@ -9,9 +9,9 @@ use gumption_lanes::kernel::{Kernel, PathMoments, Steps, convolve};
 use gumption_lanes::level;
 use gumption_lanes::quantile::Curve;
 
-use crate::distribution::score::with_differences;
-use crate::distribution::{Distribution, Normal, StudentT, Uniform};
-use crate::special::{normal_cdf, normal_pdf};
+use gumption_core::distribution::score::with_differences;
+use gumption_core::distribution::{Distribution, Normal, StudentT, Uniform};
+use gumption_core::special::{normal_cdf, normal_pdf};
 
 /// Cells of a sum's distribution.
 const CELLS: usize = 512;

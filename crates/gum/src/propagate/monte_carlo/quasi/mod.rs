@@ -41,12 +41,12 @@ use gumption_lanes::LANES;
 use super::moments::Pivot;
 use super::outcome::{FirstOrder, Outcome};
 use crate::budget::{Budget, MonteCarloSettings, Trials};
-use crate::distribution::Distribution;
 use crate::propagate::result::{Histogram, MonteCarlo, Quasi, QuasiRun, Run, WhyRandom};
 use crate::propagate::validation::numerical_tolerance;
-use crate::special::student_t_upper_quantile;
 use conditional::Conditional;
 use counted::Counted;
+use gumption_core::distribution::Distribution;
+use gumption_core::special::student_t_upper_quantile;
 use points::Points;
 use pooled::{Figures, Pooled, REPLICATES, Trouble};
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use gumption_lanes::quantile::OfScore;
 
-use crate::distribution::{Gamma, Univariate, score};
+use gumption_core::distribution::{Gamma, Univariate, score};
 
 /// √(ν/χ²), what makes normal variables a multivariate t (JCGM 102, 5.3.2.4).
 pub(super) fn mixing(dof: f64) -> OfScore {

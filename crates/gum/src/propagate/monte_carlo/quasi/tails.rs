@@ -215,7 +215,7 @@ impl Cubic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::special::{normal_cdf, normal_pdf, normal_quantile};
+    use gumption_core::special::{normal_cdf, normal_pdf, normal_quantile};
 
     fn tails(places: &[f64], below: impl Fn(f64) -> f64, density: impl Fn(f64) -> f64) -> Tails {
         let node = |y: &f64| Node {

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::*;
 use crate::budget::{self, Adaptive, Points as Kind};
 use crate::propagate::{self, Evaluation, MonteCarloChoice, Options};
-use crate::special::{normal_cdf, normal_quantile};
+use gumption_core::special::{normal_cdf, normal_quantile};
 
 fn settings(seed: u64, max: u64) -> MonteCarloSettings {
     let trials = Trials::Adaptive {

@@ -3,7 +3,7 @@
 use gumption_lanes::{Block, LANES, Level, level, ops};
 
 use crate::budget::{Budget, Input};
-use crate::model::BlockRunner;
+use gumption_core::model::BlockRunner;
 
 /// Deviations of all components, and scratch space to evaluate the model there.
 pub(super) struct Trial<'b> {

@@ -5,10 +5,12 @@ use super::parts::{Compiled, Formula, Parameter, Shape};
 use super::text::Written;
 use crate::budget::Constant;
 use crate::budget::faults::FIT_START;
-use crate::fault::Fault;
-use crate::least_squares::Gradient;
-use crate::model::{MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile};
-use crate::quantity::Unit;
+use gumption_core::least_squares::Gradient;
+use gumption_core::model::{
+    MeasurandSource, Model, ModelFault, Place, Request, Role, Symbol, compile,
+};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// What a formula uses beside its parameters.

@@ -16,7 +16,7 @@ mod text;
 
 use super::super::checker::Checker;
 use crate::budget::faults::{FIT, TWO_WAYS};
-use crate::fault::Fault;
+use gumption_fault::Fault;
 
 pub(super) use parts::{Formula, Parameter, Scope};
 

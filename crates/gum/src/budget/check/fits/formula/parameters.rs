@@ -9,7 +9,7 @@ use super::parts::{Parameter, Scope};
 use super::text::Written;
 use crate::budget::faults::{FIT, NAME_TWICE, UNKNOWN_NAME, UNUSED};
 use crate::budget::tables::FitParameterTable;
-use crate::fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 
 /// What a name on the right side of a formula is.

@@ -8,9 +8,9 @@ use super::super::columns::Column;
 use crate::budget::Constant;
 use crate::budget::faults::UNKNOWN_NAME;
 use crate::budget::tables::{FileTable, FitParameterTable, FitTable};
-use crate::fault::{Fault, nearest};
-use crate::least_squares::{Gradient, Polynomial, Response};
-use crate::quantity::Unit;
+use gumption_core::least_squares::{Gradient, Polynomial, Response};
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, nearest};
 
 /// A compiled formula: parameters first in its input vector, then the predictors.
 pub(crate) type Compiled = Gradient<Box<dyn Fn(&[f64], &mut [f64]) -> f64>>;

@@ -4,9 +4,9 @@ use super::super::super::checker::Checker;
 use super::parts::{Formula, Parameter, Scope, Shape};
 use crate::budget::faults::{FIT, MISSING_KEY, MODIFIER, UNIT_CLASH, UNUSED};
 use crate::budget::tables::FitParameterTable;
-use crate::fault::Fault;
-use crate::least_squares::{Polynomial, Response};
-use crate::quantity::Unit;
+use gumption_core::least_squares::{Polynomial, Response};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// The highest degree of a polynomial.

@@ -6,9 +6,9 @@ use super::super::super::checker::Checker;
 use super::super::columns::Column;
 use super::parts::{Formula, Parameter, Scope};
 use crate::budget::faults::{FIT, MODIFIER};
-use crate::fault::Fault;
-use crate::model::faults::LEFT_SIDE;
-use crate::model::{Outline, outline};
+use gumption_core::model::faults::LEFT_SIDE;
+use gumption_core::model::{Outline, outline};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
 /// A formula that was read, and whose left side is a column.

@@ -134,6 +134,7 @@
 //! | [`equations`] | measurement equations over rows of data |
 //! | [`mod@budget`] | the file format and the checked budget |
 //! | [`propagate`] | GUM and Monte Carlo evaluation of a budget; verdicts; comparison with claims |
+//! | [`csv`] | the one reader of tables |
 //! | [`recording`] | recordings of instruments: columns, dwells, averages, Allan deviation |
 //! | [`mod@calibrate`] | recordings and measurement equations → coefficients |
 //! | [`mod@diagnose`] | which physics a measurement model left out of a recording |
@@ -153,7 +154,7 @@ pub use gumption_core::{
 };
 pub use gumption_fault as fault;
 pub use gumption_fault::language;
-pub use gumption_format::{document, files, machine, render};
+pub use gumption_format::{csv, document, files, machine, render};
 pub use gumption_gum::{budget, propagate};
 pub use gumption_lab::{calibrate, diagnose, experiment, recording};
 pub use gumption_report as report;

@@ -8,7 +8,7 @@ use gumption::distribution::Kind;
 use gumption::distribution::stating::Word;
 use gumption::fault::{Code, nearest};
 use gumption::{
-    budget, calibrate, diagnose, distribution, equations, experiment, model, quantity, recording,
+    budget, calibrate, csv, diagnose, distribution, equations, experiment, model, quantity,
 };
 
 use super::concepts::CONCEPTS;
@@ -324,7 +324,7 @@ fn codes() -> impl Iterator<Item = &'static Code> {
         budget::faults::CODES,
         model::faults::CODES,
         quantity::faults::CODES,
-        recording::faults::CODES,
+        csv::faults::CODES,
         equations::faults::CODES,
         experiment::faults::CODES,
         calibrate::faults::CODES,

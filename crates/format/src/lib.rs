@@ -2,6 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`csv`] | the one reader of tables |
 //! | [`files`] | where files are read from: a disk, or a library in memory |
 //! | [`document`] | what every command composes: blocks for people, a typed form for machines |
 //! | [`machine`] | structures of the machine form with their JSON Schema |
@@ -11,6 +12,7 @@
 // Tests may hold results against the platform's own functions.
 #![cfg_attr(test, allow(clippy::disallowed_methods))]
 
+pub mod csv;
 pub mod document;
 pub mod files;
 pub mod machine;

@@ -119,6 +119,14 @@ impl<'a> OpenFiles<'a> {
         self.open.borrow().is_empty()
     }
 
+    /// Another file was refused, which may be read more than once.
+    pub fn refused(&self, rejection: Rejection) {
+        let mut rejections = self.rejections.borrow_mut();
+        if !rejections.contains(&rejection) {
+            rejections.push(rejection);
+        }
+    }
+
     /// What was refused so far.
     pub fn take_rejections(&self) -> Vec<Rejection> {
         self.rejections.take()

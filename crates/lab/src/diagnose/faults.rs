@@ -3,7 +3,7 @@
 use gumption_fault::codes;
 
 codes! {
-    MISSING = "D0101", "a case lacks something", "案例文件缺少必需的内容",
+    MISSING = "D0101", "a case lacks something", "实验文件缺少必需的内容",
         "An experiment names a recording, its equations and what the columns of the recording are.\n\n    recording = \"load.csv\"\n    equations = \"deflection = a + b * load\"\n    [columns]\n    deflection = \"output\"\n    load = \"stimulus\"\n    run = \"run\"";
     LEFT_SIDE = "D0102", "a model does not say what it describes", "模型左边未指明所描述的量",
         "The left side of a model is a column with the role \"output\", or a constant that the right side should give in every row (as in `g = sqrt(x^2 + y^2 + z^2)`).";

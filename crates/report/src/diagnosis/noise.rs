@@ -44,7 +44,7 @@ pub(super) fn noise(claimed: &Claimed, l: Language) -> String {
         }
         Origin::Case => l.pick(
             "as stated in the case".to_owned(),
-            "由案例文件给出".to_owned(),
+            "由实验文件给出".to_owned(),
         ),
         Origin::Column(name) => {
             l.pick(format!("from the column {name}"), format!("取自 {name} 列"))

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::checker::Checker;
-use super::csv::lacks;
+use super::csv::{decimals, lacks};
 use super::draft::{Context, Core, show};
 use super::type_a::Evaluated;
 use super::ways::Way;
@@ -11,8 +11,10 @@ use crate::budget::faults::{GROUPS, MISSING_KEY, NO_SCATTER};
 use crate::budget::tables::{BetweenWord, ComponentTable, GroupColumnTable, GroupSummaryTable};
 use crate::budget::variants::{Groups, ReadingsOf};
 use crate::budget::{Anova, Finding, NestedAnova};
+use gumption_core::quantity::Unit;
 use gumption_core::statistics::{Dd, Group, Nested, Of, OneWay, Policy, Uncertainty, Verdict};
 use gumption_fault::Fault;
+use gumption_format::csv::{Column, Data, Request as Asked};
 use gumption_format::toml::Stated;
 
 /// Groups, or groups of subgroups.
@@ -44,7 +46,7 @@ impl Checker<'_> {
         let (design, place, key) = match way {
             Way::Groups => {
                 let stated = table.groups.as_ref()?;
-                let design = self.design(stated)?;
+                let design = self.design(stated, context.unit)?;
                 (design, stated.span.clone(), stated.key.clone())
             }
             _ => {
@@ -197,7 +199,7 @@ impl Checker<'_> {
         }
     }
 
-    fn design(&mut self, stated: &Stated<Groups>) -> Option<Design> {
+    fn design(&mut self, stated: &Stated<Groups>, unit: &Unit) -> Option<Design> {
         Some(match &stated.value {
             Groups::OneWay(lists) => Design::OneWay(
                 lists
@@ -214,13 +216,18 @@ impl Checker<'_> {
                 Design::Nested(groups.iter().map(cells).collect())
             }
             Groups::Column(table) if table.refused => return None,
-            Groups::Column(table) => self.grouped_column(table, &stated.span)?,
+            Groups::Column(table) => self.grouped_column(table, &stated.span, unit)?,
         })
     }
 
     /// Readings of a CSV file, in the groups that one or two further columns name, in the order in which
     /// the groups occur.
-    fn grouped_column(&mut self, table: &GroupColumnTable, place: &Range<usize>) -> Option<Design> {
+    fn grouped_column<'t>(
+        &mut self,
+        table: &'t GroupColumnTable,
+        place: &Range<usize>,
+        unit: &Unit,
+    ) -> Option<Design> {
         let (Some(file), Some(column), Some(group)) = (&table.file, &table.column, &table.group)
         else {
             let missing = match (&table.file, &table.column) {
@@ -242,15 +249,20 @@ impl Checker<'_> {
                 .label("expected one column, or two for groups and subgroups"),
             );
         }
-        let columns: Vec<&Stated<String>> = std::iter::once(column).chain(names).collect();
-        let rows = self.csv_fields(file, &columns)?;
+        let labels = |name: &'t Stated<String>| (name, Asked::labels("group", &name.value));
+        let columns: Vec<_> = std::iter::once((column, decimals(column, Some(unit))))
+            .chain(names.iter().map(labels))
+            .collect();
+        let table = self.csv(file, &columns)?;
+        let (readings, names_of) = table.columns.split_first()?;
+        let level = |column: Option<&Column>, row: usize| match column.map(|column| &column.data) {
+            Some(Data::Labels(labels)) => labels.text(row).to_owned(),
+            _ => String::new(),
+        };
         let mut groups: Labelled<Labelled<Vec<Dd>>> = Vec::new();
-        for (line, fields) in (2..).zip(rows) {
-            let mut fields = fields.into_iter();
-            let reading = fields.next().unwrap_or_default();
-            let reading = self.csv_number(file, column, line, &reading)?;
-            let group = entry(&mut groups, fields.next().unwrap_or_default());
-            entry(group, fields.next().unwrap_or_default()).push(reading);
+        for (row, reading) in readings.decimals.iter().flatten().enumerate() {
+            let group = entry(&mut groups, level(names_of.first(), row));
+            entry(group, level(names_of.get(1), row)).push(*reading);
         }
         let cells = |cells: &Labelled<Vec<Dd>>| -> Vec<Group> {
             cells.iter().map(|(_, list)| Group::new(list)).collect()

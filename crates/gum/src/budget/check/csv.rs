@@ -1,28 +1,37 @@
 //! Numbers from lists or from columns of CSV files.
 
-use std::io::ErrorKind;
 use std::ops::Range;
 
 use super::checker::Checker;
 use crate::budget::faults::{CSV, MISSING_KEY, VECTOR};
 use crate::budget::tables::{ColumnTable, ComponentTable};
 use crate::budget::variants::{Amounts, Numbers};
+use gumption_core::quantity::Unit;
 use gumption_core::statistics::Dd;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, Rejection};
+use gumption_format::csv::faults::{NO_COLUMN, NOT_UTF8, UNREADABLE};
+use gumption_format::csv::{Recording, Request};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
-use gumption_format::toml::faults::{NOT_UTF8, UNREADABLE_FILE};
-use gumption_format::toml::without_comma;
+use gumption_format::toml::faults::UNREADABLE_FILE;
 
 impl Checker<'_> {
     /// The numbers themselves.
-    pub(super) fn numbers(&mut self, numbers: &Stated<Numbers>) -> Option<Vec<f64>> {
-        let exact = self.exact_numbers(numbers)?;
+    pub(super) fn numbers(
+        &mut self,
+        numbers: &Stated<Numbers>,
+        unit: Option<&Unit>,
+    ) -> Option<Vec<f64>> {
+        let exact = self.exact_numbers(numbers, unit)?;
         Some(exact.into_iter().map(Dd::value).collect())
     }
 
-    /// The numbers as the decimals that are written.
-    pub(super) fn exact_numbers(&mut self, numbers: &Stated<Numbers>) -> Option<Vec<Dd>> {
+    /// The numbers as the decimals that are written; a column that states its unit is converted.
+    pub(super) fn exact_numbers(
+        &mut self,
+        numbers: &Stated<Numbers>,
+        unit: Option<&Unit>,
+    ) -> Option<Vec<Dd>> {
         match &numbers.value {
             Numbers::List(list) => Some(self.exact(list)),
             Numbers::Lists(_) => self.refuse(
@@ -31,18 +40,29 @@ impl Checker<'_> {
                     .help("readings in groups are `groups = [[…], […]]`; the elements of a vector have `values`, and a list of readings each"),
             ),
             Numbers::Column(table) if table.refused => None,
-            Numbers::Column(table) => self.column(table, &numbers.span),
+            Numbers::Column(table) => self.column(table, unit, &numbers.span),
         }
     }
 
     /// A component in which amounts from columns of CSV files stand as lists; `None` if it names no column.
-    pub(super) fn with_columns(&mut self, table: &ComponentTable) -> Option<ComponentTable> {
+    /// Deviations are in the unit of differences, fractions of the value in none.
+    pub(super) fn with_columns(
+        &mut self,
+        table: &ComponentTable,
+        unit: &Unit,
+    ) -> Option<ComponentTable> {
         let named = |stated: &Option<Stated<Amounts>>| {
             matches!(stated.as_ref().map(|s| &s.value), Some(Amounts::Column(_)))
         };
         if !named(&table.u) && !named(&table.half_width) {
             return None;
         }
+        let relative = table.relative.as_ref().is_some_and(|stated| stated.value);
+        let unit = if relative {
+            Unit::one()
+        } else {
+            unit.difference()
+        };
         let mut listed = table.clone();
         for stated in [&mut listed.u, &mut listed.half_width]
             .into_iter()
@@ -54,7 +74,7 @@ impl Checker<'_> {
             if column.refused {
                 continue;
             }
-            let Some(numbers) = self.column(column, &stated.span) else {
+            let Some(numbers) = self.column(column, Some(&unit), &stated.span) else {
                 column.refused = true;
                 continue;
             };
@@ -87,7 +107,12 @@ impl Checker<'_> {
             .unwrap_or(Dd::from(number.value))
     }
 
-    fn column(&mut self, table: &ColumnTable, place: &Range<usize>) -> Option<Vec<Dd>> {
+    fn column(
+        &mut self,
+        table: &ColumnTable,
+        unit: Option<&Unit>,
+        place: &Range<usize>,
+    ) -> Option<Vec<Dd>> {
         let (Some(file), Some(column)) = (&table.file, &table.column) else {
             let missing = if table.file.is_none() {
                 "file"
@@ -97,151 +122,92 @@ impl Checker<'_> {
             let example = "{ file = \"readings.csv\", column = \"name\" }";
             return self.refuse(lacks(missing, place, example));
         };
-        let rows = self.csv_fields(file, &[column])?;
-        (2..)
-            .zip(&rows)
-            .map(|(line, fields)| {
-                let field = fields.first().map_or("", String::as_str);
-                self.csv_number(file, column, line, field)
-            })
-            .collect()
+        let table = self.csv(file, &[(column, decimals(column, unit))])?;
+        table.columns.into_iter().next()?.decimals
     }
 
-    /// A field of a column as a number.
-    pub(super) fn csv_number(
+    /// Columns of a CSV file, each with the place of its name in the budget.
+    pub(super) fn csv(
         &mut self,
         file: &Stated<String>,
-        column: &Stated<String>,
-        line: usize,
-        field: &str,
-    ) -> Option<Dd> {
-        Dd::parse(field).or_else(|| {
-            let message = format!(
-                "line {line} of {} has \"{field}\" in column \"{}\", not a number",
-                file.value, column.value
-            );
-            let joined = field.replace(',', "");
-            let fault = Fault::new(CSV, column.span.clone(), message).label("needed from here");
-            self.refuse(if field.trim().is_empty() {
-                fault.help("every row needs a number there; remove the rows that are empty")
-            } else if field.contains(',') && Dd::parse(&joined).is_some() {
-                fault.help(without_comma(field.trim(), ""))
-            } else {
-                fault
-            })
-        })
-    }
-
-    /// The fields of some columns, row by row.
-    pub(super) fn csv_fields(
-        &mut self,
-        file: &Stated<String>,
-        columns: &[&Stated<String>],
-    ) -> Option<Vec<Vec<String>>> {
-        let text = self.csv_text(file)?;
-        let mut reader = ::csv::ReaderBuilder::new()
-            .trim(::csv::Trim::All)
-            .flexible(true)
-            .from_reader(text.as_bytes());
-        let names: Vec<String> = match reader.headers() {
-            Ok(names) => names
-                .iter()
-                .map(|name| name.trim_start_matches('\u{feff}').to_string())
-                .collect(),
-            Err(error) => return self.csv_fault(file, format!("{}: {error}", file.value)),
-        };
-        let places: Vec<Option<usize>> = columns
-            .iter()
-            .map(|column| self.csv_place(file, column, &names))
-            .collect();
-        let places = places.into_iter().collect::<Option<Vec<usize>>>()?;
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = match record {
-                Ok(record) => record,
-                Err(error) => return self.csv_fault(file, format!("{}: {error}", file.value)),
-            };
-            let field = |place: &usize| record.get(*place).unwrap_or_default().to_string();
-            rows.push(places.iter().map(field).collect());
-        }
-        Some(rows)
-    }
-
-    /// Where a column is among the names of the first line.
-    fn csv_place(
-        &mut self,
-        file: &Stated<String>,
-        column: &Stated<String>,
-        names: &[String],
-    ) -> Option<usize> {
-        if let Some(place) = names.iter().position(|name| *name == column.value) {
-            return Some(place);
-        }
-        let near = nearest(&column.value, names.iter().map(String::as_str));
-        let separated = names
-            .first()
-            .filter(|only| names.len() == 1 && only.contains([';', '\t']));
-        let help = match (near, separated) {
-            (_, Some(only)) => format!(
-                "its only column is \"{only}\": save the file with commas between the columns and decimal points"
-            ),
-            (Some(near), None) => format!(
-                "did you mean \"{near}\"? Its columns are: {}",
-                names.join(", ")
-            ),
-            (None, None) => format!("its columns are: {}", names.join(", ")),
-        };
-        self.refuse(
-            Fault::new(
-                CSV,
-                column.span.clone(),
-                format!("{} has no column \"{}\"", file.value, column.value),
-            )
-            .label("no such column")
-            .help(help),
-        )
-    }
-
-    fn csv_text(&mut self, file: &Stated<String>) -> Option<String> {
+        columns: &[(&Stated<String>, Request)],
+    ) -> Option<Recording> {
         let path = self.source.origin.directory.join(&file.value);
-        let folder = self.source.origin.folder();
-        let bytes = match self.source.origin.files.files.read(&path) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                let message = match error.kind() {
-                    _ if self.source.origin.files.files.is_folder(&path) => {
-                        format!("{} is a folder, not a file", file.value)
-                    }
-                    ErrorKind::NotFound => format!("there is no file {} in {folder}", file.value),
-                    ErrorKind::PermissionDenied => format!("{} may not be read", file.value),
-                    _ => format!("{} cannot be read: {error}", file.value),
-                };
-                return self.refuse(
-                    Fault::new(UNREADABLE_FILE, file.span.clone(), message)
-                        .label("expected a CSV file")
-                        .help("the path starts from the folder of the budget"),
-                );
-            }
-        };
-        match String::from_utf8(bytes) {
-            Ok(text) => Some(text),
-            Err(error) => {
-                let at = error.utf8_error().valid_up_to() + 1;
-                self.refuse(
-                    Fault::new(
-                        NOT_UTF8,
-                        file.span.clone(),
-                        format!("{} is not UTF-8 text from byte {at} on", file.value),
-                    )
-                    .label("not readable")
-                    .help("save the file as CSV in UTF-8"),
-                )
-            }
+        let requests: Vec<Request> = columns.iter().map(|(_, request)| request.clone()).collect();
+        let files = self.source.origin.files;
+        let units = &self.names.units;
+        match Recording::open(files.files, &path, &requests, units) {
+            Ok(table) => Some(table),
+            Err(rejection) => self.csv_refused(file, columns, rejection),
         }
     }
 
-    fn csv_fault<T>(&mut self, stated: &Stated<String>, message: String) -> Option<T> {
-        self.refuse(Fault::new(CSV, stated.span.clone(), message).label("needed from here"))
+    /// Faults of a table are shown in its own lines; a name that it lacks, and a file that is no text, in the
+    /// budget.
+    fn csv_refused<T>(
+        &mut self,
+        file: &Stated<String>,
+        columns: &[(&Stated<String>, Request)],
+        mut rejection: Rejection,
+    ) -> Option<T> {
+        let shown = rejection.name.clone();
+        let (unknown, faults): (Vec<Fault>, Vec<Fault>) = rejection
+            .faults
+            .into_iter()
+            .partition(|fault| fault.code == NO_COLUMN);
+        for fault in unknown {
+            let quoted = |name: &str| fault.message.ends_with(&format!("\"{name}\""));
+            let named = columns.iter().find(|(name, _)| quoted(name.value.trim()));
+            let (place, name) = named.map_or((file, ""), |(name, _)| (*name, &name.value));
+            let message = format!("{} has no column \"{name}\"", file.value);
+            self.report(Fault {
+                help: fault.help,
+                ..Fault::new(CSV, place.span.clone(), message).label("no such column")
+            });
+        }
+        rejection.faults = faults;
+        if let (true, Some(fault)) = (rejection.text.is_empty(), rejection.faults.first()) {
+            let folder = self.source.origin.folder();
+            let message = fault.message.replace(&shown, &file.value);
+            let message = match fault.code == UNREADABLE && message.starts_with("there is no file")
+            {
+                true => format!("{message} in {folder}"),
+                false => message,
+            };
+            return self.refuse(Fault {
+                code: if fault.code == NOT_UTF8 {
+                    NOT_UTF8
+                } else {
+                    UNREADABLE_FILE
+                },
+                message,
+                label: "expected a CSV file".into(),
+                span: file.span.clone(),
+                ..fault.clone()
+            });
+        }
+        if !rejection.faults.is_empty() {
+            self.report(
+                Fault::new(
+                    CSV,
+                    file.span.clone(),
+                    format!("{} cannot be used as it is", file.value),
+                )
+                .label("has faults itself")
+                .help("its faults are listed after those of this file"),
+            );
+            self.source.origin.files.refused(rejection);
+        }
+        None
+    }
+}
+
+/// The decimals of a column, one in every row, in a unit where one is known.
+pub(super) fn decimals(column: &Stated<String>, unit: Option<&Unit>) -> Request {
+    let request = Request::decimals(&column.value, &column.value);
+    match unit {
+        Some(unit) => request.into_unit(unit.clone()),
+        None => request,
     }
 }
 

@@ -30,7 +30,7 @@ impl Checker<'_> {
 
     fn sample(&mut self, table: &ComponentTable, context: &Context<'_>) -> Option<Core> {
         let stated = table.sample.as_ref()?;
-        let mut sample = self.numbers(stated)?;
+        let mut sample = self.numbers(stated, Some(context.unit))?;
         if sample.len() < 2 || super::type_a::all_equal(&sample) {
             return self.refuse(
                 Fault::new(

@@ -247,7 +247,7 @@ impl Checker<'_> {
                 unit,
                 place: entry.place.clone(),
             };
-            if let Some(mean) = self.constant_readings(entry, list) {
+            if let Some(mean) = self.constant_readings(entry, unit, list) {
                 found.push((mean, entry.place.clone()));
                 continue;
             }
@@ -301,7 +301,12 @@ impl Checker<'_> {
 
     /// The common value of readings that do not scatter beside a stated resolution: their scatter is
     /// below it and left to it.
-    fn constant_readings(&mut self, entry: &Entry<'_>, list: &[Entry<'_>]) -> Option<f64> {
+    fn constant_readings(
+        &mut self,
+        entry: &Entry<'_>,
+        unit: &Unit,
+        list: &[Entry<'_>],
+    ) -> Option<f64> {
         let readings = entry
             .table
             .readings
@@ -313,7 +318,7 @@ impl Checker<'_> {
         {
             return None;
         }
-        let numbers = self.numbers(readings)?;
+        let numbers = self.numbers(readings, Some(unit))?;
         (numbers.len() > 1 && all_equal(&numbers)).then(|| numbers[0])
     }
 
@@ -327,7 +332,7 @@ impl Checker<'_> {
         if entry.way == Way::Source {
             return self.shared_pieces(entry, context, register);
         }
-        if let Some(value) = self.constant_readings(entry, list) {
+        if let Some(value) = self.constant_readings(entry, context.unit, list) {
             let owner = context.owner;
             self.remark(
                 format!("{owner}: all readings are {value}; their scatter is below the resolution and left to it."),
@@ -337,7 +342,9 @@ impl Checker<'_> {
         }
         let draft = self.draft_following(entry.table, entry.way, context)?;
         let readings = match &entry.table.readings {
-            Some(readings) if entry.table.pooled.is_none() => self.numbers(readings),
+            Some(readings) if entry.table.pooled.is_none() => {
+                self.numbers(readings, Some(context.unit))
+            }
             _ => None,
         };
         Some(vec![Piece::Own(Box::new(draft), readings)])

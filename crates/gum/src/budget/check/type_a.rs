@@ -65,7 +65,7 @@ impl Checker<'_> {
         let Some(readings) = &table.readings else {
             return self.pooled_alone(table.pooled.as_ref()?, table, context);
         };
-        let numbers = self.exact_numbers(readings)?;
+        let numbers = self.exact_numbers(readings, Some(context.unit))?;
         let plain: Vec<f64> = numbers.iter().map(|number| number.value()).collect();
         if let Some(pooled) = &table.pooled {
             let findings = match plain.len() > 1 && !all_equal(&plain) {

@@ -121,7 +121,7 @@ impl Checker<'_> {
         if states_one_estimate(entry) {
             return self.refuse(one_estimate(vector.name, entry));
         }
-        let listed = self.with_columns(entry.table);
+        let listed = self.with_columns(entry.table, vector.unit);
         let entry = &Entry {
             table: listed.as_ref().unwrap_or(entry.table),
             way: entry.way,

@@ -293,11 +293,9 @@ impl Wanted {
             _ => Content::Numbers,
         };
         let request = Request {
-            role: name.to_owned(),
-            column: header.to_owned(),
             content,
             unit: unit.clone(),
-            like: None,
+            ..Request::numbers(name, header)
         };
         Wanted {
             name: name.to_owned(),

@@ -1,9 +1,9 @@
 //! Reading, with its faults, and checks.
 
-use crate::recording::faults::*;
 use crate::recording::{Checks, Content, Finding, Problem, Recording, Request, Severity, check};
 use gumption_core::quantity::UnitTable;
 use gumption_fault::Fault;
+use gumption_format::csv::faults::*;
 
 const NO_CHECKS: Checks = Checks {
     time: None,

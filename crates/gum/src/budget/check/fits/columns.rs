@@ -149,7 +149,7 @@ impl Checker<'_> {
                 .help("write values = [1.0, 2.0], or values = { file = \"data.csv\", column = \"x\" }"),
             );
         };
-        let values = self.numbers(numbers)?;
+        let values = self.numbers(numbers, unit.as_ref())?;
         if values.is_empty() || values.len() > MOST_POINTS {
             return self.refuse(
                 Fault::new(
@@ -245,7 +245,7 @@ impl Checker<'_> {
 
     /// Variances 1/w.
     fn fit_weights(&mut self, column: &Column<'_>, stated: &Stated<Numbers>) -> Option<Vec<f64>> {
-        let weights = self.numbers(stated)?;
+        let weights = self.numbers(stated, None)?;
         if weights.len() != column.values.len() {
             return self.refuse(
                 Fault::new(
@@ -304,7 +304,7 @@ impl Checker<'_> {
                     .help("state a deviation: `u`, `half_width`, `step` …"),
             );
         }
-        let listed = self.with_columns(entry.table);
+        let listed = self.with_columns(entry.table, &column.unit);
         let entry = &Entry {
             table: listed.as_ref().unwrap_or(entry.table),
             way: entry.way,

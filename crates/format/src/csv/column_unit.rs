@@ -43,6 +43,14 @@ pub(super) fn unit_of(
             return Err(Box::new(fault));
         }
     };
+    if let Some(into) = &request.into {
+        return match &unit {
+            Some(found) if found.conversion_to(into).is_none() => {
+                Err(Box::new(clash(heading, request, found, into, span)))
+            }
+            _ => Ok(unit),
+        };
+    }
     let Some(like) = &request.like else {
         return Ok(unit);
     };
@@ -60,21 +68,37 @@ pub(super) fn unit_of(
             ))
         }
         Some(found) if found.dimension == like.dimension => Ok(unit),
-        Some(found) => {
-            let (role, symbol) = (&request.role, &found.symbol);
-            let message = format!(
-                "column \"{text}\" ({role}) is in {symbol}, which is no unit like {}",
-                like.symbol
-            );
-            let hint = hint_for_clash(like, found)
-                .unwrap_or_else(|| "check which column has this role, and its unit".to_owned());
-            Err(Box::new(
-                fault(UNIT_CLASH, message)
-                    .label(format!("in {symbol}"))
-                    .help(hint),
-            ))
-        }
+        Some(found) => Err(Box::new(clash(heading, request, found, like, span))),
     }
+}
+
+/// A column in a unit of another dimension than the one that is needed.
+fn clash(
+    heading: &Heading,
+    request: &Request,
+    found: &Unit,
+    needed: &Unit,
+    span: &Range<usize>,
+) -> Fault {
+    let (text, role, symbol) = (&heading.text, &request.role, &found.symbol);
+    let label = format!("in {symbol}");
+    let (message, help) = if needed.is_one() {
+        (
+            format!("column \"{text}\" is in {symbol}, and {role} is a number without unit"),
+            format!("state the unit where the column is asked for: unit = \"{symbol}\""),
+        )
+    } else {
+        let message = format!(
+            "column \"{text}\" ({role}) is in {symbol}, which is no unit like {}",
+            needed.symbol
+        );
+        let hint = hint_for_clash(needed, found);
+        let otherwise = || "check which column has this role, and its unit".to_owned();
+        (message, hint.unwrap_or_else(otherwise))
+    };
+    Fault::new(UNIT_CLASH, span.clone(), message)
+        .label(label)
+        .help(help)
 }
 
 /// Whether a header writes g for the acceleration of free fall that the asker states as gn.

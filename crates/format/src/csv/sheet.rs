@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use csv::{ReaderBuilder, StringRecord, Trim};
+use ::csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::faults::{NO_HEADER, NO_ROWS, ROW_LENGTH};
 use gumption_fault::Fault;
@@ -50,7 +50,7 @@ impl<'a> Sheet<'a> {
         };
         let header = Rows::new(text, separator)
             .next()
-            .ok_or_else(|| missing("the recording is empty", "no names of columns"))?
+            .ok_or_else(|| missing("the table is empty", "no names of columns"))?
             .map_err(|message| missing(&message, "cannot be read"))?;
         let numbers = header.fields().filter(|field| field.parse::<f64>().is_ok());
         if numbers.count() > header.len() / 2 {
@@ -138,7 +138,7 @@ impl<'a> Sheet<'a> {
         if good + bad == 0 && faults.is_empty() {
             let place = self.place(&self.header, 0);
             faults.push(
-                Fault::new(NO_ROWS, place, "the recording has no rows")
+                Fault::new(NO_ROWS, place, "the table has no rows")
                     .label("nothing follows this line"),
             );
         }
@@ -193,7 +193,7 @@ impl Row {
 /// The rows of a text, that of the names first.
 struct Rows<'a> {
     text: &'a str,
-    reader: csv::Reader<&'a [u8]>,
+    reader: ::csv::Reader<&'a [u8]>,
     offset: usize,
     /// How far lines were counted: byte and line.
     counted: (usize, usize),
@@ -255,13 +255,17 @@ fn separator(text: &str, first: usize, names: &str) -> u8 {
         .unwrap_or(b',')
 }
 
-/// Where the next line begins that is neither empty nor a comment.
+/// Where the next line begins that is neither empty nor a comment, nor the `sep=;` of a spreadsheet.
 fn start_of_record(text: &str, from: usize) -> usize {
     let mut at = from.min(text.len());
     if at == 0 && text.starts_with('\u{feff}') {
         at = '\u{feff}'.len_utf8();
     }
     let bytes = text.as_bytes();
+    let sep = |line: &[u8]| line.len() == 5 && line[..4].eq_ignore_ascii_case(b"sep=");
+    if from == 0 && bytes.get(at..at + 5).is_some_and(sep) {
+        at += 5;
+    }
     loop {
         match bytes.get(at) {
             Some(b'\n' | b'\r') => at += 1,

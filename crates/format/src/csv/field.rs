@@ -31,7 +31,7 @@ impl Instant {
 }
 
 /// What instruments write for a range that was exceeded (SCPI), and for no number.
-const OVERLOAD: f64 = 9.9e37;
+pub(super) const OVERLOAD: f64 = 9.9e37;
 
 const MISSING: &[&str] = &[
     "",
@@ -80,6 +80,13 @@ impl Field {
             Field::Clock(_) => None,
         }
     }
+}
+
+/// Whether a field says that a range was exceeded.
+pub(super) fn is_overload(text: &str) -> bool {
+    text.replace(',', ".")
+        .parse()
+        .is_ok_and(|value: f64| value.is_finite() && value.abs() >= OVERLOAD)
 }
 
 fn plain(text: &str) -> Option<f64> {
@@ -198,6 +205,13 @@ pub(super) fn mend(field: &str) -> String {
     let minus = field.replace('−', "-");
     if field.contains(',') && like(&point) {
         return format!("write {point}, with a decimal point");
+    }
+    let without = field.replace([',', '.', ' ', '\'', '\u{a0}', '\u{202f}'], "");
+    if field.contains([',', ' ', '\'', '.', '\u{a0}', '\u{202f}'])
+        && like(&without)
+        && !is_like_a_time(field)
+    {
+        return "write the number with one decimal sign and without marks of thousands".to_owned();
     }
     if field.contains('−') && like(&minus) {
         return format!("write {minus}, with the hyphen as minus");

@@ -16,6 +16,9 @@ pub struct Request {
     /// A unit of the dimension that the numbers must have; `None` if any will do. Numbers stay in the
     /// unit of the column; [`Column::values_in`](super::Column::values_in) converts.
     pub like: Option<Unit>,
+    /// The unit in which the numbers are wanted: that of a column whose header states none, and the one
+    /// into which others are converted.
+    pub into: Option<Unit>,
 }
 
 /// What a column holds.
@@ -23,6 +26,8 @@ pub struct Request {
 pub enum Content {
     /// Numbers.
     Numbers,
+    /// Decimals as they are written, one in every row.
+    Decimals,
     /// Texts, also if they look like numbers: runs, positions, operators.
     Labels,
     /// Numbers if every field is one or missing, texts otherwise.
@@ -38,6 +43,15 @@ impl Request {
             content: Content::Numbers,
             unit: None,
             like: None,
+            into: None,
+        }
+    }
+
+    /// A column with a decimal in every row, none of which may be missing.
+    pub fn decimals(role: &str, column: &str) -> Request {
+        Request {
+            content: Content::Decimals,
+            ..Request::numbers(role, column)
         }
     }
 
@@ -53,6 +67,13 @@ impl Request {
     #[must_use]
     pub fn in_unit(mut self, unit: Unit) -> Request {
         self.unit = Some(unit);
+        self
+    }
+
+    /// Converts decimals into a unit.
+    #[must_use]
+    pub fn into_unit(mut self, unit: Unit) -> Request {
+        self.into = Some(unit);
         self
     }
 

@@ -6,15 +6,17 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::column_unit::unit_of;
+use super::encoding::{Undecodable, decode};
 use super::faults::{NO_COLUMN, NOT_A_NUMBER, NOT_UTF8, SAME_NAME, UNIT_CLASH, UNREADABLE};
-use super::field::{Field, Instant, is_like_a_time, mend};
+use super::field::{Field, Instant, OVERLOAD, is_like_a_time, is_overload, mend};
 use super::heading::Heading;
 use super::request::{Content, Request};
 use super::sheet::{Row, SHOWN, Sheet};
 use super::{Column, Data, Labels, Recording};
+use crate::files::Files;
 use gumption_core::quantity::{Unit, UnitTable};
+use gumption_core::statistics::Dd;
 use gumption_fault::{Fault, Rejection, nearest};
-use gumption_format::files::Files;
 
 impl Recording {
     /// Reads the columns asked for from a file.
@@ -89,6 +91,7 @@ impl Recording {
             }
         });
         faults.extend(visited.err().unwrap_or_default());
+        faults.extend(two_decimal_signs(&drafts));
         for draft in &mut drafts {
             draft.settle_clock(units.parse("s").ok());
             faults.extend(draft.take_faults());
@@ -150,10 +153,10 @@ fn headings_of(sheet: &Sheet, units: &UnitTable) -> Vec<Heading> {
     fields.map(|field| Heading::read(field, units)).collect()
 }
 
-/// The text of a file that a calibration or a case names.
+/// The text of a table that another file names, in whichever encoding it was saved.
 ///
 /// # Errors
-/// It is not there, may not be read, or is no UTF-8.
+/// It is not there, may not be read, or is no text.
 pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejection> {
     let refuse = |code, message: String, help: &str| {
         Rejection::new(name, "", vec![Fault::new(code, 0..0, message).help(help)])
@@ -171,15 +174,14 @@ pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejectio
             "the path starts from the folder of the file that names it",
         )
     })?;
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = 1 + valid.iter().filter(|byte| **byte == b'\n').count();
-        let at = valid.len() + 1;
-        let message = format!("{name} is not UTF-8 text from byte {at} on, in line {line}");
+    decode(&bytes).map(|decoded| decoded.text).map_err(|error| {
+        let Undecodable { byte, line } = error;
+        let message =
+            format!("{name} is neither UTF-8, UTF-16 nor GBK from byte {byte} on, in line {line}");
         refuse(
             NOT_UTF8,
             message,
-            "save the recording as CSV in UTF-8: spreadsheets call it “CSV UTF-8”; or convert it, `iconv -f LATIN1 -t UTF-8 old.csv > new.csv`, with GBK for LATIN1 where the text is Chinese",
+            "save it as CSV in UTF-8: spreadsheets call it “CSV UTF-8”; or convert it, `iconv -f LATIN1 -t UTF-8 old.csv > new.csv`",
         )
     })
 }
@@ -193,6 +195,7 @@ struct Draft<'a> {
     content: Content,
     unit: Option<Unit>,
     numbers: Vec<f64>,
+    decimals: Vec<Dd>,
     labels: Labels,
     levels: HashMap<String, u32>,
     faults: Vec<Fault>,
@@ -226,6 +229,7 @@ impl<'a> Draft<'a> {
             content: request.content,
             unit: None,
             numbers: Vec::new(),
+            decimals: Vec::new(),
             labels: Labels::default(),
             levels: HashMap::new(),
             faults: Vec::new(),
@@ -236,7 +240,7 @@ impl<'a> Draft<'a> {
 
     /// The unit that the header and the asker agree on. Labels have none.
     fn settle_unit(&mut self, faults: &mut Vec<Fault>) {
-        if self.content != Content::Numbers {
+        if self.content == Content::Labels {
             return;
         }
         match unit_of(self.heading, self.request, &self.span) {
@@ -262,6 +266,9 @@ impl<'a> Draft<'a> {
             return;
         }
         let read = Field::read(field, sheet);
+        if self.content == Content::Decimals {
+            return self.take_decimal(sheet, row, read);
+        }
         if let Some(number) = read.and_then(|read| self.number(read)) {
             self.numbers.push(number);
             return;
@@ -274,19 +281,71 @@ impl<'a> Draft<'a> {
             false => (SHOWN, "a number"),
         };
         if self.faults.len() < shown {
-            let (line, column) = (row.line, &self.heading.text);
-            let message =
-                format!("line {line}, column \"{column}\": \"{field}\" is not {expected}");
             let help = match read {
                 Some(_) => "write all numbers of a column alike: all with a decimal point, all with a decimal comma, or all as times".to_owned(),
                 None => mend(field),
             };
-            self.faults.push(
-                Fault::new(NOT_A_NUMBER, sheet.place(row, self.place), message)
-                    .label(format!("expected {expected}"))
-                    .related(self.span.clone(), "the column")
-                    .help(help),
-            );
+            let fault = self.no_number(sheet, row, expected, help);
+            self.faults.push(fault);
+        }
+    }
+
+    /// A field of a column in which every row has its decimal.
+    fn take_decimal(&mut self, sheet: &Sheet, row: &Row, read: Option<Field>) {
+        let field = row.field(self.place);
+        let written = match read {
+            Some(Field::Comma(_)) => field.replace(',', "."),
+            _ => field.to_owned(),
+        };
+        let clock = matches!(read, Some(Field::Clock(_)));
+        let number = read.filter(|_| !clock).and_then(|read| self.number(read));
+        let exact = number.filter(|number| number.is_finite());
+        if let Some(exact) = exact.and_then(|_| Dd::parse(&written)) {
+            self.decimals.push(exact);
+            return;
+        }
+        self.refused += 1;
+        if self.faults.len() < SHOWN {
+            let help = if field.is_empty() {
+                "every row needs a number there; remove the rows that are empty".to_owned()
+            } else if is_overload(field) {
+                format!(
+                    "instruments write {OVERLOAD:e} for a range that was exceeded: it is no reading; remove the row, or measure again in a higher range"
+                )
+            } else {
+                match read {
+                    Some(_) if number.is_some() => "every row needs a number there".to_owned(),
+                    Some(_) if !clock => "write all numbers of a column alike: all with a decimal point, or all with a decimal comma".to_owned(),
+                    _ => mend(field),
+                }
+            };
+            let fault = self.no_number(sheet, row, "a number", help);
+            self.faults.push(fault);
+        }
+    }
+
+    fn no_number(&self, sheet: &Sheet, row: &Row, expected: &str, help: String) -> Fault {
+        let (line, column, field) = (row.line, &self.heading.text, row.field(self.place));
+        let message = format!("line {line}, column \"{column}\": \"{field}\" is not {expected}");
+        Fault::new(NOT_A_NUMBER, sheet.place(row, self.place), message)
+            .label(format!("expected {expected}"))
+            .related(self.span.clone(), "the column")
+            .help(help)
+    }
+
+    /// Decimals in the unit that is asked for.
+    fn convert(&mut self) {
+        let Some(into) = &self.request.into else {
+            return;
+        };
+        let found = self.unit.replace(into.clone());
+        let conversion = found.and_then(|found| found.conversion_to(into));
+        if let Some(conversion) = conversion.filter(|conversion| !conversion.is_identity()) {
+            let factor = Dd::from_decimal(conversion.factor);
+            let offset = Dd::from_decimal(conversion.offset);
+            for decimal in &mut self.decimals {
+                *decimal = *decimal * factor + offset;
+            }
         }
     }
 
@@ -338,7 +397,12 @@ impl<'a> Draft<'a> {
         std::mem::take(&mut self.faults)
     }
 
-    fn finish(self) -> Column {
+    fn finish(mut self) -> Column {
+        self.convert();
+        let numbers = match self.content {
+            Content::Decimals => self.decimals.iter().map(|exact| exact.value()).collect(),
+            _ => self.numbers,
+        };
         Column {
             role: self.request.role.clone(),
             header: self.heading.text.clone(),
@@ -347,10 +411,28 @@ impl<'a> Draft<'a> {
             decimal_comma: self.style == Style::Comma,
             data: match self.content {
                 Content::Labels => Data::Labels(self.labels),
-                _ => Data::Numbers(self.numbers),
+                _ => Data::Numbers(numbers),
             },
+            decimals: (self.content == Content::Decimals).then_some(self.decimals),
         }
     }
+}
+
+/// Columns with decimal points beside columns with decimal commas: one of them is read wrongly, as commas also
+/// mark thousands.
+fn two_decimal_signs(drafts: &[Draft]) -> Option<Fault> {
+    let styled = |style: Style| drafts.iter().find(|draft| draft.style == style);
+    let (point, comma) = (styled(Style::Point)?, styled(Style::Comma)?);
+    let (points, commas) = (&point.heading.text, &comma.heading.text);
+    let message = format!(
+        "column \"{points}\" is written with decimal points, column \"{commas}\" with commas"
+    );
+    Some(
+        Fault::new(NOT_A_NUMBER, comma.span.clone(), message)
+            .label("decimal commas, or marks of thousands?")
+            .related(point.span.clone(), "decimal points")
+            .help("write all numbers of a table with one decimal sign, and without marks of thousands"),
+    )
 }
 
 /// The column of a name.
@@ -396,7 +478,7 @@ fn find(sheet: &Sheet, headings: &[Heading], wanted: &str) -> Result<usize, Box<
             let message = format!("there is no column \"{wanted}\"");
             Err(Box::new(
                 Fault::new(NO_COLUMN, whole, message)
-                    .label("the columns of the recording")
+                    .label("the columns of the table")
                     .help(help),
             ))
         }

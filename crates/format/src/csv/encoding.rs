@@ -1,0 +1,139 @@
+//! The bytes of a table as text: UTF-8, UTF-16 as spreadsheets save “Unicode text”, or GBK.
+
+use encoding_rs::{GBK, UTF_16BE, UTF_16LE};
+
+/// How a table was saved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Encoding {
+    /// UTF-8, with or without its mark.
+    Utf8,
+    /// UTF-16 with its mark, of either byte order.
+    Utf16,
+    /// The code of Chinese systems.
+    Gbk,
+}
+
+/// A table as text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Decoded {
+    /// Its text, without a mark of the encoding.
+    pub text: String,
+    /// How it was saved.
+    pub encoding: Encoding,
+}
+
+/// Bytes that are text in none of the encodings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Undecodable {
+    /// The first byte that is no UTF-8, the first of all being 1.
+    pub byte: usize,
+    /// Its line.
+    pub line: usize,
+}
+
+/// Reads the bytes of a table.
+///
+/// GBK has no mark, and nearly every text of another code page is GBK too: `°C` of Western Europe would be one
+/// Chinese character. So bytes are GBK where each pair is in the set of 1980, GB/T 2312, and at least half of them
+/// are among its frequent characters, as they are in Chinese and in no European text.
+///
+/// # Errors
+/// The bytes are text in none of the encodings.
+pub fn decode(bytes: &[u8]) -> Result<Decoded, Undecodable> {
+    let marked = match bytes {
+        [0xff, 0xfe, rest @ ..] => Some((UTF_16LE, rest)),
+        [0xfe, 0xff, rest @ ..] => Some((UTF_16BE, rest)),
+        _ => None,
+    };
+    if let Some((encoding, rest)) = marked {
+        let text = encoding.decode_without_bom_handling_and_without_replacement(rest);
+        return decoded(
+            text.ok_or(Undecodable { byte: 1, line: 1 })?,
+            Encoding::Utf16,
+        );
+    }
+    let error = match std::str::from_utf8(bytes) {
+        Ok(text) if !text.contains('\0') => {
+            return decoded(text.trim_start_matches('\u{feff}').into(), Encoding::Utf8);
+        }
+        Ok(text) => text.find('\0').unwrap_or(0),
+        Err(error) => error.valid_up_to(),
+    };
+    let gbk = is_chinese(bytes)
+        .then(|| GBK.decode_without_bom_handling_and_without_replacement(bytes))
+        .flatten();
+    match gbk {
+        Some(text) => decoded(text, Encoding::Gbk),
+        None => Err(Undecodable {
+            byte: error + 1,
+            line: 1 + bytes[..error].iter().filter(|byte| **byte == b'\n').count(),
+        }),
+    }
+}
+
+fn decoded(text: std::borrow::Cow<'_, str>, encoding: Encoding) -> Result<Decoded, Undecodable> {
+    let text = text.into_owned();
+    Ok(Decoded { text, encoding })
+}
+
+/// Whether all bytes beyond ASCII are pairs of GB/T 2312, half of them signs (rows 1 to 9) or characters of its
+/// first level (rows 16 to 55).
+fn is_chinese(bytes: &[u8]) -> bool {
+    let (mut pairs, mut frequent) = (0, 0);
+    let mut rest = bytes;
+    while let Some(at) = rest.iter().position(|byte| *byte >= 0x80 || *byte == 0) {
+        let (Some(&lead @ 0xa1..=0xf7), Some(0xa1..=0xfe)) = (rest.get(at), rest.get(at + 1))
+        else {
+            return false;
+        };
+        pairs += 1;
+        frequent += usize::from(matches!(lead, 0xa1..=0xa9 | 0xb0..=0xd7));
+        rest = &rest[at + 2..];
+    }
+    pairs > 0 && 2 * frequent >= pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(bytes: &[u8]) -> Option<(String, Encoding)> {
+        let decoded = decode(bytes).ok()?;
+        Some((decoded.text, decoded.encoding))
+    }
+
+    #[test]
+    fn what_spreadsheets_save() {
+        let text = "电压 [mV]\n1.5\n";
+        let known = |encoding| Some((text.to_owned(), encoding));
+        assert_eq!(read(text.as_bytes()), known(Encoding::Utf8));
+        let marked = format!("\u{feff}{text}");
+        assert_eq!(read(marked.as_bytes()), known(Encoding::Utf8));
+        let little: Vec<u8> = marked.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let big: Vec<u8> = marked.encode_utf16().flat_map(u16::to_be_bytes).collect();
+        assert_eq!(read(&little), known(Encoding::Utf16));
+        assert_eq!(read(&big), known(Encoding::Utf16));
+        let (gbk, _, _) = GBK.encode(text);
+        assert_eq!(read(&gbk), known(Encoding::Gbk));
+        let (signs, _, _) = GBK.encode("T [℃],R [Ω],±\n");
+        assert_eq!(read(&signs).map(|read| read.1), Some(Encoding::Gbk));
+    }
+
+    #[test]
+    fn code_pages_of_europe_are_refused() {
+        let latin = |text: &str| -> Vec<u8> { text.chars().map(|c| c as u8).collect() };
+        for text in [
+            "T [°C]\n1\n",
+            "Größe [µm]\n1\n",
+            "Tension à vide\n",
+            "a\n±1\n",
+        ] {
+            assert!(decode(&latin(text)).is_err(), "{text}");
+        }
+        let error = decode(&latin("a,b\n1,2 °C\n")).expect_err("Latin-1");
+        assert_eq!((error.byte, error.line), (9, 2));
+        // UTF-16 without its mark.
+        assert!(decode(b"a\0,\0b\0\n\0").is_err());
+        assert!(decode(&[0xff, 0xfe, 0x00, 0xd8]).is_err());
+    }
+}

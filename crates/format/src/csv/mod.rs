@@ -1,0 +1,161 @@
+//! The one reader of tables: CSV files, strictly.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | [`faults`] | codes of what is refused |
+//! | `encoding` | bytes as text: UTF-8, UTF-16, GBK |
+//! | `sheet` | text as rows of fields, with their places |
+//! | `heading` | names and units in the first line |
+//! | `field` | numbers and times in the rows below |
+//! | `reader`, `column_unit` | the columns that somebody asks for; their units |
+//!
+//! What makes a table unreadable is a [`Fault`](gumption_fault::Fault) in a
+//! [`Rejection`](gumption_fault::Rejection), drawn under the user's own lines. Nothing is repaired or
+//! guessed, and no value is made up.
+//!
+//! ```
+//! use gumption_core::quantity::UnitTable;
+//! use gumption_format::csv::{Recording, Request};
+//!
+//! let units = UnitTable::default();
+//! let volt = units.parse("V").map_err(|error| error.message)?;
+//! let asked = [Request::decimals("U", "U").into_unit(volt)];
+//! let table = Recording::read("readings.csv", "U [mV]\n1.5\n2.5\n", &asked, &units)
+//!     .map_err(|rejection| rejection.render(false))?;
+//! let volts: Vec<f64> = table.decimals("U").unwrap_or_default().iter().map(|u| u.value()).collect();
+//! assert_eq!(volts, [0.0015, 0.0025]);
+//! let torn = Recording::read("readings.csv", "U [mV]\n1,5\n2,5\n", &asked, &units);
+//! assert!(torn.is_err());
+//! # Ok::<(), String>(())
+//! ```
+
+mod column_unit;
+mod encoding;
+pub mod faults;
+mod field;
+mod heading;
+mod reader;
+mod request;
+mod sheet;
+
+pub use encoding::{Decoded, Encoding, Undecodable, decode};
+pub use heading::Heading;
+pub use reader::{headings, text_of};
+pub use request::{Content, Request};
+pub use sheet::{Row, Sheet};
+
+use gumption_core::quantity::Unit;
+use gumption_core::statistics::Dd;
+
+/// Columns of equal length, in the order in which they were asked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// Name of the file, for messages.
+    pub name: String,
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// The line of each row.
+    lines: Vec<usize>,
+}
+
+/// One column.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// What it is for.
+    pub role: String,
+    /// Its whole text in the first line.
+    pub header: String,
+    /// Its name without the unit.
+    pub name: String,
+    /// Its unit; `None` where nothing states one, and for labels.
+    pub unit: Option<Unit>,
+    /// Whether its numbers were written with decimal commas.
+    pub decimal_comma: bool,
+    /// What it holds, row by row.
+    pub data: Data,
+    /// Its numbers with all the digits that are written, where decimals were asked for.
+    pub decimals: Option<Vec<Dd>>,
+}
+
+/// What a column holds.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Data {
+    /// Numbers in the unit of the column; NaN where one is missing.
+    Numbers(Vec<f64>),
+    /// Texts.
+    Labels(Labels),
+}
+
+/// A column of texts, each stored once.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Labels {
+    /// The different texts, in the order of their first appearance; a missing label is the empty one.
+    pub levels: Vec<String>,
+    /// The place in `levels` of the text of each row.
+    pub of_row: Vec<u32>,
+}
+
+impl Recording {
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// The line of a row in the file, the first line being 1; 0 for a row that does not exist.
+    pub fn line(&self, row: usize) -> usize {
+        self.lines.get(row).copied().unwrap_or(0)
+    }
+
+    /// The column of a role.
+    pub fn column(&self, role: &str) -> Option<&Column> {
+        self.columns.iter().find(|column| column.role == role)
+    }
+
+    /// The numbers of a role, in the unit of the column; nothing for a column of labels.
+    pub fn numbers(&self, role: &str) -> Option<&[f64]> {
+        match &self.column(role)?.data {
+            Data::Numbers(numbers) => Some(numbers),
+            Data::Labels(_) => None,
+        }
+    }
+
+    /// The decimals of a role as they are written, in the unit that was asked for; nothing for a column
+    /// that was asked for otherwise.
+    pub fn decimals(&self, role: &str) -> Option<&[Dd]> {
+        self.column(role)?.decimals.as_deref()
+    }
+
+    /// The labels of a role; nothing for a column of numbers.
+    pub fn labels(&self, role: &str) -> Option<&Labels> {
+        match &self.column(role)?.data {
+            Data::Numbers(_) => None,
+            Data::Labels(labels) => Some(labels),
+        }
+    }
+}
+
+impl Column {
+    /// The numbers in another unit; nothing for labels, without a unit, or for another dimension.
+    pub fn values_in(&self, unit: &Unit) -> Option<Vec<f64>> {
+        let conversion = self.unit.as_ref()?.conversion_to(unit)?;
+        match &self.data {
+            Data::Numbers(numbers) => Some(
+                numbers
+                    .iter()
+                    .map(|value| conversion.apply(*value))
+                    .collect(),
+            ),
+            Data::Labels(_) => None,
+        }
+    }
+}
+
+impl Labels {
+    /// The text of a row; empty where it is missing.
+    pub fn text(&self, row: usize) -> &str {
+        let level = self.of_row.get(row).map(|level| *level as usize);
+        level
+            .and_then(|level| self.levels.get(level))
+            .map_or("", String::as_str)
+    }
+}

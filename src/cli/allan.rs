@@ -33,6 +33,9 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    if let Err(outcome) = args.form.is_possible(&[]) {
+        return outcome;
+    }
     let units = UnitTable::default();
     let mut requests = vec![Request::numbers("readings", &args.column)];
     requests.extend(args.time.iter().map(|name| Request::numbers("time", name)));

@@ -3,14 +3,16 @@
 use std::path::PathBuf;
 
 use gumption::calibrate::{self, Calibration, Experiment, Purpose, Trouble};
+use gumption::files::write::Output;
 use gumption::report::{self, Language};
 
 use super::form::Form;
+use super::output::Complaint;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// Calibration file (docs/calibrate.md)
+    /// The experiment (docs/calibrate.md)
     #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
@@ -22,6 +24,10 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    let beside = args.budget.iter().map(|wanted| asked(wanted).1.into());
+    if let Err(outcome) = args.form.is_possible(&beside.collect::<Vec<PathBuf>>()) {
+        return outcome;
+    }
     let experiment = match read(&args.file, Purpose::Calibrate, args.form.lang) {
         Ok(experiment) => experiment,
         Err(outcome) => return outcome,
@@ -31,11 +37,11 @@ pub(super) fn run(args: &Args) -> Outcome {
         Err(trouble) => return failed(&args.file, &trouble, args.form.lang),
     };
     let lang = args.form.lang;
-    let written = budgets(args, &experiment, &found);
-    let shown = args
-        .form
-        .write(&report::calibration(&experiment, &found, lang));
-    shown.max(written)
+    let document = report::calibration(&experiment, &found, lang);
+    match budgets(args, &experiment, &found) {
+        Ok(budgets) => args.form.write_with(&document, budgets),
+        Err(complaint) => output::complain(complaint).max(args.form.write(&document)),
+    }
 }
 
 /// What a calibration would tell, from its schedule.
@@ -62,29 +68,44 @@ fn read(file: &std::path::Path, purpose: Purpose, lang: Language) -> Result<Expe
     calibrate::load(file, purpose).map_err(|rejection| output::refused(&rejection, lang))
 }
 
-/// Writes the budgets that were asked for, all of them or none.
-fn budgets(args: &Args, experiment: &Experiment, found: &Calibration) -> Outcome {
-    let names: Vec<&str> = found
-        .figures
-        .coefficients
-        .iter()
-        .map(|one| one.name.as_str())
-        .collect();
-    let mut files: Vec<(PathBuf, String)> = Vec::new();
-    for wanted in &args.budget {
-        let (places, path): (Vec<usize>, &str) = match wanted.split_once('=') {
-            None => ((0..names.len()).collect(), wanted),
-            Some((name, path)) => match names.iter().position(|other| *other == name) {
-                Some(place) => (vec![place], path),
-                None => {
-                    return output::complain(format!(
-                        "there is no coefficient {name}; there are {}",
-                        names.join(", ")
-                    ));
-                }
-            },
-        };
-        files.push((path.into(), calibrate::budget(experiment, found, &places)));
+/// The coefficient and the file of `COEFFICIENT=FILE|FILE`.
+fn asked(wanted: &str) -> (Option<&str>, &str) {
+    match wanted.split_once('=') {
+        Some((name, path)) => (Some(name), path),
+        None => (None, wanted),
     }
-    output::replace_all(&files)
+}
+
+/// The budgets that were asked for.
+fn budgets(
+    args: &Args,
+    experiment: &Experiment,
+    found: &Calibration,
+) -> Result<Vec<Output>, Complaint> {
+    let coefficients = found.figures.coefficients.iter();
+    let names: Vec<&str> = coefficients.map(|one| one.name.as_str()).collect();
+    let mut files = Vec::new();
+    for wanted in &args.budget {
+        let (name, path) = asked(wanted);
+        let places = match name {
+            None => (0..names.len()).collect(),
+            Some(name) => {
+                let place = names
+                    .iter()
+                    .position(|other| *other == name)
+                    .ok_or_else(|| {
+                        format!(
+                            "there is no coefficient {name}; there are {}",
+                            names.join(", ")
+                        )
+                    })?;
+                vec![place]
+            }
+        };
+        files.push(Output {
+            path: path.into(),
+            content: calibrate::budget(experiment, found, &places).into_bytes(),
+        });
+    }
+    Ok(files)
 }

@@ -5,6 +5,10 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use gumption::challenge::{Further, NoiseKnowledge, Request, Rig, Scenario, challenge, seal};
 
+use gumption::fault::harmless;
+use gumption::files::write::{Output, Replacing};
+use gumption::report::Language;
+
 use super::output::Complaint;
 use super::{Outcome, output};
 
@@ -89,19 +93,21 @@ fn write(out: &Path, request: &Request) -> Outcome {
             truth_path.display()
         ));
     }
-    if let Err(error) = std::fs::create_dir_all(&handed_out) {
-        return output::complain(format!(
-            "cannot create the folder {}: {error}",
-            handed_out.display()
-        ));
+    let files = case.files.into_iter();
+    let files = files.map(|file| (file.name.to_string(), file.text.into_bytes()));
+    let mut files = match output::in_folder(&handed_out, files) {
+        Ok(files) => files,
+        Err(complaint) => return output::complain(complaint),
+    };
+    files.push(Output {
+        path: truth_path.clone(),
+        content: case.truth_text.clone().into_bytes(),
+    });
+    let written = output::written(&files, Replacing::Nothing, Language::English);
+    if written != Outcome::Done {
+        return written;
     }
-    let mut files: Vec<(PathBuf, String)> = case
-        .files
-        .into_iter()
-        .map(|file| (handed_out.join(file.name), file.text))
-        .collect();
-    files.push((truth_path.clone(), case.truth_text.clone()));
-    output::replace_all(&files).max(output::print(format!(
+    output::print(&*harmless(&format!(
         "To hand out: {}\nTo keep:     {}\nSHA-256 of the truth, which the case file states too:\n{}\n",
         handed_out.display(),
         truth_path.display(),

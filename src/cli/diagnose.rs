@@ -5,24 +5,26 @@ use std::path::{Path, PathBuf};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{self, Diagnosis, Failure};
 use gumption::document::Document;
+use gumption::files::write::Output;
 use gumption::render::svg;
 use gumption::report::{self, Language};
 
 use super::form::Form;
+use super::output::Complaint;
 use super::progress::Steps;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// The case file
-    #[arg(value_name = "CASE")]
+    /// The experiment: a file with a recording and equations
+    #[arg(value_name = "EXPERIMENT")]
     case: PathBuf,
     #[command(flatten)]
     form: Form,
-    /// Seed of the random numbers [default: that of the case, else 1]
+    /// Seed of the random numbers [default: that of the experiment, else 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Write the improved case, its recording and the budget of its parameters into this folder
+    /// Write the improved experiment, its recording and the budget of its parameters into this folder
     #[arg(long, value_name = "DIR")]
     improved: Option<PathBuf>,
     /// Write plots of the residuals (SVG) into this folder
@@ -31,6 +33,9 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    if let Err(outcome) = args.form.is_possible(&[]) {
+        return outcome;
+    }
     let mut case = match Case::load(&args.case, Purpose::Diagnosis) {
         Ok(case) => case,
         Err(rejection) => return output::refused(&rejection, args.form.lang),
@@ -45,8 +50,10 @@ pub(super) fn run(args: &Args) -> Outcome {
     match found {
         Ok(diagnosis) => {
             let document = report::diagnosis(&case, &diagnosis, args.form.lang);
-            let beside = beside(args, &case, &diagnosis, &document);
-            args.form.write(&document).max(beside)
+            match beside(args, &case, &diagnosis, &document) {
+                Ok(beside) => args.form.write_with(&document, beside),
+                Err(complaint) => output::complain(complaint).max(args.form.write(&document)),
+            }
         }
         Err(failure) => failed(&args.case, &case, &failure, args.form.lang),
     }
@@ -69,42 +76,32 @@ pub(super) fn failed(path: &Path, case: &Case, failure: &Failure, lang: Language
     Outcome::BadInput
 }
 
-/// The improved case and the plots.
-fn beside(args: &Args, case: &Case, diagnosis: &Diagnosis, document: &Document) -> Outcome {
-    let mut outcome = Outcome::Done;
+/// The improved experiment and the plots.
+fn beside(
+    args: &Args,
+    case: &Case,
+    diagnosis: &Diagnosis,
+    document: &Document,
+) -> Result<Vec<Output>, Complaint> {
+    let mut files = Vec::new();
     if let Some(folder) = &args.improved {
         let budget = diagnose::budget(case, diagnosis);
-        let mut contents = vec![("budget.toml".to_owned(), budget)];
+        let mut contents = vec![("budget.toml".to_owned(), budget.into_bytes())];
         match diagnose::improved(case, diagnosis) {
-            Some(files) => {
-                let files = files.into_iter();
-                contents.extend(files.map(|(name, text)| (name.to_owned(), text)));
+            Some(improved) => {
+                let improved = improved.into_iter();
+                contents.extend(improved.map(|(name, text)| (name.to_owned(), text.into_bytes())));
             }
-            None => {
-                output::warn("nothing was adopted: there is no improved case, only the budget\n")
-            }
+            None => output::warn(
+                "nothing was adopted: there is no improved experiment, only the budget\n",
+            ),
         }
-        outcome = outcome.max(files(folder, contents));
+        files.extend(output::in_folder(folder, contents)?);
     }
     if let Some(folder) = &args.plots {
-        let drawn = document
-            .plots()
-            .map(|plot| (format!("{}.svg", plot.id), svg(plot)));
-        outcome = outcome.max(files(folder, drawn.collect()));
+        let drawn = document.plots();
+        let drawn = drawn.map(|plot| (format!("{}.svg", plot.id), svg(plot).into_bytes()));
+        files.extend(output::in_folder(folder, drawn)?);
     }
-    outcome
-}
-
-fn files(folder: &Path, contents: Vec<(String, String)>) -> Outcome {
-    if let Err(error) = std::fs::create_dir_all(folder) {
-        return output::complain(format!(
-            "cannot create the folder {}: {error}",
-            folder.display()
-        ));
-    }
-    let contents: Vec<(PathBuf, String)> = contents
-        .into_iter()
-        .map(|(name, text)| (folder.join(name), text))
-        .collect();
-    output::replace_all(&contents)
+    Ok(files)
 }

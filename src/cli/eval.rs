@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
 use gumption::document::Document;
+use gumption::files::write::Output;
 use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
 use gumption::report::{self, Language, Report};
 
@@ -74,35 +75,45 @@ pub(super) fn run(args: &Args) -> Outcome {
             "--save takes the results of one budget file; evaluate the files one after the other",
         );
     }
+    let beside: Vec<PathBuf> = args.save.iter().cloned().collect();
+    if let Err(outcome) = args.form.is_possible(&beside) {
+        return outcome;
+    }
     let mut worst = Outcome::Done;
     let mut documents = Vec::new();
+    let mut saved = Vec::new();
     for file in &args.files {
         let rows = evaluate_file(args, file, &mut worst);
         if let (Some(path), false) = (&args.save, rows.is_empty()) {
-            worst = worst.max(save(&rows, path, args.form.lang));
+            match save(&rows, path, args.form.lang) {
+                Ok(output) => saved.push(output),
+                Err(complaint) => worst = worst.max(output::complain(complaint)),
+            }
         }
         let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(args.form.lang)).collect();
         let in_full = if args.full { reports.len() } else { 1 };
         documents.extend(report::evaluations(&reports, in_full));
     }
     match Document::together(documents) {
-        Some(document) => worst.max(args.form.write(&document)),
+        Some(document) => worst.max(args.form.write_with(&document, saved)),
         None => worst,
     }
 }
 
-/// Writes the results for other budgets.
-fn save(rows: &[Row], path: &Path, language: Language) -> Outcome {
+/// The results for other budgets.
+fn save(rows: &[Row], path: &Path, language: Language) -> Result<Output, Complaint> {
     let reports: Vec<Report<'_>> = rows.iter().map(|row| row.report(language)).collect();
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
     let folder = budget::Files::Disk.identity(folder);
-    match report::saved(&reports, &folder) {
-        Ok(text) => output::replace(path, text),
-        Err(why) => output::complain(format!("nothing is saved: {why}")),
-    }
+    let text =
+        report::saved(&reports, &folder).map_err(|why| format!("nothing is saved: {why}"))?;
+    Ok(Output {
+        path: path.to_path_buf(),
+        content: text.into_bytes(),
+    })
 }
 
 /// Reads and evaluates one file; says on standard error what fails, and goes on.

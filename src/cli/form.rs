@@ -5,9 +5,11 @@ use std::path::PathBuf;
 
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use gumption::document::Document;
+use gumption::files::write::Output;
 use gumption::render::{self, FORMATS, Format, Page};
 use gumption::report::Language;
 
+use super::output::{Complaint, Target};
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
@@ -20,9 +22,8 @@ pub(super) struct Form {
     /// Columns of the text [default: those of the terminal, else 100]
     #[arg(long, value_name = "N", value_parser = parse_width)]
     width: Option<usize>,
-    /// Write to this file instead of standard output; its ending says the format where no flag does
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    #[command(flatten)]
+    target: Target,
 }
 
 /// The format that a flag asks for; every format has one.
@@ -60,24 +61,48 @@ impl clap::FromArgMatches for Choice {
 }
 
 impl Form {
+    /// Makes sure, before any work is done, that the document can be written as it is asked for, and these files
+    /// beside it.
+    pub fn is_possible(&self, beside: &[PathBuf]) -> Result<(), Outcome> {
+        self.format().map_err(output::complain)?;
+        self.target.is_allowed(beside, self.lang)
+    }
+
     /// Writes a document in the form that was asked for.
     pub fn write(&self, document: &Document) -> Outcome {
-        let bytes = (self.format().render)(document, &self.page());
-        match &self.output {
-            Some(path) => output::replace(path, bytes),
-            None => output::print(&bytes),
+        self.write_with(document, Vec::new())
+    }
+
+    /// Writes a document and files beside it, all of them or none.
+    pub fn write_with(&self, document: &Document, beside: Vec<Output>) -> Outcome {
+        match self.format() {
+            Ok(format) => {
+                let bytes = (format.render)(document, &self.page());
+                self.target.write(bytes, beside, self.lang)
+            }
+            Err(complaint) => output::complain(complaint),
         }
     }
 
-    fn format(&self) -> &'static Format {
-        let ending = self.output.as_ref().and_then(|path| path.extension());
-        let by_ending = || render::with_ending(ending?.to_str()?);
-        self.format.0.or_else(by_ending).unwrap_or(&FORMATS[0])
+    /// The format of the flag, else that of the file's ending.
+    fn format(&self) -> Result<&'static Format, Complaint> {
+        let Some(ending) = self.target.ending().filter(|_| self.format.0.is_none()) else {
+            return Ok(self.format.0.unwrap_or(&FORMATS[0]));
+        };
+        render::with_ending(&ending).ok_or_else(|| {
+            let endings: Vec<String> = FORMATS.iter().map(|f| format!(".{}", f.ending)).collect();
+            let endings = endings.join(", ");
+            let what = match ending.as_str() {
+                "" => "the name of the output has no ending".to_string(),
+                other => format!("there is no format with the ending .{other}"),
+            };
+            format!("{what}; the endings are {endings}, and --{} or another flag says the format of any other name", FORMATS[0].name).into()
+        })
     }
 
     /// A file has neither the width nor the colours of the terminal.
     fn page(&self) -> Page {
-        let (width, styled) = match &self.output {
+        let (width, styled) = match self.target.file() {
             Some(_) => (output::USUAL_WIDTH, false),
             None => (output::page_width(), output::may_style(&stdout())),
         };

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use gumption::Files;
 use gumption::challenge::grade::{self, Refused};
 
 use super::form::Form;
@@ -20,6 +21,9 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    if let Err(outcome) = args.form.is_possible(&[]) {
+        return outcome;
+    }
     match graded(args) {
         Ok(graded) => args.form.write(&grade::document(&graded, args.form.lang)),
         Err(refused) => output::complain(words(&refused)),
@@ -28,8 +32,10 @@ pub(super) fn run(args: &Args) -> Outcome {
 
 fn graded(args: &Args) -> Result<grade::Graded, Refused> {
     let truth = grade::sealed_truth(&args.folder)?;
-    let text = std::fs::read_to_string(&args.diagnosis)
-        .map_err(|error| Refused::Unreadable(args.diagnosis.clone(), error.to_string()))?;
+    let bytes = Files::Disk.read(&args.diagnosis);
+    let bytes =
+        bytes.map_err(|error| Refused::Unreadable(args.diagnosis.clone(), error.to_string()))?;
+    let text = String::from_utf8_lossy(&bytes);
     Ok(grade::grade(&truth, &grade::read_answer(&text)?))
 }
 

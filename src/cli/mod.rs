@@ -10,6 +10,7 @@ mod eval;
 mod explain;
 mod form;
 mod grade;
+mod interrupt;
 mod new;
 mod output;
 mod plan;
@@ -21,6 +22,7 @@ mod verify;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use gumption::files;
 
 /// How a run ended; the process's exit code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -83,7 +85,10 @@ enum Command {
 
 /// Runs the program.
 pub(crate) fn run() -> ExitCode {
-    let outcome = match Cli::parse().command {
+    let command = Cli::parse().command;
+    files::remember_reads();
+    interrupt::say_so();
+    let outcome = match command {
         Command::Eval(args) => eval::run(&args),
         Command::Diagnose(args) => diagnose::run(&args),
         Command::Simulate(args) => simulate::run(&args),

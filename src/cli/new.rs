@@ -3,6 +3,9 @@
 use std::path::PathBuf;
 
 use gumption::budget;
+use gumption::fault::harmless;
+use gumption::files::write::{self, Output, Replacing, Why};
+use gumption::report::Language;
 
 use super::{Outcome, output};
 
@@ -18,12 +21,23 @@ pub(super) fn run(args: &Args) -> Outcome {
     if args.path.as_os_str() == "-" {
         return output::print(&*template);
     }
-    let outcome = output::create(&args.path, template.as_ref());
-    if outcome == Outcome::Done {
-        let path = args.path.display();
-        return output::print(format!(
-            "Wrote {path}. Edit it, then run `gumption eval {path}`.\n"
-        ));
+    let output = Output {
+        path: args.path.clone(),
+        content: template.into_bytes(),
+    };
+    match write::write(&[output], Replacing::Nothing) {
+        Ok(()) => {
+            let path = args.path.display();
+            output::print(&*harmless(&format!(
+                "Wrote {path}. Edit it, then run `gumption eval {path}`.\n"
+            )))
+        }
+        Err(unwritten) => {
+            let print = match unwritten.why {
+                Why::Exists => ", or `-` to print the template",
+                _ => "",
+            };
+            output::complain(format!("{}{print}", unwritten.words(Language::English)))
+        }
     }
-    outcome
 }

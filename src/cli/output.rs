@@ -1,17 +1,105 @@
 //! Standard output, files, colour.
 
 use std::fmt::Display;
+use std::fs::Metadata;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use gumption::budget::Rejection;
-use gumption::fault::Code;
+use gumption::fault::{Code, harmless};
+use gumption::files::write::{self, Output, Replacing};
+use gumption::files::{self, FileId};
 use gumption::report::Language;
 
 use super::Outcome;
 
+/// Where the output of a command goes, and what it may replace: the same for all of them.
+#[derive(Debug, clap::Args)]
+pub(super) struct Target {
+    /// Write to this file instead of standard output (`-`)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Replace files that gumption did not write, or that were changed since; never those that the command reads
+    #[arg(long)]
+    force: bool,
+}
+
+impl Target {
+    /// The file; nothing for standard output, whatever it is called.
+    pub fn file(&self) -> Option<&Path> {
+        let path = self.output.as_deref()?;
+        (path.as_os_str() != "-" && !is_standard_output(path)).then_some(path)
+    }
+
+    /// The ending of the file; nothing for standard output, a device or a pipe.
+    pub fn ending(&self) -> Option<String> {
+        let path = self.file()?;
+        let stream = std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir());
+        let ending = || {
+            path.extension()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .to_lowercase()
+        };
+        (!stream).then(ending)
+    }
+
+    /// Makes sure, before any work is done, that these files and the output may be written as far as is known.
+    pub fn is_allowed(&self, beside: &[PathBuf], language: Language) -> Result<(), Outcome> {
+        let paths = beside.iter().map(PathBuf::as_path).chain(self.file());
+        write::allowed(paths, self.replacing()).map_err(|why| complain(why.words(language)))
+    }
+
+    /// Writes files, and the output among them if it is one, all of them or none; prints the output otherwise.
+    pub fn write(&self, content: Vec<u8>, mut beside: Vec<Output>, language: Language) -> Outcome {
+        let printed = match self.file() {
+            Some(path) => {
+                let path = path.to_path_buf();
+                beside.push(Output { path, content });
+                Outcome::Done
+            }
+            None => print(content),
+        };
+        printed.max(written(&beside, self.replacing(), language))
+    }
+
+    fn replacing(&self) -> Replacing {
+        match self.force {
+            true => Replacing::Anything,
+            false => Replacing::Own,
+        }
+    }
+}
+
+/// Writes files, all of them or none.
+pub(super) fn written(files: &[Output], replacing: Replacing, language: Language) -> Outcome {
+    match write::write(files, replacing) {
+        Ok(()) => Outcome::Done,
+        Err(why) => complain(why.words(language)),
+    }
+}
+
+/// Files of these names and texts in a folder, which is made if need be.
+pub(super) fn in_folder(
+    folder: &Path,
+    files: impl IntoIterator<Item = (String, Vec<u8>)>,
+) -> Result<Vec<Output>, Complaint> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| format!("cannot create the folder {}: {error}", folder.display()))?;
+    let files = files.into_iter().map(|(name, content)| Output {
+        path: folder.join(name),
+        content,
+    });
+    Ok(files.collect())
+}
+
 /// Prints to standard output. A reader that has gone away (`gumption … | head`) is no error.
 pub(super) fn print(text: impl AsRef<[u8]>) -> Outcome {
+    if standard_output().is_some_and(|open| files::was_read_as(&open)) {
+        return complain(
+            "standard output goes to a file that this command reads; nothing is printed",
+        );
+    }
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_ref()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -19,6 +107,25 @@ pub(super) fn print(text: impl AsRef<[u8]>) -> Outcome {
         }
         _ => Outcome::Done,
     }
+}
+
+/// The file that standard output goes to, if the system tells.
+#[cfg(unix)]
+fn standard_output() -> Option<Metadata> {
+    use std::os::fd::AsFd;
+    let open = std::io::stdout().as_fd().try_clone_to_owned().ok()?;
+    std::fs::File::from(open).metadata().ok()
+}
+
+#[cfg(not(unix))]
+fn standard_output() -> Option<Metadata> {
+    None
+}
+
+/// Whether a path is another name of standard output (`/dev/stdout`).
+fn is_standard_output(path: &Path) -> bool {
+    let file = FileId::of(path);
+    file.is_some_and(|file| standard_output().is_some_and(|open| file.is_open_as(&open)))
 }
 
 /// What is wrong with an argument or a file, in words.
@@ -54,87 +161,25 @@ pub(super) fn no_result(file: impl Display, code: Option<Code>, why: &str, langu
 
 /// Shows the faults of a file.
 pub(super) fn refused(rejection: &Rejection, language: Language) -> Outcome {
-    warn(&rejection.render_in(language, may_style(&std::io::stderr())));
+    // Made harmless where it is drawn, and coloured.
+    to_standard_error(&rejection.render_in(language, may_style(&std::io::stderr())));
     Outcome::BadInput
 }
 
-/// Writes to standard error; there is nobody to tell when that fails.
+/// Writes to standard error what may quote names and files.
 pub(super) fn warn(text: &str) {
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    to_standard_error(&harmless(text));
 }
 
-/// Replaces a file as a whole: readers see the old content or the new one, never half of it.
-pub(super) fn replace(path: &Path, content: impl AsRef<[u8]>) -> Outcome {
-    replace_all(&[(path.to_path_buf(), content)])
+/// Shows a line in the place of the last one; nothing removes it.
+pub(super) fn passing(line: &str) {
+    to_standard_error(&format!("\r\x1b[K{}", harmless(line)));
 }
 
-/// Replaces several files, all of them or, where one cannot be written, none. What is there and is no
-/// file (a device, a pipe) cannot be replaced, and is written to after the files are safe.
-pub(super) fn replace_all<T: AsRef<[u8]>>(files: &[(PathBuf, T)]) -> Outcome {
-    let (streams, files): (Vec<_>, Vec<_>) = files.iter().partition(|(path, _)| is_stream(path));
-    let places: Vec<PathBuf> = files.iter().map(|(path, _)| place(path)).collect();
-    let beside: Vec<PathBuf> = places.iter().map(|path| beside(path)).collect();
-    let write_all = || {
-        for ((path, text), beside) in files.iter().zip(&beside) {
-            std::fs::write(beside, text).map_err(|error| (path, error))?;
-        }
-        for (path, text) in &streams {
-            std::fs::write(path, text).map_err(|error| (path, error))?;
-        }
-        for ((path, _), (beside, place)) in files.iter().zip(beside.iter().zip(&places)) {
-            std::fs::rename(beside, place).map_err(|error| (path, error))?;
-        }
-        Ok(())
-    };
-    match write_all() {
-        Ok(()) => Outcome::Done,
-        Err((path, error)) => {
-            for path in &beside {
-                let _ = std::fs::remove_file(path);
-            }
-            complain(format!("cannot write {}: {error}", path.display()))
-        }
-    }
-}
-
-/// Whether a path leads to something that is written to and not replaced: `/dev/null`, `/dev/stdout`, a pipe.
-fn is_stream(path: &Path) -> bool {
-    std::fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
-}
-
-/// Where a file is, if the path is a link to it: the file is replaced, not the link.
-fn place(path: &Path) -> PathBuf {
-    let is_link = std::fs::symlink_metadata(path).is_ok_and(|there| there.is_symlink());
-    let target = is_link.then(|| std::fs::canonicalize(path).ok()).flatten();
-    target.unwrap_or_else(|| path.to_path_buf())
-}
-
-/// Where a file is written before it takes its place.
-fn beside(path: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".{}.tmp", std::process::id()));
-    path.with_file_name(name)
-}
-
-/// Writes a file that must not exist yet; one that cannot be completed is removed again.
-pub(super) fn create(path: &Path, text: &str) -> Outcome {
-    let mut file = match std::fs::File::create_new(path) {
-        Ok(file) => file,
-        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-            return complain(format!(
-                "{} exists already and is left as it is; give another name, or `-` to print the template",
-                path.display()
-            ));
-        }
-        Err(error) => return complain(format!("cannot create {}: {error}", path.display())),
-    };
-    match file.write_all(text.as_bytes()) {
-        Ok(()) => Outcome::Done,
-        Err(error) => {
-            let _ = std::fs::remove_file(path);
-            complain(format!("cannot write {}: {error}", path.display()))
-        }
-    }
+/// There is nobody to tell when this fails.
+fn to_standard_error(text: &str) {
+    let mut err = std::io::stderr().lock();
+    let _ = err.write_all(text.as_bytes()).and_then(|()| err.flush());
 }
 
 /// Columns of a page that nobody has stated.
@@ -162,61 +207,4 @@ pub(super) fn may_style(stream: &impl IsTerminal) -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
     let dumb = std::env::var_os("TERM").is_some_and(|v| v == "dumb");
     stream.is_terminal() && !refused && !dumb
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_existing_file_is_left_alone() {
-        let path =
-            std::env::temp_dir().join(format!("gumption-create-{}.toml", std::process::id()));
-        let _ = std::fs::remove_file(&path);
-        assert_eq!(create(&path, "first"), Outcome::Done);
-        assert_eq!(create(&path, "second"), Outcome::BadInput);
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), "first");
-        assert_eq!(replace(&path, "third"), Outcome::Done);
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), "third");
-        std::fs::remove_file(&path).unwrap();
-    }
-
-    /// A link stays a link, to a file with the new content; a pipe stays a pipe, and gets the text.
-    #[cfg(unix)]
-    #[test]
-    fn what_is_no_plain_file_is_not_replaced() {
-        use std::os::unix::fs::FileTypeExt;
-        let folder = std::env::temp_dir().join(format!("gumption-links-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        let (file, link, pipe) = (
-            folder.join("file"),
-            folder.join("link"),
-            folder.join("pipe"),
-        );
-        std::fs::write(&file, "old").unwrap();
-        std::os::unix::fs::symlink(&file, &link).unwrap();
-        assert_eq!(replace(&link, "new"), Outcome::Done);
-        assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
-        assert_eq!(std::fs::read_to_string(&file).unwrap(), "new");
-        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
-        if made.is_ok_and(|status| status.success()) {
-            let reader = std::thread::spawn({
-                let pipe = pipe.clone();
-                move || std::fs::read_to_string(pipe).unwrap()
-            });
-            assert_eq!(replace(&pipe, "text"), Outcome::Done);
-            assert_eq!(reader.join().unwrap(), "text");
-            let there = std::fs::symlink_metadata(&pipe).unwrap();
-            assert!(there.file_type().is_fifo());
-        }
-        std::fs::remove_dir_all(&folder).unwrap();
-    }
-
-    #[test]
-    fn a_directory_that_does_not_exist_is_named() {
-        assert_eq!(
-            replace(Path::new("/nowhere/at/all.txt"), ""),
-            Outcome::BadInput
-        );
-    }
 }

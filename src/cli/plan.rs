@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use gumption::Files;
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::experiment::{Kind, kind_of};
 use gumption::{diagnose, report};
@@ -21,7 +22,10 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    let text = match std::fs::read(&args.file) {
+    if let Err(outcome) = args.form.is_possible(&[]) {
+        return outcome;
+    }
+    let text = match Files::Disk.read(&args.file) {
         Ok(bytes) => bytes,
         Err(error) => {
             return output::complain(format!("cannot read {}: {error}", args.file.display()));

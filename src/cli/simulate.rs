@@ -7,37 +7,49 @@ use gumption::diagnose::{Failure, simulate};
 use gumption::report::{self, Language};
 
 use super::diagnose::{failed, remarks};
+use super::output::Target;
 use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
-    /// The case file; its outputs need not be recorded yet
-    #[arg(value_name = "CASE")]
+    /// The experiment; its outputs need not be recorded yet
+    #[arg(value_name = "EXPERIMENT")]
     case: PathBuf,
     /// Seed of the random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Write to this file instead of standard output
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    /// Language of what is said beside the recording: en or zh
+    #[arg(long, value_name = "LANG", default_value = "en")]
+    lang: Language,
+    #[command(flatten)]
+    target: Target,
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    let lang = args.lang;
+    if args.target.ending().is_some_and(|ending| ending != "csv") {
+        return output::complain(
+            "a recording is written as CSV; let the name of the output end in .csv",
+        );
+    }
+    if let Err(outcome) = args.target.is_allowed(&[], lang) {
+        return outcome;
+    }
     let case = match Case::load(&args.case, Purpose::Plan) {
         Ok(case) => case,
-        Err(rejection) => return output::refused(&rejection, Language::English),
+        Err(rejection) => return output::refused(&rejection, lang),
     };
-    remarks(&case, Language::English);
+    remarks(&case, lang);
     match simulate(&case, args.seed) {
         Ok(simulation) => {
-            let noise = report::assumed_noise(&case, &simulation.noise, Language::English);
-            output::warn(&format!("note: the noise is {noise}\n"));
+            let noise = report::assumed_noise(&case, &simulation.noise, lang);
+            output::warn(&match lang {
+                Language::English => format!("note: the noise is {noise}\n"),
+                Language::Chinese => format!("注：噪声为{noise}\n"),
+            });
             let text = simulation.sheet.csv();
-            match &args.output {
-                Some(path) => output::replace(path, &text),
-                None => output::print(&text),
-            }
+            args.target.write(text.into_bytes(), Vec::new(), lang)
         }
-        Err(why) => failed(&args.case, &case, &Failure::Fit(why), Language::English),
+        Err(why) => failed(&args.case, &case, &Failure::Fit(why), lang),
     }
 }

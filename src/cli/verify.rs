@@ -4,6 +4,7 @@ use std::io::{IsTerminal, stderr};
 use std::path::{Path, PathBuf};
 
 use gumption::budget::Files;
+use gumption::files::write::Output;
 use gumption::propagate::Options;
 use gumption::render::{FORMATS, Page};
 use gumption::report::{self, Detail, Language};
@@ -41,6 +42,9 @@ struct Candidate {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
+    if let Err(outcome) = args.form.is_possible(&[]) {
+        return outcome;
+    }
     let day = match args.date.clone().map_or_else(date::today, Ok) {
         Ok(day) => day,
         Err(message) => return output::complain(message),
@@ -50,18 +54,21 @@ pub(super) fn run(args: &Args) -> Outcome {
         Err(message) => return output::complain(message),
     };
     let verification = verify(files, &candidates, args, day);
-    let written = match &args.report {
-        Some(folder) => write_dossier(folder, &verification, args.form.lang),
-        None => Outcome::Done,
+    let dossier = match &args.report {
+        Some(folder) => dossier(folder, &verification, args.form.lang),
+        None => Ok(Vec::new()),
     };
     let detail = match args.quiet {
         true => Detail::Failed,
         false => Detail::All,
     };
     let document = report::verification(&verification, args.form.lang, detail);
+    let written = match dossier {
+        Ok(dossier) => args.form.write_with(&document, dossier),
+        Err(complaint) => output::complain(complaint).max(args.form.write(&document)),
+    };
     outcome(&verification)
         .max(written)
-        .max(args.form.write(&document))
         .max(missing_claims(args, &verification))
 }
 
@@ -142,11 +149,7 @@ fn verify(files: Files<'_>, candidates: &[Candidate], args: &Args, day: String) 
     let mut without_claims = Vec::new();
     for (index, Candidate { path, name }) in candidates.iter().enumerate() {
         if progress {
-            output::warn(&format!(
-                "\r\x1b[K{}/{} {name}",
-                index + 1,
-                candidates.len()
-            ));
+            output::passing(&format!("{}/{} {name}", index + 1, candidates.len()));
         }
         match Example::evaluate(files, path, name, &options) {
             Some(example) => examples.push(example),
@@ -154,7 +157,7 @@ fn verify(files: Files<'_>, candidates: &[Candidate], args: &Args, day: String) 
         }
     }
     if progress {
-        output::warn("\r\x1b[K");
+        output::passing("");
     }
     Verification {
         environment: Environment::here(day),
@@ -175,23 +178,16 @@ fn outcome(verification: &Verification) -> Outcome {
     }
 }
 
-fn write_dossier(folder: &Path, verification: &Verification, language: Language) -> Outcome {
-    if let Err(error) = std::fs::create_dir_all(folder) {
-        return output::complain(format!(
-            "cannot create the folder {}: {error}",
-            folder.display()
-        ));
-    }
+fn dossier(
+    folder: &Path,
+    verification: &Verification,
+    language: Language,
+) -> Result<Vec<Output>, Complaint> {
     let dossier = report::dossier(verification, language);
     let formats = FORMATS.iter().filter(|format| format.name != "text");
-    let files: Vec<(PathBuf, Vec<u8>)> = formats
-        .map(|format| {
-            let name = format!("verification.{}", format.ending);
-            (
-                folder.join(name),
-                (format.render)(&dossier, &Page::default()),
-            )
-        })
-        .collect();
-    output::replace_all(&files)
+    let files = formats.map(|format| {
+        let name = format!("verification.{}", format.ending);
+        (name, (format.render)(&dossier, &Page::default()))
+    });
+    output::in_folder(folder, files)
 }

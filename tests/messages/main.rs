@@ -10,3 +10,4 @@ mod common;
 
 mod arguments;
 mod budgets;
+mod files;

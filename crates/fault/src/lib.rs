@@ -10,10 +10,12 @@
 
 pub mod language;
 
+mod harmless;
 mod rejection;
 
 use std::ops::Range;
 
+pub use harmless::{harmless, is_obeyed};
 pub use rejection::Rejection;
 
 /// A stable error code with its explanation (`gumption explain CODE`).

@@ -3,11 +3,10 @@
 use std::fmt;
 use std::ops::Range;
 
-use annotate_snippets::{
-    AnnotationKind, Level, Message, Renderer, Snippet, normalize_untrusted_str,
-};
+use annotate_snippets::{AnnotationKind, Level, Message, Renderer, Snippet};
 
 use super::Fault;
+use crate::harmless::{harmless, harmless_in_place};
 use crate::language::Language;
 
 /// Nobody mends more at once.
@@ -80,11 +79,11 @@ impl Rejection {
         } else {
             String::new()
         };
-        let name = &self.name;
+        let name = harmless(&self.name);
         match (language, name.is_empty()) {
             (Language::English, unnamed) => {
                 let plural = if count == 1 { "" } else { "s" };
-                let file = if unnamed { "the file" } else { name };
+                let file = if unnamed { "the file" } else { &name };
                 format!("{count} error{plural} in {file}{rest}\n")
             }
             (Language::Chinese, true) => format!("文件中有 {count} 处错误{rest}\n"),
@@ -96,25 +95,25 @@ impl Rejection {
         let headline = language.pick(fault.message.as_str(), fault.code.title_zh);
         let title = Level::ERROR
             .with_name(language.pick("error", "错误"))
-            .primary_title(headline)
+            .primary_title(harmless(headline))
             .id(fault.code.id);
         let mut group = annotate_snippets::Group::with_title(title);
         if self.text.is_empty() {
-            group = group.element(annotate_snippets::Origin::path(self.name.as_str()));
+            group = group.element(annotate_snippets::Origin::path(harmless(&self.name)));
         } else {
             let primary = AnnotationKind::Primary.span(self.clamp(&fault.span));
-            let mut snippet = Snippet::source(self.text.as_str())
-                .path(self.name.as_str())
+            let mut snippet = Snippet::source(harmless_in_place(&self.text))
+                .path(harmless(&self.name))
                 .annotation(if fault.label.is_empty() {
                     primary
                 } else {
-                    primary.label(fault.label.as_str())
+                    primary.label(harmless(&fault.label))
                 });
             for (span, label) in &fault.related {
                 snippet = snippet.annotation(
                     AnnotationKind::Context
                         .span(self.clamp(span))
-                        .label(label.as_str()),
+                        .label(harmless(label)),
                 );
             }
             group = group.element(snippet);
@@ -124,7 +123,7 @@ impl Rejection {
         }
         if let Some(help) = &fault.help {
             let level = Level::HELP.with_name(language.pick("help", "提示"));
-            group = group.element(level.message(help.as_str()));
+            group = group.element(level.message(harmless(help)));
         }
         renderer.render(&[group])
     }
@@ -141,10 +140,9 @@ impl Rejection {
     }
 }
 
-/// The message, where the headline does not say it. It quotes the file, and a terminal must not obey what a file says;
-/// headlines are made harmless by the renderer, notes are not.
-fn note(fault: &Fault, language: Language) -> Option<Message<'static>> {
-    let message = || normalize_untrusted_str(&fault.message);
+/// The message, where the headline does not say it.
+fn note(fault: &Fault, language: Language) -> Option<Message<'_>> {
+    let message = || harmless(&fault.message);
     match language {
         Language::English => None,
         Language::Chinese => Some(Level::NOTE.with_name("说明").message(message())),
@@ -267,12 +265,30 @@ mod tests {
         );
     }
 
-    /// What a file says is quoted; it does not command the terminal.
+    /// What a file says is quoted; it does not command the terminal, wherever it stands.
     #[test]
-    fn messages_below_the_lines_are_harmless() {
-        let fault = Fault::new(UNIT_CLASH, 0..1, "a \u{1b}[31mred\u{1b}[0m name");
-        let rejection = Rejection::new("budget.toml", TEXT, vec![fault]);
-        let shown = rejection.render_in(Language::Chinese, false);
-        assert!(!shown.contains('\u{1b}'), "{shown:?}");
+    fn nothing_that_is_drawn_is_obeyed() {
+        for evil in [
+            "\u{1b}[31m",
+            "\u{9b}2J",
+            "\u{202e}",
+            "\u{200f}",
+            "\r",
+            "\u{e0041}",
+            "\0",
+        ] {
+            let said = format!("a {evil} name");
+            let text = format!("title = \"{evil}\"\nunit = \"{evil}V\"\n");
+            let fault = Fault::new(UNIT_CLASH, 9..text.len(), &*said)
+                .label(&*said)
+                .related(0..5, &*said)
+                .help(&*said);
+            let mut rejection = Rejection::new(&said, &text, vec![fault.clone()]);
+            rejection.others = vec![Rejection::new(&said, "", vec![fault])];
+            for language in [Language::English, Language::Chinese] {
+                let shown = rejection.render_in(language, false);
+                assert!(!shown.chars().any(crate::is_obeyed), "{shown:?}");
+            }
+        }
     }
 }

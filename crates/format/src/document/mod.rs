@@ -5,6 +5,7 @@
 
 mod plot;
 mod table;
+mod texts;
 
 use gumption_fault::language::Language;
 use serde_json::Value;
@@ -33,7 +34,12 @@ pub struct Document {
 
 impl Document {
     /// A document of blocks and of the structure that says the same to machines.
-    pub fn new<M: Machine>(machine: &M, language: Language, blocks: Vec<Block>) -> Self {
+    ///
+    /// Blocks quote what users wrote: here, for every format, it becomes text that is shown and not obeyed.
+    pub fn new<M: Machine>(machine: &M, language: Language, mut blocks: Vec<Block>) -> Self {
+        for block in &mut blocks {
+            block.texts(&mut texts::made_harmless);
+        }
         Document {
             kind: M::KIND,
             version: M::VERSION,
@@ -46,7 +52,10 @@ impl Document {
 
     /// With plots beside the text.
     #[must_use]
-    pub fn with_plots(mut self, plots: Vec<Plot>) -> Self {
+    pub fn with_plots(mut self, mut plots: Vec<Plot>) -> Self {
+        for plot in &mut plots {
+            plot.texts(&mut texts::made_harmless);
+        }
         self.beside.extend(plots);
         self
     }

@@ -1,5 +1,9 @@
 //! The machine form as JSON.
 
+use std::fmt::Write;
+
+use gumption_fault::is_obeyed;
+
 use super::format::{Format, Page};
 use crate::document::Document;
 
@@ -12,5 +16,35 @@ pub(super) const FORMAT: Format = Format {
 };
 
 fn render(document: &Document, _: &Page) -> Vec<u8> {
-    format!("{:#}\n", document.machine).into_bytes()
+    escaped(&format!("{:#}\n", document.machine)).into_bytes()
+}
+
+/// JSON in which characters that a terminal would obey are escaped. They stand inside strings alone, where `\u`
+/// says the same.
+fn escaped(json: &str) -> String {
+    let mut out = String::with_capacity(json.len());
+    for c in json.chars() {
+        if is_obeyed(c) {
+            for unit in c.encode_utf16(&mut [0; 2]) {
+                let _ = write!(out, "\\u{unit:04x}");
+            }
+        } else {
+            out.push(c);
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_string_means_the_same_and_is_not_obeyed() {
+        let text = "\x1b[0m \u{9b} \u{202e} \u{e0041} \n\t\"\\ µ 电";
+        let json = escaped(&format!("{:#}\n", serde_json::json!({ text: [text] })));
+        assert!(!json.chars().any(is_obeyed), "{json:?}");
+        let back: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+        assert_eq!(back[text][0], text);
+    }
 }

@@ -1,5 +1,7 @@
 //! A document as Markdown (GitHub's tables).
 
+use std::ops::Range;
+
 use super::format::{Format, Page};
 use super::text::{bar, plot_lines};
 use crate::document::{Block, Cell, ColumnKind, Document, Row, Table};
@@ -57,8 +59,12 @@ fn labelled(name: &str, text: &str) -> String {
     format!("- **{}**: {}", escaped(name), escaped(text))
 }
 
+/// Lines as they are, between fences longer than any run of backquotes in them.
 fn fenced(lines: &[String]) -> String {
-    format!("```text\n{}\n```", lines.join("\n"))
+    let text = lines.join("\n");
+    let runs = text.split(|c| c != '`').map(str::len);
+    let fence = "`".repeat(runs.max().unwrap_or(0).max(2) + 1);
+    format!("{fence}text\n{text}\n{fence}")
 }
 
 fn draw_table(table: &Table) -> String {
@@ -108,28 +114,77 @@ fn cell(cell: &Cell) -> String {
     }
 }
 
-/// Text that Markdown leaves as it is. An underscore inside a word is safe.
+/// Text that Markdown leaves as it is, wherever it stands.
 fn escaped(text: &str) -> String {
+    let text = text.trim_start();
     let mut out = String::with_capacity(text.len());
-    let mut inside_word = false;
-    let mut chars = text.chars().peekable();
-    let mut code = false;
-    while let Some(c) = chars.next() {
-        let next_is_word = chars.peek().is_some_and(|n| n.is_alphanumeric());
+    let mut before = ' ';
+    let opening = opening_mark(text);
+    let mut code = code_spans(text).into_iter().peekable();
+    for (at, c) in text.char_indices() {
+        let _ = code.next_if(|span| span.end < at);
+        let in_code = code.peek().is_some_and(|span| span.contains(&at));
         match c {
-            // Text between backquotes is set as code by Markdown too.
-            '`' => code = !code,
             // A soft hyphen belongs to the narrow columns of a terminal.
             '\u{AD}' => continue,
+            // A table ends its cells even inside code.
             '|' => out.push('\\'),
-            '\\' | '*' | '<' | '~' if !code => out.push('\\'),
-            '_' if !code && (!inside_word || !next_is_word) => out.push('\\'),
+            _ if in_code => {}
+            _ if opening == Some(at) || is_special(c, before, &text[at + c.len_utf8()..]) => {
+                out.push('\\');
+            }
             _ => {}
         }
         out.push(if c == '\n' { ' ' } else { c });
-        inside_word = c.is_alphanumeric();
+        before = c;
     }
     out
+}
+
+/// Texts between single backquotes, with these, which Markdown sets as code as well; longer runs of them have
+/// another meaning there and are none.
+fn code_spans(text: &str) -> Vec<Range<usize>> {
+    let single = |at: &usize| {
+        let rest = text[at + 1..].starts_with('`');
+        !rest && !text[..*at].ends_with('`')
+    };
+    let marks: Vec<usize> = text
+        .match_indices('`')
+        .map(|(at, _)| at)
+        .filter(single)
+        .collect();
+    let spans = marks.chunks_exact(2).map(|pair| pair[0]..pair[1] + 1);
+    spans.collect()
+}
+
+/// Whether Markdown would take a character within a line for more than itself. An underscore inside a word is safe,
+/// and so are brackets that no link follows.
+fn is_special(c: char, before: char, rest: &str) -> bool {
+    let next = rest.chars().next();
+    let word = |c: char| c.is_alphanumeric();
+    match c {
+        '\\' | '*' | '<' | '~' | '$' | '`' => true,
+        '_' => !word(before) || !next.is_some_and(word),
+        ']' => next.is_some_and(|next| "([:".contains(next)),
+        '&' => next.is_some_and(|next| next == '#' || next.is_ascii_alphabetic()),
+        _ => false,
+    }
+}
+
+/// The character by which Markdown would take the beginning of a line for a heading, a quotation, a list, a task or a
+/// rule.
+fn opening_mark(text: &str) -> Option<usize> {
+    let digits = text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let mut marks = text[digits..].chars();
+    let (mark, next) = (marks.next()?, marks.next());
+    let alone = next.is_none_or(|c| " -=+xX".contains(c));
+    let opens = match mark {
+        '#' | '>' => digits == 0,
+        '-' | '+' | '=' | '[' => digits == 0 && alone,
+        '.' | ')' => digits > 0 && alone,
+        _ => false,
+    };
+    opens.then_some(digits)
 }
 
 #[cfg(test)]
@@ -140,6 +195,38 @@ mod tests {
     fn what_markdown_would_eat_is_escaped() {
         assert_eq!(escaped("a*b | <c> x_"), "a\\*b \\| \\<c> x\\_");
         assert_eq!(escaped("u_c of `half_width*`"), "u_c of `half_width*`");
+        assert_eq!(
+            escaped("&lt;b&gt; R & D $x$"),
+            "\\&lt;b\\&gt; R & D \\$x\\$"
+        );
+        assert_eq!(escaped("![a](b) v[1] [x]: y"), "![a\\](b) v[1] [x\\]: y");
+    }
+
+    #[test]
+    fn what_is_no_code_for_markdown_is_escaped() {
+        assert_eq!(escaped("a ` <b>"), "a \\` \\<b>");
+        assert_eq!(escaped("```<i>`"), "\\`\\`\\`\\<i>\\`");
+        assert_eq!(escaped("`<i>` <b>"), "`<i>` \\<b>");
+        assert_eq!(
+            fenced(&["a ```` b".to_string()]),
+            "`````text\na ```` b\n`````"
+        );
+    }
+
+    #[test]
+    fn no_line_begins_a_block() {
+        for (text, escaped_text) in [
+            ("# a", "\\# a"),
+            ("> a", "\\> a"),
+            ("  - a", "\\- a"),
+            ("---", "\\---"),
+            ("-5 V", "-5 V"),
+            ("[ ] a", "\\[ ] a"),
+            ("2. a", "2\\. a"),
+            ("2.5 V", "2.5 V"),
+        ] {
+            assert_eq!(escaped(text), escaped_text);
+        }
     }
 
     #[test]

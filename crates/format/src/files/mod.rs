@@ -1,7 +1,31 @@
-//! Where the files that a budget names come from: a disk, or a library of files in memory.
+//! Where the files that a budget names come from, a disk or a library of files in memory; and the one way in which
+//! files are written.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `identity` | what makes a file the same under every name |
+//! | `ledger` | the files that a command has read, which it does not write |
+//! | `mark` | how a file is known to be as this program wrote it |
+//! | `steps` | the operations of the file system that writing takes, each of which may fail |
+//! | [`write`] | files replaced as a whole, all of them or none |
 
-use std::io::{Error, ErrorKind, Result};
+mod identity;
+mod ledger;
+mod mark;
+mod steps;
+pub mod write;
+#[cfg(test)]
+mod written;
+
+pub use identity::FileId;
+pub use ledger::{remember_reads, was_read_as};
+
+use std::io::{Error, ErrorKind, Read, Result};
 use std::path::{Component, Path, PathBuf};
+
+/// Most bytes of a file that are read: ten million rows of eight columns. What is read is in memory as a whole,
+/// and its numbers beside it.
+const MOST_BYTES: u64 = 1 << 30;
 
 /// Where budgets, and the files that they name, are read from.
 ///
@@ -20,10 +44,14 @@ impl Files<'_> {
     /// The content of a file.
     ///
     /// # Errors
-    /// As the operating system says; `NotFound` for a file that the library lacks.
+    /// As the operating system says; `NotFound` for a file that the library lacks; `InvalidInput` for a pipe, a
+    /// device, and for more than a gibibyte.
     pub fn read(&self, path: &Path) -> Result<Vec<u8>> {
         match self {
-            Files::Disk => std::fs::read(path),
+            Files::Disk => {
+                ledger::note(path);
+                content_of(path)
+            }
             Files::Library(files) => {
                 let wanted = plain(path);
                 files
@@ -57,6 +85,32 @@ impl Files<'_> {
             Files::Library(_) => plain(path),
         }
     }
+}
+
+/// The content of a file of the disk. Whatever else has a path (a pipe, a device, a socket) may block, never end or do
+/// something when it is read, and two readings of it differ.
+fn content_of(path: &Path) -> Result<Vec<u8>> {
+    let refused = |why: String| Err(Error::new(ErrorKind::InvalidInput, why));
+    // Asked before it is opened: a pipe without a writer would wait for one.
+    let there = std::fs::metadata(path)?;
+    if !there.is_file() && !there.is_dir() {
+        return refused("it is a pipe or a device; only files are read".into());
+    }
+    let mut file = std::fs::File::open(path)?;
+    let mut content = Vec::new();
+    // Some files of the system say that they are empty and are not.
+    let mut bounded = (&mut file).take(MOST_BYTES + 1);
+    if there.len() <= MOST_BYTES {
+        content.reserve_exact(there.len() as usize);
+        bounded.read_to_end(&mut content)?;
+    }
+    if there.len() > MOST_BYTES || content.len() as u64 > MOST_BYTES {
+        let most = MOST_BYTES >> 20;
+        return refused(format!(
+            "it is larger than {most} MiB, the most that is read"
+        ));
+    }
+    Ok(content)
 }
 
 /// The path without `.` and `..`, as far as the text tells.

@@ -1,0 +1,77 @@
+//! Every text of a document, in one walk.
+
+use std::borrow::Cow;
+
+use gumption_fault::harmless;
+
+use super::{Block, Cell, Plot, Row, Table};
+
+/// Shows what a terminal or a page would obey.
+pub(super) fn made_harmless(text: &mut String) {
+    if let Cow::Owned(shown) = harmless(text) {
+        *text = shown;
+    }
+}
+
+impl Block {
+    /// Does something to every text.
+    pub(super) fn texts(&mut self, work: &mut impl FnMut(&mut String)) {
+        match self {
+            Block::Title(text) | Block::Section(text) | Block::Paragraph(text) => work(text),
+            Block::Fields(fields) => {
+                for (name, text) in fields {
+                    work(name);
+                    work(text);
+                }
+            }
+            Block::Figures(figures) => {
+                for figure in figures {
+                    work(&mut figure.name);
+                    work(&mut figure.value);
+                    work(&mut figure.unit);
+                }
+            }
+            Block::Formula(texts)
+            | Block::List(texts)
+            | Block::Statement(texts)
+            | Block::Closing(texts)
+            | Block::Footer(texts) => texts.iter_mut().for_each(work),
+            Block::Table(table) => table.texts(work),
+            Block::Plot(plot) => plot.texts(work),
+            Block::Findings(findings) => findings.iter_mut().for_each(|one| work(&mut one.text)),
+        }
+    }
+}
+
+impl Table {
+    fn texts(&mut self, work: &mut impl FnMut(&mut String)) {
+        self.columns.iter_mut().for_each(|one| work(&mut one.head));
+        for row in &mut self.rows {
+            match row {
+                Row::Cells(cells) => {
+                    for cell in cells {
+                        if let Cell::Text(text) | Cell::Part(text) = cell {
+                            work(text);
+                        }
+                    }
+                }
+                Row::Across(text) => work(text),
+                Row::Rule => {}
+            }
+        }
+    }
+}
+
+impl Plot {
+    /// Does something to every text.
+    pub(super) fn texts(&mut self, work: &mut impl FnMut(&mut String)) {
+        for panel in &mut self.panels {
+            work(&mut panel.title);
+            for axis in [&mut panel.x, &mut panel.y] {
+                work(&mut axis.quantity);
+                work(&mut axis.unit);
+            }
+            panel.layers.iter_mut().for_each(|one| work(&mut one.name));
+        }
+    }
+}

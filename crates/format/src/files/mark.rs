@@ -1,0 +1,70 @@
+//! How a file is known to be as this program wrote it.
+//!
+//! The SHA-256 of what was written is kept as an extended attribute of the file, `user.gumption`. A file that has it,
+//! and whose content still gives it, holds nothing that anybody else has written. Editors, copies, archives and
+//! version control drop the attribute or change the content, and then the file is somebody's work; so it is on file
+//! systems and systems that keep no attributes. The mark is never needed to read a file.
+
+use std::fs::File;
+use std::path::Path;
+
+/// Notes on an open file that this is its content. What cannot be noted makes the file somebody's work.
+pub(super) fn set(file: &File, content: &[u8]) {
+    system::set(file, &digest(content));
+}
+
+/// Notes on an open file that its content is somebody's.
+pub(super) fn clear(file: &File) {
+    system::set(file, b"");
+}
+
+/// Whether a file is as this program wrote it.
+pub(super) fn is_ours(path: &Path) -> bool {
+    let Ok(file) = File::open(path) else {
+        return false;
+    };
+    let Some(noted) = system::get(&file) else {
+        return false;
+    };
+    super::content_of(path).is_ok_and(|content| digest(&content) == noted)
+}
+
+fn digest(content: &[u8]) -> Vec<u8> {
+    use sha2::{Digest, Sha256};
+    let digest = Sha256::digest(content);
+    digest
+        .iter()
+        .flat_map(|byte| format!("{byte:02x}").into_bytes())
+        .collect()
+}
+
+#[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
+mod system {
+    use std::fs::File;
+
+    use rustix::fs::{XattrFlags, fgetxattr, fsetxattr};
+
+    const NAME: &str = "user.gumption";
+
+    pub fn set(file: &File, digest: &[u8]) {
+        let _ = fsetxattr(file, NAME, digest, XattrFlags::empty());
+    }
+
+    pub fn get(file: &File) -> Option<Vec<u8>> {
+        let mut digest = vec![0; 64];
+        let length = fgetxattr(file, NAME, digest.as_mut_slice()).ok()?;
+        digest.truncate(length);
+        Some(digest)
+    }
+}
+
+#[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+mod system {
+    use std::fs::File;
+
+    pub fn set(_: &File, _: &[u8]) {}
+
+    pub fn get(_: &File) -> Option<Vec<u8>> {
+        None
+    }
+}

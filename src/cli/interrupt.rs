@@ -1,0 +1,26 @@
+//! Ctrl-C, and being asked to end: with a word, and never between two halves of a file.
+
+use std::io::{IsTerminal, stderr};
+
+use gumption::files::write;
+
+use super::output;
+
+/// The exit code that shells give to what Ctrl-C has ended: 128 and the number of the signal.
+const INTERRUPTED: i32 = 130;
+
+/// From now on an interrupt ends the program when no file is being written, and says what there is of its work.
+pub(super) fn say_so() {
+    // Where it cannot be set, the system ends the program without a word.
+    let _ = ctrlc::set_handler(|| {
+        let written = write::stop();
+        if stderr().is_terminal() {
+            output::passing("");
+        }
+        output::warn(match written {
+            0 => "interrupted: nothing is written\n",
+            _ => "interrupted: the files that were written are whole\n",
+        });
+        std::process::exit(INTERRUPTED);
+    });
+}

@@ -76,7 +76,7 @@ pub fn language(bytes: &[u8]) {
         match compiled {
             Ok(model) => {
                 let x = [0.5, 2.0, 10.0, 20.0, 1.0, 2.0, 3.0, 4.0];
-                assert_eq!(model.values(&x).len(), 1);
+                assert_eq!(model.values(&x).len(), model.outputs().len());
                 let _ = (model.gradients(&x), model.along(&x, &[1.0; 8]));
                 let _ = (model.undefined(&x), model.irregularities(&x));
                 let _ = model.near_singular(&x, &[0.1; 8], 2.0);

@@ -112,7 +112,7 @@ fn within_reach(r: f64, smallest: f64, largest: f64) -> Result<f64, CopulaError>
             largest,
         });
     }
-    Ok(r.clamp(smallest, largest))
+    Ok(r.max(smallest).min(largest))
 }
 
 /// Terms of the expansion; what comes after is lumped together.

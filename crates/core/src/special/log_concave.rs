@@ -112,7 +112,9 @@ pub(super) fn solve<D: LogConcave>(
         if tail.ln() > -0.5 {
             // Far on the wrong side the tail is flat and the tangent useless.
             let scale = 4.0 * length(&point);
-            step = step.clamp(-scale, scale);
+            if step.abs() > scale {
+                step = scale.copysign(step);
+            }
         }
         if step.is_nan() {
             break;

@@ -77,7 +77,7 @@ impl Explanation {
         for (variation, share) in variations {
             bound += share / whole;
             let end = (bound * seen.ncols() as f64).round() as usize;
-            let end = end.clamp(begin, seen.ncols());
+            let end = end.max(begin).min(seen.ncols());
             if end == begin {
                 continue;
             }

@@ -242,7 +242,7 @@ impl Scatter {
         let of_mean = blocks.squares() / (count - count / effective_blocks) / effective_blocks;
         let of_independent = series.squares() / (n - 1.0) / n;
         let factor = match of_independent > 0.0 {
-            true => (of_mean / of_independent).clamp(1.0, n / 2.0),
+            true => (of_mean / of_independent).max(1.0).min(n / 2.0),
             false => 1.0,
         };
         Scatter {

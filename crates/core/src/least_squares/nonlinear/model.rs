@@ -90,7 +90,7 @@ impl Model {
         if high == 0.0 {
             high = f64::MIN_POSITIVE / region.min(0.1);
         }
-        let mut damping = guess.clamp(low.min(high), high);
+        let mut damping = guess.max(low.min(high)).min(high);
         if damping == 0.0 {
             damping = if length.is_finite() && length > 0.0 {
                 high.min(high * region / length)

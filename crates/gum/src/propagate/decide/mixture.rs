@@ -87,10 +87,10 @@ fn continuous(
     let panels = cuts.windows(2).map(|ends| {
         let (from, to) = (ends[0], ends[1]);
         if to <= middle {
-            let place = |p: f64| g(process.quantile(p).clamp(from, to));
+            let place = |p: f64| g(process.quantile(p).max(from).min(to));
             double_exponential(process.cdf(from), process.cdf(to), &place)
         } else {
-            let place = |q: f64| g(process.upper_quantile(q).clamp(from, to));
+            let place = |q: f64| g(process.upper_quantile(q).max(from).min(to));
             double_exponential(process.sf(to), process.sf(from), &place)
         }
     });

@@ -207,7 +207,7 @@ impl Around {
         let share = rank as f64 / count as f64;
         let reach = (count as f64 * share * (1.0 - share)).sqrt();
         [-reach, reach].map(|offset| {
-            let place = (rank as f64 + offset).clamp(first as f64, last as f64);
+            let place = (rank as f64 + offset).max(first as f64).min(last as f64);
             let below = place.floor() as usize;
             Around {
                 ranks: [below, (below + 1).min(last)],

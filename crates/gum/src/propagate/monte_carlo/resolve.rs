@@ -241,7 +241,7 @@ impl Ranked for Resolved {
                 }
             };
             if self.starts[a].is_none() && self.starts[b].is_none() {
-                consider(symmetric.clamp(first, last));
+                consider(symmetric.max(first).min(last));
             } else {
                 (first..=last).for_each(consider);
             }

@@ -105,7 +105,7 @@ pub fn delayed(t: &[f64], x: &[f64], delay: f64) -> Vec<f64> {
         return x.to_vec();
     }
     let at = |then: f64| {
-        let above = t.partition_point(|t| *t <= then).clamp(1, t.len() - 1);
+        let above = t.partition_point(|t| *t <= then).max(1).min(t.len() - 1);
         let step = t[above] - t[above - 1];
         if step <= 0.0 {
             return x[above];
@@ -161,7 +161,7 @@ pub fn play_from(start: f64, x: &[f64], came: &[Option<(f64, f64)>], w: f64) -> 
     let mut now = start;
     for (row, value) in x.iter().enumerate() {
         for push in by_way_of(row).into_iter().chain([*value]) {
-            now = now.clamp(push - w / 2.0, push + w / 2.0);
+            now = now.max(push - w / 2.0).min(push + w / 2.0);
         }
         out.push(now);
     }
@@ -178,7 +178,7 @@ pub fn grid(low: f64, high: f64, ratio: f64, most: usize) -> Vec<f64> {
         };
     }
     let steps = (libm::log(high / low) / libm::log(ratio)).floor() as usize;
-    let steps = steps.clamp(1, most.max(2) - 1);
+    let steps = steps.max(1).min(most.max(2) - 1);
     let factor = libm::pow(high / low, 1.0 / steps as f64);
     (0..=steps)
         .map(|step| low * libm::pow(factor, step as f64))

@@ -155,7 +155,7 @@ fn highest(power: &dyn Fn(f64) -> f64, low: f64, start: f64, high: f64) -> f64 {
     for _ in 0..SCANS {
         let centre = best;
         for side in [-0.75, -0.5, -0.25, 0.25, 0.5, 0.75] {
-            let at = (centre * libm::exp(side * reach)).clamp(low, high);
+            let at = (centre * libm::exp(side * reach)).max(low).min(high);
             let here = power(at);
             if here > height {
                 (best, height) = (at, here);

@@ -309,7 +309,7 @@ impl Goal {
 fn factor(wanted: f64, most: u64) -> u64 {
     let wanted = wanted.clamp(1.0, 16.0).ceil() as u64;
     let allowed = 1 << most.max(2).ilog2();
-    wanted.next_power_of_two().clamp(2, allowed)
+    wanted.next_power_of_two().max(2).min(allowed)
 }
 
 /// The largest of the errors that are known.

@@ -1,15 +1,14 @@
 //! The proof of `gumption diagnose` on concealed data: makes sealed cases, diagnoses and grades them,
-//! and writes `diagnosis.csv` (one line for each case) and `diagnosis.md` (the tables).
+//! and writes `diagnosis.jsonl` (one line for each case) and `diagnosis.md` (the tables).
 //!
 //! ```text
 //! cargo run --release --example diagnosis -- --out reports
 //! ```
 //!
-//! `--each N` cases of every scenario and `--nulls N` cases without any effect; `--threads N`;
-//! `--only TEXT` keeps scenarios whose name contains the text; `--resume` keeps what the file holds
-//! already; `--tables` only draws the tables anew; `--first-seed N` takes other cases, to develop with;
-//! `--alone` leaves out the methods to compare with; `--singles` keeps whole cases with one effect;
-//! `--show` prints every answer.
+//! `--cases N` takes the first N cases of the study, which are a sample of it; `--threads N` (2); `--only TEXT`
+//! keeps rigs and instruments whose name contains the text; `--resume` keeps what the file holds already, so that a
+//! study may be interrupted; `--tables` only draws the tables anew; `--first-seed N` takes other cases, to develop
+//! with; `--whole` leaves out the ablations; `--show` prints every answer.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -18,42 +17,38 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
+use gumption::challenge::SealedCase;
 use gumption::challenge::grade::{self, Answer, Name, State};
 use gumption::challenge::study::{
-    Advice, Decision, EACH, FIRST_SEED, NULLS, Record, Request, Sequel, Trial, Twin, decision,
+    Ablation, Advice, CASES, Decision, FIRST_SEED, Record, Request, Sequel, Trial, Twin, decision,
     read, report, request, trials, write,
 };
-use gumption::challenge::{Further, SealedCase};
 use gumption::diagnose::case::{Case, Purpose};
-use gumption::diagnose::{Failure, Opinion, Pick, StandIn, diagnose, opinions, stand_ins};
+use gumption::diagnose::{Pick, StandIn, diagnose, stand_ins};
 use gumption::report::{self, Language, diagnosis_failure};
 
 struct Options {
-    each: usize,
-    nulls: usize,
+    cases: usize,
     threads: usize,
     only: String,
     out: PathBuf,
     resume: bool,
     tables: bool,
     first_seed: u64,
-    alone: bool,
-    singles: bool,
+    whole: bool,
     show: bool,
 }
 
 fn options() -> Result<Options, String> {
     let mut options = Options {
-        each: EACH,
-        nulls: NULLS,
-        threads: std::thread::available_parallelism().map_or(1, usize::from),
+        cases: CASES,
+        threads: 2,
         only: String::new(),
         out: PathBuf::from("reports"),
         resume: false,
         tables: false,
         first_seed: FIRST_SEED,
-        alone: false,
-        singles: false,
+        whole: false,
         show: false,
     };
     let mut arguments = std::env::args().skip(1);
@@ -64,15 +59,13 @@ fn options() -> Result<Options, String> {
                 .map_err(|_| format!("`{text}` is no number"))
         };
         match name.as_str() {
-            "--each" => options.each = number(value()?)?,
-            "--nulls" => options.nulls = number(value()?)?,
+            "--cases" => options.cases = number(value()?)?,
             "--threads" => options.threads = number(value()?)?.max(1),
             "--only" => options.only = value()?,
             "--out" => options.out = value()?.into(),
             "--resume" => options.resume = true,
             "--first-seed" => options.first_seed = number(value()?)? as u64,
-            "--alone" => options.alone = true,
-            "--singles" => options.singles = true,
+            "--whole" => options.whole = true,
             "--show" => options.show = true,
             "--tables" => options.tables = true,
             other => return Err(format!("`{other}` is not known")),
@@ -83,6 +76,7 @@ fn options() -> Result<Options, String> {
 
 fn main() -> Result<(), String> {
     let options = options()?;
+    std::fs::create_dir_all(&options.out).map_err(|error| error.to_string())?;
     if !options.tables {
         Study::new(&options).run()?;
     }
@@ -91,54 +85,51 @@ fn main() -> Result<(), String> {
 
 fn save_tables(out: &Path) -> Result<(), String> {
     // From the file, so that the tables hold what anyone can read there.
-    let lines = std::fs::read_to_string(out.join("diagnosis.csv")).map_err(|e| e.to_string())?;
-    let made = "Made by `cargo run --release --example diagnosis -- --out reports` from sealed cases of \
-        `gumption challenge` (docs/challenge.md). λ is the visible strength of an effect in standard \
-        deviations, κ what its nearest rival leaves of it: both from twin runs of the simulator, with and \
-        without the effect, and the rivals are every other effect of the simulator and every wrong candidate \
-        of the catalogue that has at most one coefficient more than the right one (a wave has a phase where \
-        a power has none): what gives the same recording has to be listed. \
-        Every case is a line of diagnosis.csv.";
-    std::fs::write(out.join("diagnosis.md"), report(&read(&lines), made)).map_err(|e| e.to_string())
+    let lines = std::fs::read_to_string(out.join("diagnosis.jsonl")).map_err(|e| e.to_string())?;
+    let made = format!(
+        "Made by gumption {} with `cargo run --release --example diagnosis -- --out reports` from sealed cases of `gumption \
+         challenge` (docs/challenge.md), on rigs and instruments in turn. λ is the visible strength of an effect in standard \
+         deviations of the true noise, κ what its nearest rival leaves of it: both from twin runs of the simulator, with and \
+         without the effect. Rivals are every other effect of the simulator, in all its forms, and every wrong candidate of the \
+         catalogue that has at most one coefficient more than the right one. Every case is a line of diagnosis.jsonl. \
+         Earlier tables: diagnosis-1.md (four rigs, the catalogue scored by slopes).",
+        env!("CARGO_PKG_VERSION")
+    );
+    std::fs::write(out.join("diagnosis.md"), report(&read(&lines), &made))
+        .map_err(|e| e.to_string())
 }
 
-/// Trials with the records that exist already.
+/// Trials with the records that exist already; nothing is recorded of a trial that is none.
 struct Study<'a> {
     options: &'a Options,
     trials: Vec<Trial>,
-    done: Mutex<BTreeMap<usize, Record>>,
+    done: Mutex<BTreeMap<usize, Option<Record>>>,
     next: AtomicUsize,
     begun: Instant,
 }
 
 /// Records after which the file is written.
-const OFTEN: usize = 50;
+const OFTEN: usize = 20;
 
 impl<'a> Study<'a> {
     fn new(options: &'a Options) -> Study<'a> {
-        let trials: Vec<Trial> = trials(options.first_seed, options.each, options.nulls)
+        let trials: Vec<Trial> = trials(options.first_seed, options.cases)
             .into_iter()
-            .filter(|trial| trial.scenario.name().contains(&options.only))
-            .filter(|trial| trial.is_single() || !options.singles)
+            .filter(|trial| trial.bench.name().contains(&options.only))
+            .filter(|trial| trial.ablation == Ablation::Whole || !options.whole)
             .collect();
-        let kept = match std::fs::read_to_string(options.out.join("diagnosis.csv")) {
+        let kept = match std::fs::read_to_string(options.out.join("diagnosis.jsonl")) {
             Ok(text) if options.resume => read(&text),
             _ => Vec::new(),
         };
-        let is_of = |record: &Record, trial: &Trial| {
-            record.seed == trial.seed
-                && record.ablation == trial.ablation
-                && record.scenario == trial.scenario.name()
-        };
-        let done = trials
-            .iter()
-            .enumerate()
-            .filter_map(|(at, trial)| Some((at, kept.iter().find(|r| is_of(r, trial))?.clone())))
-            .collect();
+        let known = trials.iter().enumerate().filter_map(|(at, trial)| {
+            let record = kept.iter().find(|record| record.is_of(trial))?;
+            Some((at, Some(record.clone())))
+        });
         Study {
             options,
+            done: Mutex::new(known.collect()),
             trials,
-            done: Mutex::new(done),
             next: AtomicUsize::new(0),
             begun: Instant::now(),
         }
@@ -161,10 +152,9 @@ impl<'a> Study<'a> {
         ));
         loop {
             let at = self.next.fetch_add(1, Ordering::Relaxed);
-            let Some(trial) = self.trials.get(self.scattered(at)) else {
+            let Some(trial) = self.trials.get(at) else {
                 break;
             };
-            let at = self.scattered(at);
             if self.done.lock().is_ok_and(|done| done.contains_key(&at)) {
                 continue;
             }
@@ -184,58 +174,61 @@ impl<'a> Study<'a> {
         let _ = std::fs::remove_dir_all(folder);
     }
 
-    /// The order of work: spread over all trials, so that an interrupted study is a sample of the whole.
-    fn scattered(&self, at: usize) -> usize {
-        const STRIDE: usize = 7919;
-        let count = self.trials.len();
-        if at >= count || count.is_multiple_of(STRIDE) {
-            at
-        } else {
-            at * STRIDE % count
-        }
-    }
-
     fn save(&self) -> Result<(), String> {
         let records: Vec<Record> = match self.done.lock() {
-            Ok(done) => done.values().cloned().collect(),
+            Ok(done) => done.values().flatten().cloned().collect(),
             Err(_) => return Err("a worker stopped".into()),
         };
-        std::fs::write(self.options.out.join("diagnosis.csv"), write(&records))
+        std::fs::write(self.options.out.join("diagnosis.jsonl"), write(&records))
             .map_err(|error| error.to_string())
     }
 }
 
-fn one(trial: &Trial, folder: &Path, options: &Options) -> Record {
-    let sealed = trial.case();
-    match answer(trial, &sealed, folder, options.alone) {
-        Ok((Said { answer, advice }, twins, opinions)) => {
-            if options.show {
-                eprintln!("{}", shown(trial, &answer));
-            }
-            let graded = grade::grade(&sealed.truth, &answer);
-            let mut record = Record::of(trial, &graded, &answer);
-            record.complete(&twins);
-            record.rivals = opinions
-                .iter()
-                .map(|opinion| judged(&sealed, opinion))
-                .collect();
-            record.further = match request(trial, &sealed.truth, &graded, &answer, &advice) {
-                Request::None => None,
-                Request::InVain(sequel) => Some(sequel),
-                Request::Make(further) => Some(followed(trial, further, folder, options)),
-            };
-            record
-        }
+fn one(trial: &Trial, folder: &Path, options: &Options) -> Option<Record> {
+    let sealed = trial.case()?;
+    let begun = Instant::now();
+    let both = handed_out(trial, &sealed, folder).and_then(|case| Ok((said(&case)?, case)));
+    let seconds = begun.elapsed().as_secs_f64();
+    let (Said { answer, advice }, case) = match both {
+        Ok(both) => both,
         Err(why) => {
-            eprintln!("{} {}: {why}", trial.scenario.name(), trial.seed);
-            let answer = Answer {
-                verdict: "refused".into(),
-                effects: Vec::new(),
-                before: None,
-                after: None,
-            };
-            Record::of(trial, &grade::grade(&sealed.truth, &answer), &answer)
+            eprintln!("{}: {why}", trial.command());
+            let answer = refused();
+            let graded = grade::grade(&sealed.truth, &answer);
+            return Some(Record::of(trial, &sealed, &graded, &answer));
         }
+    };
+    let graded = grade::grade(&sealed.truth, &answer);
+    let mut record = Record::of(trial, &sealed, &graded, &answer);
+    record.seconds = seconds;
+    record.complete(&twins(trial, &sealed, &case, &answer));
+    if options.show {
+        eprintln!("{}", shown(&record, trial, &answer));
+    }
+    record.further = match request(trial, &graded, &answer, &advice) {
+        Request::None => None,
+        Request::InVain(sequel) => Some(sequel),
+        Request::Make(further) => {
+            let longer = trial.longer_case(further);
+            let decided = handed_out(trial, &longer, folder).and_then(|case| said(&case));
+            let decided = decided.map(|Said { answer, advice }| {
+                decision(&grade::grade(&longer.truth, &answer), &answer, &advice)
+            });
+            let decided = decided.unwrap_or(Decision::Unnamed);
+            Some(Sequel::Made(further.to_string(), decided))
+        }
+    };
+    Some(record)
+}
+
+/// The answer of a diagnosis that ended with an error.
+fn refused() -> Answer {
+    Answer {
+        verdict: "refused".into(),
+        effects: Vec::new(),
+        before: None,
+        after: None,
+        held_out: None,
     }
 }
 
@@ -245,29 +238,9 @@ struct Said {
     advice: Advice,
 }
 
-fn answer(
-    trial: &Trial,
-    sealed: &SealedCase,
-    folder: &Path,
-    alone: bool,
-) -> Result<(Said, Vec<Twin>, Vec<Opinion>), String> {
-    let case = handed_out(trial, sealed, folder)?;
-    let failed = |failure| diagnosis_failure(&case, &failure, Language::English);
-    let said = said(&case)?;
-    let others = if alone {
-        Vec::new()
-    } else {
-        opinions(&case).map_err(failed)?
-    };
-    let twins = twins(trial, sealed, &case, &said.answer).map_err(failed)?;
-    Ok((said, twins, others))
-}
-
 /// The case as it is read from its files.
 fn handed_out(trial: &Trial, sealed: &SealedCase, folder: &Path) -> Result<Case, String> {
-    trial
-        .write(sealed, folder)
-        .map_err(|error| error.to_string())?;
+    sealed.hand_out(folder).map_err(|error| error.to_string())?;
     let mut case = Case::load(&folder.join("CASE.toml"), Purpose::Diagnosis)
         .map_err(|rejection| rejection.render(false))?;
     case.settings.seed = trial.seed;
@@ -285,97 +258,71 @@ fn said(case: &Case) -> Result<Said, String> {
     })
 }
 
-/// What becomes of a list when the further measurement is made.
-fn followed(trial: &Trial, further: Further, folder: &Path, options: &Options) -> Sequel {
-    let sealed = trial.longer_case(further);
-    let said = handed_out(trial, &sealed, folder).and_then(|case| said(&case));
-    match said {
-        Ok(Said { answer, advice }) => {
-            if options.show {
-                eprintln!("  {further}: {}", shown(trial, &answer));
-            }
-            let graded = grade::grade(&sealed.truth, &answer);
-            Sequel::Made(further, decision(&graded, &answer, &advice))
-        }
-        Err(why) => {
-            eprintln!("{} {} {further}: {why}", trial.scenario.name(), trial.seed);
-            Sequel::Made(further, Decision::Unnamed)
-        }
-    }
-}
-
-/// What twin runs say of each concealed effect. A wrong candidate is a rival if it has at most one
-/// coefficient more than the right one, as a wave has a phase where a power has none.
-fn twins(
-    trial: &Trial,
-    sealed: &SealedCase,
-    case: &Case,
-    answer: &Answer,
-) -> Result<Vec<Twin>, Failure> {
-    /// Where the right candidate is missing, whatever fits is a rival.
+/// What twin runs say of each concealed effect; nothing where the engine cannot hold its catalogue beside them. A wrong
+/// candidate is a rival if it has at most one coefficient more than the right one, as a wave has a phase where a power
+/// has none.
+fn twins(trial: &Trial, sealed: &SealedCase, case: &Case, answer: &Answer) -> Vec<Twin> {
+    // Where the right candidate is missing, whatever fits is a rival.
     const USUAL: usize = usize::MAX;
-    let traces = trial.signatures();
-    let right = |pick: &Pick| {
-        let name = name(pick);
-        let mut effects = sealed.truth.effects.iter();
-        effects.any(|effect| grade::accepts(effect.physics, &name))
-    };
+    let traces = &sealed.signatures;
     let of = |at: usize| {
         let mut others = traces.clone();
         let own = others.remove(at);
-        let all = stand_ins(case, &own, &others)?;
-        let (own, wrong): (Vec<&StandIn>, Vec<&StandIn>) =
-            all.iter().partition(|likeness| right(&likeness.pick));
-        let best = own.iter().min_by(|a, b| a.left.total_cmp(&b.left));
-        let coefficients = best.map_or(USUAL, |best| best.coefficients);
-        let rivals = wrong
-            .iter()
-            .filter(|l| l.coefficients <= coefficients.saturating_add(1));
+        let all = stand_ins(case, &own, &others).unwrap_or_default();
         let truth = &sealed.truth.effects[at];
-        let unique = (answer.effects.iter())
-            .filter(|effect| effect.state == State::Identified)
+        let is_right = |one: &&StandIn| grade::accepts(truth, &name(&one.pick));
+        // What bears the name of another effect of the case is no rival either.
+        let effects = &sealed.truth.effects;
+        let is_known = |one: &StandIn| effects.iter().any(|e| grade::accepts(e, &name(&one.pick)));
+        let best = all
+            .iter()
+            .filter(is_right)
+            .min_by(|a, b| a.left.total_cmp(&b.left));
+        let coefficients = best.map_or(USUAL, |best| best.coefficients);
+        let rivals = all
+            .iter()
+            .filter(|one| !is_known(one) && one.coefficients <= coefficients.saturating_add(1));
+        let alone = (answer.effects.iter())
+            .filter(|effect| matches!(effect.state, State::Identified | State::ActsLike))
             .filter_map(|effect| effect.named.first())
-            .find(|name| grade::accepts(truth.physics, name));
-        Ok(Twin {
-            nearest: rivals.map(|l| l.left).fold(1.0, f64::min),
-            deviation: unique.and_then(|name| deviation(&all, name)),
-            located: unique
-                .and_then(|name| grade::located(sealed.truth.rig, trial.dwell(), truth, name)),
-        })
+            .find(|name| grade::accepts(truth, name));
+        Twin {
+            nearest: rivals.map(|one| one.left).fold(1.0, f64::min),
+            deviation: alone.and_then(|name| deviation(&all, name)),
+            located: alone
+                .and_then(|name| grade::located(&sealed.truth.outputs, sealed.dwell, truth, name)),
+        }
     };
+    if trial.ablation == Ablation::ForeignConditions {
+        return Vec::new();
+    }
     (0..traces.len()).map(of).collect()
 }
 
-/// An answer in one line.
-fn shown(trial: &Trial, answer: &Answer) -> String {
+/// A record and its answer in one line.
+fn shown(record: &Record, trial: &Trial, answer: &Answer) -> String {
+    let truths = record.outcomes.iter().map(|o| {
+        let found = format!("{:?}", o.finding).to_lowercase();
+        format!("{} λ {:.1} κ {:.1} {found}", o.physics, o.lambda, o.kappa)
+    });
     let mut line = format!(
-        "{} {} {}: {}",
-        trial.scenario.name(),
-        trial.seed,
-        trial.ablation.word(),
-        answer.verdict
+        "{} [{:?}] {}: {} in {:.1} s, predicted {:.2}",
+        trial.command(),
+        trial.ablation,
+        truths.collect::<Vec<_>>().join(" + "),
+        answer.verdict,
+        record.seconds,
+        record.predicted.unwrap_or(f64::NAN),
     );
     for effect in &answer.effects {
         let names = effect.named.iter().map(|name| {
             let variant = name.variants.first().map_or("", |one| one.label.as_str());
-            format!(
-                "{} {} [{variant}] {:.3}",
-                name.id, name.along, name.probability
-            )
+            format!("{} {} [{variant}]", name.id, name.along)
         });
         let names: Vec<String> = names.collect();
         line += &format!("; {:?}: {}", effect.state, names.join(" | "));
     }
     line
-}
-
-/// A rival's names against the truth.
-fn judged(sealed: &SealedCase, opinion: &Opinion) -> (String, String) {
-    let names: Vec<Name> = opinion.picks.iter().map(name).collect();
-    (
-        opinion.method.into(),
-        grade::grade_names(&sealed.truth, &names).into(),
-    )
 }
 
 /// Size of a name less that of its variant in the twin run, in half-widths of its 95 % interval.
@@ -392,10 +339,7 @@ fn deviation(all: &[StandIn], name: &Name) -> Option<f64> {
 fn name(pick: &Pick) -> Name {
     Name {
         id: pick.id.to_string(),
-        family: String::new(),
-        node: String::new(),
         along: pick.along.clone(),
-        probability: f64::NAN,
         variants: Vec::new(),
         size: Vec::new(),
         u: Vec::new(),

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use gumption::challenge::{Further, NoiseKnowledge, Request, Rig, Scenario, challenge, seal};
+use gumption::challenge::{
+    Bench, Class, Further, NoiseKnowledge, Request, Scenario, challenge, seal,
+};
 
 use gumption::fault::harmless;
 use gumption::files::write::{Output, Replacing};
@@ -20,20 +22,24 @@ pub(super) struct Args {
     /// Folder to create: DIR/case is handed out, DIR/truth.json is kept
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
-    /// Only this rig: tumble, remount, triad or rate-table
+    /// Only this rig or instrument: tumble, remount, triad, rate-table, load-cell … (`--list` prints all)
     #[arg(long, value_name = "RIG")]
-    rig: Option<Rig>,
+    rig: Option<Bench>,
+    /// Only this: null, single, double or outside (of every catalogue)
+    #[arg(long, value_name = "CLASS", conflicts_with = "scenario", value_parser = class)]
+    class: Option<Class>,
     /// This scenario (`--list` prints all)
     #[arg(long, value_name = "NAME", conflicts_with = "rig", value_parser = scenario)]
     scenario: Option<Scenario>,
-    /// How the noise is claimed: stated, or by a recording at rest [default: by chance]
+    /// How the noise is claimed: stated, stated-correlated, estimated, estimated-correlated, or at-rest (of a rig)
+    /// [default: by chance]
     #[arg(long, value_name = "HOW", value_parser = noise)]
     noise: Option<NoiseKnowledge>,
     /// What is measured after the calibration: again, reversed, "mount=90", "head between" …
     #[arg(long, value_name = "WHAT", requires = "seed")]
     further: Option<Further>,
-    /// Print the names of all scenarios
-    #[arg(long, conflicts_with_all = ["seed", "out", "rig", "scenario", "noise", "further"])]
+    /// Print the names of all scenarios of rigs, and of all instruments
+    #[arg(long, conflicts_with_all = ["seed", "out", "rig", "class", "scenario", "noise", "further"])]
     list: bool,
 }
 
@@ -45,23 +51,37 @@ fn scenario(text: &str) -> Result<Scenario, Complaint> {
 }
 
 fn noise(text: &str) -> Result<NoiseKnowledge, Complaint> {
-    match text {
-        "stated" => Ok(NoiseKnowledge::Stated),
-        "at-rest" => Ok(NoiseKnowledge::AtRest),
-        _ => Err("write `stated` or `at-rest`".into()),
-    }
+    one_of(&NoiseKnowledge::ALL, text)
+}
+
+fn class(text: &str) -> Result<Class, Complaint> {
+    one_of(&Class::COUNTED, text)
+}
+
+fn one_of<T: Copy>(all: &[(T, &str)], text: &str) -> Result<T, Complaint> {
+    let found = all.iter().find(|(_, name)| *name == text);
+    found.map(|(one, _)| *one).ok_or_else(|| {
+        let names: Vec<&str> = all.iter().map(|(_, name)| *name).collect();
+        format!("write one of {}", names.join(", ")).into()
+    })
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
     let Some(out) = &args.out else {
-        let names: Vec<String> = Scenario::all().iter().map(Scenario::name).collect();
+        let scenarios = Scenario::all().into_iter().map(|one| one.name());
+        let instruments = Bench::all()
+            .into_iter()
+            .filter(|bench| bench.rig().is_none());
+        let names = scenarios.chain(instruments.map(|one| one.name().to_owned()));
+        let names: Vec<String> = names.collect();
         return output::print(&(names.join("\n") + "\n"));
     };
     let entropy = entropy();
     let request = Request {
         seed: args.seed.unwrap_or(entropy),
         entropy,
-        rig: args.rig,
+        bench: args.rig,
+        class: args.class,
         scenario: args.scenario,
         noise: args.noise,
         further: args.further,
@@ -79,8 +99,9 @@ fn entropy() -> u64 {
 
 fn write(out: &Path, request: &Request) -> Outcome {
     let case = challenge(request);
-    if let Some(further) = request.further.filter(|w| !w.is_possible(case.truth.rig)) {
-        let rig = case.truth.rig.name();
+    let rig = &case.truth.bench;
+    let can = |what: &Further| rig.parse().is_ok_and(|rig| what.is_possible(rig));
+    if let Some(further) = request.further.filter(|what| !can(what)) {
         return output::complain(format!(
             "this case is a calibration on the rig {rig}, which cannot do `{further}`"
         ));

@@ -1,18 +1,75 @@
 //! Making a sealed case from a seed.
 
+use std::path::Path;
+use std::str::FromStr;
+
 use nalgebra::DVector;
 use rand::RngExt;
 use rand::seq::IndexedRandom;
 
 use super::files::{CaseFile, case_file, recordings};
 use super::further::Further;
-use super::random::{Random, Stream, source};
+use super::instrument::{Asked, Case, Instrument};
+use super::random::{Stream, source};
 use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge, Scenario, draw};
 use super::schedule::Campaign;
 use super::simulate::{Readings, duration, simulate};
 use super::strength::Visible;
 use super::truth::{Truth, salt, seal};
+
+/// Where a case is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bench {
+    /// On a rig for inertial sensors.
+    Rig(Rig),
+    /// With any other instrument.
+    Instrument(&'static Instrument),
+}
+
+impl Bench {
+    /// All of them: the rigs, then the instruments.
+    pub fn all() -> Vec<Bench> {
+        let instruments = Instrument::all().iter().map(Bench::Instrument);
+        Rig::ALL
+            .into_iter()
+            .map(Bench::Rig)
+            .chain(instruments)
+            .collect()
+    }
+
+    /// The name on the command line and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Bench::Rig(rig) => rig.name(),
+            Bench::Instrument(instrument) => &instrument.name,
+        }
+    }
+
+    /// The rig, if it is one.
+    pub fn rig(self) -> Option<Rig> {
+        match self {
+            Bench::Rig(rig) => Some(rig),
+            Bench::Instrument(_) => None,
+        }
+    }
+}
+
+impl FromStr for Bench {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Bench, String> {
+        let all = Bench::all();
+        let found = all.iter().find(|bench| bench.name() == text);
+        found.copied().ok_or_else(|| {
+            let names: Vec<&str> = all.iter().map(|bench| bench.name()).collect();
+            format!(
+                "`{text}` is no rig or instrument: write {}",
+                names.join(", ")
+            )
+        })
+    }
+}
 
 /// What is asked for; chance decides the rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -21,9 +78,11 @@ pub struct Request {
     pub seed: u64,
     /// Mixed into the salt of the truth, so that the truth cannot be guessed from the seed.
     pub entropy: u64,
-    /// Only scenarios of this rig.
-    pub rig: Option<Rig>,
-    /// This scenario.
+    /// Only cases of this rig or instrument.
+    pub bench: Option<Bench>,
+    /// Only cases of this class, as a study counts it.
+    pub class: Option<Class>,
+    /// This scenario, of a rig.
     pub scenario: Option<Scenario>,
     /// How the noise is claimed.
     pub noise: Option<NoiseKnowledge>,
@@ -40,31 +99,66 @@ pub struct SealedCase {
     pub truth: Truth,
     /// Its text, of which the case file has the seal.
     pub truth_text: String,
+    /// What each concealed effect adds to the readings beside the others, without noise and digits: all rows of the
+    /// first output, then those of the next, in units of the recording.
+    pub signatures: Vec<DVector<f64>>,
+    /// Mean time from one reading of the recording to the next, hours.
+    pub dwell: f64,
+}
+
+impl SealedCase {
+    /// Writes what is handed out into a folder.
+    ///
+    /// # Errors
+    /// When a file cannot be written.
+    pub fn hand_out(&self, folder: &Path) -> std::io::Result<()> {
+        std::fs::create_dir_all(folder)?;
+        for file in &self.files {
+            std::fs::write(folder.join(file.name), &file.text)?;
+        }
+        Ok(())
+    }
+}
+
+/// A case before it is sealed.
+enum Unsealed {
+    Rig(Box<Drawn>, Option<Further>),
+    Instrument(Box<Case>),
 }
 
 /// Makes a sealed case.
 pub fn challenge(request: &Request) -> SealedCase {
-    let drawn = drawn(request);
-    let further = (request.further).filter(|what| what.is_possible(drawn.setup.rig));
-    let mut truth = Truth::of(&drawn, &salt(request.seed, request.entropy));
-    let mut files = recordings(&drawn, further);
+    let salt = salt(request.seed, request.entropy);
+    let unsealed = unsealed(request);
+    let (mut truth, mut files) = match &unsealed {
+        Unsealed::Rig(drawn, further) => (Truth::of(drawn, &salt), recordings(drawn, *further)),
+        Unsealed::Instrument(case) => (case.truth(&salt), case.recordings()),
+    };
     truth.files = files
         .iter()
         .map(|file| (file.name.into(), seal(&file.text)))
         .collect();
     let truth_text = truth.text();
-    files.insert(0, case_file(&drawn, further, &seal(&truth_text)));
+    let seal = seal(&truth_text);
+    let (file, signatures, dwell) = match &unsealed {
+        Unsealed::Rig(drawn, further) => (
+            case_file(drawn, *further, &seal),
+            signatures(drawn),
+            dwell(drawn),
+        ),
+        Unsealed::Instrument(case) => (case.file(&seal), case.signatures(), case.dwell()),
+    };
+    files.insert(0, file);
     SealedCase {
         files,
         truth,
         truth_text,
+        signatures,
+        dwell,
     }
 }
 
-/// What each concealed effect of a case adds to the readings beside the others, without noise and digits:
-/// all rows of the first output, then those of the next, in units of the recording.
-pub fn signatures(request: &Request) -> Vec<DVector<f64>> {
-    let drawn = drawn(request);
+fn signatures(drawn: &Drawn) -> Vec<DVector<f64>> {
     let visible = Visible::new(&drawn.setup);
     let all = drawn.concealed();
     let of = |at: usize| {
@@ -75,47 +169,66 @@ pub fn signatures(request: &Request) -> Vec<DVector<f64>> {
     (0..all.len()).map(of).collect()
 }
 
-/// Mean time from one reading of the recording to the next, in hours.
-pub fn dwell(request: &Request) -> f64 {
-    let setup = drawn(request).setup;
-    let rows = simulate(&setup, Campaign::Calibration, &[], Readings::Ideal).len();
+fn dwell(drawn: &Drawn) -> f64 {
+    let setup = &drawn.setup;
+    let rows = simulate(setup, Campaign::Calibration, &[], Readings::Ideal).len();
     duration(setup.rig, Campaign::Calibration, setup.seed) / 3600.0 / rows as f64
 }
 
-fn drawn(request: &Request) -> Drawn {
-    let mut random = source(request.seed, Stream::Case, 0);
-    let scenario = request
-        .scenario
-        .unwrap_or_else(|| choose(request.rig, &mut random));
-    let by_chance = if random.random() {
-        NoiseKnowledge::Stated
-    } else {
-        NoiseKnowledge::AtRest
-    };
-    draw(scenario, request.noise.unwrap_or(by_chance), request.seed)
-}
-
 /// How often a class is drawn, in percent.
-const CLASSES: [(Class, f64); 7] = [
+const CLASSES: [(Class, f64); 4] = [
     (Class::Null, 20.0),
-    (Class::Single, 32.0),
-    (Class::Double, 14.0),
-    (Class::Triple, 6.0),
-    (Class::Masked, 6.0),
-    (Class::Outside, 16.0),
-    (Class::Hidden, 6.0),
+    (Class::Single, 40.0),
+    (Class::Double, 20.0),
+    (Class::Outside, 20.0),
 ];
 
-fn choose(rig: Option<Rig>, random: &mut Random) -> Scenario {
-    let all: Vec<Scenario> = Scenario::all()
-        .into_iter()
-        .filter(|s| rig.is_none_or(|rig| s.rig == rig))
-        .collect();
-    let class = CLASSES.choose_weighted(random, |(_, share)| *share);
+fn unsealed(request: &Request) -> Unsealed {
+    let mut random = source(request.seed, Stream::Case, 0);
+    let all = Bench::all();
+    let any = all[random.random_range(0..all.len())];
+    let class = CLASSES.choose_weighted(&mut random, |(_, share)| *share);
     let class = class.map_or(Class::Single, |(class, _)| *class);
-    let of_class: Vec<Scenario> = all.iter().copied().filter(|s| s.class == class).collect();
-    let pool = if of_class.is_empty() { all } else { of_class };
-    pool[random.random_range(0..pool.len())]
+    let (class, turn) = (request.class.unwrap_or(class), random.random::<u64>());
+    // At rest only rigs are recorded; that is the last way to know the noise.
+    let knowledge = |count: usize| {
+        let by_chance = NoiseKnowledge::ALL[turn as usize % count].0;
+        request.noise.unwrap_or(by_chance)
+    };
+    let bench = request.scenario.map(|scenario| Bench::Rig(scenario.rig));
+    match bench.or(request.bench).unwrap_or(any) {
+        Bench::Instrument(instrument) => {
+            let noise = knowledge(NoiseKnowledge::ALL.len() - 1);
+            let case = Case::new(Asked {
+                instrument,
+                class,
+                noise,
+                seed: request.seed,
+            });
+            if let Some(case) = case {
+                return Unsealed::Instrument(Box::new(case));
+            }
+            let scenario = of_class(Rig::Tumble, class, turn);
+            Unsealed::Rig(Box::new(draw(scenario, noise, request.seed)), None)
+        }
+        Bench::Rig(rig) => {
+            let scenario = request
+                .scenario
+                .unwrap_or_else(|| of_class(rig, class, turn));
+            let noise = knowledge(NoiseKnowledge::ALL.len());
+            let further = request.further.filter(|what| what.is_possible(rig));
+            Unsealed::Rig(Box::new(draw(scenario, noise, request.seed)), further)
+        }
+    }
+}
+
+/// A scenario of a rig and a class.
+fn of_class(rig: Rig, class: Class, turn: u64) -> Scenario {
+    let all = Scenario::all().into_iter().filter(|s| s.rig == rig);
+    let (fitting, rest): (Vec<Scenario>, Vec<Scenario>) =
+        all.partition(|s| s.class == class || s.class.counted() == class);
+    let pool = if fitting.is_empty() { rest } else { fitting };
+    pool[(turn >> 8) as usize % pool.len()]
 }
 
 #[cfg(test)]

@@ -72,7 +72,7 @@ pub(super) fn recordings(drawn: &Drawn, further: Option<Further>) -> Vec<CaseFil
 }
 
 /// Name, unit and digits of the outputs of a rig.
-fn outputs(rig: Rig) -> impl Iterator<Item = (&'static str, &'static str, usize)> {
+pub(super) fn outputs(rig: Rig) -> impl Iterator<Item = (&'static str, &'static str, usize)> {
     let rows: &[(&str, &str, usize)] = match rig {
         Rig::Tumble | Rig::Remount => &[("U", "mV", 5)],
         Rig::Triad => &[("ax", "gn", 8), ("ay", "gn", 8), ("az", "gn", 8)],
@@ -156,7 +156,7 @@ fn table(columns: &[Column], rows: &[Row], rig: Rig) -> String {
 }
 
 /// Decimal digits without a negative zero.
-fn number(value: f64, digits: usize) -> String {
+pub(super) fn number(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     match text.strip_prefix('-') {
         Some(rest) if rest.chars().all(|c| c == '0' || c == '.') => rest.to_string(),
@@ -191,6 +191,9 @@ supply = "covariate"
 vibration = "covariate"
 {outputs}
 {noise}
+
+[held_out]
+file = "{HELD_OUT}"
 "#,
         title = title(rig),
         prose = prose(rig).to_owned() + &further.map_or_else(String::new, |what| then(rig, what)),
@@ -273,14 +276,15 @@ fn stimulus(rig: Rig) -> &'static str {
 }
 
 fn noise(drawn: &Drawn) -> String {
+    let rig = drawn.setup.rig;
     match drawn.knowledge {
         NoiseKnowledge::AtRest => format!("[noise]\nat_rest = {{ file = \"{AT_REST}\" }}"),
-        NoiseKnowledge::Stated => {
-            let rig = drawn.setup.rig;
-            let law = &drawn.setup.noise;
-            let white = law.white / libm::sqrt(rig.samples() as f64) * rig.sensitivity();
+        NoiseKnowledge::Stated | NoiseKnowledge::StatedCorrelated => {
+            // Without a walk every row has the same.
+            let u = drawn.setup.noise.rms(&[0.0], rig.samples() as f64) * rig.sensitivity();
             let unit = outputs(rig).next().map_or("", |(_, unit, _)| unit);
-            format!("[noise]\nu = \"{white} {unit}\"")
+            format!("[noise]\nu = \"{u} {unit}\"")
         }
+        NoiseKnowledge::Estimated | NoiseKnowledge::EstimatedCorrelated => String::new(),
     }
 }

@@ -1,5 +1,5 @@
-//! Sealed cases: calibrations of inertial sensors, simulated in time, in which something is concealed;
-//! and the grading of what a diagnosis says of them.
+//! Sealed cases: calibrations of inertial sensors and of other instruments, simulated in time, in which
+//! something is concealed; and the grading of what a diagnosis says of them.
 //!
 //! Nothing here knows the regressors of [`diagnose`](gumption_lab::diagnose): effects have states and act where
 //! their physics acts, in other forms than any catalogue would give them. Only the grader knows names of
@@ -16,7 +16,9 @@
 //! | `noise` | white noise, random walk, flicker |
 //! | `effect` | everything that can be concealed |
 //! | `simulate` | a campaign, in time |
+//! | `geometry` | lengths and angles of what is added to a recording |
 //! | `strength` | λ and κ from twin runs |
+//! | `instrument` | instruments beyond the rigs |
 //! | `names` | which names of the catalogue are right for which physics |
 //! | `scenario` | what is concealed together, and how strongly |
 //! | `truth` | the sealed truth |
@@ -33,7 +35,9 @@ mod climate;
 mod effect;
 mod files;
 mod further;
+mod geometry;
 pub mod grade;
+mod instrument;
 mod names;
 mod noise;
 mod random;
@@ -46,10 +50,11 @@ pub mod study;
 mod truth;
 mod world;
 
-pub use case::{Request, SealedCase, challenge, dwell, signatures};
+pub use case::{Bench, Request, SealedCase, challenge};
 pub use effect::{Concealed, Physics, Shape};
 pub use files::CaseFile;
 pub use further::{Further, Mount, Setting};
+pub use instrument::Instrument;
 pub use rig::Rig;
 pub use scenario::{Class, NoiseKnowledge, Scenario};
-pub use truth::{TrueEffect, Truth, seal};
+pub use truth::{Accepted, TrueEffect, Truth, seal};

@@ -3,9 +3,10 @@
 //! error, a resistor in its own heat is one as well.
 
 use super::effect::Physics;
+use super::truth::Accepted;
 
 /// Identifiers of the catalogue, each with the columns that it has to follow; none = any.
-pub(super) fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str])] {
+fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str])] {
     use Physics as P;
     match physics {
         P::SecondOrder => &[("quadratic", &[]), ("axis-quadratic", &[])],
@@ -45,16 +46,19 @@ pub(super) fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&
     }
 }
 
-/// Identifiers of the catalogue that can be right for a physics.
-pub(super) fn accepted_ids(physics: Physics) -> impl Iterator<Item = &'static str> {
-    accepted(physics).iter().map(|(id, _)| *id)
+/// Names that are right for a physics.
+pub(super) fn names(physics: Physics) -> Vec<Accepted> {
+    let one = |(id, along): &(&str, &[&str])| Accepted {
+        id: (*id).into(),
+        along: along.iter().map(|column| (*column).into()).collect(),
+    };
+    accepted(physics).iter().map(one).collect()
 }
 
 /// Whether two physics have a right name in common.
 pub(super) fn share_a_name(a: Physics, b: Physics) -> bool {
-    accepted(a)
-        .iter()
-        .any(|(id, _)| accepted(b).iter().any(|(other, _)| id == other))
+    let (a, b) = (names(a), names(b));
+    a.iter().any(|one| b.iter().any(|other| one.id == other.id))
 }
 
 #[cfg(test)]

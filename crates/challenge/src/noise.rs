@@ -75,6 +75,12 @@ impl NoiseLaw {
         self
     }
 
+    /// Root mean square of averages of `samples` samples each, at their mean times in seconds.
+    pub(super) fn rms(&self, times: &[f64], samples: f64) -> f64 {
+        let covariance = self.covariance(times, samples);
+        libm::sqrt(covariance.diagonal().mean())
+    }
+
     /// Covariance of averages of `samples` samples each, at their mean times in seconds.
     pub(super) fn covariance(&self, times: &[f64], samples: f64) -> DMatrix<f64> {
         DMatrix::from_fn(times.len(), times.len(), |i, j| {

@@ -28,6 +28,34 @@ pub enum Class {
     Hidden,
 }
 
+impl Class {
+    /// The classes that a study counts, with their words on the command line.
+    pub const COUNTED: [(Class, &'static str); 4] = [
+        (Class::Null, "null"),
+        (Class::Single, "single"),
+        (Class::Double, "double"),
+        (Class::Outside, "outside"),
+    ];
+
+    /// The word on the command line for the class that a study counts it with.
+    pub fn name(self) -> &'static str {
+        let is_it = |(class, _): &&(Class, &'static str)| *class == self.counted();
+        Class::COUNTED
+            .iter()
+            .find(is_it)
+            .map_or("", |(_, name)| name)
+    }
+
+    /// The class that a study counts it with: nothing, one effect, several, or what no catalogue names.
+    pub fn counted(self) -> Class {
+        match self {
+            Class::Triple | Class::Masked => Class::Double,
+            Class::Hidden => Class::Outside,
+            other => other,
+        }
+    }
+}
+
 /// A rig with what is concealed on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Scenario {
@@ -173,14 +201,56 @@ const RATE_TABLE: &[Row] = &[
     (Outside, &[P::MotorPickup]),
 ];
 
-/// How the noise is claimed in the case.
+/// How the noise is claimed in the case, and whether it is what a claim takes for granted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum NoiseKnowledge {
     /// As figures, which are true.
     Stated,
-    /// By a recording at rest, which also holds flicker.
+    /// As a standard deviation, which is true of every row, while the rows are correlated.
+    StatedCorrelated,
+    /// Not at all; rows are independent.
+    Estimated,
+    /// Not at all; rows are correlated.
+    EstimatedCorrelated,
+    /// By a recording at rest, which also holds flicker; for rigs.
     AtRest,
+}
+
+impl NoiseKnowledge {
+    /// All of them, with what is said of them in tables.
+    pub const ALL: [(NoiseKnowledge, &'static str); 5] = [
+        (NoiseKnowledge::Stated, "stated"),
+        (NoiseKnowledge::StatedCorrelated, "stated-correlated"),
+        (NoiseKnowledge::Estimated, "estimated"),
+        (NoiseKnowledge::EstimatedCorrelated, "estimated-correlated"),
+        (NoiseKnowledge::AtRest, "at-rest"),
+    ];
+
+    /// The word in files, tables and on the command line.
+    pub fn name(self) -> &'static str {
+        let is_it = |(one, _): &&(NoiseKnowledge, &'static str)| *one == self;
+        NoiseKnowledge::ALL
+            .iter()
+            .find(is_it)
+            .map_or("", |(_, name)| name)
+    }
+
+    /// Whether a standard deviation is stated.
+    pub(super) fn is_stated(self) -> bool {
+        matches!(
+            self,
+            NoiseKnowledge::Stated | NoiseKnowledge::StatedCorrelated
+        )
+    }
+
+    /// Whether rows are correlated though nothing says so.
+    pub(super) fn is_correlated(self) -> bool {
+        matches!(
+            self,
+            NoiseKnowledge::StatedCorrelated | NoiseKnowledge::EstimatedCorrelated
+        )
+    }
 }
 
 /// A drawn case: everything that its recordings follow from.
@@ -201,7 +271,7 @@ impl Drawn {
 }
 
 /// Strengths are drawn between these, evenly in the logarithm.
-const STRENGTHS: [f64; 2] = [2.0, 30.0];
+pub(super) const STRENGTHS: [f64; 2] = [2.0, 30.0];
 /// Largest size that still is a small error: fraction of full scale, or radians.
 const LARGEST: f64 = 0.02;
 
@@ -209,12 +279,14 @@ const LARGEST: f64 = 0.02;
 pub(super) fn draw(scenario: Scenario, knowledge: NoiseKnowledge, seed: u64) -> Drawn {
     let mut random = source(seed, Stream::Effect, 0);
     let rig = scenario.rig;
+    let white = rig.noise().white / libm::sqrt(rig.samples() as f64);
     let noise = match knowledge {
-        NoiseKnowledge::Stated => rig.noise().without_walk(),
-        NoiseKnowledge::AtRest => {
-            let white = rig.noise().white / libm::sqrt(rig.samples() as f64);
-            rig.noise().with_flicker(0.15 * white)
+        NoiseKnowledge::Stated | NoiseKnowledge::Estimated => rig.noise().without_walk(),
+        // As much variance in correlated parts as half of the white one.
+        NoiseKnowledge::StatedCorrelated | NoiseKnowledge::EstimatedCorrelated => {
+            rig.noise().without_walk().with_flicker(0.35 * white)
         }
+        NoiseKnowledge::AtRest => rig.noise().with_flicker(0.15 * white),
     };
     let setup = Setup { rig, seed, noise };
     let mut effects: Vec<(Concealed, f64)> = Vec::new();

@@ -7,9 +7,10 @@
 //! are twins of every other effect that can occur on the rig, at several time constants and moments,
 //! with free shares of the axes and free phase.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::effect::{Concealed, Member, Physics, Shape};
+use super::geometry::{Geometry, left, span};
 use super::schedule::Campaign;
 use super::simulate::{Readings, Setup, simulate};
 use super::world::Row;
@@ -18,10 +19,8 @@ use super::world::Row;
 pub(super) struct Visible<'a> {
     setup: &'a Setup,
     without: Vec<Row>,
-    /// Rows of inverse square root of the covariance, of one axis.
-    whitener: DMatrix<f64>,
-    /// Orthonormal columns that the declared parameters span, whitened.
-    absorbed: DMatrix<f64>,
+    /// Of one axis.
+    geometry: Geometry,
 }
 
 /// A rival, and how much of an effect it leaves.
@@ -38,28 +37,18 @@ impl<'a> Visible<'a> {
         let without = simulate(setup, Campaign::Calibration, &[], Readings::Ideal);
         let times: Vec<f64> = without.iter().map(|row| row.time).collect();
         let covariance = setup.noise.covariance(&times, setup.rig.samples() as f64);
-        let size = times.len();
-        // Positive definite, since the white part is on the diagonal.
-        let whitener = covariance
-            .cholesky()
-            .and_then(|factor| {
-                factor
-                    .l()
-                    .solve_lower_triangular(&DMatrix::identity(size, size))
-            })
-            .unwrap_or_else(|| DMatrix::identity(size, size));
         let terms: Vec<Vec<f64>> = without
             .iter()
             .map(|row| setup.rig.declared_terms(&row.pose))
             .collect();
         let columns = terms.first().map_or(0, Vec::len);
-        let declared = DMatrix::from_fn(size, columns, |i, j| terms[i][j]);
-        let absorbed = basis(&(&whitener * declared));
+        let tangent: Vec<DVector<f64>> = (0..columns)
+            .map(|j| DVector::from_fn(terms.len(), |i, _| terms[i][j]))
+            .collect();
         Visible {
             setup,
             without,
-            whitener,
-            absorbed,
+            geometry: Geometry::new(covariance, &tangent),
         }
     }
 
@@ -88,8 +77,8 @@ impl<'a> Visible<'a> {
         let rows = self.without.len();
         for axis in 0..self.setup.rig.axes() {
             let mut own = trace.rows_mut(axis * rows, rows);
-            let white = &self.whitener * &own;
-            own.copy_from(&(&white - &self.absorbed * self.absorbed.tr_mul(&white)));
+            let visible = self.geometry.visible(&own.clone_owned());
+            own.copy_from(&visible);
         }
         trace
     }
@@ -216,42 +205,6 @@ impl<'a> Visible<'a> {
                 column
             })
             .collect()
-    }
-}
-
-/// What is left of a trace outside a span.
-fn left(trace: &DVector<f64>, span: &DMatrix<f64>) -> DVector<f64> {
-    trace - span * span.tr_mul(trace)
-}
-
-/// Orthonormal basis of traces of a length.
-fn span(traces: &[DVector<f64>], length: usize) -> DMatrix<f64> {
-    if traces.is_empty() {
-        return DMatrix::zeros(length, 0);
-    }
-    basis(&DMatrix::from_columns(traces))
-}
-
-/// Orthonormal basis of the span of columns; columns that add nothing are left out.
-fn basis(columns: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut kept: Vec<DVector<f64>> = Vec::new();
-    for column in columns.column_iter() {
-        let mut rest = column.clone_owned();
-        // Twice, against cancellation.
-        for _ in 0..2 {
-            for direction in &kept {
-                rest -= direction * direction.dot(&rest);
-            }
-        }
-        let length = rest.norm();
-        if length > 1e-6 * column.norm() && length > 1e-9 {
-            kept.push(rest / length);
-        }
-    }
-    if kept.is_empty() {
-        DMatrix::zeros(columns.nrows(), 0)
-    } else {
-        DMatrix::from_columns(&kept)
     }
 }
 

@@ -6,13 +6,13 @@ use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::effect::{Concealed, Physics, Shape};
-use super::names::share_a_name;
+use super::effect::{Concealed, Physics};
+use super::files::outputs;
+use super::names::{names, share_a_name};
 use super::random::{Stream, source};
-use super::rig::Rig;
 use super::scenario::{Class, Drawn, NoiseKnowledge};
 use super::schedule::Campaign;
-use super::simulate::duration;
+use super::simulate::{Readings, duration, simulate};
 use super::strength::Visible;
 
 /// What `truth.json` holds.
@@ -26,12 +26,18 @@ pub struct Truth {
     pub seed: u64,
     /// The scenario by name.
     pub scenario: String,
-    /// The rig.
-    pub rig: Rig,
+    /// The rig or instrument.
+    pub bench: String,
     /// What kind of case it is.
     pub class: Class,
     /// How the noise is claimed.
     pub noise: NoiseKnowledge,
+    /// How it behaves.
+    pub noise_form: String,
+    /// Root mean square of the noise of a row of the fresh recording, for each equation, in units of the recording.
+    pub sigma: Vec<f64>,
+    /// Names of outputs that belong to an axis each; empty where there is one axis.
+    pub outputs: Vec<String>,
     /// What is concealed.
     pub effects: Vec<TrueEffect>,
     /// SHA-256 of the other files of the case.
@@ -39,21 +45,40 @@ pub struct Truth {
 }
 
 /// The format that this version writes.
-const FORMAT: &str = "gumption truth 1";
+pub(super) const FORMAT: &str = "gumption truth 2";
+
+/// A name of the catalogue that is right.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Accepted {
+    /// Identifier of the catalogue.
+    pub id: String,
+    /// Columns one of which it has to follow; none = any.
+    pub along: Vec<String>,
+}
+
+impl Accepted {
+    /// Whether a diagnosis that gives one of them can have given the other.
+    pub(super) fn meets(&self, other: &Accepted) -> bool {
+        let follows = || self.along.iter().any(|column| other.along.contains(column));
+        self.id == other.id && (self.along.is_empty() || other.along.is_empty() || follows())
+    }
+}
 
 /// One concealed effect.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct TrueEffect {
     /// What it is.
-    pub physics: Physics,
+    pub physics: String,
+    /// How it looks.
+    pub look: String,
     /// Its size: a fraction of full scale per unit of what it follows, or radians.
     pub size: f64,
-    /// Its coefficient in units of the recording, where that is one number and not a matter of form.
-    pub coefficient: Option<f64>,
-    /// How it looks.
-    pub shape: Shape,
     /// Whether a diagnosis can be expected to name it.
     pub nameable: bool,
+    /// Names that are right.
+    pub names: Vec<Accepted>,
+    /// Names of other effects that would have given the same recording.
+    pub aliases: Vec<Accepted>,
     /// Visible strength λ: length of what it adds, in standard deviations.
     pub lambda: f64,
     /// What is left of λ beside the other effects of the case.
@@ -61,18 +86,46 @@ pub struct TrueEffect {
     /// Separability κ: what is left of `lambda_beside` after the nearest rival.
     pub kappa: f64,
     /// The nearest rivals with what they leave.
-    pub rivals: Vec<(Physics, f64)>,
+    pub rivals: Vec<(String, f64)>,
     /// Axes of the sensor on which it acts, from 0; empty where it acts on the rig.
     pub axes: Vec<usize>,
     /// When it happened, hours since power-on, for what happens once.
     pub happened_h: Option<f64>,
 }
 
+/// A rival of an effect.
+pub(super) struct Known {
+    pub name: String,
+    /// Names that would be right for it.
+    pub names: Vec<Accepted>,
+    /// What it leaves of the effect.
+    pub left: f64,
+}
+
 /// How many rivals the truth lists.
 const LISTED: usize = 4;
+/// Rivals that leave less than this share of an effect are the same in this recording.
+const ALIAS: f64 = 0.05;
+
+impl TrueEffect {
+    /// With κ and what else would have given the same recording.
+    pub(super) fn beside(mut self, mut rivals: Vec<Known>) -> TrueEffect {
+        rivals.sort_by(|a, b| a.left.total_cmp(&b.left));
+        self.kappa = rivals
+            .first()
+            .map_or(self.lambda_beside, |rival| rival.left);
+        let same = rivals
+            .iter()
+            .filter(|rival| rival.left < ALIAS * self.lambda_beside);
+        self.aliases = same.flat_map(|rival| rival.names.clone()).collect();
+        let nearest = rivals.into_iter().take(LISTED);
+        self.rivals = nearest.map(|rival| (rival.name, rival.left)).collect();
+        self
+    }
+}
 
 impl Truth {
-    /// The truth of a drawn case, without its files.
+    /// The truth of a drawn case of a rig, without its files.
     pub(super) fn of(drawn: &Drawn, salt: &str) -> Truth {
         let visible = Visible::new(&drawn.setup);
         let all = drawn.concealed();
@@ -86,14 +139,22 @@ impl Truth {
                 true_effect(drawn, &visible, effect, *strength, &others)
             })
             .collect();
+        let rig = drawn.scenario.rig;
+        let fresh = simulate(&drawn.setup, Campaign::HeldOut, &[], Readings::Ideal);
+        let times: Vec<f64> = fresh.iter().map(|row| row.time).collect();
+        let sigma = drawn.setup.noise.rms(&times, rig.samples() as f64) * rig.sensitivity();
+        let outputs = outputs(rig).map(|(name, ..)| name.to_owned());
         Truth {
             format: FORMAT.into(),
             salt: salt.into(),
             seed: drawn.setup.seed,
             scenario: drawn.scenario.name(),
-            rig: drawn.scenario.rig,
+            bench: rig.name().into(),
             class: drawn.scenario.class,
             noise: drawn.knowledge,
+            noise_form: format!("{:?}", drawn.setup.noise),
+            sigma: vec![sigma; rig.axes()],
+            outputs: outputs.filter(|_| rig.axes() > 1).collect(),
             effects,
             files: BTreeMap::new(),
         }
@@ -118,11 +179,10 @@ fn true_effect(
         .iter()
         .map(|other| visible.trace(&[*other]))
         .collect();
-    let beside = visible.beside(&trace, &rest);
     let known: Vec<Physics> = others.iter().map(|other| other.physics).collect();
-    let mut rivals = visible.rivals(effect.physics, &trace, &rest);
     // What bears the same name is no rival.
-    rivals.retain(|rival| {
+    let rivals = visible.rivals(effect.physics, &trace, &rest).into_iter();
+    let rivals = rivals.filter(|rival| {
         !known.contains(&rival.physics) && !share_a_name(rival.physics, effect.physics)
     });
     let happened_h = (effect.physics == Physics::Knock).then(|| {
@@ -132,32 +192,37 @@ fn true_effect(
     let gains = &effect.shape.gains[..drawn.setup.rig.axes()];
     let axes = (0..gains.len()).filter(|axis| gains[*axis] != 0.0);
     TrueEffect {
-        physics: effect.physics,
+        physics: effect.physics.name(),
+        look: format!("{:?}", effect.shape),
         size: effect.size,
-        coefficient: coefficient(drawn.setup.rig, effect),
-        shape: effect.shape,
         nameable: effect.physics.nameable() && drawn.scenario.class != Class::Hidden,
+        names: if drawn.scenario.class == Class::Hidden {
+            vec![Accepted {
+                id: "unrecorded-temperature".into(),
+                along: Vec::new(),
+            }]
+        } else {
+            names(effect.physics)
+        },
         lambda: strength,
-        lambda_beside: beside,
-        kappa: rivals.first().map_or(beside, |rival| rival.left),
-        rivals: rivals
-            .iter()
-            .take(LISTED)
-            .map(|r| (r.physics, r.left))
-            .collect(),
+        lambda_beside: visible.beside(&trace, &rest),
         axes: if effect.physics.of_the_rig() {
             Vec::new()
         } else {
             axes.collect()
         },
         happened_h,
+        ..TrueEffect::default()
     }
-}
-
-/// Output per volt of a single sensor.
-fn coefficient(rig: Rig, effect: &Concealed) -> Option<f64> {
-    (effect.physics == Physics::Supply && rig.axes() == 1)
-        .then(|| effect.size * effect.shape.gains[0] * rig.full_scale() * rig.sensitivity())
+    .beside(
+        rivals
+            .map(|rival| Known {
+                name: rival.physics.name(),
+                names: names(rival.physics),
+                left: rival.left,
+            })
+            .collect(),
+    )
 }
 
 /// Salt from a seed and from the moment, so that the same seed gives the same case but not a truth

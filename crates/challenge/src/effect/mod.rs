@@ -76,8 +76,6 @@ pub(super) enum Member {
 /// What else there is to say of an effect.
 #[derive(PartialEq)]
 enum Remark {
-    /// It follows a condition that is recorded.
-    Conditions,
     /// It comes from the rig and reaches all axes alike.
     OfTheRig,
     /// The trade has no name for it.
@@ -124,8 +122,8 @@ physics! {
     Saturation: sensor, Table, Nothing;
     DeadBand: sensor, Table, Nothing;
     CoarseReadout: sensor, Every, Nothing;
-    TemperatureBias: thermal, Every, Pace, Conditions;
-    TemperatureScale: thermal, Every, Pace, Conditions;
+    TemperatureBias: thermal, Every, Pace;
+    TemperatureScale: thermal, Every, Pace;
     WarmUp: thermal, Every, Pace;
     LoadHeating: thermal, Head, Pace;
     Drift: thermal, Every, Pace;
@@ -139,8 +137,8 @@ physics! {
     Flexure: geometry, Head, Phase, OfTheRig;
     Wobble: geometry, Table, Phase, OfTheRig;
     RateRipple: geometry, Table, Phase, OfTheRig;
-    Supply: field, Every, Nothing, Conditions;
-    Vibration: field, Every, Nothing, Conditions;
+    Supply: field, Every, Nothing;
+    Vibration: field, Every, Nothing;
     Magnetic: field, Table, Phase;
     EarthRate: field, Table, Nothing, OfTheRig;
     GSensitivity: field, Table, Nothing;
@@ -265,11 +263,6 @@ impl Physics {
     /// The member of the shape that matters, beside the gains.
     pub(super) fn depends(self) -> Member {
         self.kind().depends
-    }
-
-    /// Whether it follows a condition that is recorded.
-    pub(super) fn follows_conditions(self) -> bool {
-        self.kind().remarks.contains(&Remark::Conditions)
     }
 
     /// Whether it comes from the rig and reaches all axes alike.

@@ -5,7 +5,7 @@ use serde::Deserialize;
 /// A diagnosis.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Answer {
-    /// `none`, `identified`, `ambiguous`, `partly`, `contested` or `unexplained`.
+    /// `none` or `agrees`, else something was noticed.
     pub verdict: String,
     /// Effects that were found.
     pub effects: Vec<AnsweredEffect>,
@@ -13,6 +13,32 @@ pub struct Answer {
     pub before: Option<Quality>,
     /// The model with the effects in it.
     pub after: Option<Quality>,
+    /// The prediction of the held-out recording.
+    #[serde(default)]
+    pub held_out: Option<HeldOut>,
+}
+
+impl Answer {
+    /// Whether it says that model and recording disagree.
+    pub fn has_noticed(&self) -> bool {
+        !matches!(self.verdict.as_str(), "none" | "agrees")
+    }
+}
+
+/// How well the held-out recording is predicted.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct HeldOut {
+    /// By the declared model.
+    pub before: Prediction,
+    /// With the effects.
+    pub after: Option<Prediction>,
+}
+
+/// A prediction against what was observed.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Prediction {
+    /// Root mean square of the errors of each output.
+    pub rms: Vec<f64>,
 }
 
 /// One effect that was found.
@@ -28,10 +54,14 @@ pub struct AnsweredEffect {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum State {
-    /// It has one name.
+    /// It has one name, and a departure from its shape would have been seen.
     Identified,
+    /// It has one name, and is too weak to show a departure from its shape.
+    #[serde(alias = "like")]
+    ActsLike,
     /// It has one of several names.
-    Ambiguous,
+    #[serde(alias = "ambiguous")]
+    OneOf,
     /// It has no name; names in the list are tentative.
     Unexplained,
 }
@@ -41,16 +71,9 @@ pub enum State {
 pub struct Name {
     /// Stable identifier of the catalogue.
     pub id: String,
-    /// Next of kin.
-    pub family: String,
-    /// What the effect changes.
-    #[serde(default)]
-    pub node: String,
     /// What it follows.
     #[serde(default)]
     pub along: String,
-    /// Posterior probability.
-    pub probability: f64,
     /// Variants with their shares, most probable first.
     #[serde(default)]
     pub variants: Vec<Variant>,

@@ -27,8 +27,10 @@ record! {
         verdict: &'a str,
         /// Every concealed effect.
         effects: Vec<EffectJson>,
-        /// Unique names for which there is nothing, with their posterior probabilities.
-        wrong_names: Vec<WrongNameJson<'a>>,
+        /// Identified names for which there is nothing.
+        wrong_names: &'a [String],
+        /// Names that it is said to act like, and for which there is nothing.
+        wrong_likes: &'a [String],
         /// Lists without anything that is there.
         wrong_lists: Vec<Vec<String>>,
         /// Something was found where nothing is concealed.
@@ -45,16 +47,12 @@ record! {
     EffectJson {
         /// The truth.
         truth: TruthJson,
-        /// What became of it: unique, listed, unexplained, missed.
+        /// What became of it: identified, acts-like, listed, unexplained, missed.
         finding: &'static str,
         /// Names in the list, where it is in one.
         listed: Option<usize>,
         /// A unique name was asserted although the recording cannot tell it from another.
         overclaimed: bool,
-        /// Posterior probability of the right name, where it was named.
-        probability: Option<Number>,
-        /// Estimate of the size less its true value, over the standard uncertainty.
-        deviation: Option<Number>,
         /// Points.
         points: Number,
     }
@@ -74,19 +72,11 @@ record! {
         /// Separability κ: what is left after the nearest rival.
         kappa: Number,
     }
-
-    /// A name for which there is nothing.
-    WrongNameJson<'a> {
-        /// Identifier of the catalogue.
-        id: &'a str,
-        /// Posterior probability.
-        probability: Number,
-    }
 }
 
 impl Machine for GradeJson<'_> {
     const KIND: &'static str = "grade";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
 }
 
 fn form(graded: &Graded) -> GradeJson<'_> {
@@ -94,14 +84,8 @@ fn form(graded: &Graded) -> GradeJson<'_> {
         scenario: &graded.scenario,
         verdict: &graded.verdict,
         effects: graded.effects.iter().map(effect_form).collect(),
-        wrong_names: graded
-            .wrong_names
-            .iter()
-            .map(|(id, probability)| WrongNameJson {
-                id,
-                probability: Number(*probability),
-            })
-            .collect(),
+        wrong_names: &graded.wrong_names,
+        wrong_likes: &graded.wrong_likes,
         wrong_lists: graded.wrong_lists.clone(),
         false_alarm: graded.false_alarm,
         prediction_points: Number(graded.prediction_points),
@@ -112,7 +96,8 @@ fn form(graded: &Graded) -> GradeJson<'_> {
 
 fn effect_form(effect: &GradedEffect) -> EffectJson {
     let (finding, listed) = match effect.finding {
-        Finding::Unique => ("unique", None),
+        Finding::Identified => ("identified", None),
+        Finding::ActsLike => ("acts-like", None),
         Finding::Listed(count) => ("listed", Some(count)),
         Finding::Unexplained => ("unexplained", None),
         Finding::Missed => ("missed", None),
@@ -122,15 +107,13 @@ fn effect_form(effect: &GradedEffect) -> EffectJson {
         finding,
         listed,
         overclaimed: effect.overclaimed,
-        probability: effect.probability.map(Number),
-        deviation: effect.deviation.map(Number),
         points: Number(effect.points),
     }
 }
 
 fn truth_form(truth: &TrueEffect) -> TruthJson {
     TruthJson {
-        physics: truth.physics.name(),
+        physics: truth.physics.clone(),
         size: Number(truth.size),
         nameable: truth.nameable,
         lambda: Number(truth.lambda),
@@ -152,10 +135,16 @@ fn blocks(graded: &Graded, language: Language) -> Vec<Block> {
         blocks.push(Block::Table(effects(graded, language)));
     }
     let mut sentences = Vec::new();
-    for (name, probability) in &graded.wrong_names {
+    for name in &graded.wrong_names {
         sentences.push(language.pick(
-            format!("wrong name {name} (posterior {probability:.3}): −1"),
-            format!("错误名称 {name}（后验概率 {probability:.3}）：−1"),
+            format!("wrong name {name}: −1"),
+            format!("错误名称 {name}：−1"),
+        ));
+    }
+    for name in &graded.wrong_likes {
+        sentences.push(language.pick(
+            format!("said to act like {name}, which is not there: −0.5"),
+            format!("称其表现如同 {name}，但并不存在：−0.5"),
         ));
     }
     for list in &graded.wrong_lists {
@@ -200,7 +189,7 @@ fn effects(graded: &Graded, language: Language) -> Table {
     ]);
     for effect in &graded.effects {
         table.push(vec![
-            Cell::from(effect.truth.physics.name()),
+            Cell::from(effect.truth.physics.clone()),
             Cell::from(format!("{:.1}", effect.truth.lambda_beside)),
             Cell::from(format!("{:.1}", effect.truth.kappa)),
             Cell::from(finding(effect, language)),
@@ -212,7 +201,10 @@ fn effects(graded: &Graded, language: Language) -> Table {
 
 fn finding(effect: &GradedEffect, language: Language) -> String {
     let finding = match effect.finding {
-        Finding::Unique => language.pick("named", "已唯一命名").to_owned(),
+        Finding::Identified => language.pick("named", "已唯一命名").to_owned(),
+        Finding::ActsLike => language
+            .pick("said to act like it", "称其表现如同此效应")
+            .to_owned(),
         Finding::Listed(count) => language.pick(
             format!("in a list of {count}"),
             format!("在 {count} 个名称的列表中"),

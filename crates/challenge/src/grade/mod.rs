@@ -16,10 +16,10 @@ mod vocabulary;
 
 use std::path::{Path, PathBuf};
 
-pub use answer::{Answer, AnsweredEffect, Name, Quality, State};
+pub use answer::{Answer, AnsweredEffect, HeldOut, Name, Prediction, Quality, State, Variant};
 pub use document::{document, grade_schema};
 pub use place::located;
-pub use score::{Finding, Graded, GradedEffect, grade, grade_names};
+pub use score::{Finding, Graded, GradedEffect, grade};
 pub use vocabulary::accepts;
 
 use super::files::{CASE, CaseFile};

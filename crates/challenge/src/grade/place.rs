@@ -1,34 +1,25 @@
 //! Whether a name comes with the right axis or the right moment.
 
 use super::answer::Name;
-use crate::rig::Rig;
 use crate::truth::TrueEffect;
 
 /// Part of a dwell by which a moment may be missed: a jump within one dwell shows in the next.
 const DWELLS: f64 = 1.5;
 
 /// Whether the most probable variant of a right name is said of the axis on which the effect acts, or of the
-/// moment at which it happened; nothing where it is said of all axes and of no moment. `dwell` is the mean
+/// moment at which it happened; nothing where it is said of all axes and of no moment. `outputs` belong to an axis
+/// each, `dwell` is the mean
 /// time from one reading to the next, in hours.
-pub fn located(rig: Rig, dwell: f64, truth: &TrueEffect, name: &Name) -> Option<bool> {
+pub fn located(outputs: &[String], dwell: f64, truth: &TrueEffect, name: &Name) -> Option<bool> {
     let label = &name.variants.first()?.label;
     let words = || label.split([',', ' ']).filter(|word| !word.is_empty());
-    let axis = words().find_map(|word| outputs(rig).iter().position(|output| *output == word));
+    let axis = words().find_map(|word| outputs.iter().position(|output| output == word));
     if let (Some(axis), false) = (axis, truth.axes.is_empty()) {
         return Some(truth.axes.contains(&axis));
     }
     let happened = truth.happened_h.filter(|_| name.id == "step")?;
     let moment = words().find_map(|word| word.parse::<f64>().ok())?;
     Some((moment - happened).abs() <= DWELLS * dwell)
-}
-
-/// Outputs that belong to an axis each.
-fn outputs(rig: Rig) -> &'static [&'static str] {
-    match rig {
-        Rig::Tumble | Rig::Remount => &[],
-        Rig::Triad => &["ax", "ay", "az"],
-        Rig::RateTable => &["wx", "wy", "wz"],
-    }
 }
 
 #[cfg(test)]
@@ -48,7 +39,7 @@ mod tests {
 
     fn name(id: &str, label: &str) -> Name {
         let variant = format!(r#"[{{"label":"{label}","share":1}}]"#);
-        let text = format!(r#"{{"id":"{id}","family":"","probability":1,"variants":{variant}}}"#);
+        let text = format!(r#"{{"id":"{id}","variants":{variant}}}"#);
         serde_json::from_str(&text).unwrap()
     }
 
@@ -58,7 +49,8 @@ mod tests {
             axes: vec![1],
             ..effect("triad+supply")
         };
-        let said = |label| located(Rig::Triad, 0.1, &truth, &name("sensitivity", label));
+        let axes = ["ax", "ay", "az"].map(String::from);
+        let said = |label| located(&axes, 0.1, &truth, &name("sensitivity", label));
         assert_eq!(said("ay"), Some(true));
         assert_eq!(said("ax, τ = 0.2 h"), Some(false));
         assert_eq!(said(""), None);
@@ -70,7 +62,7 @@ mod tests {
             happened_h: Some(1.25),
             ..effect("remount+knock")
         };
-        let said = |label| located(Rig::Remount, 0.1, &truth, &name("step", label));
+        let said = |label| located(&[], 0.1, &truth, &name("step", label));
         assert_eq!(said("at time = 1.3 h"), Some(true));
         assert_eq!(said("at time = 1.9 h"), Some(false));
     }

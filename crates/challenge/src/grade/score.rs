@@ -1,15 +1,19 @@
 //! What was found, missed and made up, and the points for it.
 
-use super::answer::{Answer, AnsweredEffect, Name, State};
-use super::vocabulary::accepts;
-use crate::effect::Physics;
+use serde::{Deserialize, Serialize};
+
+use super::answer::{Answer, AnsweredEffect, State};
+use super::vocabulary::{accepts, accepts_or_alias};
 use crate::truth::{TrueEffect, Truth};
 
 /// What became of a concealed effect.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Finding {
     /// Named, and nothing else.
-    Unique,
+    Identified,
+    /// Said to act like it, and nothing else.
+    ActsLike,
     /// In a list of so many names.
     Listed(usize),
     /// Reported as something without a name.
@@ -27,11 +31,6 @@ pub struct GradedEffect {
     pub finding: Finding,
     /// A unique name was asserted although the recording cannot tell it from another.
     pub overclaimed: bool,
-    /// Posterior probability of the right name, where it was named.
-    pub probability: Option<f64>,
-    /// Estimate of the size less its true value, over the standard uncertainty: where the effect has its
-    /// own name and the size is the same quantity in the simulator and in the catalogue.
-    pub deviation: Option<f64>,
     /// Points.
     pub points: f64,
 }
@@ -45,8 +44,10 @@ pub struct Graded {
     pub verdict: String,
     /// Every concealed effect.
     pub effects: Vec<GradedEffect>,
-    /// Unique names for which there is nothing, with their probabilities.
-    pub wrong_names: Vec<(String, f64)>,
+    /// Identified names for which there is nothing.
+    pub wrong_names: Vec<String>,
+    /// Names that it is said to act like, and for which there is nothing.
+    pub wrong_likes: Vec<String>,
     /// Lists without anything that is there.
     pub wrong_lists: Vec<Vec<String>>,
     /// Something was found where nothing is concealed.
@@ -63,8 +64,6 @@ pub struct Graded {
 pub const FAINT: f64 = 4.0;
 /// Lists among explanations closer than this are no fault.
 const INSEPARABLE: f64 = 4.0;
-/// Rivals that leave less than this share of an effect are the same in this recording.
-const ALIAS: f64 = 0.05;
 /// An effect without a name has to be noticed from this strength on, though it may have had one.
 const STRONG: f64 = 8.0;
 
@@ -82,22 +81,21 @@ pub fn grade(truth: &Truth, answer: &Answer) -> Graded {
         effect.named.iter().map(|name| name.id.clone()).collect()
     };
     let of_state = |state| {
-        left_over
-            .iter()
-            .map(|at| &answer.effects[*at])
-            .filter(move |e| e.state == state)
+        let all = left_over.iter().map(|at| &answer.effects[*at]);
+        all.filter(move |effect| effect.state == state).map(names)
     };
-    let wrong_names: Vec<(String, f64)> = of_state(State::Identified)
-        .filter_map(|effect| effect.named.first())
-        .map(|name| (name.id.clone(), name.probability))
-        .collect();
-    let wrong_lists: Vec<Vec<String>> = of_state(State::Ambiguous).map(names).collect();
-    let false_alarm = truth.effects.is_empty() && answer.verdict != "none";
+    let first = |state| of_state(state).filter_map(|names| names.into_iter().next());
+    let wrong_names: Vec<String> = first(State::Identified).collect();
+    let wrong_likes: Vec<String> = first(State::ActsLike).collect();
+    let wrong_lists: Vec<Vec<String>> = of_state(State::OneOf).collect();
+    let false_alarm = truth.effects.is_empty() && answer.has_noticed();
     let prediction_points = if gained(answer) { 0.25 } else { 0.0 };
     let faint = |effect: &&GradedEffect| {
         effect.truth.lambda_beside >= FAINT || effect.finding != Finding::Missed
     };
-    let penalty = wrong_names.len() as f64 + if false_alarm { 1.0 } else { 0.0 };
+    let penalty = wrong_names.len() as f64
+        + 0.5 * wrong_likes.len() as f64
+        + if false_alarm { 1.0 } else { 0.0 };
     let points =
         effects.iter().map(|effect| effect.points).sum::<f64>() + prediction_points - penalty;
     let expected = effects.iter().filter(faint).count() as f64;
@@ -107,6 +105,7 @@ pub fn grade(truth: &Truth, answer: &Answer) -> Graded {
         attainable: if expected > 0.0 { expected + 0.25 } else { 0.0 },
         effects,
         wrong_names,
+        wrong_likes,
         wrong_lists,
         false_alarm,
         prediction_points,
@@ -124,9 +123,8 @@ fn matched(truth: &Truth, answer: &Answer) -> (Vec<Option<usize>>, Vec<usize>) {
         }
         // The name that stands first decides, where it can.
         let fitting = effect.named.iter().find_map(|name| {
-            let fits = |(k, t): &(usize, &TrueEffect)| {
-                matches[*k].is_none() && t.nameable && names(t, name)
-            };
+            let fits =
+                |(k, t): &(usize, &TrueEffect)| matches[*k].is_none() && accepts_or_alias(t, name);
             truth.effects.iter().enumerate().find(fits).map(|(k, _)| k)
         });
         match fitting {
@@ -134,13 +132,8 @@ fn matched(truth: &Truth, answer: &Answer) -> (Vec<Option<usize>>, Vec<usize>) {
             None => {
                 // A second name for what has one already is no invention: two wrong readings make a
                 // swapped pair.
-                let again = |t: &TrueEffect| {
-                    t.nameable
-                        && effect
-                            .named
-                            .first()
-                            .is_some_and(|name| accepts(t.physics, name))
-                };
+                let again =
+                    |t: &TrueEffect| effect.named.first().is_some_and(|name| accepts(t, name));
                 if !truth.effects.iter().any(again) {
                     left_over.push(at);
                 }
@@ -162,60 +155,26 @@ fn open_remainder(answer: &Answer) -> bool {
 }
 
 fn graded(truth: &TrueEffect, found: Option<usize>, answer: &Answer, open: bool) -> GradedEffect {
-    let slot = found.map(|at| &answer.effects[at]);
-    let finding = match slot {
-        Some(effect) if effect.state == State::Identified => Finding::Unique,
+    let finding = match found.map(|at| &answer.effects[at]) {
+        Some(effect) if effect.state == State::Identified => Finding::Identified,
+        Some(effect) if effect.state == State::ActsLike => Finding::ActsLike,
         Some(effect) => Finding::Listed(effect.named.len()),
         None if open => Finding::Unexplained,
         None => Finding::Missed,
     };
-    let right = |effect: &AnsweredEffect| {
-        effect
-            .named
-            .iter()
-            .find(|name| names(truth, name))
-            .map(|name| name.probability)
-    };
-    let overclaimed = finding == Finding::Unique && aliases(truth).next().is_some();
+    let overclaimed = finding == Finding::Identified && !truth.aliases.is_empty();
     GradedEffect {
         points: points(truth, finding, overclaimed),
-        probability: slot.and_then(right),
-        deviation: slot
-            .filter(|effect| effect.state == State::Identified)
-            .and_then(|effect| deviation(truth, effect.named.first()?)),
         truth: truth.clone(),
         finding,
         overclaimed,
     }
 }
 
-fn deviation(truth: &TrueEffect, name: &Name) -> Option<f64> {
-    let (Some(size), Some(u), [_]) = ((*name.size.first()?), (*name.u.first()?), &name.size[..])
-    else {
-        return None;
-    };
-    Some((size - truth.coefficient?) / u)
-}
-
-/// Whether a name is right for an effect, or for another that gives the same recording: which of the
-/// two it was, nobody can know.
-fn names(truth: &TrueEffect, name: &Name) -> bool {
-    accepts(truth.physics, name) || aliases(truth).any(|alias| accepts(alias, name))
-}
-
-/// Physics that would have given the same recording, under other names.
-fn aliases(truth: &TrueEffect) -> impl Iterator<Item = Physics> + '_ {
-    truth
-        .rivals
-        .iter()
-        .filter(|(rival, left)| rival.nameable() && *left < ALIAS * truth.lambda_beside)
-        .map(|(rival, _)| *rival)
-}
-
 fn points(truth: &TrueEffect, finding: Finding, overclaimed: bool) -> f64 {
     match finding {
-        Finding::Unique if overclaimed => -0.5,
-        Finding::Unique => 1.0,
+        Finding::Identified if overclaimed => -0.5,
+        Finding::Identified | Finding::ActsLike => 1.0,
         Finding::Listed(_) if truth.kappa < INSEPARABLE => 1.0,
         Finding::Listed(count) => (1.1 - 0.1 * count as f64).max(0.0),
         Finding::Unexplained if !truth.nameable => 1.0,
@@ -235,28 +194,10 @@ fn gained(answer: &Answer) -> bool {
     }
 }
 
-/// What names without lists, probabilities or remainder are worth: `none`, `right` if every effect has its
-/// name and there is no other, `wrong` if a name is there for nothing, else `part`.
-pub fn grade_names(truth: &Truth, given: &[Name]) -> &'static str {
-    if given.is_empty() {
-        return "none";
-    }
-    let right = |name: &Name| truth.effects.iter().any(|t| t.nameable && names(t, name));
-    if !given.iter().all(right) {
-        return "wrong";
-    }
-    let found = |t: &TrueEffect| given.iter().any(|name| names(t, name));
-    if truth.effects.iter().all(found) {
-        "right"
-    } else {
-        "part"
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Class, NoiseKnowledge, Physics, Request, Scenario, challenge};
+    use crate::{Accepted, Class, NoiseKnowledge, Request, Scenario, challenge};
 
     fn truth(name: &str) -> Truth {
         let scenario = Scenario::all().into_iter().find(|s| s.name() == name);
@@ -270,19 +211,16 @@ mod tests {
     }
 
     fn answer(verdict: &str, effects: &[(&str, &[(&str, &str)])]) -> Answer {
-        let effects: Vec<String> =
-            effects
-                .iter()
-                .map(|(state, names)| {
-                    let names: Vec<String> = names
+        let effects: Vec<String> = effects
+            .iter()
+            .map(|(state, names)| {
+                let names: Vec<String> = names
                     .iter()
-                    .map(|(id, along)| format!(
-                        r#"{{"id":"{id}","family":"f","along":"{along}","probability":0.9}}"#
-                    ))
+                    .map(|(id, along)| format!(r#"{{"id":"{id}","along":"{along}"}}"#))
                     .collect();
-                    format!(r#"{{"state":"{state}","named":[{}]}}"#, names.join(","))
-                })
-                .collect();
+                format!(r#"{{"state":"{state}","named":[{}]}}"#, names.join(","))
+            })
+            .collect();
         let text = format!(
             r#"{{"verdict":"{verdict}","effects":[{}],"before":null,"after":null}}"#,
             effects.join(",")
@@ -300,7 +238,7 @@ mod tests {
                 &[("identified", &[("sensitivity", "supply")])],
             ),
         );
-        assert_eq!(right.effects[0].finding, Finding::Unique);
+        assert_eq!(right.effects[0].finding, Finding::Identified);
         assert_eq!(right.points, 1.0);
         let wrong = grade(
             &truth,
@@ -316,7 +254,10 @@ mod tests {
     #[test]
     fn one_of_two_names_for_the_same_recording_is_an_overclaim() {
         let mut truth = truth("tumble+second-order");
-        truth.effects[0].rivals = vec![(Physics::CrossSquare, 0.0)];
+        truth.effects[0].aliases = vec![Accepted {
+            id: "cross-square".into(),
+            along: Vec::new(),
+        }];
         let unique = grade(
             &truth,
             &answer("identified", &[("identified", &[("quadratic", "head")])]),
@@ -324,7 +265,7 @@ mod tests {
         assert!(unique.effects[0].overclaimed);
         let both: &[(&str, &str)] = &[("quadratic", "head"), ("cross-square", "head")];
         truth.effects[0].kappa = 0.0;
-        let listed = grade(&truth, &answer("ambiguous", &[("ambiguous", both)]));
+        let listed = grade(&truth, &answer("one-of", &[("one-of", both)]));
         assert_eq!(
             (listed.effects[0].finding, listed.points),
             (Finding::Listed(2), 1.0)

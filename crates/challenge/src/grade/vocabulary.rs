@@ -1,15 +1,26 @@
-//! Whether a name that a diagnosis gives is right for a physics.
+//! Whether a name that a diagnosis gives is right for an effect.
 
 use super::answer::{Name, Variant};
-use crate::effect::Physics;
-use crate::names::accepted;
+use crate::truth::{Accepted, TrueEffect};
 
-/// Whether a name is right for a physics.
-pub fn accepts(physics: Physics, name: &Name) -> bool {
-    accepted(physics).iter().any(|(id, along)| {
-        (name.id == *id || holds(name, id))
-            && (along.is_empty() || along.iter().any(|column| mentions(&name.along, column)))
-    })
+/// Whether a name is right for an effect.
+pub fn accepts(truth: &TrueEffect, name: &Name) -> bool {
+    truth.names.iter().any(|accepted| is(name, accepted))
+}
+
+/// Whether a name is right for an effect, or for another that gives the same recording: which of the two it was, nobody
+/// can know.
+pub(super) fn accepts_or_alias(truth: &TrueEffect, name: &Name) -> bool {
+    accepts(truth, name) || truth.aliases.iter().any(|alias| is(name, alias))
+}
+
+fn is(name: &Name, accepted: &Accepted) -> bool {
+    (name.id == accepted.id || holds(name, &accepted.id))
+        && (accepted.along.is_empty()
+            || accepted
+                .along
+                .iter()
+                .any(|column| mentions(&name.along, column)))
 }
 
 /// Whether a name leaves open that it is an effect in another order.
@@ -32,15 +43,22 @@ mod tests {
     use super::*;
 
     fn name(id: &str, along: &str) -> Name {
-        let text = format!(r#"{{"id":"{id}","family":"","along":"{along}","probability":1}}"#);
+        let text = format!(r#"{{"id":"{id}","along":"{along}"}}"#);
         serde_json::from_str(&text).unwrap()
     }
 
     #[test]
     fn the_column_matters_where_it_makes_the_physics() {
-        assert!(accepts(Physics::Supply, &name("sensitivity", "supply")));
-        assert!(!accepts(Physics::Supply, &name("sensitivity", "humidity")));
-        assert!(accepts(Physics::ThirdOrder, &name("cubic", "head")));
-        assert!(!accepts(Physics::LocalRub, &name("cubic", "head")));
+        let accepted = Accepted {
+            id: "sensitivity".into(),
+            along: vec!["supply".into()],
+        };
+        let truth = TrueEffect {
+            names: vec![accepted],
+            ..TrueEffect::default()
+        };
+        assert!(accepts(&truth, &name("sensitivity", "supply")));
+        assert!(!accepts(&truth, &name("sensitivity", "humidity")));
+        assert!(!accepts(&TrueEffect::default(), &name("cubic", "head")));
     }
 }

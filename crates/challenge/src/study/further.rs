@@ -1,13 +1,12 @@
 //! The further measurement that a diagnosis recommends for a list of names, made by the simulator, and what
 //! the longer recording says.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::trial::Trial;
 use crate::further::Further;
 use crate::grade::{self, Answer, Finding, Graded, GradedEffect};
 use crate::rig::Rig;
-use crate::truth::Truth;
 
 /// Promises from here on are held to.
 pub const PROMISED: f64 = 0.95;
@@ -63,7 +62,8 @@ impl Measure {
 }
 
 /// What became of a list for which a further measurement was asked.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Sequel {
     /// All names of the list say the same of every measurement.
     Same,
@@ -72,11 +72,12 @@ pub enum Sequel {
     /// Only such as the simulator cannot make.
     Impossible,
     /// A measurement was made.
-    Made(Further, Decision),
+    Made(String, Decision),
 }
 
 /// What a longer recording says of a list.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Decision {
     /// The right name, alone.
     Resolved,
@@ -91,7 +92,7 @@ pub enum Decision {
 }
 
 /// A further measurement to make, or why there is none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Request {
     /// Not asked: no list, or of a faint effect.
     None,
@@ -103,19 +104,15 @@ pub enum Request {
 
 /// Which further measurement a graded answer calls for: one effect of λ ≥ 8, whole, its right name in a list.
 /// It is the best of those that promise to decide and that the simulator can make.
-pub fn request(
-    trial: &Trial,
-    truth: &Truth,
-    graded: &Graded,
-    answer: &Answer,
-    advice: &Advice,
-) -> Request {
+pub fn request(trial: &Trial, graded: &Graded, answer: &Answer, advice: &Advice) -> Request {
     let [effect] = graded.effects.as_slice() else {
         return Request::None;
     };
-    let asked = trial.is_single()
-        && effect.truth.lambda_beside >= STRONG
-        && matches!(effect.finding, Finding::Listed(_));
+    let Some(rig) = trial.bench.rig().filter(|_| trial.is_single()) else {
+        return Request::None;
+    };
+    let asked =
+        effect.truth.lambda_beside >= STRONG && matches!(effect.finding, Finding::Listed(_));
     if !asked {
         return Request::None;
     }
@@ -128,7 +125,7 @@ pub fn request(
     let promising: Vec<&Measurement> = (list.measurements.iter())
         .filter(|one| one.resolved.is_some_and(|p| p >= PROMISED))
         .collect();
-    let possible = promising.iter().find_map(|one| one.measure.on(truth.rig));
+    let possible = promising.iter().find_map(|one| one.measure.on(rig));
     match possible {
         Some(further) => Request::Make(further),
         None if promising.is_empty() => Request::InVain(Sequel::Unpromised),
@@ -141,7 +138,7 @@ pub fn decision(graded: &Graded, answer: &Answer, advice: &Advice) -> Decision {
     let Some(effect) = graded.effects.first() else {
         return Decision::Unnamed;
     };
-    if !graded.wrong_names.is_empty() {
+    if !(graded.wrong_names.is_empty() && graded.wrong_likes.is_empty()) {
         return Decision::Wrong;
     }
     let same = || {
@@ -149,7 +146,7 @@ pub fn decision(graded: &Graded, answer: &Answer, advice: &Advice) -> Decision {
         list.is_some_and(|list| list.is_one_class(answer))
     };
     match effect.finding {
-        Finding::Unique => Decision::Resolved,
+        Finding::Identified | Finding::ActsLike => Decision::Resolved,
         Finding::Listed(_) if same() => Decision::Class,
         Finding::Listed(_) => Decision::Listed,
         Finding::Unexplained | Finding::Missed => Decision::Unnamed,
@@ -165,7 +162,7 @@ impl Advice {
                 .get(list.effect)
                 .into_iter()
                 .flat_map(|e| &e.named);
-            names.any(|name| grade::accepts(effect.truth.physics, name))
+            names.any(|name| grade::accepts(&effect.truth, name))
         };
         self.separating.iter().find(right)
     }
@@ -176,56 +173,6 @@ impl ForEffect {
     fn is_one_class(&self, answer: &Answer) -> bool {
         let listed = answer.effects.get(self.effect).map_or(0, |e| e.named.len());
         listed == self.classes.len() && self.classes.iter().all(|class| *class == 0)
-    }
-}
-
-impl Decision {
-    pub(super) const ALL: [(Decision, &'static str); 5] = [
-        (Decision::Resolved, "resolved"),
-        (Decision::Class, "class"),
-        (Decision::Listed, "list"),
-        (Decision::Wrong, "wrong"),
-        (Decision::Unnamed, "unnamed"),
-    ];
-}
-
-impl Sequel {
-    /// What the measurement that was made decided.
-    pub(super) fn decision(self) -> Option<Decision> {
-        match self {
-            Sequel::Made(_, decision) => Some(decision),
-            Sequel::Same | Sequel::Unpromised | Sequel::Impossible => None,
-        }
-    }
-
-    /// The word in the file: `mount=90:resolved`, `unpromised`, `impossible`.
-    pub(super) fn word(self) -> String {
-        match self {
-            Sequel::Same => "same".into(),
-            Sequel::Unpromised => "unpromised".into(),
-            Sequel::Impossible => "impossible".into(),
-            Sequel::Made(further, decision) => {
-                let all = Decision::ALL.iter();
-                let word = all
-                    .filter(|(one, _)| *one == decision)
-                    .map(|(_, word)| *word);
-                format!("{further}:{}", word.collect::<String>())
-            }
-        }
-    }
-
-    /// The sequel of a word; nothing for one that is none.
-    pub(super) fn of_word(word: &str) -> Option<Sequel> {
-        match word {
-            "same" => Some(Sequel::Same),
-            "unpromised" => Some(Sequel::Unpromised),
-            "impossible" => Some(Sequel::Impossible),
-            _ => {
-                let (further, decision) = word.split_once(':')?;
-                let found = Decision::ALL.iter().find(|(_, word)| *word == decision)?;
-                Some(Sequel::Made(further.parse().ok()?, found.0))
-            }
-        }
     }
 }
 
@@ -254,18 +201,5 @@ mod tests {
         );
         let mount = &advice.separating[0].measurements[2].measure;
         assert_eq!(mount.on(Rig::RateTable), None);
-    }
-
-    #[test]
-    fn words_of_sequels_are_read_as_they_are_written() {
-        for word in [
-            "unpromised",
-            "impossible",
-            "mount=90:resolved",
-            "head between:list",
-        ] {
-            assert_eq!(Sequel::of_word(word).unwrap().word(), word);
-        }
-        assert_eq!(Sequel::of_word("-"), None);
     }
 }

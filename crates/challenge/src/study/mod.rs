@@ -5,23 +5,22 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `trial` | which cases are made, and one of them run |
-//! | `record` | what is kept of a run, as a line of CSV |
+//! | `record` | what is kept of a run |
 //! | `further` | the measurement that a diagnosis recommends for a list, made and diagnosed |
-//! | `sequels` | the table of these measurements |
 //! | `rate` | how often something happened, with its Clopper–Pearson interval |
+//! | `measures` | what is measured, each with its definition and its floor |
 //! | `report` | the tables |
-//! | `bars` | the first of them: what has to hold, and whether it does |
 
-mod bars;
 mod further;
+mod measures;
 mod rate;
 mod record;
 mod report;
-mod sequels;
 mod trial;
 
 pub use further::{Advice, Decision, PROMISED, Request, Sequel, decision, request};
+pub use measures::measures;
 pub use rate::Rate;
 pub use record::{Outcome, Record, Twin, read, write};
 pub use report::report;
-pub use trial::{Ablation, EACH, FIRST_SEED, NULLS, Trial, trials};
+pub use trial::{Ablation, CASES, FIRST_SEED, Trial, trials};

@@ -1,16 +1,17 @@
 //! Which cases are made, and what is done to them where a proof is meant to fail.
 
-use std::path::Path;
+use gumption_lab::diagnose::catalogue::effects;
+use serde::{Deserialize, Serialize};
 
-use nalgebra::DVector;
-
-use crate::case::{Request, SealedCase, challenge, dwell, signatures};
+use crate::case::{Bench, Request, SealedCase, challenge};
 use crate::files::{CASE, CaseFile, RECORDING};
 use crate::further::Further;
-use crate::scenario::{Class, NoiseKnowledge, Scenario};
+use crate::scenario::{Class, NoiseKnowledge};
+use crate::truth::Truth;
 
 /// What is done to a case before it is diagnosed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Ablation {
     /// Nothing.
     Whole,
@@ -20,35 +21,15 @@ pub enum Ablation {
     ForeignConditions,
 }
 
-impl Ablation {
-    /// The word in tables and files.
-    pub fn word(self) -> &'static str {
-        match self {
-            Ablation::Whole => "whole",
-            Ablation::WithoutTruth => "without-truth",
-            Ablation::ForeignConditions => "foreign-conditions",
-        }
-    }
-
-    /// The ablation of a word.
-    pub fn of_word(word: &str) -> Option<Ablation> {
-        [
-            Ablation::Whole,
-            Ablation::WithoutTruth,
-            Ablation::ForeignConditions,
-        ]
-        .into_iter()
-        .find(|ablation| ablation.word() == word)
-    }
-}
-
 /// A case to run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trial {
     /// Seed of the case.
     pub seed: u64,
+    /// Where it is measured.
+    pub bench: Bench,
     /// What is concealed.
-    pub scenario: Scenario,
+    pub class: Class,
     /// How the noise is claimed.
     pub noise: NoiseKnowledge,
     /// What is done to it.
@@ -57,95 +38,75 @@ pub struct Trial {
 
 /// The seeds of the study begin here. A batch of seeds is used once: whoever changes the diagnosis after
 /// having looked at its results moves on to seeds that nobody has seen.
-pub const FIRST_SEED: u64 = 89_000_000;
+pub const FIRST_SEED: u64 = 230_000_000;
 
-/// How many cases of every scenario the study has: enough for intervals that decide.
-pub const EACH: usize = 15;
+/// How many cases the study has: enough for intervals that decide.
+pub const CASES: usize = 4000;
 
-/// How many cases of the study conceal nothing.
-pub const NULLS: usize = 1000;
-
-/// All trials of a study: every scenario `each` times, half with stated noise and half with noise from
-/// a recording at rest; `nulls` cases without any effect; and the ablations, `each` / 3 of every single
-/// effect. A trial does not depend on how many there are.
-pub fn trials(first_seed: u64, each: usize, nulls: usize) -> Vec<Trial> {
-    let all = Scenario::all();
+/// The first cases of a study, of which any number is a sample of the whole: in every five one conceals nothing, one
+/// something that no catalogue names, one two effects; rigs, instruments and ways to know the noise take turns.
+/// Ablations follow their case: the true name is taken out of every other case with one effect, and where that effect
+/// follows a condition the conditions are exchanged.
+pub fn trials(first_seed: u64, cases: usize) -> Vec<Trial> {
+    const CLASSES: [Class; 5] = [
+        Class::Null,
+        Class::Outside,
+        Class::Double,
+        Class::Single,
+        Class::Single,
+    ];
+    let benches = Bench::all();
     let mut trials = Vec::new();
-    for (number, scenario) in all.iter().enumerate() {
-        if scenario.class == Class::Null {
-            continue;
-        }
-        for k in 0..each {
-            let whole = trial(first_seed, number, k, *scenario, Ablation::Whole);
-            trials.push(whole);
-            let covariates = scenario.class == Class::Single
-                && scenario
-                    .effects
-                    .iter()
-                    .any(|effect| effect.follows_conditions());
-            if scenario.class == Class::Single && k < each.div_ceil(3) {
-                trials.push(Trial {
-                    ablation: Ablation::WithoutTruth,
-                    ..whole
-                });
-            }
-            if covariates {
-                trials.push(Trial {
-                    ablation: Ablation::ForeignConditions,
-                    ..whole
-                });
-            }
-        }
-    }
-    let quiet: Vec<(usize, Scenario)> = all
-        .iter()
-        .enumerate()
-        .filter(|(_, scenario)| scenario.class == Class::Null)
-        .map(|(number, scenario)| (number, *scenario))
-        .collect();
-    for k in 0..nulls {
-        let (number, scenario) = quiet[turn(k, quiet.len())];
-        trials.push(trial(first_seed, number, k, scenario, Ablation::Whole));
+    for number in 0..cases {
+        let turn = number / CLASSES.len();
+        let bench = benches[turn % benches.len()];
+        // At rest only rigs are recorded; that is the last way.
+        let ways = NoiseKnowledge::ALL.len() - usize::from(bench.rig().is_none());
+        let way = turn / benches.len() + number % CLASSES.len() + turn % benches.len();
+        let whole = Trial {
+            seed: first_seed + number as u64,
+            bench,
+            class: CLASSES[number % CLASSES.len()],
+            noise: NoiseKnowledge::ALL[way % ways].0,
+            ablation: Ablation::Whole,
+        };
+        trials.push(whole);
+        let ablation = match number % CLASSES.len() {
+            3 => Ablation::WithoutTruth,
+            4 => Ablation::ForeignConditions,
+            _ => continue,
+        };
+        trials.push(Trial { ablation, ..whole });
     }
     trials
 }
 
-/// Which rig has its turn: the last one, whose cases take ten times as long, only every tenth time.
-fn turn(k: usize, rigs: usize) -> usize {
-    if k % 10 == 9 {
-        rigs - 1
-    } else {
-        k % 10 % (rigs - 1).max(1)
-    }
-}
-
-fn trial(first: u64, number: usize, k: usize, scenario: Scenario, ablation: Ablation) -> Trial {
-    let noise = if (number + k / 10 + k).is_multiple_of(2) {
-        NoiseKnowledge::Stated
-    } else {
-        NoiseKnowledge::AtRest
-    };
-    Trial {
-        seed: first + 10_000 * number as u64 + k as u64,
-        scenario,
-        noise,
-        ablation,
-    }
-}
-
 impl Trial {
-    /// The case, as it is handed to the diagnosis.
-    pub fn case(&self) -> SealedCase {
+    /// The case, as it is handed to the diagnosis; nothing where the ablation would not touch what is concealed.
+    pub fn case(&self) -> Option<SealedCase> {
         let request = self.request();
         let mut case = challenge(&request);
-        if self.ablation == Ablation::ForeignConditions {
-            let other = challenge(&Request {
-                seed: self.seed ^ 0x5eed,
-                ..request
-            });
-            exchange(&mut case.files, &other.files);
+        match self.ablation {
+            Ablation::Whole => {}
+            Ablation::WithoutTruth => {
+                let excluded = without(&case.truth);
+                let file = case.files.iter_mut().find(|file| file.name == CASE)?;
+                file.text += &excluded;
+            }
+            Ablation::ForeignConditions => {
+                let names = || case.truth.effects.iter().flat_map(|effect| &effect.names);
+                let follows = |column: &String| CONDITIONS.contains(&column.as_str());
+                if !names().any(|name| name.along.iter().any(follows)) {
+                    return None;
+                }
+                let other = challenge(&Request {
+                    seed: self.seed ^ 0x5eed,
+                    ..request
+                });
+                exchange(&mut case.files, &other.files);
+            }
         }
-        case
+        Some(case)
     }
 
     /// The case with a further measurement behind its calibration.
@@ -158,56 +119,43 @@ impl Trial {
 
     /// Whether one effect is concealed and nothing was done to the case.
     pub fn is_single(&self) -> bool {
-        self.scenario.class == Class::Single && self.ablation == Ablation::Whole
+        self.class == Class::Single && self.ablation == Ablation::Whole
     }
 
-    /// What each concealed effect adds to the recording, see [`signatures`].
-    pub fn signatures(&self) -> Vec<DVector<f64>> {
-        signatures(&self.request())
-    }
-
-    /// Mean time between readings, see [`dwell`].
-    pub fn dwell(&self) -> f64 {
-        dwell(&self.request())
+    /// How `gumption challenge` makes the case again.
+    pub fn command(&self) -> String {
+        command(self.seed, self.bench.name(), self.class, self.noise)
     }
 
     fn request(&self) -> Request {
         Request {
             seed: self.seed,
-            scenario: Some(self.scenario),
+            bench: Some(self.bench),
+            class: Some(self.class),
             noise: Some(self.noise),
             ..Request::default()
         }
     }
+}
 
-    /// Writes the case into a folder.
-    ///
-    /// # Errors
-    /// When a file cannot be written.
-    pub fn write(&self, case: &SealedCase, folder: &Path) -> std::io::Result<()> {
-        std::fs::create_dir_all(folder)?;
-        for file in &case.files {
-            let mut text = file.text.clone();
-            if file.name == CASE && self.ablation == Ablation::WithoutTruth {
-                text += &without(&self.scenario);
-            }
-            std::fs::write(folder.join(file.name), text)?;
-        }
-        Ok(())
-    }
+/// How `gumption challenge` makes a case of a study again.
+pub(super) fn command(seed: u64, bench: &str, class: Class, noise: NoiseKnowledge) -> String {
+    let noise = noise.name();
+    format!(
+        "--rig {bench} --class {} --noise {noise} --seed {seed}",
+        class.name()
+    )
 }
 
 /// The part of a case file that takes the right names away.
-fn without(scenario: &Scenario) -> String {
-    let mut names: Vec<String> = scenario
-        .effects
-        .iter()
-        .flat_map(|effect| crate::names::accepted_ids(*effect))
-        .map(|id| format!("\"{id}\""))
-        .collect();
-    names.sort();
+fn without(truth: &Truth) -> String {
+    let names = truth.effects.iter().flat_map(|effect| &effect.names);
+    // What the catalogue does not have yet cannot be taken out of it.
+    let known = |id: &&str| effects().iter().any(|effect| effect.id.as_str() == *id);
+    let mut names: Vec<&str> = names.map(|name| name.id.as_str()).filter(known).collect();
+    names.sort_unstable();
     names.dedup();
-    format!("\n[diagnosis]\nexclude = [{}]\n", names.join(", "))
+    format!("\n[diagnosis]\nexclude = {names:?}\n")
 }
 
 /// Conditions that an ablation exchanges.
@@ -224,27 +172,28 @@ fn exchange(files: &mut [CaseFile], other: &[CaseFile]) {
     let (Some(own), Some(foreign)) = (text(files), text(other)) else {
         return;
     };
-    let mut lines = Vec::new();
-    let heads: Vec<&str> = own.lines().next().unwrap_or_default().split(',').collect();
-    let foreign_heads: Vec<&str> = foreign
-        .lines()
-        .next()
-        .unwrap_or_default()
-        .split(',')
-        .collect();
-    let condition = |head: &str| CONDITIONS.iter().any(|name| head.starts_with(name));
-    for (row, (mine, theirs)) in own.lines().zip(foreign.lines()).enumerate() {
-        if row == 0 {
-            lines.push(mine.to_string());
-            continue;
-        }
-        let theirs: Vec<&str> = theirs.split(',').collect();
-        let fields = heads.iter().zip(mine.split(',')).map(|(head, field)| {
+    let split = |line: &'_ str| -> Vec<String> { line.split(',').map(str::to_owned).collect() };
+    let (own, foreign): (Vec<_>, Vec<_>) = (
+        own.lines().map(split).collect(),
+        foreign.lines().map(split).collect(),
+    );
+    let [(heads, rows), (foreign_heads, others)] = [&own, &foreign].map(|lines| {
+        lines
+            .split_first()
+            .map_or((&[][..], &[][..]), |(h, r)| (&h[..], r))
+    });
+    if others.is_empty() {
+        return;
+    }
+    let mut lines = vec![heads.join(",")];
+    for (row, mine) in rows.iter().enumerate() {
+        // Where the other recording has another length, it is taken as a whole.
+        let theirs = &others[row * others.len() / rows.len()];
+        let fields = heads.iter().zip(mine).map(|(head, field)| {
+            let is_condition = CONDITIONS.iter().any(|name| head.starts_with(name));
             let at = foreign_heads.iter().position(|other| other == head);
-            at.filter(|_| condition(head))
-                .and_then(|at| theirs.get(at))
-                .unwrap_or(&field)
-                .to_string()
+            let foreign = at.filter(|_| is_condition).and_then(|at| theirs.get(at));
+            foreign.unwrap_or(field).as_str()
         });
         lines.push(fields.collect::<Vec<_>>().join(","));
     }
@@ -260,53 +209,57 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_study_is_as_large_as_it_should_be_and_no_case_comes_twice() {
-        let trials = trials(FIRST_SEED, EACH, NULLS);
+    fn a_study_has_the_classes_and_benches_that_it_should_have() {
+        let trials = trials(FIRST_SEED, 1000);
         let whole: Vec<&Trial> = trials
             .iter()
             .filter(|t| t.ablation == Ablation::Whole)
             .collect();
         let seeds: BTreeSet<u64> = whole.iter().map(|t| t.seed).collect();
-        assert_eq!(seeds.len(), whole.len());
-        let nulls = whole
-            .iter()
-            .filter(|t| t.scenario.class == Class::Null)
-            .count();
-        assert!(nulls >= 1000 && whole.len() - nulls >= 600);
-        let outside = whole
-            .iter()
-            .filter(|t| t.scenario.class == Class::Outside)
-            .count();
-        assert!(outside > 60);
+        assert_eq!(seeds.len(), 1000);
+        for class in [Class::Null, Class::Outside, Class::Double] {
+            let of_class = whole.iter().filter(|t| t.class == class);
+            assert_eq!(of_class.count(), 200, "{class:?}");
+        }
+        let benches: BTreeSet<&str> = whole.iter().map(|t| t.bench.name()).collect();
+        assert!(benches.len() >= 4 + 8);
+        for (noise, name) in NoiseKnowledge::ALL {
+            let nulls = whole
+                .iter()
+                .filter(|t| t.class == Class::Null && t.noise == noise);
+            assert!(nulls.count() >= 5, "{name}");
+        }
     }
 
     #[test]
     fn foreign_conditions_leave_the_outputs() {
-        let scenario = Scenario::all()
-            .into_iter()
-            .find(|s| s.name() == "remount+supply")
-            .unwrap();
-        let whole = trial(FIRST_SEED, 3, 1, scenario, Ablation::Whole);
-        let foreign = Trial {
-            ablation: Ablation::ForeignConditions,
-            ..whole
-        };
-        let column = |trial: &Trial, name: &str| -> Vec<String> {
-            let case = trial.case();
-            let text = &case
-                .files
-                .iter()
-                .find(|f| f.name == RECORDING)
-                .unwrap()
-                .text;
-            let head: Vec<&str> = text.lines().next().unwrap().split(',').collect();
-            let at = head.iter().position(|h| h.starts_with(name)).unwrap();
-            text.lines()
-                .skip(1)
-                .map(|l| l.split(',').nth(at).unwrap().to_string())
-                .collect()
-        };
-        assert_eq!(column(&whole, "U"), column(&foreign, "U"));
-        assert_ne!(column(&whole, "supply"), column(&foreign, "supply"));
+        for (bench, output) in [("remount", "U"), ("load-cell", "deflection")] {
+            let made = (0..400).find_map(|seed| {
+                let whole = Trial {
+                    seed,
+                    bench: bench.parse().ok()?,
+                    class: Class::Single,
+                    noise: NoiseKnowledge::Stated,
+                    ablation: Ablation::Whole,
+                };
+                let ablation = Ablation::ForeignConditions;
+                Some((whole.case()?, Trial { ablation, ..whole }.case()?))
+            });
+            let (whole, foreign) = made.unwrap();
+            let column = |case: &SealedCase, name: &str| -> Vec<String> {
+                let text = &case
+                    .files
+                    .iter()
+                    .find(|f| f.name == RECORDING)
+                    .unwrap()
+                    .text;
+                let head: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+                let at = head.iter().position(|h| h.starts_with(name)).unwrap();
+                let fields = text.lines().skip(1).map(|l| l.split(',').nth(at).unwrap());
+                fields.map(str::to_owned).collect()
+            };
+            assert_eq!(column(&whole, output), column(&foreign, output));
+            assert_ne!(column(&whole, "supply"), column(&foreign, "supply"));
+        }
     }
 }

@@ -17,12 +17,12 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use gumption::challenge::SealedCase;
 use gumption::challenge::grade::{self, Answer, Name, State};
 use gumption::challenge::study::{
     Ablation, Advice, CASES, Decision, FIRST_SEED, Record, Request, Sequel, Trial, Twin, decision,
     read, report, request, trials, write,
 };
+use gumption::challenge::{ALIAS, Accepted, SealedCase, TrueEffect};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{Pick, StandIn, diagnose, stand_ins};
 use gumption::report::{self, Language, diagnosis_failure};
@@ -185,7 +185,7 @@ impl<'a> Study<'a> {
 }
 
 fn one(trial: &Trial, folder: &Path, options: &Options) -> Option<Record> {
-    let sealed = trial.case()?;
+    let mut sealed = trial.case()?;
     let begun = Instant::now();
     let both = handed_out(trial, &sealed, folder).and_then(|case| Ok((said(&case)?, case)));
     let seconds = begun.elapsed().as_secs_f64();
@@ -198,10 +198,15 @@ fn one(trial: &Trial, folder: &Path, options: &Options) -> Option<Record> {
             return Some(Record::of(trial, &sealed, &graded, &answer));
         }
     };
+    let found = likenesses(trial, &sealed, &case);
+    // What gives the same recording is right as well: which of the two it was, nobody can know.
+    for (effect, likeness) in sealed.truth.effects.iter_mut().zip(&found) {
+        effect.aliases.extend(likeness.aliases.clone());
+    }
     let graded = grade::grade(&sealed.truth, &answer);
     let mut record = Record::of(trial, &sealed, &graded, &answer);
     record.seconds = seconds;
-    record.complete(&twins(trial, &sealed, &case, &answer));
+    record.complete(&twins(&sealed, &found, &answer));
     if options.show {
         eprintln!("{}", shown(&record, trial, &answer));
     }
@@ -258,45 +263,72 @@ fn said(case: &Case) -> Result<Said, String> {
     })
 }
 
-/// What twin runs say of each concealed effect; nothing where the engine cannot hold its catalogue beside them. A wrong
-/// candidate is a rival if it has at most one coefficient more than the right one, as a wave has a phase where a power
-/// has none.
-fn twins(trial: &Trial, sealed: &SealedCase, case: &Case, answer: &Answer) -> Vec<Twin> {
+/// The catalogue beside the noise-free trace of a concealed effect.
+#[derive(Default)]
+struct Likeness {
+    all: Vec<StandIn>,
+    /// What the nearest wrong candidate leaves of it, over its length.
+    nearest: f64,
+    /// Wrong candidates that give the same recording.
+    aliases: Vec<Accepted>,
+}
+
+/// The catalogue beside each concealed effect; nothing where the engine cannot hold it there. A wrong candidate is a rival
+/// if it has at most one coefficient more than the right one, as a wave has a phase where a power has none.
+fn likenesses(trial: &Trial, sealed: &SealedCase, case: &Case) -> Vec<Likeness> {
     // Where the right candidate is missing, whatever fits is a rival.
     const USUAL: usize = usize::MAX;
-    let traces = &sealed.signatures;
+    if trial.ablation == Ablation::ForeignConditions {
+        return Vec::new();
+    }
+    let effects = &sealed.truth.effects;
     let of = |at: usize| {
-        let mut others = traces.clone();
+        let mut others = sealed.signatures.clone();
         let own = others.remove(at);
         let all = stand_ins(case, &own, &others).unwrap_or_default();
-        let truth = &sealed.truth.effects[at];
-        let is_right = |one: &&StandIn| grade::accepts(truth, &name(&one.pick));
+        let accepted = |one: &StandIn, effect| grade::accepts(effect, &name(&one.pick));
+        let right = all.iter().filter(|one| accepted(one, &effects[at]));
+        let coefficients = right
+            .min_by(|a, b| a.left.total_cmp(&b.left))
+            .map_or(USUAL, |best| best.coefficients);
         // What bears the name of another effect of the case is no rival either.
-        let effects = &sealed.truth.effects;
-        let is_known = |one: &StandIn| effects.iter().any(|e| grade::accepts(e, &name(&one.pick)));
-        let best = all
+        let rivals: Vec<&StandIn> = all
             .iter()
-            .filter(is_right)
-            .min_by(|a, b| a.left.total_cmp(&b.left));
-        let coefficients = best.map_or(USUAL, |best| best.coefficients);
-        let rivals = all
-            .iter()
-            .filter(|one| !is_known(one) && one.coefficients <= coefficients.saturating_add(1));
+            .filter(|one| !effects.iter().any(|effect| accepted(one, effect)))
+            .filter(|one| one.coefficients <= coefficients.saturating_add(1))
+            .collect();
+        // Where the name was taken out, its alias is its nearest kin and no more.
+        let is_whole = trial.ablation == Ablation::Whole;
+        let same = rivals.iter().filter(|one| is_whole && one.left < ALIAS);
+        Likeness {
+            nearest: rivals.iter().map(|one| one.left).fold(1.0, f64::min),
+            aliases: same
+                .map(|one| Accepted {
+                    id: one.pick.id.to_string(),
+                    along: Vec::new(),
+                })
+                .collect(),
+            all,
+        }
+    };
+    (0..effects.len()).map(of).collect()
+}
+
+/// What they say of each concealed effect and of the name that it was given.
+fn twins(sealed: &SealedCase, found: &[Likeness], answer: &Answer) -> Vec<Twin> {
+    let of = |(truth, likeness): (&TrueEffect, &Likeness)| {
         let alone = (answer.effects.iter())
             .filter(|effect| matches!(effect.state, State::Identified | State::ActsLike))
             .filter_map(|effect| effect.named.first())
             .find(|name| grade::accepts(truth, name));
         Twin {
-            nearest: rivals.map(|one| one.left).fold(1.0, f64::min),
-            deviation: alone.and_then(|name| deviation(&all, name)),
+            nearest: likeness.nearest,
+            deviation: alone.and_then(|name| deviation(&likeness.all, name)),
             located: alone
                 .and_then(|name| grade::located(&sealed.truth.outputs, sealed.dwell, truth, name)),
         }
     };
-    if trial.ablation == Ablation::ForeignConditions {
-        return Vec::new();
-    }
-    (0..traces.len()).map(of).collect()
+    sealed.truth.effects.iter().zip(found).map(of).collect()
 }
 
 /// A record and its answer in one line.

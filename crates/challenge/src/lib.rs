@@ -57,4 +57,4 @@ pub use further::{Further, Mount, Setting};
 pub use instrument::Instrument;
 pub use rig::Rig;
 pub use scenario::{Class, NoiseKnowledge, Scenario};
-pub use truth::{Accepted, TrueEffect, Truth, seal};
+pub use truth::{ALIAS, Accepted, TrueEffect, Truth, seal};

@@ -89,8 +89,10 @@ pub struct TrueEffect {
     pub rivals: Vec<(String, f64)>,
     /// Axes of the sensor on which it acts, from 0; empty where it acts on the rig.
     pub axes: Vec<usize>,
-    /// When it happened, hours since power-on, for what happens once.
+    /// When it happened, hours since power-on, where that is one moment of the recording.
     pub happened_h: Option<f64>,
+    /// Whether it happens once, so that nobody can predict it.
+    pub once: bool,
 }
 
 /// A rival of an effect.
@@ -105,7 +107,7 @@ pub(super) struct Known {
 /// How many rivals the truth lists.
 const LISTED: usize = 4;
 /// Rivals that leave less than this share of an effect are the same in this recording.
-const ALIAS: f64 = 0.05;
+pub const ALIAS: f64 = 0.05;
 
 impl TrueEffect {
     /// With κ and what else would have given the same recording.
@@ -212,6 +214,7 @@ fn true_effect(
             axes.collect()
         },
         happened_h,
+        once: matches!(effect.physics, Physics::Knock | Physics::SwappedLabel),
         ..TrueEffect::default()
     }
     .beside(

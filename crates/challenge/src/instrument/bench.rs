@@ -150,7 +150,7 @@ impl Bench {
                     .collect()
             }
             _ if self.instrument.is_norm() => signal.clone(),
-            Drive::OneSided | Drive::TwoSided | Drive::Stimulus | Drive::Path => {
+            Drive::OneSided | Drive::TwoSided | Drive::Stimulus | Drive::Path | Drive::Moving => {
                 let stimulus = &self.instrument.stimuli[effect.column];
                 let (low, reach) = if stimulus.is_two_sided() {
                     (0.0, stimulus.high)
@@ -390,12 +390,13 @@ impl Bench {
             .flat_map(|family| {
                 let columns = match family.drive {
                     Drive::TwoSided if norm => vec![0],
-                    Drive::OneSided | Drive::TwoSided | Drive::Stimulus | Drive::Path if norm => {
+                    Drive::OneSided | Drive::Stimulus | Drive::Path | Drive::Moving if norm => {
                         none.clone()
                     }
                     Drive::OneSided => followed(|s| !s.is_two_sided()),
                     Drive::TwoSided => followed(super::Stimulus::is_two_sided),
                     Drive::Stimulus => followed(|_| true),
+                    Drive::Moving => followed(super::Stimulus::is_moving),
                     Drive::Path => followed(super::Stimulus::has_history),
                     Drive::Temperature => vec![0],
                     Drive::Condition => (1..instrument.conditions.len()).collect(),

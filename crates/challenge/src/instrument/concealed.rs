@@ -223,6 +223,7 @@ impl Case {
             size: effect.size,
             nameable: effect.family.is_nameable(),
             names: self.names(effect.family, effect.column),
+            once: effect.family.happens_once(),
             lambda: *strength,
             lambda_beside: beside,
             axes: if effect.gains.len() > 1 {

@@ -19,6 +19,8 @@ pub(super) enum Drive {
     Stimulus,
     /// A stimulus that goes on in its direction.
     Path,
+    /// A stimulus that moves while it is read.
+    Moving,
     /// The first condition, a temperature.
     Temperature,
     /// Any other condition.
@@ -84,6 +86,12 @@ impl Family {
     /// Whether its column is kept back.
     pub(super) fn is_hidden(&self) -> bool {
         self.name == "hidden-temperature"
+    }
+
+    /// Whether it happens once, so that a fresh recording need not have it.
+    pub(super) fn happens_once(&self) -> bool {
+        let accidents = ["step", "step-scale", "outlier"];
+        self.drive == Drive::Time && self.names.iter().any(|(id, _)| accidents.contains(id))
     }
 
     pub(super) fn is_nameable(&self) -> bool {
@@ -343,7 +351,7 @@ pub(super) const FAMILIES: &[Family] = &[
     },
     Family {
         name: "delay",
-        drive: Drive::Path,
+        drive: Drive::Moving,
         place: Place::Input,
         names: &[("timing-skew", ANY), ("lag", ANY), ("temperature-lag", OWN)],
         forms: &[|v| {

@@ -127,6 +127,11 @@ impl Stimulus {
         !matches!(self.course, Course::Labels | Course::Attitude)
     }
 
+    /// Whether it moves while it is read.
+    fn is_moving(&self) -> bool {
+        self.course == Course::Ramp
+    }
+
     /// Whether it goes on in its direction, so that what remembers it differs from what does not.
     fn has_history(&self) -> bool {
         matches!(self.course, Course::Loop | Course::Ramp | Course::Hold)
@@ -150,8 +155,6 @@ impl Instrument {
 
     /// Names of the outputs with their formulas.
     fn outputs(&self) -> impl Iterator<Item = (&str, &str)> {
-        let parts = |text: &'static str| text;
-        let _ = parts;
         self.reads
             .iter()
             .filter_map(|text| text.split_once('='))

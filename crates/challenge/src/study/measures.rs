@@ -252,11 +252,11 @@ pub fn measures(records: &[Record]) -> Vec<Measure> {
         Rate::count(sizes, |deviation| deviation.abs() <= 1.0),
     );
     let predicted = effects(Class::Single)
-        .filter(|(_, o)| o.is_named_or_listed())
+        .filter(|(_, o)| o.is_named_or_listed() && !o.once)
         .filter_map(|(r, _)| r.predicted);
     add(
         "fresh recording predicted".into(),
-        "one effect whose right name is alone or listed; the error of the prediction of a fresh recording (root mean \
+        "one effect whose right name is alone or listed and that does not happen once (a jump, a wrong reading); the error of the prediction of a fresh recording (root mean \
          square) within 1.2 times the true noise of its rows",
         Floor::AtLeast(93.0),
         Rate::count(predicted, |ratio| *ratio <= 1.2),

@@ -15,6 +15,8 @@ pub struct Outcome {
     pub physics: String,
     /// Whether it has a name.
     pub nameable: bool,
+    /// Whether it happens once, so that nobody can predict it.
+    pub once: bool,
     /// λ beside the other effects.
     pub lambda: f64,
     /// What the nearest rival leaves of it, of the simulator or of the catalogue.
@@ -86,6 +88,7 @@ impl Record {
         let outcomes = graded.effects.iter().map(|effect| Outcome {
             physics: effect.truth.physics.clone(),
             nameable: effect.truth.nameable,
+            once: effect.truth.once,
             lambda: effect.truth.lambda_beside,
             kappa: effect.truth.kappa,
             finding: effect.finding,

@@ -148,6 +148,7 @@ use std::fmt;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+pub use gumption_audit as audit;
 pub use gumption_challenge as challenge;
 pub use gumption_core::{
     distribution, equations, least_squares, model, quantity, special, statistics,

@@ -1,6 +1,7 @@
 //! Subcommands, exit codes and output.
 
 mod allan;
+mod audit;
 mod calibrate;
 mod challenge;
 mod concepts;
@@ -59,6 +60,8 @@ struct Cli {
 enum Command {
     /// Evaluate budget files: budget table, GUM and Monte Carlo, statement for the certificate
     Eval(eval::Args),
+    /// Recompute somebody's budget from its spreadsheet, and name the slip that gives its figures
+    Audit(audit::Args),
     /// Confront a model with a recording: do they agree, and what was left out
     Diagnose(diagnose::Args),
     /// Write the recording that a declared model and its claimed noise predict
@@ -90,6 +93,7 @@ pub(crate) fn run() -> ExitCode {
     interrupt::say_so();
     let outcome = match command {
         Command::Eval(args) => eval::run(&args),
+        Command::Audit(args) => audit::run(&args),
         Command::Diagnose(args) => diagnose::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Verify(args) => verify::run(&args),

@@ -8,6 +8,7 @@
 
 mod allan;
 mod analyses;
+mod audit;
 mod budget_table;
 mod calibration;
 mod claim;
@@ -37,6 +38,7 @@ mod laboratory;
 mod tests;
 
 pub use allan::{AllanReport, allan, allan_schema};
+pub use audit::{audit, audit_schema};
 pub use calibration::{calibration, calibration_schema, calibration_trouble, plan, plan_schema};
 pub use diagnosis::{
     assumed_noise, diagnosis, diagnosis_schema, failure as diagnosis_failure, outlook,

@@ -1,0 +1,287 @@
+//! A claim: what a laboratory states and what it says it computed from it, as read.
+
+use crate::printed::{Place, Printed};
+
+/// One budget as somebody claims it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Claimed {
+    /// Title, where there is one.
+    pub title: String,
+    /// Name of the result.
+    pub measurand: String,
+    /// Unit of the result, as written; empty for one.
+    pub unit: String,
+    /// The rows.
+    pub rows: Vec<Row>,
+    /// The right side of the measurement model, as written.
+    pub model: Option<String>,
+    /// Stated correlations between rows.
+    pub correlations: Vec<Correlation>,
+    /// How k is to be found.
+    pub coverage: Coverage,
+    /// How U is to be rounded.
+    pub rounding: RoundingStated,
+    /// The smallest U that the laboratory may report, in the unit of U.
+    pub cmc: Option<Printed>,
+    /// Claimed figures of the whole.
+    pub footer: Footer,
+    /// The number of readings behind the reported value, where a note says so for all rows.
+    pub reported_mean_of: Option<f64>,
+    /// How the columns and cells were understood.
+    pub understood: Vec<Understood>,
+    /// What could not be placed.
+    pub unplaced: Vec<Unplaced>,
+}
+
+/// Claimed figures of the whole.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Footer {
+    /// The result.
+    pub y: Option<Printed>,
+    /// Combined standard uncertainty.
+    pub u_c: Option<Printed>,
+    /// Effective degrees of freedom.
+    pub nu_eff: Option<Printed>,
+    /// Coverage factor.
+    pub k: Option<Printed>,
+    /// Expanded uncertainty.
+    pub expanded: Option<Printed>,
+}
+
+/// One row.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Row {
+    /// Short name of the quantity.
+    pub symbol: String,
+    /// Name or source.
+    pub name: String,
+    /// Where the row begins.
+    pub at: Place,
+    /// Estimate.
+    pub value: Option<Printed>,
+    /// Unit of the estimate and of what is stated of it.
+    pub unit: String,
+    /// Everything that the sheet says of it in words: name, remarks, notes.
+    pub words: String,
+    /// What is known of it.
+    pub stated: Stated,
+    /// Whether what is stated is relative, as a fraction of what.
+    pub relative: Relative,
+    /// The ± column: what was used.
+    pub used: Option<Printed>,
+    /// The divisor.
+    pub divisor: Option<Printed>,
+    /// Standard uncertainty.
+    pub u: Option<Printed>,
+    /// Sensitivity coefficient.
+    pub c: Option<Printed>,
+    /// Contribution to u(y), as printed (with or without its sign).
+    pub contribution: Option<Printed>,
+    /// Degrees of freedom.
+    pub dof: Option<Printed>,
+    /// Why it is not to be counted, where the sheet says so.
+    pub not_counted: Option<String>,
+    /// Cells of the row that hold formulas.
+    pub formulas: Vec<(Figure, String)>,
+}
+
+/// A computed figure of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Figure {
+    /// Standard uncertainty.
+    U,
+    /// Contribution.
+    Contribution,
+}
+
+/// What is known of a quantity: the lowest level that the sheet states.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Stated {
+    /// Nothing but what the columns of u or contribution say.
+    #[default]
+    Nothing,
+    /// Expanded uncertainty of a certificate with its coverage factor (2 where it says none).
+    Certificate {
+        /// U.
+        expanded: Printed,
+        /// k.
+        k: f64,
+        /// Whether the certificate states k.
+        k_stated: bool,
+    },
+    /// Limits ± a.
+    Limits {
+        /// a.
+        half_width: Printed,
+        /// Their distribution.
+        shape: Shape,
+        /// Whether the sheet says anything about the distribution beyond limits.
+        shape_stated: bool,
+    },
+    /// A full width.
+    FullWidth {
+        /// The width.
+        width: Printed,
+        /// Its distribution.
+        shape: Shape,
+    },
+    /// Step of a digital indication.
+    Step {
+        /// q.
+        step: Printed,
+    },
+    /// Unequal limits.
+    Unequal {
+        /// Above.
+        plus: Printed,
+        /// Below, as a positive number.
+        minus: Printed,
+    },
+    /// Standard deviation of single readings.
+    Deviation {
+        /// s.
+        s: Printed,
+        /// Readings from which s was computed.
+        n: Option<f64>,
+        /// Readings behind the reported value.
+        m: f64,
+        /// Degrees of freedom of a pooled s.
+        pooled: Option<f64>,
+    },
+    /// Range of readings.
+    Range {
+        /// The range.
+        range: Printed,
+        /// Readings.
+        n: f64,
+        /// Readings behind the reported value.
+        m: f64,
+    },
+    /// A standard uncertainty, as it is.
+    Standard {
+        /// u.
+        u: Printed,
+        /// Its degrees of freedom.
+        dof: Option<f64>,
+    },
+}
+
+/// Distribution of limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// Nothing but the limits.
+    Rectangular,
+    /// Triangle.
+    Triangular,
+    /// Cycling.
+    Arcsine,
+    /// Trapezoid with this ratio of top to bottom.
+    Trapezoidal(f64),
+    /// Normal, the limits being this many standard deviations.
+    Normal(f64),
+    /// Two values.
+    TwoPoint,
+}
+
+impl Shape {
+    /// Half-width divided by standard uncertainty (JCGM 100, 4.3; JCGM 101, 6.4).
+    pub fn divisor(self) -> f64 {
+        match self {
+            Shape::Rectangular => libm::sqrt(3.0),
+            Shape::Triangular => libm::sqrt(6.0),
+            Shape::Arcsine => libm::sqrt(2.0),
+            Shape::Trapezoidal(beta) => libm::sqrt(6.0 / (1.0 + beta * beta)),
+            Shape::Normal(k) => k,
+            Shape::TwoPoint => 1.0,
+        }
+    }
+}
+
+/// What a stated figure is a fraction of.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Relative {
+    /// It is absolute.
+    #[default]
+    No,
+    /// This fraction of the estimate for each unit (0.01 for percent).
+    OfValue(f64),
+    /// This fraction of the full scale, which is the second figure.
+    OfFullScale(f64, f64),
+}
+
+/// A correlation coefficient between two rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Correlation {
+    /// One row.
+    pub a: usize,
+    /// The other.
+    pub b: usize,
+    /// The coefficient.
+    pub r: f64,
+}
+
+/// The rule for k.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Coverage {
+    /// The sheet states none: k as claimed, 2 if none is.
+    #[default]
+    Unstated,
+    /// A fixed factor.
+    Fixed(f64),
+    /// From t at ν_eff for this probability.
+    StudentT(f64),
+    /// 1.65 where one rectangle dominates, else the other rule.
+    Rectangle,
+}
+
+/// The rule for rounding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum RoundingStated {
+    /// None: to nearest or up.
+    #[default]
+    Unstated,
+    /// To nearest.
+    Nearest,
+    /// Up.
+    Up,
+}
+
+/// How a column or a line was understood.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Understood {
+    /// Where it stands.
+    pub at: Place,
+    /// What stands there.
+    pub text: String,
+    /// As what it was taken.
+    pub role: &'static str,
+}
+
+/// What could not be placed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unplaced {
+    /// Where it stands.
+    pub at: Place,
+    /// What stands there.
+    pub text: String,
+}
+
+impl Row {
+    /// As the report calls it: its symbol, or its name.
+    pub fn label(&self) -> &str {
+        if self.symbol.is_empty() {
+            &self.name
+        } else {
+            &self.symbol
+        }
+    }
+}
+
+impl Claimed {
+    /// Whether the sheet is a summary, which states no standard uncertainty of a row.
+    pub fn is_summary(&self) -> bool {
+        self.rows
+            .iter()
+            .all(|row| row.u.is_none() && row.contribution.is_none())
+    }
+}

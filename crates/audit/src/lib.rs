@@ -1,0 +1,18 @@
+//! Claimed budgets: spreadsheets read by meaning, recomputed from the lowest level that they state, and the slips in
+//! them named.
+
+// Tests may hold results against the platform's own functions.
+#![cfg_attr(test, allow(clippy::disallowed_methods))]
+
+pub mod calculate;
+pub mod claim;
+pub mod mapping;
+pub mod printed;
+pub mod read;
+pub mod search;
+pub mod sheet;
+pub mod slips;
+mod units;
+mod verdict;
+
+pub use verdict::{Audit, Verdict, audit};

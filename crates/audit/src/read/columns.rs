@@ -1,0 +1,294 @@
+//! What a column is, by the words of its head.
+
+use super::words::compact;
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Role {
+    /// A running number.
+    Number,
+    /// Short name of the quantity.
+    Symbol,
+    /// Name or source.
+    Name,
+    /// Estimate.
+    Value,
+    /// What was used: limits, U, s.
+    Used,
+    /// Unit.
+    Unit,
+    /// Type of evaluation, A or B.
+    Type,
+    /// Distribution.
+    Distribution,
+    /// Divisor.
+    Divisor,
+    /// Standard uncertainty.
+    U,
+    /// Sensitivity coefficient.
+    C,
+    /// Contribution to u(y).
+    Contribution,
+    /// Degrees of freedom.
+    Dof,
+    /// Number of readings.
+    Readings,
+    /// Square of a contribution, share: computed from others.
+    Derived,
+    /// Words.
+    Remark,
+}
+
+impl Role {
+    /// Its name in the mapping file and in the list of what was understood.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Role::Number => "number",
+            Role::Symbol => "symbol",
+            Role::Name => "source",
+            Role::Value => "estimate",
+            Role::Used => "half_width",
+            Role::Unit => "unit",
+            Role::Type => "type",
+            Role::Distribution => "distribution",
+            Role::Divisor => "divisor",
+            Role::U => "u",
+            Role::C => "sensitivity",
+            Role::Contribution => "contribution",
+            Role::Dof => "dof",
+            Role::Readings => "readings",
+            Role::Derived => "derived",
+            Role::Remark => "remark",
+        }
+    }
+
+    /// All of them.
+    pub const ALL: [Role; 16] = [
+        Role::Number,
+        Role::Symbol,
+        Role::Name,
+        Role::Value,
+        Role::Used,
+        Role::Unit,
+        Role::Type,
+        Role::Distribution,
+        Role::Divisor,
+        Role::U,
+        Role::C,
+        Role::Contribution,
+        Role::Dof,
+        Role::Readings,
+        Role::Derived,
+        Role::Remark,
+    ];
+
+    /// Whether figures stand in such a column.
+    pub fn is_figure(self) -> bool {
+        use Role::*;
+        matches!(self, Value | Used | Divisor | U | C | Contribution | Dof)
+    }
+}
+
+/// How words are held against the head of a column.
+#[derive(Debug, Clone, Copy)]
+enum How {
+    /// The head has them in it.
+    Has,
+    /// The head is nothing else.
+    Is,
+    /// The head begins with them.
+    Begins,
+}
+
+/// In this order: the first that fits decides. Words are compact ones.
+#[rustfmt::skip]
+const WORDS: &[(Role, How, &[&str])] = &[
+    (Role::Derived, How::Has, &["贡献率", "百分比", "占比", "权重", "比例", "%contribution", "contribution%", "contribution(%)", "contribution/%", "percentcontribution", "shareof", "significance", "相对贡献", "贡献/%", "贡献(%)", "index"]),
+    (Role::Derived, How::Is, &["share", "%", "percent", "weight", "h", "比重"]),
+    (Role::Derived, How::Has, &["ui^2", "u^2", "(y)^2", "^2", "平方", "squared", "variance", "方差"]),
+    (Role::Contribution, How::Has, &["ui(y)", "uy(", "u(y)", "|ci|u", "|c|u", "ciu", "|ci|·u", "c.u", "cu(", "|ci|×u", "contributiontou", "uncertaintycontribution", "contribution", "贡献", "ci.u", "|u(y", "uncertaintyiny"]),
+    (Role::Name, How::Has, &["来源", "source", "influence", "因素", "影响量", "description", "contributor", "origin", "cause"]),
+    (Role::Contribution, How::Has, &["不确定度分量", "分量值", "componentofu", "uncertaintycomponentu"]),
+    (Role::Contribution, How::Is, &["分量", "cu", "c·u", "ui(y)", "|c|u", "component/y"]),
+    (Role::Dof, How::Has, &["degreesoffreedom", "degreeoffreedom", "dof", "d.o.f", "自由度", "freedom", "νi", "νeff", "veff", "deg.fr", "d.f."]),
+    (Role::Dof, How::Is, &["ν", "v", "vi", "df", "nu", "nui", "viorveff", "νioreff", "ν_i"]),
+    (Role::C, How::Has, &["sensitivity", "sens.", "灵敏", "敏感系数", "传播系数", "partial", "∂", "coefficient", "传递系数"]),
+    (Role::C, How::Is, &["c", "ci", "|ci|", "|c|", "c_i", "sens"]),
+    (Role::C, How::Begins, &["ci(", "ci/", "ci["]),
+    (Role::Distribution, How::Has, &["distribution", "分布类型", "概率分布", "pdf", "shape"]),
+    (Role::Distribution, How::Is, &["distr", "distr.", "dist", "dist.", "分布", "prob.", "probability"]),
+    (Role::Divisor, How::Has, &["divisor", "divideby", "dividedby", "除数", "分布因子", "置信因子", "包含因子", "coveragefactor", "kfactor"]),
+    (Role::Divisor, How::Is, &["k", "ki", "div", "div.", "因子", "b", "factor"]),
+    (Role::U, How::Has, &["standarduncertainty", "标准不确定度", "stdunc", "std.unc", "stduncertainty", "u(x", "u(", "standardunc", "std.uncertainty", "标准不确定"]),
+    (Role::U, How::Is, &["u", "ui", "ux", "stdu", "u_i", "u(xi)"]),
+    (Role::Readings, How::Has, &["numberofreadings", "测量次数", "readings(n)"]),
+    (Role::Readings, How::Is, &["n", "readings", "次数"]),
+    (Role::Type, How::Has, &["评定方法", "评定类别", "evaluation", "a/b", "类别", "typea", "评定类型", "typeof", "a类/b类"]),
+    (Role::Type, How::Is, &["type", "类型", "评定", "method", "eval.", "a,b"]),
+    (Role::Remark, How::Has, &["remark", "note", "comment", "备注", "说明", "information", "依据", "howknown", "basis", "evidence", "whatisknown", "已知", "信息", "statement", "注", "details", "data", "justification", "reference"]),
+    (Role::Used, How::Has, &["±", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
+    (Role::Used, How::Is, &["uncertainty", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值"]),
+    (Role::Unit, How::Is, &["unit", "units", "单位", "[unit]", "unitofx", "unitofxi", "计量单位"]),
+    (Role::Symbol, How::Has, &["symbol", "符号", "variable", "代号"]),
+    (Role::Value, How::Has, &["estimate", "估计值", "nominal", "标称", "measuredvalue", "量值", "bestvalue", "最佳", "meanvalue", "输入量的值", "输入量值", "inputvalue", "测得值", "取值"]),
+    (Role::Value, How::Is, &["value", "x", "xi", "值", "mean", "level", "reading", "平均值", "示值"]),
+    (Role::Symbol, How::Has, &["quantity", "输入量", "量的符号"]),
+    (Role::Symbol, How::Is, &["量", "input", "xi", "parameter"]),
+    (Role::Name, How::Has, &["component", "名称", "分量", "项目", "contribut", "item", "effect", "内容"]),
+    (Role::Name, How::Is, &["name", "input", "what", "uncertainty", "term", "label", "项", "parameter"]),
+    (Role::Number, How::Is, &["no", "no.", "#", "序号", "编号", "nr", "nr.", "row", "line", "i", "№", "行", "号"]),
+];
+
+/// What a head says of its column, and the unit in it.
+pub fn role(head: &str) -> Option<(Role, String)> {
+    let (name, unit) = apart(head);
+    let named = of(&name).or_else(|| of(head));
+    named.map(|role| (role, unit))
+}
+
+fn of(head: &str) -> Option<Role> {
+    let text = compact(head);
+    // `X_i` is a name and `x_i` its estimate.
+    match head.trim().replace(['_', ' '], "").as_str() {
+        "" => return None,
+        "Xi" | "X" => return Some(Role::Symbol),
+        "U" => return Some(Role::Used),
+        _ => {}
+    }
+    let fits = |how: How, word: &str| match how {
+        How::Has => text.contains(word),
+        How::Is => text == word,
+        How::Begins => text.starts_with(word),
+    };
+    let entry = WORDS
+        .iter()
+        .find(|(_, how, words)| words.iter().any(|word| fits(*how, word)));
+    entry.map(|(role, ..)| *role)
+}
+
+/// A head without the unit in it: `u(x_i) / mm`, `Estimate [mm]`, `contribution (mm)`.
+pub fn apart(head: &str) -> (String, String) {
+    let head = head.trim();
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some(inner) = head.strip_suffix(close)
+            && let Some(at) = inner.rfind(open)
+        {
+            let (name, unit) = (inner[..at].trim(), inner[at + 1..].trim());
+            let before = inner[..at].chars().next_back();
+            // `u(xi)` is a symbol: a bracket that belongs to one letter holds no unit.
+            let symbol = open == '('
+                && before.is_some_and(|c| c.is_ascii_alphanumeric())
+                && inner[..at]
+                    .split(' ')
+                    .next_back()
+                    .is_some_and(|w| w.len() <= 3);
+            if !symbol && !name.is_empty() && is_unit(unit) {
+                return (name.into(), unit.into());
+            }
+        }
+    }
+    for mark in [" / ", "/", ", ", " in "] {
+        if let Some((name, unit)) = head.split_once(mark)
+            && name.chars().count() > 1
+            && is_unit(unit.trim_matches(['(', ')', ' ', '/']))
+        {
+            return (
+                name.trim().into(),
+                unit.trim_matches(['(', ')', ' ', '/']).into(),
+            );
+        }
+    }
+    (head.into(), String::new())
+}
+
+/// Whether a text is a unit that the program knows.
+pub fn is_unit(text: &str) -> bool {
+    !text.is_empty()
+        && text != "k"
+        && text != "a"
+        && text != "%/100"
+        && crate::units::parse(text).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heads_of_four_guides() {
+        let heads = |text: &str| -> Vec<Option<Role>> {
+            text.split(" | ").map(|h| role(h).map(|(r, _)| r)).collect()
+        };
+        use Role::*;
+        assert_eq!(
+            heads(
+                "Quantity X_i | Estimate x_i | Standard uncertainty u(x_i) | Probability distribution | Sensitivity coefficient c_i | Uncertainty contribution u_i(y)"
+            ),
+            [Symbol, Value, U, Distribution, C, Contribution].map(Some)
+        );
+        assert_eq!(
+            heads(
+                "Symbol | Source of uncertainty | Value ± | Probability distribution | Divisor | c_i | u_i(y) | v_i or v_eff"
+            ),
+            [
+                Symbol,
+                Name,
+                Used,
+                Distribution,
+                Divisor,
+                C,
+                Contribution,
+                Dof
+            ]
+            .map(Some)
+        );
+        assert_eq!(
+            heads(
+                "序号 | 不确定度来源 | 输入量估计值 | 评定方法(A/B类) | 概率分布 | 区间半宽 a | 包含因子 k | 标准不确定度 u(x_i) | 灵敏系数 c_i | 标准不确定度分量 |c_i|u(x_i) | 自由度 ν_i"
+            ),
+            [
+                Number,
+                Name,
+                Value,
+                Type,
+                Distribution,
+                Used,
+                Divisor,
+                U,
+                C,
+                Contribution,
+                Dof
+            ]
+            .map(Some)
+        );
+        assert_eq!(
+            heads("Component | Type | a | Unit | Dist. | k | u(x) | ci | |ci|·u(xi) | dof | %"),
+            [
+                Name,
+                Type,
+                Used,
+                Unit,
+                Distribution,
+                Divisor,
+                U,
+                C,
+                Contribution,
+                Dof,
+                Derived
+            ]
+            .map(Some)
+        );
+    }
+
+    #[test]
+    fn units_stand_in_heads() {
+        assert_eq!(role("u(x_i) / mm").unwrap(), (Role::U, "mm".into()));
+        assert_eq!(role("Estimate [mm]").unwrap(), (Role::Value, "mm".into()));
+        assert_eq!(
+            role("contribution u_i(y) (µm)").unwrap(),
+            (Role::Contribution, "µm".into())
+        );
+        assert_eq!(role("标准不确定度/mV").unwrap(), (Role::U, "mV".into()));
+        assert_eq!(role("Value ±").unwrap(), (Role::Used, String::new()));
+    }
+}

@@ -1,0 +1,274 @@
+//! Claimed figures of the whole: lines below a table, and sentences.
+
+use crate::claim::Footer;
+use crate::printed::{Place, Printed, leading};
+
+use super::words::{compact, find, has};
+
+/// A figure of the whole.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Whole {
+    /// The result.
+    Y,
+    /// Combined standard uncertainty.
+    Combined,
+    /// Effective degrees of freedom.
+    Freedom,
+    /// Coverage factor.
+    Factor,
+    /// Expanded uncertainty.
+    Expanded,
+}
+
+impl Whole {
+    /// Its name in the list of what was understood.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Whole::Y => "y",
+            Whole::Combined => "u_c",
+            Whole::Freedom => "nu_eff",
+            Whole::Factor => "k",
+            Whole::Expanded => "U",
+        }
+    }
+}
+
+/// Words that stand for a figure of the whole; longer ones first where one is in another.
+#[rustfmt::skip]
+const WORDS: &[(Whole, &[&str])] = &[
+    (Whole::Freedom, &["effective degrees of freedom", "effective number of degrees", "effective dof", "有效自由度", "ν_eff", "νeff", "veff", "v_eff", "nu_eff", "ν eff", "deg. of freedom (eff", "ν_{eff}"]),
+    (Whole::Factor, &["coverage factor", "包含因子", "覆盖因子", "扩展因子", "k-factor", "k ="]),
+    (Whole::Expanded, &["expanded uncertainty", "expanded measurement uncertainty", "扩展不确定度", "reported uncertainty", "u95", "u_95", "expanded unc", "总不确定度"]),
+    (Whole::Combined, &["combined standard uncertainty", "combined uncertainty", "合成标准不确定度", "合成不确定度", "standard uncertainty of the result", "standard uncertainty of y", "combined std", "combined standard", "root sum of squares", "rss", "combined", "total standard uncertainty"]),
+    (Whole::Y, &["measurement result", "测量结果", "result", "结果", "measured value", "value of the measurand", "被测量值", "reported value", "被测量"]),
+];
+
+/// Symbols that stand alone in a cell.
+fn symbol(text: &str) -> Option<Whole> {
+    let name = text
+        .split(['=', ':', '/', '['])
+        .next()
+        .unwrap_or_default()
+        .trim();
+    let name = name.split_once(" (").map_or(name, |(name, _)| name);
+    if matches!(
+        name,
+        "U" | "U(y)" | "U95" | "U_95" | "U(k=2)" | "Uexp" | "U_exp" | "U (k=2)" | "U(95)"
+    ) {
+        return Some(Whole::Expanded);
+    }
+    match compact(name).as_str() {
+        "uc" | "uc(y)" | "u(y)" | "ucombined" | "uccombined" | "uy" | "u" => Some(Whole::Combined),
+        "νeff" | "veff" | "nueff" | "νeff(y)" => Some(Whole::Freedom),
+        "k" | "kp" | "k95" => Some(Whole::Factor),
+        "y" => Some(Whole::Y),
+        _ => None,
+    }
+}
+
+/// What a cell labels, if it labels a figure of the whole.
+pub fn label(text: &str, measurand: &str) -> Option<Whole> {
+    if let Some(whole) = symbol(text) {
+        return Some(whole);
+    }
+    if !measurand.is_empty() && text.trim() == measurand {
+        return Some(Whole::Y);
+    }
+    let lower = text.to_lowercase();
+    let at = |keys: &[&str]| keys.iter().filter_map(|key| find(&lower, key, 0)).min();
+    let found = WORDS
+        .iter()
+        .filter_map(|(whole, keys)| Some((at(keys)?, *whole)));
+    // `expanded uncertainty U = k·u_c`: what stands first is what is labelled.
+    let first = found.min_by_key(|(at, _)| *at)?;
+    let short = first.0 <= 12 || text.chars().count() < 40;
+    short.then_some(first.1)
+}
+
+/// Sets a figure that is not there yet.
+pub fn set(footer: &mut Footer, whole: Whole, figure: Printed) -> bool {
+    let slot = match whole {
+        Whole::Y => &mut footer.y,
+        Whole::Combined => &mut footer.u_c,
+        Whole::Freedom => &mut footer.nu_eff,
+        Whole::Factor => &mut footer.k,
+        Whole::Expanded => &mut footer.expanded,
+    };
+    let free = slot.is_none();
+    if free {
+        *slot = Some(figure);
+    }
+    free
+}
+
+/// Figures inside a sentence: `u_c = 0.027 mm, ν_eff = 35, k = 2, U = 0.054 mm`.
+pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> Vec<Whole> {
+    let mut found = Vec::new();
+    let mut take = |whole: Whole, figure: Printed| {
+        if set(footer, whole, figure.at(at)) {
+            found.push(whole);
+        }
+    };
+    for (whole, names) in NAMES {
+        for name in *names {
+            if let Some(figure) = assigned(text, name) {
+                take(*whole, figure);
+            }
+        }
+    }
+    if !measurand.is_empty()
+        && let Some(figure) = assigned(text, measurand)
+    {
+        take(Whole::Y, figure);
+    }
+    // y = (50.001 ± 0.054) mm
+    if let Some((front, behind)) = text.split_once('±')
+        && let Some((expanded, rest)) = leading(behind)
+    {
+        let unit = rest
+            .trim_start_matches([')', ' '])
+            .split([' ', ',', ';', '('])
+            .next()
+            .unwrap_or_default()
+            .trim_end_matches('.');
+        let number = front
+            .rsplit(['(', '=', ' '])
+            .find(|part| !part.trim().is_empty())
+            .and_then(leading);
+        if let Some((y, _)) = number {
+            take(
+                Whole::Y,
+                Printed {
+                    unit: unit.into(),
+                    ..y
+                },
+            );
+            take(
+                Whole::Expanded,
+                Printed {
+                    unit: unit.into(),
+                    ..expanded
+                },
+            );
+        }
+    }
+    let lower = text.to_lowercase();
+    for (whole, keys) in WORDS.iter().filter(|(whole, _)| *whole != Whole::Y) {
+        let figure = super::words::figure_after(text, keys);
+        if let Some(figure) = figure.filter(|_| has(&lower, keys)) {
+            take(*whole, figure);
+        }
+    }
+    found
+}
+
+/// Names that are followed by `=`, in their own case.
+const NAMES: &[(Whole, &[&str])] = &[
+    (Whole::Combined, &["u_c(y)", "uc(y)", "u_c", "uc", "u(y)"]),
+    (
+        Whole::Freedom,
+        &["ν_eff", "νeff", "v_eff", "veff", "nu_eff", "νₑff"],
+    ),
+    (Whole::Factor, &["k", "k_p", "k95", "k_95"]),
+    (Whole::Expanded, &["U", "U95", "U_95", "U(y)"]),
+    (Whole::Y, &["y"]),
+];
+
+/// The figure behind `name =`.
+fn assigned(text: &str, name: &str) -> Option<Printed> {
+    let mut from = 0;
+    while let Some(at) = super::words::symbol_at(text, name, from) {
+        from = at + name.len();
+        let mut rest = text[from..].trim_start();
+        // `u_c(m) = 0.3`
+        if let Some(inner) = rest.strip_prefix('(')
+            && let Some((argument, behind)) = inner.split_once(')')
+            && argument.chars().count() <= 12
+        {
+            rest = behind.trim_start();
+        }
+        // `U = k·u_c = 0.054`: the last of a chain of equations.
+        while let Some(right) = rest
+            .strip_prefix('=')
+            .or_else(|| rest.strip_prefix('≈'))
+            .or_else(|| rest.strip_prefix(':'))
+        {
+            let right = right.trim_start();
+            if let Some((figure, behind)) = leading(right)
+                && !behind.trim_start().starts_with(['*', '·', '×'])
+            {
+                let unit = behind
+                    .trim_start()
+                    .split(|c: char| c.is_whitespace() || ",;()。、".contains(c))
+                    .next()
+                    .unwrap_or_default();
+                let unit = unit.trim_end_matches('.');
+                let unit = if super::columns::is_unit(unit) || unit == "%" {
+                    unit
+                } else {
+                    ""
+                };
+                return Some(Printed {
+                    unit: unit.into(),
+                    ..figure
+                });
+            }
+            let Some(next) = right
+                .find(['=', '≈'])
+                .filter(|next| !right[..*next].contains([',', ';']))
+            else {
+                break;
+            };
+            rest = &right[next..];
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_in_both_languages() {
+        for (text, whole) in [
+            ("Combined standard uncertainty u_c", Whole::Combined),
+            ("合成标准不确定度 uc", Whole::Combined),
+            ("有效自由度 νeff", Whole::Freedom),
+            ("U", Whole::Expanded),
+            ("扩展不确定度 U (k=2)", Whole::Expanded),
+            ("k", Whole::Factor),
+            ("Coverage factor", Whole::Factor),
+            ("m", Whole::Y),
+        ] {
+            assert_eq!(label(text, "m"), Some(whole), "{text}");
+        }
+    }
+
+    #[test]
+    fn sentences_hold_figures() {
+        let mut footer = Footer::default();
+        sentence(
+            "m = (100.0215 ± 0.0008) g; u_c = 0.00035 g, ν_eff = 9, k = 2.26",
+            "m",
+            Place::default(),
+            &mut footer,
+        );
+        let value = |figure: &Option<Printed>| figure.as_ref().unwrap().value;
+        assert_eq!(value(&footer.y), 100.0215);
+        assert_eq!(value(&footer.expanded), 0.0008);
+        assert_eq!(footer.expanded.as_ref().unwrap().unit, "g");
+        assert_eq!(
+            [value(&footer.u_c), value(&footer.nu_eff), value(&footer.k)],
+            [0.00035, 9.0, 2.26]
+        );
+        let mut footer = Footer::default();
+        sentence(
+            "U = k × u_c = 2 × 0.027 = 0.054 mm",
+            "",
+            Place::default(),
+            &mut footer,
+        );
+        assert_eq!(value(&footer.expanded), 0.054);
+    }
+}

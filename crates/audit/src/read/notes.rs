@@ -1,0 +1,416 @@
+//! Lines beside the table: model, correlations, the rules for k and rounding, CMC.
+
+use crate::claim::{Claimed, Correlation, Coverage, RoundingStated};
+use crate::printed::{Place, Printed, leading};
+
+use super::words::{count_after, count_before, figure_after, has, has_symbol, symbol_at};
+
+/// What a line says of the whole; `None` for what it says nothing of.
+pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str> {
+    let lower = text.to_lowercase();
+    if has(
+        &lower,
+        &[
+            "cmc",
+            "校准和测量能力",
+            "校准测量能力",
+            "best measurement capability",
+            "最佳测量能力",
+        ],
+    ) {
+        let keys = [
+            "cmc",
+            "校准和测量能力",
+            "校准测量能力",
+            "capability",
+            "最佳测量能力",
+            "not below",
+            "±",
+        ];
+        let figure = figure_after(text, &keys).or_else(|| last_figure(text));
+        if let Some(figure) = figure {
+            claimed.cmc = Some(figure.at(at));
+            return Some("CMC");
+        }
+    }
+    if has(&lower, &["correlat", "相关"]) || lower.starts_with("r(") || lower.contains(" r(") {
+        if let Some(correlation) = correlation(text, &lower, claimed) {
+            claimed.correlations.extend(correlation);
+            return Some("correlation");
+        }
+    }
+    if rule(&lower, claimed) {
+        return Some("rule for k");
+    }
+    let mut role = None;
+    if has(
+        &lower,
+        &["round", "修约", "只进不舍", "进位", "舍入", "四舍"],
+    ) {
+        let up = has(
+            &lower,
+            &[
+                "rounded up",
+                "round up",
+                "rounding up",
+                "upwards",
+                "only up",
+                "只进不舍",
+                "进位",
+                "always up",
+                "向上",
+                "up at",
+                "not down",
+            ],
+        );
+        claimed.rounding = if up {
+            RoundingStated::Up
+        } else {
+            RoundingStated::Nearest
+        };
+        role = Some("rule for rounding");
+    }
+    role
+}
+
+/// `the reported value is the mean of 5 readings`, without the name of a row.
+pub fn mean_of(text: &str, claimed: &Claimed) -> Option<f64> {
+    let lower = text.to_lowercase();
+    let general = has(
+        &lower,
+        &[
+            "report",
+            "reported value",
+            "报告值",
+            "测量结果",
+            "被测量",
+            "结果取",
+            "routine",
+            "日常",
+        ],
+    );
+    let named = claimed.rows.iter().any(|row| has_symbol(text, &row.symbol));
+    let mean = count_after(&lower, &["mean of", "average of", "m =", "m="]);
+    let mean = mean.or_else(|| {
+        count_before(
+            &lower,
+            &[
+                "次平均",
+                "次测量的平均",
+                "次测量平均",
+                "次读数的平均",
+                "次重复测量的平均",
+                "次测量的算术平均",
+            ],
+        )
+    });
+    mean.filter(|_| general && !named)
+}
+
+fn last_figure(text: &str) -> Option<Printed> {
+    let (at, _) = text.char_indices().rev().find(|(at, c)| {
+        c.is_ascii_digit()
+            && !text[..*at].ends_with(|b: char| b.is_ascii_digit() || ".,e-E+".contains(b))
+    })?;
+    let (figure, behind) = leading(&text[at..])?;
+    let unit = behind
+        .split_whitespace()
+        .next()
+        .unwrap_or_default()
+        .trim_end_matches(['.', ',', ';', ')']);
+    Some(Printed {
+        unit: unit.into(),
+        ..figure
+    })
+}
+
+/// The rule for k, where the line states one.
+fn rule(lower: &str, claimed: &mut Claimed) -> bool {
+    let about = has(
+        lower,
+        &[
+            "coverage factor",
+            "包含因子",
+            "k from",
+            "k is",
+            "k =",
+            "k=",
+            "u = k",
+            "取k",
+            "k取",
+            "k_p",
+            "t-distribution",
+            "t distribution",
+            "t分布",
+            "t 分布",
+            "rule for k",
+        ],
+    );
+    let certificate = has(lower, &["certificate", "证书", "calibrat"]);
+    if !about || certificate {
+        return false;
+    }
+    if has(lower, &["1.65", "1,65"]) && has(lower, &["rect", "矩形", "均匀", "dominat"]) {
+        claimed.coverage = Coverage::Rectangle;
+        return true;
+    }
+    let by_t = has(
+        lower,
+        &[
+            "student",
+            "t-distribution",
+            "t distribution",
+            "t分布",
+            "t 分布",
+            "t(",
+            "t_p",
+            "t_95",
+            "t95",
+            "t-table",
+            "t table",
+            "t值",
+            "t factor",
+            "from t",
+            "effective degrees",
+            "ν_eff",
+            "veff",
+            "有效自由度",
+        ],
+    ) && !has(lower, &["k = 2 is used", "regardless"]);
+    if by_t {
+        claimed.coverage = Coverage::StudentT(probability(lower).unwrap_or(0.95));
+        return true;
+    }
+    match figure_after(lower, &["coverage factor", "包含因子", "k"]) {
+        Some(k) if (1.0..5.0).contains(&k.value) => {
+            claimed.coverage = Coverage::Fixed(k.value);
+            // A sentence of the statement claims its factor, too.
+            true
+        }
+        _ => false,
+    }
+}
+
+/// The coverage probability of a line: 0.9545 for `95.45 %`.
+fn probability(lower: &str) -> Option<f64> {
+    let mut at = 0;
+    while let Some(found) = lower
+        .get(at..)
+        .and_then(|rest| rest.find(|c: char| c.is_ascii_digit()))
+    {
+        let start = at + found;
+        let (figure, rest) = leading(&lower[start..])?;
+        let percent = rest.trim_start().starts_with('%') && (50.0..100.0).contains(&figure.value);
+        if percent {
+            return Some(figure.value / 100.0);
+        }
+        let bare =
+            (0.9..1.0).contains(&figure.value) && has(lower, &["p =", "p=", "probability", "概率"]);
+        if bare {
+            return Some(figure.value);
+        }
+        at = lower.len() - rest.len();
+        at = at.max(start + 1);
+    }
+    None
+}
+
+/// Correlations of a line; none in it where it says that there is none.
+fn correlation(text: &str, lower: &str, claimed: &Claimed) -> Option<Vec<Correlation>> {
+    if has(
+        lower,
+        &[
+            "uncorrelated",
+            "not correlated",
+            "no correlation",
+            "independent",
+            "不相关",
+            "互不相关",
+            "独立",
+            "无相关",
+        ],
+    ) {
+        return Some(Vec::new());
+    }
+    let mut places: Vec<(usize, usize)> = (0..claimed.rows.len())
+        .filter_map(|row| Some((symbol_at(text, &claimed.rows[row].symbol, 0)?, row)))
+        .collect();
+    places.sort_unstable();
+    // Rows named by their numbers: `rows 2 and 3`.
+    if places.len() < 2 {
+        places = (0..claimed.rows.len())
+            .filter_map(|row| {
+                let name = claimed.rows[row].name.to_lowercase();
+                (name.chars().count() >= 4)
+                    .then(|| lower.find(&name))
+                    .flatten()
+                    .map(|at| (at, row))
+            })
+            .collect();
+        places.sort_unstable();
+    }
+    let full = || {
+        has(
+            lower,
+            &[
+                "fully",
+                "full correlation",
+                "完全正相关",
+                "完全相关",
+                "强相关",
+            ],
+        )
+        .then_some(1.0)
+    };
+    let r = equals_figure(text)
+        .or_else(|| {
+            figure_after(lower, &["coefficient", "相关系数", "correlation", "r"]).map(|r| r.value)
+        })
+        .or_else(full);
+    let r = r.filter(|r| r.abs() <= 1.0)?;
+    let rows: Vec<usize> = places.into_iter().map(|(_, row)| row).collect();
+    if rows.len() < 2 {
+        return None;
+    }
+    let mut pairs = Vec::new();
+    for (i, &a) in rows.iter().enumerate() {
+        pairs.extend(rows[i + 1..].iter().map(|&b| Correlation { a, b, r }));
+    }
+    Some(pairs)
+}
+
+/// The last figure behind an equals sign.
+fn equals_figure(text: &str) -> Option<f64> {
+    let at = text.rfind('=')?;
+    leading(&text[at + 1..]).map(|(figure, _)| figure.value)
+}
+
+/// The model in a line: left side and right side, where the right side names rows.
+pub fn model(text: &str, claimed: &Claimed) -> Option<(String, String)> {
+    let (left, right) = text.split_once('=')?;
+    let left = left.rsplit([':', '\u{ff1a}']).next().unwrap_or(left).trim();
+    let left = left.rsplit(char::is_whitespace).next().unwrap_or(left);
+    let right = right
+        .split([';', '。'])
+        .next()
+        .unwrap_or(right)
+        .trim()
+        .trim_end_matches('.');
+    let right = right
+        .split(", where")
+        .next()
+        .unwrap_or(right)
+        .split(", 其中")
+        .next()
+        .unwrap_or(right)
+        .split(",其中")
+        .next()
+        .unwrap_or(right)
+        .trim();
+    let named = claimed
+        .rows
+        .iter()
+        .filter(|row| names_of(row).any(|name| has_symbol(right, name)))
+        .count();
+    let enough = named >= 2 || named == 1 && claimed.rows.len() <= 2;
+    let identifier = !left.is_empty() && left.chars().count() <= 24 && !left.contains([',', '|']);
+    // `u_c = sqrt(u1^2 + …)`, `U = k·u_c` are no models.
+    let about_u = left.starts_with("u_")
+        || left.starts_with("u(")
+        || left.starts_with("uc")
+        || left == "U"
+        || left.starts_with("r(")
+        || left.starts_with("c_")
+        || left.starts_with('∂')
+        || left.starts_with('ν');
+    (enough
+        && identifier
+        && !about_u
+        && leading(right).is_none_or(|(_, rest)| !rest.trim().is_empty()))
+    .then(|| (left.to_string(), right.to_string()))
+}
+
+/// The words by which a model may call a row: its symbol, or what looks like one in its name.
+pub fn names_of(row: &crate::claim::Row) -> impl Iterator<Item = &str> {
+    let split = |c: char| {
+        c.is_whitespace() || "(),;:[]。".contains(c) || ('\u{4e00}'..='\u{9fff}').contains(&c)
+    };
+    let looks = |word: &&str| {
+        !word.is_empty()
+            && word.chars().count() <= 8
+            && word.chars().any(char::is_alphabetic)
+            && !word.starts_with(|c: char| c.is_ascii_digit())
+    };
+    let symbol = Some(row.symbol.as_str()).filter(|symbol| !symbol.is_empty());
+    let of_name = row
+        .name
+        .split(split)
+        .filter(looks)
+        .filter(|word| word.len() != 1 || *word != "a");
+    symbol
+        .into_iter()
+        .chain(of_name.filter(move |_| symbol.is_none()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::claim::Row;
+
+    fn with_rows(symbols: &[&str]) -> Claimed {
+        let row = |symbol: &&str| Row {
+            symbol: (*symbol).into(),
+            ..Row::default()
+        };
+        Claimed {
+            rows: symbols.iter().map(row).collect(),
+            ..Claimed::default()
+        }
+    }
+
+    #[test]
+    fn notes_of_the_whole() {
+        let mut claimed = with_rows(&["m_S", "dm"]);
+        let mut said = |text: &str| note(text, Place::default(), &mut claimed);
+        assert_eq!(said("Correlation: r(m_S, dm) = 0.35"), Some("correlation"));
+        assert_eq!(said("CMC of the laboratory: 0.05 g"), Some("CMC"));
+        assert_eq!(
+            said("k from the t distribution at ν_eff, p = 95.45 %"),
+            Some("rule for k")
+        );
+        assert_eq!(
+            said("U is rounded up to two digits."),
+            Some("rule for rounding")
+        );
+        assert_eq!(
+            claimed.correlations,
+            [Correlation {
+                a: 0,
+                b: 1,
+                r: 0.35
+            }]
+        );
+        assert_eq!(claimed.cmc.as_ref().unwrap().value, 0.05);
+        assert_eq!(claimed.coverage, Coverage::StudentT(0.9545));
+        assert_eq!(claimed.rounding, RoundingStated::Up);
+        let mut claimed = with_rows(&["m_S", "dm"]);
+        note("包含因子取 k=2", Place::default(), &mut claimed);
+        assert_eq!(claimed.coverage, Coverage::Fixed(2.0));
+        note("m_S 与 dm 的相关系数 r=0.5", Place::default(), &mut claimed);
+        assert_eq!(claimed.correlations[0].r, 0.5);
+    }
+
+    #[test]
+    fn models_name_rows() {
+        let claimed = with_rows(&["m_S", "dm"]);
+        assert_eq!(
+            model("Model: m = m_S + dm", &claimed),
+            Some(("m".into(), "m_S + dm".into()))
+        );
+        assert_eq!(
+            model("测量模型：m = m_S + dm", &claimed).unwrap().1,
+            "m_S + dm"
+        );
+        assert_eq!(model("U = k·u_c", &claimed), None);
+    }
+}

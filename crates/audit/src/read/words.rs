@@ -1,0 +1,286 @@
+//! Words and figures inside texts.
+
+use crate::printed::{Printed, leading};
+
+/// A text in small letters without blanks, underscores and signs of multiplication, so that `u_i (y)` is `ui(y)`.
+pub fn compact(text: &str) -> String {
+    let kept = |c: &char| !c.is_whitespace() && !"_{}$·*×⋅".contains(*c);
+    text.chars()
+        .filter(kept)
+        .map(plain)
+        .flat_map(char::to_lowercase)
+        .collect()
+}
+
+/// Lowered letters as plain ones.
+fn plain(c: char) -> char {
+    match c {
+        'ᵢ' => 'i',
+        'ⱼ' => 'j',
+        'ₖ' => 'k',
+        'ₑ' => 'e',
+        'ᵥ' => 'v',
+        '₀'..='₉' => char::from_digit(c as u32 - '₀' as u32, 10).unwrap_or(c),
+        c => c,
+    }
+}
+
+/// Whether a text has one of these in it.
+pub fn has(text: &str, keys: &[&str]) -> bool {
+    keys.iter().any(|key| find(text, key, 0).is_some())
+}
+
+/// Where a key stands: one of letters stands as a word, or at the beginning of one from five letters on.
+pub fn find(text: &str, key: &str, from: usize) -> Option<usize> {
+    let letters = key.starts_with(|c: char| c.is_ascii_alphanumeric());
+    let ends = key.ends_with(|c: char| c.is_ascii_alphanumeric());
+    let mut at = from;
+    while let Some(found) = text.get(at..).and_then(|rest| rest.find(key)) {
+        let (start, end) = (at + found, at + found + key.len());
+        let before = text[..start].chars().next_back();
+        let after = text[end..].chars().next();
+        let free_before = !letters || before.is_none_or(|c| !is_letter(c));
+        let free_after = !ends || key.len() >= 5 || after.is_none_or(|c| !is_letter(c));
+        if free_before && free_after {
+            return Some(start);
+        }
+        at = end;
+    }
+    None
+}
+
+fn is_letter(c: char) -> bool {
+    c.is_ascii_alphanumeric() || c == '_' || ('α'..='ω').contains(&c)
+}
+
+/// The figure behind one of the keys, across words that only lead to it. A figure that counts readings, is a level of
+/// confidence or a year is none.
+pub fn figure_after(text: &str, keys: &[&str]) -> Option<Printed> {
+    let lower = text.to_lowercase();
+    for key in keys {
+        let mut from = 0;
+        while let Some(at) = find(&lower, key, from) {
+            from = at + key.len();
+            if let Some(figure) = lower.get(from..).and_then(|rest| led(rest, text)) {
+                return Some(figure);
+            }
+        }
+    }
+    None
+}
+
+fn led(rest: &str, whole: &str) -> Option<Printed> {
+    const LEADS: [&str; 35] = [
+        "is", "was", "of", "the", "for", "at", "=", ":", "≈", "~", "(", ")", "±", "+/-", ",",
+        "about", "value", "stated", "in", "digital", "as", "single", "为", "是", "的", "约", "在",
+        "取", "值", "u", "u95", "a", "s", "q", "mpe",
+    ];
+    let mut rest = rest.trim_start();
+    for _ in 0..8 {
+        if let Some((figure, behind)) = leading(rest).filter(|_| !rest.starts_with("inf")) {
+            let text = behind.trim_start();
+            let counted = starts_counted(text);
+            let level = text.starts_with('%') && (figure.value - 95.0).abs() < 1.0
+                || figure.value == 99.0 && text.starts_with('%');
+            if counted || level {
+                return None;
+            }
+            let unit = unit_in(text, whole);
+            return Some(Printed { unit, ..figure });
+        }
+        let lead = LEADS
+            .iter()
+            .filter(|lead| rest.starts_with(**lead))
+            .max_by_key(|lead| lead.len())?;
+        let next = rest[lead.len()..].chars().next();
+        if lead.as_bytes()[0].is_ascii_alphabetic() && next.is_some_and(is_letter) {
+            return None;
+        }
+        rest = rest[lead.len()..].trim_start();
+    }
+    None
+}
+
+/// Whether what follows a number says that it counts readings.
+fn starts_counted(text: &str) -> bool {
+    const COUNTED: [&str; 22] = [
+        "reading",
+        "measurement",
+        "observation",
+        "series",
+        "repeat",
+        "single",
+        "independent",
+        "times",
+        "次",
+        "个",
+        "组",
+        "天",
+        "day",
+        "degrees of",
+        "determination",
+        "sample",
+        "operator",
+        "run",
+        "consecutive",
+        "successive",
+        "values",
+        "indications",
+    ];
+    COUNTED.iter().any(|word| text.starts_with(word))
+}
+
+/// The unit behind a figure, with the case in which the text has it.
+fn unit_in(lower: &str, whole: &str) -> String {
+    let end = lower.find(|c: char| {
+        c.is_whitespace()
+            || ",;)(=。".contains(c)
+            || (c.is_alphabetic() && !c.is_ascii() && !"µΩ°".contains(c))
+    });
+    let unit = lower[..end.unwrap_or(lower.len())].trim_end_matches('.');
+    // What is left of the whole text has the same length at the end.
+    let start = whole.len().checked_sub(lower.len());
+    let original = start
+        .filter(|_| whole.to_lowercase().len() == whole.len())
+        .and_then(|s| whole.get(s..s + unit.len()));
+    original.unwrap_or(unit).to_string()
+}
+
+/// The whole number in front of one of these words, with at most one other word between: `10 repeated readings`.
+pub fn count_before(lower: &str, words: &[&str]) -> Option<f64> {
+    for word in words {
+        let mut from = 0;
+        while let Some(at) = lower.get(from..).and_then(|rest| rest.find(word)) {
+            let front = lower[..from + at].trim_end();
+            if let Some(n) =
+                trailing_count(front).or_else(|| trailing_count(front.rsplit_once(' ')?.0))
+            {
+                return Some(n);
+            }
+            from += at + word.len();
+        }
+    }
+    None
+}
+
+fn trailing_count(front: &str) -> Option<f64> {
+    let front = front.trim_end();
+    let digits = front.bytes().rev().take_while(u8::is_ascii_digit).count();
+    if digits == 0 {
+        let word = front.rsplit(|c: char| !c.is_ascii_alphabetic()).next()?;
+        const NUMBERS: [&str; 11] = [
+            "", "", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
+        ];
+        return NUMBERS
+            .iter()
+            .position(|n| !n.is_empty() && *n == word)
+            .map(|n| n as f64);
+    }
+    let mut before = front[..front.len() - digits].chars().rev();
+    // A marker between digits makes it a decimal number.
+    let decimal = before.next().is_some_and(|c| {
+        c == '-' || ".,".contains(c) && before.next().is_some_and(|c| c.is_ascii_digit())
+    });
+    let whole = digits <= 4 && !decimal;
+    whole.then(|| front[front.len() - digits..].parse().ok())?
+}
+
+/// The whole number behind one of these keys: `n = 10`, `mean of 5`.
+pub fn count_after(lower: &str, keys: &[&str]) -> Option<f64> {
+    for key in keys {
+        let mut from = 0;
+        while let Some(at) = find(lower, key, from) {
+            from = at + key.len();
+            let rest = lower[from..]
+                .trim_start()
+                .trim_start_matches(['=', ':', '(', '为'])
+                .trim_start();
+            let rest = ["the last ", "the ", "all ", "of "]
+                .iter()
+                .fold(rest, |rest, word| rest.strip_prefix(word).unwrap_or(rest));
+            let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+            let next = rest[digits..].chars().next();
+            if digits > 0
+                && digits <= 4
+                && !next.is_some_and(|c| {
+                    c == '.' && rest[digits + 1..].starts_with(|c: char| c.is_ascii_digit())
+                })
+            {
+                return rest[..digits].parse().ok();
+            }
+            let word = rest
+                .split(|c: char| !c.is_ascii_alphabetic())
+                .next()
+                .unwrap_or_default();
+            if let Some(n) = trailing_count(word) {
+                return Some(n);
+            }
+        }
+    }
+    None
+}
+
+/// Whether a symbol stands in a text as a word of its own, in its own case.
+pub fn has_symbol(text: &str, symbol: &str) -> bool {
+    symbol_at(text, symbol, 0).is_some()
+}
+
+/// Where a symbol stands in a text as a word of its own.
+pub fn symbol_at(text: &str, symbol: &str, from: usize) -> Option<usize> {
+    if symbol.is_empty() {
+        return None;
+    }
+    let part = |c: char| {
+        c.is_alphanumeric() && !('\u{4e00}'..='\u{9fff}').contains(&c) || c == '_' || c == '\''
+    };
+    let mut at = from;
+    while let Some(found) = text.get(at..).and_then(|rest| rest.find(symbol)) {
+        let (start, end) = (at + found, at + found + symbol.len());
+        let free = !text[..start].chars().next_back().is_some_and(part)
+            && !text[end..].chars().next().is_some_and(part);
+        if free {
+            return Some(start);
+        }
+        at = start + text[start..].chars().next().map_or(1, char::len_utf8);
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_found_behind_their_words() {
+        let after = |text: &str, keys: &[&str]| figure_after(text, keys).map(|p| (p.value, p.unit));
+        assert_eq!(
+            after("Certificate M-12: U = 0.05 mm, k = 2", &["u"]),
+            Some((0.05, "mm".into()))
+        );
+        assert_eq!(
+            after(
+                "standard deviation of 10 readings s = 0.012 V",
+                &["standard deviation", "s"]
+            ),
+            Some((0.012, "V".into()))
+        );
+        assert_eq!(
+            after("数字步进 0.01 mm", &["步进"]),
+            Some((0.01, "mm".into()))
+        );
+        assert_eq!(
+            after("limits ±0.3 °C, nothing else known", &["limits"]),
+            Some((0.3, "°C".into()))
+        );
+        assert_eq!(after("coverage probability 95 %", &["probability"]), None);
+    }
+
+    #[test]
+    fn readings_are_counted() {
+        assert_eq!(count_before("s of 10 readings", &["reading"]), Some(10.0));
+        assert_eq!(count_before("重复测量10次", &["次"]), Some(10.0));
+        assert_eq!(count_after("mean of 5 readings", &["mean of"]), Some(5.0));
+        assert_eq!(count_after("n = 10", &["n"]), Some(10.0));
+        assert!(has_symbol("r(dm, m_S) = 0.5", "dm") && !has_symbol("dm_1 is", "dm"));
+    }
+}

@@ -1,0 +1,266 @@
+//! Which slips give every claimed figure.
+//!
+//! The figures of a row say what happened in that row; each is explained by itself. What then is left is between the
+//! rows and the statement: no further slip, one, or two, at every place where the printed figures leave room for them.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `row` | slips that the figures of a row show, and those that they leave room for |
+//! | `check` | a calculation held against the claimed figures of the whole |
+//! | `chance` | how many combinations would match by accident |
+
+mod chance;
+mod check;
+mod row;
+
+use crate::calculate::{Calculation, Case, Figures, factors};
+use crate::claim::Claimed;
+use crate::slips::{self, Act};
+
+use chance::Chance;
+pub use check::{Checked, Gap};
+pub use row::Broken;
+use row::Options;
+
+/// What was found about a claim.
+#[derive(Debug, Clone)]
+pub struct Found<'a> {
+    /// The claim with its right calculation.
+    pub case: Case<'a>,
+    /// The figures of the right calculation.
+    pub right: Figures,
+    /// What explains the claim, best first; an empty set for a claim that is right.
+    pub explanations: Vec<Explanation>,
+    /// Where the claim departs from what was stated, if nothing explains it.
+    pub gaps: Vec<Gap>,
+    /// Sets of slips that were tried.
+    pub tried: usize,
+    /// How many of them would match figures as coarse as these by accident.
+    pub by_chance: f64,
+    /// Matches that were not named because they are likely to be chance.
+    pub withheld: usize,
+}
+
+/// A set of slips that gives every claimed figure.
+#[derive(Debug, Clone)]
+pub struct Explanation {
+    /// The slips.
+    pub acts: Vec<Act>,
+    /// The calculation with them.
+    pub calculation: Calculation,
+}
+
+/// An accident that happens more often than not explains better than what is claimed to be an explanation.
+const LIKELY: f64 = 0.5;
+
+/// Searches.
+pub fn search(claimed: &Claimed) -> Found<'_> {
+    let case = Case::of(claimed);
+    let by_rule = factors(claimed).into_iter().map(|factor| {
+        let mut case = case.clone();
+        case.right.factor = factor;
+        of_rule(case)
+    });
+    // Where the sheet states no rule for k, the one that needs the fewest slips is the laboratory's.
+    let slips = |found: &Found<'_>| {
+        found
+            .explanations
+            .first()
+            .map_or(usize::MAX, |e| e.acts.len())
+    };
+    let best = by_rule.min_by_key(slips);
+    best.unwrap_or_else(|| of_rule(case))
+}
+
+fn of_rule(case: Case<'_>) -> Found<'_> {
+    let acts = slips::acts(&case);
+    let options: Vec<Options> = (0..case.claimed.rows.len())
+        .map(|i| row::options(&case, i, &acts))
+        .collect();
+    let printed: Vec<Option<f64>> = options.iter().map(|o| o.contribution).collect();
+    let bases = bases(&case, &options);
+    let free: Vec<Act> = acts
+        .iter()
+        .filter(|act| act.row.is_none_or(|row| options[row].leaves_room_for(act)))
+        .copied()
+        .collect();
+    let mut search = Search {
+        case: &case,
+        printed: &printed,
+        free: &free,
+        chance: Chance::default(),
+        tried: 0,
+        found: Vec::new(),
+    };
+    let broken: Vec<Gap> = options
+        .iter()
+        .enumerate()
+        .filter_map(|(i, o)| o.broken.map(|figure| Gap::Row(i, figure)))
+        .collect();
+    let most = if free.len() > MOST_FOR_PAIRS { 1 } else { 2 };
+    for extra in 0..=most {
+        search.chance = Chance::default();
+        for (set, start) in &bases {
+            // Slips come alone and in pairs; what the rows show is beyond doubt, whatever its number.
+            if extra < 2 || set.is_empty() {
+                search.with(set, start, extra);
+            }
+        }
+        if !search.found.is_empty() {
+            break;
+        }
+    }
+    let (tried, by_chance) = (search.tried, search.chance.expected());
+    let mut explanations = search.found;
+    let extra = explanations
+        .first()
+        .map_or(0, |e| e.acts.len().saturating_sub(bases[0].0.len()));
+    let unlikely = broken.is_empty()
+        && (extra == 0 || by_chance < LIKELY * if extra == 1 { SINGLES } else { 1.0 });
+    let withheld = if unlikely { 0 } else { explanations.len() };
+    if !unlikely {
+        explanations.clear();
+    }
+    rank(&case, &mut explanations);
+    let right = case
+        .right
+        .figures(&[], case.claimed.cmc.as_ref().map(|cmc| cmc.value));
+    let mut gaps = broken;
+    if explanations.is_empty() && gaps.is_empty() {
+        gaps = bases
+            .iter()
+            .map(|(_, start)| check::check(&case, start, &printed).gaps())
+            .min_by_key(Vec::len)
+            .unwrap_or_default();
+    }
+    Found {
+        right,
+        explanations,
+        gaps,
+        tried,
+        by_chance,
+        withheld,
+        case,
+    }
+}
+
+/// One slip is some ten times as frequent as any given pair of slips among as many, so that a single match may be
+/// expected by accident more often before it says nothing.
+const SINGLES: f64 = 4.0;
+
+/// More places than this are tried one at a time: pairs would take seconds, and match anything.
+const MOST_FOR_PAIRS: usize = 700;
+
+/// Choices of slips that explain the rows, at most this many.
+const MOST_BASES: usize = 24;
+
+fn bases(case: &Case<'_>, options: &[Options]) -> Vec<(Vec<Act>, Calculation)> {
+    let mut bases = vec![Vec::new()];
+    for one in options
+        .iter()
+        .filter(|o| !o.sets.is_empty() && !o.sets[0].is_empty())
+    {
+        let choices = one
+            .sets
+            .len()
+            .min(MOST_BASES / bases.len().min(MOST_BASES))
+            .max(1);
+        bases = bases
+            .iter()
+            .flat_map(|base: &Vec<Act>| {
+                one.sets[..choices]
+                    .iter()
+                    .map(move |set| [base.as_slice(), set].concat())
+            })
+            .collect();
+    }
+    bases
+        .into_iter()
+        .map(|set| {
+            let mut start = case.right.clone();
+            set.iter().for_each(|act| act.apply(&mut start));
+            for (line, option) in start.lines.iter_mut().zip(options) {
+                // What a broken row passes on is what it prints.
+                if let (Some(_), Some(contribution)) = (option.broken, option.contribution) {
+                    let sign = line.c.signum();
+                    (line.u, line.c, line.to_y) = (contribution.abs(), sign, 1.0);
+                }
+            }
+            (set, start)
+        })
+        .collect()
+}
+
+struct Search<'s, 'a> {
+    case: &'s Case<'a>,
+    printed: &'s [Option<f64>],
+    free: &'s [Act],
+    chance: Chance,
+    tried: usize,
+    found: Vec<Explanation>,
+}
+
+impl Search<'_, '_> {
+    /// Tries a set with this many further slips.
+    fn with(&mut self, set: &[Act], start: &Calculation, extra: usize) {
+        match extra {
+            0 => self.attempt(set, start, &[]),
+            1 => {
+                for act in self.free {
+                    if set.iter().all(|other| act.goes_with(other)) {
+                        self.attempt(set, start, &[*act]);
+                    }
+                }
+            }
+            _ => {
+                for (i, a) in self.free.iter().enumerate() {
+                    for b in &self.free[i + 1..] {
+                        if a.goes_with(b)
+                            && [a, b]
+                                .iter()
+                                .all(|act| set.iter().all(|other| act.goes_with(other)))
+                        {
+                            self.attempt(set, start, &[*a, *b]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    fn attempt(&mut self, set: &[Act], start: &Calculation, extra: &[Act]) {
+        self.tried += 1;
+        let mut calculation = start.clone();
+        extra.iter().for_each(|act| act.apply(&mut calculation));
+        let mut printed = self.printed.to_vec();
+        for act in extra.iter().filter(|act| act.changes_contribution()) {
+            if let Some(row) = act.row {
+                printed[row] = None;
+            }
+        }
+        let checked = check::check(self.case, &calculation, &printed);
+        self.chance.count(self.case, &checked);
+        if checked.meets_all() {
+            let acts = [set, extra].concat();
+            self.found.push(Explanation { acts, calculation });
+        }
+    }
+}
+
+/// The most usual first; of several variants of one set the first.
+fn rank(case: &Case<'_>, explanations: &mut Vec<Explanation>) {
+    explanations.sort_by_key(|e| {
+        e.acts
+            .iter()
+            .map(|act| row::surprise(case, act))
+            .sum::<u32>()
+    });
+    let mut seen: Vec<Vec<String>> = Vec::new();
+    explanations.retain(|e| {
+        let mut ids: Vec<String> = e.acts.iter().map(|act| act.id(case)).collect();
+        ids.sort();
+        let new = !seen.contains(&ids);
+        seen.push(ids);
+        new
+    });
+}

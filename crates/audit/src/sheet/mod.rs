@@ -1,0 +1,87 @@
+//! Files as grids of cells: what stands where, before anybody asks what it means.
+//!
+//! | chapter | holds |
+//! |---|---|
+//! | `workbook` | `.xlsx`, `.xls`, `.ods`, with formulas beside their cached values |
+//! | `text` | separated values, Markdown tables, plain text |
+
+mod text;
+mod workbook;
+
+/// One sheet.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Grid {
+    /// Its name; empty for a file that is one sheet.
+    pub name: String,
+    /// Its rows, of different lengths.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+/// One cell.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Cell {
+    /// What stands in it, in the cleaned form of [`clean`](crate::printed::clean).
+    pub text: String,
+    /// The formula behind it, without the equals sign.
+    pub formula: Option<String>,
+}
+
+impl Cell {
+    /// A cell of a text.
+    pub fn new(text: &str) -> Cell {
+        Cell {
+            text: crate::printed::clean(text).trim().to_string(),
+            formula: None,
+        }
+    }
+
+    /// Whether nothing stands in it.
+    pub fn is_empty(&self) -> bool {
+        self.text.is_empty()
+    }
+}
+
+impl Grid {
+    /// The cell at a place; an empty one beyond the edge.
+    pub fn cell(&self, row: usize, column: usize) -> &Cell {
+        static NOTHING: Cell = Cell {
+            text: String::new(),
+            formula: None,
+        };
+        self.rows
+            .get(row)
+            .and_then(|cells| cells.get(column))
+            .unwrap_or(&NOTHING)
+    }
+
+    /// The cells of a row that hold something, with their columns.
+    pub fn filled(&self, row: usize) -> impl Iterator<Item = (usize, &Cell)> {
+        let cells = self.rows.get(row).map_or(&[][..], Vec::as_slice);
+        cells
+            .iter()
+            .enumerate()
+            .filter(|(_, cell)| !cell.is_empty())
+    }
+}
+
+/// What a file cannot be read as.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unreadable(pub String);
+
+/// Reads a file by the ending of its name, or by its first bytes where that says nothing.
+///
+/// # Errors
+/// The bytes are no workbook that can be opened, or text in no known encoding.
+pub fn grids(name: &str, bytes: &[u8]) -> Result<Vec<Grid>, Unreadable> {
+    let ending = name.rsplit('.').next().unwrap_or_default().to_lowercase();
+    let zipped = bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(&[0xd0, 0xcf, 0x11, 0xe0]);
+    if zipped || matches!(ending.as_str(), "xlsx" | "xlsm" | "xls" | "ods" | "xlsb") {
+        return workbook::grids(bytes);
+    }
+    let text = text::decoded(bytes)?;
+    Ok(vec![match ending.as_str() {
+        "md" | "markdown" => text::markdown(&text),
+        "tsv" => text::separated(&text, '\t'),
+        _ => text::guessed(&text),
+    }])
+}

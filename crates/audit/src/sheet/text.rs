@@ -1,0 +1,177 @@
+//! Texts: separated values, Markdown tables, plain text.
+
+use super::{Cell, Grid, Unreadable};
+
+/// UTF-8, UTF-16 with its mark, or GBK.
+pub(super) fn decoded(bytes: &[u8]) -> Result<String, Unreadable> {
+    let decoded = gumption_format::csv::decode(bytes);
+    let trouble = |at: gumption_format::csv::Undecodable| {
+        Unreadable(format!("line {}: text in none of UTF-8, UTF-16 and GBK", at.line))
+    };
+    decoded.map(|decoded| decoded.text).map_err(trouble)
+}
+
+/// The separator is the one that most lines have in equal number; a text without any is one column.
+pub(super) fn guessed(text: &str) -> Grid {
+    if text.lines().filter(|line| is_markdown(line)).count() >= 2 {
+        return markdown(text);
+    }
+    // The way of parting lines that gives most of them one number of columns; a comma may be inside numbers and sentences,
+    // so that others come first where they do as well.
+    let widths = |part: &dyn Fn(&str) -> usize| {
+        let mut widths: Vec<usize> = text.lines().map(part).filter(|n| *n >= 3).collect();
+        widths.sort_unstable();
+        widths
+            .chunk_by(|a, b| a == b)
+            .map(|same| same.len())
+            .max()
+            .unwrap_or(0)
+    };
+    let separators = ['\t', ';', '|', ','];
+    let mut best = (widths(&|line| aligned_fields(line).len()), None);
+    for separator in separators.into_iter().rev() {
+        let count = widths(&|line| fields(line, separator).len());
+        if count > 0 && count >= best.0 {
+            best = (count, Some(separator));
+        }
+    }
+    match best.1 {
+        Some(separator) => separated(text, separator),
+        None => aligned(text),
+    }
+}
+
+fn is_markdown(line: &str) -> bool {
+    let line = line.trim();
+    line.starts_with('|') && line.matches('|').count() >= 3
+}
+
+/// Separated values; a quoted field may hold separators, doubled quotes and line breaks.
+pub(super) fn separated(text: &str, separator: char) -> Grid {
+    let mut rows = Vec::new();
+    let mut open = String::new();
+    for line in text.lines() {
+        if !open.is_empty() {
+            open.push('\n');
+        }
+        open.push_str(line);
+        if open.matches('"').count().is_multiple_of(2) {
+            rows.push(
+                fields(&open, separator)
+                    .iter()
+                    .map(|field| Cell::new(&field.replace('\n', " ")))
+                    .collect(),
+            );
+            open.clear();
+        }
+    }
+    if !open.is_empty() {
+        rows.extend(
+            open.lines()
+                .map(|line| line.split(separator).map(Cell::new).collect()),
+        );
+    }
+    Grid {
+        name: String::new(),
+        rows,
+    }
+}
+
+fn fields(line: &str, separator: char) -> Vec<String> {
+    let mut fields = vec![String::new()];
+    let (mut quoted, mut chars) = (false, line.chars().peekable());
+    while let Some(c) = chars.next() {
+        let empty = fields.last().is_some_and(|f| f.trim().is_empty());
+        match c {
+            '"' if quoted && chars.peek() == Some(&'"') => {
+                chars.next();
+                push(&mut fields, '"');
+            }
+            '"' if quoted || empty => quoted = !quoted,
+            c if c == separator && !quoted => fields.push(String::new()),
+            c => push(&mut fields, c),
+        }
+    }
+    fields
+}
+
+fn push(fields: &mut [String], c: char) {
+    if let Some(last) = fields.last_mut() {
+        last.push(c);
+    }
+}
+
+/// Markdown: tables row by row, other lines as rows of one cell without their marks.
+pub(super) fn markdown(text: &str) -> Grid {
+    let mut rows = Vec::new();
+    for line in text.lines() {
+        let line = line.trim();
+        if !is_markdown(line) {
+            let plain = line
+                .trim_start_matches(['#', '>', ' '])
+                .trim_start_matches("- ")
+                .trim_start_matches("* ");
+            rows.push(vec![Cell::new(&unmarked(plain))]);
+            continue;
+        }
+        let inner = line.trim_start_matches('|');
+        let inner = inner.strip_suffix('|').unwrap_or(inner);
+        let rule = inner.chars().all(|c| "-:| ".contains(c)) && inner.contains("--");
+        if !rule {
+            let hidden = inner.replace("\\|", "\u{1}");
+            rows.push(
+                hidden
+                    .split('|')
+                    .map(|field| Cell::new(&unmarked(&field.replace('\u{1}', "|"))))
+                    .collect(),
+            );
+        }
+    }
+    Grid {
+        name: String::new(),
+        rows,
+    }
+}
+
+fn unmarked(text: &str) -> String {
+    text.replace("**", "")
+        .replace('`', "")
+        .replace("<br>", " ")
+        .replace('$', "")
+}
+
+/// Plain text whose columns are apart by two blanks or more.
+fn aligned(text: &str) -> Grid {
+    let row = |line: &str| aligned_fields(line).into_iter().map(Cell::new).collect();
+    Grid {
+        name: String::new(),
+        rows: text.lines().map(row).collect(),
+    }
+}
+
+fn aligned_fields(line: &str) -> Vec<&str> {
+    line.split("  ")
+        .map(str::trim)
+        .filter(|part| !part.is_empty())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_separator_is_found() {
+        let texts = |grid: &Grid, row: usize| -> Vec<String> {
+            grid.rows[row].iter().map(|c| c.text.clone()).collect()
+        };
+        let commas = guessed("Title\nX,u,c\na,0.1,1\nb,\"0,2\",1\n");
+        assert_eq!(texts(&commas, 3), ["b", "0,2", "1"]);
+        let semicolons = guessed("X;u;c\na;0,1;1\nb;0,2;1\n");
+        assert_eq!(texts(&semicolons, 1), ["a", "0,1", "1"]);
+        let table = guessed("# Budget\n\n| X | u |\n|---|---|\n| a | 0.1 |\n");
+        assert_eq!(texts(&table, 3), ["a", "0.1"]);
+        let spaced = guessed("X      u     c\nlength l   0.1   1\n");
+        assert_eq!(texts(&spaced, 1), ["length l", "0.1", "1"]);
+    }
+}

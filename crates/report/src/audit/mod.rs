@@ -1,0 +1,267 @@
+//! The audit of a claimed budget as a document: the answer on one page, then how the sheet was understood.
+
+mod form;
+mod words;
+
+use gumption_audit::claim::{Claimed, Row};
+use gumption_audit::printed::Printed;
+use gumption_audit::search::{Explanation, Gap};
+use gumption_audit::{Audit, Verdict};
+use gumption_format::document::{Block, Cell, ColumnKind, Document, KeyFigure, Table};
+use gumption_format::machine;
+use serde_json::Value;
+
+use crate::language::Language;
+use crate::number::{NONE, freedom, significant};
+
+/// The audit of one file as a document: of each budget that it holds.
+pub fn audit(file: &str, audits: &[Audit<'_>], language: Language) -> Document {
+    let machine = form::AuditJson::of(file, audits);
+    let mut blocks = Vec::new();
+    for audit in audits {
+        blocks.extend(one(file, audit, language));
+    }
+    Document::new(&machine, language, blocks)
+}
+
+/// Schema of the machine form.
+pub fn audit_schema() -> Value {
+    machine::schema::<form::AuditJson>("gumption audit --json")
+}
+
+fn one(file: &str, audit: &Audit<'_>, language: Language) -> Vec<Block> {
+    let claimed = audit.found.case.claimed;
+    let pick = |en: &str, zh: &str| language.pick(en, zh).to_string();
+    let title = if claimed.title.is_empty() {
+        file
+    } else {
+        &claimed.title
+    };
+    let mut blocks = vec![
+        Block::Title(title.to_string()),
+        Block::Fields(fields(file, claimed, language)),
+        Block::Figures(figures(audit, language)),
+        Block::Statement(words::verdict(audit, language)),
+    ];
+    let listed = &audit.found.explanations;
+    if audit.verdict != Verdict::Sound && !listed.is_empty() {
+        blocks.push(Block::Section(pick(
+            "What gives the claimed figures",
+            "能给出所声称数值的差错",
+        )));
+        blocks.push(explanations(audit, language));
+        blocks.extend(words::question(audit, language).map(Block::Paragraph));
+    }
+    if !audit.found.gaps.is_empty() && listed.is_empty() {
+        blocks.push(Block::Section(pick(
+            "Where the claim departs",
+            "声称值从何处开始不符",
+        )));
+        blocks.push(Block::List(
+            audit
+                .found
+                .gaps
+                .iter()
+                .map(|gap| words::gap(audit, gap, language))
+                .collect(),
+        ));
+    }
+    blocks.push(Block::Section(pick(
+        "Recomputed from what is stated",
+        "由所述信息重新计算",
+    )));
+    blocks.push(Block::Table(rows(audit, language)));
+    if let Some(trouble) = &audit.found.case.trouble {
+        blocks.push(Block::Paragraph(format!(
+            "{}: {trouble}",
+            pick("The model was not used", "未使用模型")
+        )));
+    }
+    blocks.push(Block::Section(pick(
+        "How the sheet was understood",
+        "对表格的理解",
+    )));
+    blocks.push(Block::Table(understood(claimed, language)));
+    if !claimed.unplaced.is_empty() {
+        blocks.push(Block::Paragraph(pick(
+            "Not used in the calculation:",
+            "计算中未用到：",
+        )));
+        blocks.push(Block::List(
+            claimed
+                .unplaced
+                .iter()
+                .take(20)
+                .map(|u| format!("{}: {}", u.at.a1(), u.text))
+                .collect(),
+        ));
+    }
+    blocks
+}
+
+fn fields(file: &str, claimed: &Claimed, language: Language) -> Vec<(String, String)> {
+    let mut fields = vec![(language.pick("File", "文件").to_string(), file.to_string())];
+    if let Some(model) = &claimed.model {
+        let measurand = if claimed.measurand.is_empty() {
+            "y"
+        } else {
+            &claimed.measurand
+        };
+        fields.push((
+            language.pick("Model", "测量模型").into(),
+            format!("{measurand} = {model}"),
+        ));
+    }
+    fields
+}
+
+fn with_unit(text: String, unit: &str) -> String {
+    if unit.is_empty() {
+        text
+    } else {
+        format!("{text} {unit}")
+    }
+}
+
+fn shown(figure: Option<&Printed>) -> String {
+    figure.map_or(NONE.to_string(), |figure| figure.text.clone())
+}
+
+fn figures(audit: &Audit<'_>, language: Language) -> Vec<KeyFigure> {
+    let (claimed, right) = (audit.found.case.claimed, audit.found.right);
+    let pick = |en: &str, zh: &str| language.pick(en, zh).to_string();
+    let figure = |name: &str, claimed: Option<&Printed>, right: String, unit: &str| KeyFigure {
+        name: name.to_string(),
+        value: format!("{right} ({} {})", pick("claimed", "声称"), shown(claimed)),
+        unit: unit.to_string(),
+    };
+    let footer = &claimed.footer;
+    let mut all = vec![figure(
+        "u_c",
+        footer.u_c.as_ref(),
+        with_unit(significant(right.u_c, 4), &claimed.unit),
+        "",
+    )];
+    if footer.nu_eff.is_some() || right.nu_eff < 1e5 {
+        all.push(figure(
+            "ν_eff",
+            footer.nu_eff.as_ref(),
+            freedom(right.nu_eff),
+            "",
+        ));
+    }
+    all.push(figure("k", footer.k.as_ref(), significant(right.k, 3), ""));
+    all.push(figure(
+        "U",
+        footer.expanded.as_ref(),
+        with_unit(significant(right.expanded, 3), &claimed.unit),
+        "",
+    ));
+    all
+}
+
+fn explanations(audit: &Audit<'_>, language: Language) -> Block {
+    let mut table = Table::new([
+        ("", ColumnKind::Numbers),
+        (language.pick("slips", "差错"), ColumnKind::Words),
+        (language.pick("where", "位置"), ColumnKind::Words),
+        (language.pick("rules", "规则"), ColumnKind::Names),
+    ]);
+    /// More than these are not read; the machine form has all.
+    const MOST: usize = 8;
+    for (i, explanation) in audit.found.explanations.iter().take(MOST).enumerate() {
+        for (j, act) in explanation.acts.iter().enumerate() {
+            let number = if j == 0 {
+                (i + 1).to_string()
+            } else {
+                String::new()
+            };
+            let place = act.row.map_or(String::new(), |row| {
+                words::place(&audit.found.case.claimed.rows[row], row, language)
+            });
+            let text = format!(
+                "{} [{}]",
+                language.pick(act.slip.en, act.slip.zh),
+                act.slip.id
+            );
+            table.push(vec![
+                number.into(),
+                text.into(),
+                place.into(),
+                act.slip.rule.into(),
+            ]);
+        }
+    }
+    Block::Table(table)
+}
+
+/// U if everything in an explanation were corrected is the right one; what a single correction does is shown in words.
+fn rows(audit: &Audit<'_>, language: Language) -> Table {
+    let case = &audit.found.case;
+    let in_slips = |i: usize| {
+        audit
+            .found
+            .explanations
+            .first()
+            .is_some_and(|e: &Explanation| e.acts.iter().any(|act| act.row == Some(i)))
+    };
+    let gap = |i: usize| {
+        audit
+            .found
+            .gaps
+            .iter()
+            .any(|gap| matches!(gap, Gap::Row(row, _) if *row == i))
+    };
+    let mut table = Table::new([
+        (language.pick("row", "行"), ColumnKind::Names),
+        (language.pick("stated", "已知信息"), ColumnKind::Words),
+        ("u", ColumnKind::Numbers),
+        (language.pick("claimed u", "声称 u"), ColumnKind::Numbers),
+        ("c", ColumnKind::Numbers),
+        ("c·u", ColumnKind::Numbers),
+        (language.pick("claimed", "声称"), ColumnKind::Numbers),
+        ("ν", ColumnKind::Numbers),
+        ("", ColumnKind::Names),
+    ]);
+    for (i, (row, line)) in case.claimed.rows.iter().zip(&case.right.lines).enumerate() {
+        let mark = if in_slips(i) || gap(i) { "◀" } else { "" };
+        let contribution = if line.counted {
+            significant(line.contribution().abs(), 3)
+        } else {
+            language.pick("not counted", "不计").to_string()
+        };
+        table.push(vec![
+            Cell::from(words::short(row)),
+            words::stated(row, language).into(),
+            significant(line.u, 3).into(),
+            shown(row.u.as_ref()).into(),
+            significant(line.c, 4).into(),
+            contribution.into(),
+            shown(row.contribution.as_ref()).into(),
+            freedom(line.dof).into(),
+            mark.into(),
+        ]);
+    }
+    table.without_empty_columns()
+}
+
+fn understood(claimed: &Claimed, language: Language) -> Table {
+    let mut table = Table::new([
+        (language.pick("cell", "单元格"), ColumnKind::Names),
+        (language.pick("text", "内容"), ColumnKind::Words),
+        (language.pick("taken as", "理解为"), ColumnKind::Words),
+    ]);
+    for one in &claimed.understood {
+        table.push(vec![
+            one.at.a1().into(),
+            one.text.as_str().into(),
+            words::role(one.role, language).into(),
+        ]);
+    }
+    table
+}
+
+/// A row as tables call it.
+fn label(row: &Row) -> &str {
+    row.label()
+}

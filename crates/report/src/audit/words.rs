@@ -1,0 +1,300 @@
+//! Sentences of an audit.
+
+use gumption_audit::claim::{Row, Shape, Stated};
+use gumption_audit::search::{Broken, Gap};
+use gumption_audit::{Audit, Verdict};
+
+use crate::language::Language;
+use crate::number::significant;
+
+use super::label;
+
+/// A row's name, kept short.
+pub(super) fn short(row: &Row) -> String {
+    let name = label(row);
+    let head: String = name.chars().take(24).collect();
+    if head.len() < name.len() {
+        format!("{head}…")
+    } else {
+        head
+    }
+}
+
+/// Where a row stands.
+pub(super) fn place(row: &Row, i: usize, language: Language) -> String {
+    let name = short(row);
+    match language {
+        Language::English => format!("row {} ({name}), line {}", i + 1, row.at.row + 1),
+        Language::Chinese => format!("第 {} 项（{name}），表中第 {} 行", i + 1, row.at.row + 1),
+    }
+}
+
+/// The sentences that all comes down to.
+pub(super) fn verdict(audit: &Audit<'_>, language: Language) -> Vec<String> {
+    let found = &audit.found;
+    let claimed = found.case.claimed;
+    let unit = &claimed.unit;
+    let with_unit = |x: f64, digits| {
+        if unit.is_empty() {
+            significant(x, digits)
+        } else {
+            format!("{} {unit}", significant(x, digits))
+        }
+    };
+    let right_u = with_unit(found.right.expanded, 2);
+    let claimed_u = claimed
+        .footer
+        .expanded
+        .as_ref()
+        .map_or("—".to_string(), |u| u.text.clone());
+    let count = found.explanations.first().map_or(0, |e| e.acts.len());
+    let slips = || -> String {
+        let best = found.explanations.first();
+        let acts = best.map_or(&[][..], |e| &e.acts);
+        let texts: Vec<String> = acts
+            .iter()
+            .map(|act| {
+                let place = act.row.map(|row| place(&claimed.rows[row], row, language));
+                let text = language.pick(act.slip.en, act.slip.zh);
+                match (language, place) {
+                    (Language::English, Some(place)) => format!("{text} ({place})"),
+                    (Language::Chinese, Some(place)) => format!("{text}（{place}）"),
+                    (_, None) => text.to_string(),
+                }
+            })
+            .collect();
+        texts.join(language.pick("; ", "；"))
+    };
+    let named = || match (language, count) {
+        (Language::English, 1) => format!("One slip gives every claimed figure: {}.", slips()),
+        (Language::English, n) => {
+            format!("{n} slips together give every claimed figure: {}.", slips())
+        }
+        (Language::Chinese, 1) => format!("有一处差错能给出全部声称值：{}。", slips()),
+        (Language::Chinese, n) => format!("{n} 处差错合在一起能给出全部声称值：{}。", slips()),
+    };
+    let chance = || match language {
+        Language::English => format!(
+            "{} combinations were tried; {} of them would match figures as coarse as these by accident.",
+            found.tried,
+            significant(found.by_chance, 2)
+        ),
+        Language::Chinese => format!(
+            "共试 {} 种组合；按声称值的位数，预计有 {} 种会偶然相符。",
+            found.tried,
+            significant(found.by_chance, 2)
+        ),
+    };
+    match audit.verdict {
+        Verdict::Sound => vec![match language {
+            Language::English => format!("Sound: every claimed figure follows from what the sheet states. U = {right_u}."),
+            Language::Chinese => format!("无差错：全部声称值都能由表中信息得出。U = {right_u}。"),
+        }],
+        Verdict::WithEffect => vec![
+            named(),
+            match language {
+                Language::English => format!("Corrected, U is {right_u} where {claimed_u} is claimed."),
+                Language::Chinese => format!("改正后 U = {right_u}，声称值为 {claimed_u}。"),
+            },
+            chance(),
+        ],
+        Verdict::WithoutEffect => vec![
+            named(),
+            match language {
+                Language::English => format!("The result as printed does not change: U = {right_u}."),
+                Language::Chinese => format!("不影响所报告的结果：U = {right_u}。"),
+            },
+            chance(),
+        ],
+        Verdict::Unexplained => {
+            let mut sentences = vec![match language {
+                Language::English => format!("Unexplained: the claimed figures do not follow from what is stated, and no slip that is known gives them. Recomputed, U is {right_u} where {claimed_u} is claimed."),
+                Language::Chinese => format!("无法解释：声称值不能由所述信息得出，已知的差错也都不能给出这些数值。重新计算 U = {right_u}，声称值为 {claimed_u}。"),
+            }];
+            if found.withheld > 0 {
+                sentences.push(match language {
+                    Language::English => format!("{} combinations of slips match, but {} would by accident: none is named.", found.withheld, significant(found.by_chance, 2)),
+                    Language::Chinese => format!("有 {} 种差错组合相符，但预计偶然相符的就有 {} 种，故不作判定。", found.withheld, significant(found.by_chance, 2)),
+                });
+            }
+            sentences
+        }
+        Verdict::NotRecomputed => vec![language.pick(
+            "Cannot be recomputed: the sheet holds no budget with figures and a claim that could be understood.",
+            "无法重新计算：表中没有可以理解的、带有数值和声称值的不确定度预算。",
+        ).to_string()],
+    }
+}
+
+/// What the laboratory should be asked where several explanations are equally good.
+pub(super) fn question(audit: &Audit<'_>, language: Language) -> Option<String> {
+    let [first, second, ..] = audit.found.explanations.as_slice() else {
+        return None;
+    };
+    let differs = first.acts.iter().find(|act| {
+        !second
+            .acts
+            .iter()
+            .any(|other| other.slip.id == act.slip.id && other.row == act.row)
+    })?;
+    let rows = &audit.found.case.claimed.rows;
+    Some(match (language, differs.row) {
+        (Language::English, Some(row)) => format!("To decide between them, ask the laboratory how u of {} was found.", short(&rows[row])),
+        (Language::English, None) => "To decide between them, ask the laboratory how U was found from the contributions, step by step.".to_string(),
+        (Language::Chinese, Some(row)) => format!("要加以区分，请询问实验室 {} 的标准不确定度是如何得到的。", short(&rows[row])),
+        (Language::Chinese, None) => "要加以区分，请实验室逐步说明 U 是如何由各分量得到的。".to_string(),
+    })
+}
+
+/// Where a claim departs.
+pub(super) fn gap(audit: &Audit<'_>, gap: &Gap, language: Language) -> String {
+    let rows = &audit.found.case.claimed.rows;
+    match gap {
+        Gap::Row(i, figure) => {
+            let (en, zh) = match figure {
+                Broken::U => (
+                    "the standard uncertainty does not follow from what is stated",
+                    "标准不确定度不能由所述信息得出",
+                ),
+                Broken::C => (
+                    "the sensitivity coefficient is not the derivative of the model",
+                    "灵敏系数不是模型的偏导数",
+                ),
+                Broken::Contribution => ("the contribution is not c·u", "分量不等于 c·u"),
+                Broken::Dof => (
+                    "the degrees of freedom do not follow from what is stated",
+                    "自由度不能由所述信息得出",
+                ),
+            };
+            format!(
+                "{}{}{}",
+                place(&rows[*i], *i, language),
+                language.pick(": ", "："),
+                language.pick(en, zh)
+            )
+        }
+        Gap::Sum => language
+            .pick(
+                "Between the rows and u_c: no known way of combining the contributions gives it.",
+                "各行与 u_c 之间：已知的合成方式都不能给出该值。",
+            )
+            .into(),
+        Gap::Freedom => language
+            .pick(
+                "At ν_eff: it is not that of Welch and Satterthwaite.",
+                "ν_eff：不符合 Welch–Satterthwaite 公式。",
+            )
+            .into(),
+        Gap::Factor => language
+            .pick("At k: it is not that of the rule.", "k：不符合所述规则。")
+            .into(),
+        Gap::Expanded => language
+            .pick(
+                "Between u_c, k and U: the product, rounded, is not what is printed.",
+                "u_c、k 与 U 之间：乘积修约后与所印不符。",
+            )
+            .into(),
+    }
+}
+
+/// What is known of a row.
+pub(super) fn stated(row: &Row, language: Language) -> String {
+    let shape = |shape: Shape| match shape {
+        Shape::Rectangular => language.pick("rectangular", "均匀").to_string(),
+        Shape::Triangular => language.pick("triangular", "三角").to_string(),
+        Shape::Arcsine => language.pick("arcsine", "反正弦").to_string(),
+        Shape::Trapezoidal(beta) => format!(
+            "{} β = {}",
+            language.pick("trapezoidal", "梯形"),
+            significant(beta, 2)
+        ),
+        Shape::Normal(k) => format!(
+            "{} k = {}",
+            language.pick("normal", "正态"),
+            significant(k, 3)
+        ),
+        Shape::TwoPoint => language.pick("two points", "两点").to_string(),
+    };
+    let number = |x: f64| significant(x, 4);
+    match &row.stated {
+        Stated::Nothing => String::new(),
+        Stated::Certificate {
+            expanded,
+            k,
+            k_stated,
+        } => {
+            let mark = if *k_stated {
+                ""
+            } else {
+                language.pick(" (taken)", "（默认）")
+            };
+            format!(
+                "U = {}, k = {}{mark}",
+                number(expanded.value),
+                significant(*k, 3)
+            )
+        }
+        Stated::Limits {
+            half_width,
+            shape: s,
+            ..
+        } => format!("±{}, {}", number(half_width.value), shape(*s)),
+        Stated::FullWidth { width, shape: s } => format!(
+            "{} {}, {}",
+            language.pick("width", "全宽"),
+            number(width.value),
+            shape(*s)
+        ),
+        Stated::Step { step } => {
+            format!("{} {}", language.pick("step", "步进"), number(step.value))
+        }
+        Stated::Unequal { plus, minus } => {
+            format!("+{}/−{}", number(plus.value), number(minus.value))
+        }
+        Stated::Deviation { s, n, m, pooled } => {
+            let n = n.map_or(String::new(), |n| format!(", n = {n}"));
+            let pooled = pooled.map_or(String::new(), |dof| {
+                format!(", {} ν = {dof}", language.pick("pooled", "合并"))
+            });
+            format!("s = {}{n}, m = {m}{pooled}", number(s.value))
+        }
+        Stated::Range { range, n, m } => format!("R = {}, n = {n}, m = {m}", number(range.value)),
+        Stated::Standard { u, .. } => format!("u = {}", number(u.value)),
+    }
+}
+
+/// As what a cell was taken.
+pub(super) fn role(role: &str, language: Language) -> String {
+    let chinese = match role {
+        "number" => "序号",
+        "symbol" => "符号",
+        "source" => "来源",
+        "estimate" => "估计值",
+        "half_width" => "半宽（所用数值）",
+        "unit" => "单位",
+        "type" => "评定类别",
+        "distribution" => "分布",
+        "divisor" => "除数",
+        "u" => "标准不确定度",
+        "sensitivity" => "灵敏系数",
+        "contribution" => "分量",
+        "dof" => "自由度",
+        "readings" => "次数",
+        "derived" => "由其他列算出，不用",
+        "remark" => "说明",
+        "model" => "测量模型",
+        "correlation" => "相关性",
+        "rule for k" => "k 的规则",
+        "rule for rounding" => "修约规则",
+        "note to a row" => "某行的说明",
+        "?" => "未识别",
+        other => other,
+    };
+    let english = match role {
+        "half_width" => "± (what was used)",
+        "derived" => "computed from others, not used",
+        "?" => "not understood",
+        other => other,
+    };
+    language.pick(english, chinese).to_string()
+}

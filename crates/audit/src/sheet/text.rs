@@ -6,7 +6,10 @@ use super::{Cell, Grid, Unreadable};
 pub(super) fn decoded(bytes: &[u8]) -> Result<String, Unreadable> {
     let decoded = gumption_format::csv::decode(bytes);
     let trouble = |at: gumption_format::csv::Undecodable| {
-        Unreadable(format!("line {}: text in none of UTF-8, UTF-16 and GBK", at.line))
+        Unreadable(format!(
+            "line {}: text in none of UTF-8, UTF-16 and GBK",
+            at.line
+        ))
     };
     decoded.map(|decoded| decoded.text).map_err(trouble)
 }

@@ -30,8 +30,8 @@
 //!
 //! # Files in memory
 //!
-//! A budget may name other files: readings in CSV, other budgets, saved results. They are looked up on the disk, or in
-//! a library in memory.
+//! A budget may name other files: readings in CSV, other budgets, saved results; an experiment names its recording. They
+//! are looked up on the disk (`Files::Disk`), or in a library in memory.
 //!
 //! ```
 //! use gumption::Files;
@@ -81,10 +81,18 @@
 //! From a recording and measurement equations, or a procedure of the library, to coefficients with their covariance.
 //!
 //! ```
-//! let calibration = gumption::calibrate("experiments/gyro-scale-factor.toml")?;
-//! for coefficient in &calibration.figures.coefficients {
-//!     println!("{} = {}, u = {}", coefficient.name, coefficient.value, coefficient.u);
-//! }
+//! use gumption::Files;
+//!
+//! let files = Files::Library(&[
+//!     ("run.csv", b"omega [deg/s],U [V]\n-20,-0.1999\n-10,-0.0999\n0,0.0002\n10,0.1001\n20,0.2003\n".as_slice()),
+//!     ("gyro.toml", r#"
+//!         recording = { file = "run.csv", average = "none" }
+//!         equations = "U = K*omega + b"
+//!     "#.as_bytes()),
+//! ]);
+//! let calibration = gumption::calibrate(files, "gyro.toml")?;
+//! let k = &calibration.figures.coefficients[0];
+//! assert!((k.value - 0.010).abs() < 3.0 * k.u && k.u < 1e-5);
 //! # Ok::<(), gumption::Error>(())
 //! ```
 //!
@@ -93,27 +101,29 @@
 //! Whether a recording agrees with its model, and what was left out.
 //!
 //! ```
-//! let folder = std::env::temp_dir().join("gumption-a-diagnosis");
-//! std::fs::create_dir_all(&folder)?;
+//! use gumption::Files;
+//!
 //! let mut recording = String::from("x,y [V]\n");
 //! for k in 0..40 {
 //!     let x = f64::from(k % 20) / 10.0 - 1.0;
 //!     let noise = 1e-3 * f64::from((7 * k) % 11 - 5) / 3.0;
 //!     recording += &format!("{x},{}\n", 1.0 + 2.0 * x + 0.02 * x * x + noise);
 //! }
-//! std::fs::write(folder.join("recording.csv"), recording)?;
-//! std::fs::write(folder.join("line.toml"), r#"
-//!     recording = "recording.csv"
-//!     equations = "y = a + b*x"
-//!     [columns]
-//!     x = "stimulus"
-//!     y = "output"
-//!     [noise]
-//!     u = "1 mV"
-//! "#)?;
-//! let diagnosis = gumption::diagnose(folder.join("line.toml"))?;
+//! let files = [
+//!     ("recording.csv", recording.as_bytes()),
+//!     ("line.toml", r#"
+//!         recording = "recording.csv"
+//!         equations = "y = a + b*x"
+//!         [columns]
+//!         x = "stimulus"
+//!         y = "output"
+//!         [noise]
+//!         u = "1 mV"
+//!     "#.as_bytes()),
+//! ];
+//! let diagnosis = gumption::diagnose(Files::Library(&files), "line.toml")?;
 //! assert!(diagnosis.adopted.is_some(), "the square is missing");
-//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! # Ok::<(), gumption::Error>(())
 //! ```
 //!
 //! # The rooms
@@ -265,18 +275,19 @@ pub fn statement(budget: &Budget, evaluation: &Evaluation) -> String {
 ///
 /// # Errors
 /// The file or its recording has faults, or the recording does not give the coefficients.
-pub fn calibrate(path: impl AsRef<Path>) -> Result<Calibration, Error> {
-    let experiment = calibrate::load(path.as_ref(), calibrate::Purpose::Calibrate)?;
-    Ok(calibrate::calibrate(&experiment)?)
+pub fn calibrate(files: Files<'_>, path: impl AsRef<Path>) -> Result<Calibration, Error> {
+    let purpose = experiment::Purpose::Calibrate;
+    let campaign = calibrate::load_from(files, path.as_ref(), purpose)?;
+    Ok(calibrate::calibrate(&campaign)?)
 }
 
 /// Holds a recording against the model that a file declares.
 ///
 /// # Errors
 /// The file or its recording has faults, or the model cannot be fitted.
-pub fn diagnose(path: impl AsRef<Path>) -> Result<Diagnosis, Error> {
+pub fn diagnose(files: Files<'_>, path: impl AsRef<Path>) -> Result<Diagnosis, Error> {
     use diagnose::case::{Case, Purpose};
-    let case = Case::load(path.as_ref(), Purpose::Diagnosis)?;
+    let case = Case::load_from(files, path.as_ref(), Purpose::Diagnosis)?;
     diagnose::diagnose(&case, &|_| ControlFlow::Continue(())).map_err(|failure| {
         let why = report::diagnosis_failure(&case, &failure, Language::English);
         Error::Diagnosis(failure, why)

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use gumption::calibrate::{self, Calibration, Experiment, Purpose, Trouble};
+use gumption::calibrate::{self, Calibration, Campaign, Trouble};
+use gumption::experiment::Purpose;
 use gumption::files::write::Output;
 use gumption::report::{self, Language};
 
@@ -28,17 +29,17 @@ pub(super) fn run(args: &Args) -> Outcome {
     if let Err(outcome) = args.form.is_possible(&beside.collect::<Vec<PathBuf>>()) {
         return outcome;
     }
-    let experiment = match read(&args.file, Purpose::Calibrate, args.form.lang) {
-        Ok(experiment) => experiment,
+    let campaign = match read(&args.file, Purpose::Calibrate, args.form.lang) {
+        Ok(campaign) => campaign,
         Err(outcome) => return outcome,
     };
-    let found = match calibrate::calibrate(&experiment) {
+    let found = match calibrate::calibrate(&campaign) {
         Ok(found) => found,
         Err(trouble) => return failed(&args.file, &trouble, args.form.lang),
     };
     let lang = args.form.lang;
-    let document = report::calibration(&experiment, &found, lang);
-    match budgets(args, &experiment, &found) {
+    let document = report::calibration(&campaign, &found, lang);
+    match budgets(args, &campaign, &found) {
         Ok(budgets) => args.form.write_with(&document, budgets),
         Err(complaint) => output::complain(complaint).max(args.form.write(&document)),
     }
@@ -46,16 +47,16 @@ pub(super) fn run(args: &Args) -> Outcome {
 
 /// What a calibration would tell, from its schedule.
 pub(super) fn plan(file: &std::path::Path, form: &Form) -> Outcome {
-    let experiment = match read(file, Purpose::Plan, form.lang) {
-        Ok(experiment) => experiment,
+    let campaign = match read(file, Purpose::Plan, form.lang) {
+        Ok(campaign) => campaign,
         Err(outcome) => return outcome,
     };
     let lang = form.lang;
-    let plan = match calibrate::plan(&experiment) {
+    let plan = match calibrate::plan(&campaign) {
         Ok(plan) => plan,
         Err(trouble) => return failed(file, &trouble, lang),
     };
-    form.write(&report::plan(&experiment, &plan, lang))
+    form.write(&report::plan(&campaign, &plan, lang))
 }
 
 fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome {
@@ -64,7 +65,7 @@ fn failed(file: &std::path::Path, trouble: &Trouble, lang: Language) -> Outcome 
     Outcome::Negative
 }
 
-fn read(file: &std::path::Path, purpose: Purpose, lang: Language) -> Result<Experiment, Outcome> {
+fn read(file: &std::path::Path, purpose: Purpose, lang: Language) -> Result<Campaign, Outcome> {
     calibrate::load(file, purpose).map_err(|rejection| output::refused(&rejection, lang))
 }
 
@@ -79,7 +80,7 @@ fn asked(wanted: &str) -> (Option<&str>, &str) {
 /// The budgets that were asked for.
 fn budgets(
     args: &Args,
-    experiment: &Experiment,
+    campaign: &Campaign,
     found: &Calibration,
 ) -> Result<Vec<Output>, Complaint> {
     let coefficients = found.figures.coefficients.iter();
@@ -104,7 +105,7 @@ fn budgets(
         };
         files.push(Output {
             path: path.into(),
-            content: calibrate::budget(experiment, found, &places).into_bytes(),
+            content: calibrate::budget(campaign, found, &places).into_bytes(),
         });
     }
     Ok(files)

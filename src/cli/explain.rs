@@ -7,9 +7,7 @@ use gumption::budget::KeyRow;
 use gumption::distribution::Kind;
 use gumption::distribution::stating::Word;
 use gumption::fault::{Code, nearest};
-use gumption::{
-    budget, calibrate, csv, diagnose, distribution, equations, experiment, model, quantity,
-};
+use gumption::{budget, csv, diagnose, distribution, equations, experiment, model, quantity};
 
 use super::concepts::CONCEPTS;
 use super::{Outcome, output};
@@ -327,7 +325,6 @@ fn codes() -> impl Iterator<Item = &'static Code> {
         csv::faults::CODES,
         equations::faults::CODES,
         experiment::faults::CODES,
-        calibrate::faults::CODES,
         diagnose::faults::CODES,
     ];
     let mut codes: Vec<&Code> = modules.into_iter().flatten().collect();

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use gumption::calibrate::{Calibration, Experiment, Purpose, calibrate, plan, read};
+use gumption::calibrate::{Calibration, Campaign, calibrate, plan, read};
+use gumption::experiment::Purpose;
 
-fn experiment(toml: &str, csv: &str, purpose: Purpose) -> Experiment {
+fn campaign(toml: &str, csv: &str, purpose: Purpose) -> Campaign {
     let folder = folder(csv);
     let read = read(toml, "calibration.toml", &folder, purpose);
     let _ = std::fs::remove_dir_all(&folder);
@@ -65,7 +66,7 @@ fn recording(head: &str, mut lines: impl FnMut(&str, bool, [f64; 3]) -> String) 
 }
 
 fn found(toml: &str, csv: &str) -> Calibration {
-    calibrate(&experiment(toml, csv, Purpose::Calibrate)).expect("coefficients")
+    calibrate(&campaign(toml, csv, Purpose::Calibrate)).expect("coefficients")
 }
 
 const HEAD: &str = "position,turned,Ugx [deg/s],Ugy [deg/s],Ugz [deg/s]";

@@ -4,23 +4,22 @@
 use crate::common;
 use std::path::Path;
 
-use gumption::calibrate::{
-    Calibration, Coefficient, Experiment, Plan, Purpose, calibrate, load, plan, read,
-};
+use gumption::calibrate::{Calibration, Campaign, Coefficient, Plan, calibrate, load, plan, read};
+use gumption::experiment::Purpose;
 
-fn experiment(file: &str, purpose: Purpose) -> Experiment {
+fn campaign(file: &str, purpose: Purpose) -> Campaign {
     let path = common::root().join("experiments").join(file);
     load(&path, purpose).unwrap_or_else(|rejection| panic!("{}", rejection.render(false)))
 }
 
 fn calibrated(file: &str) -> Calibration {
-    calibrate(&experiment(file, Purpose::Calibrate)).unwrap_or_else(|why| panic!("{file}: {why:?}"))
+    calibrate(&campaign(file, Purpose::Calibrate)).unwrap_or_else(|why| panic!("{file}: {why:?}"))
 }
 
 fn planned(toml: &str) -> Plan {
-    let experiment = read(toml, "plan.toml", Path::new(""), Purpose::Plan)
+    let campaign = read(toml, "plan.toml", Path::new(""), Purpose::Plan)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
-    plan(&experiment).expect("a plan")
+    plan(&campaign).expect("a plan")
 }
 
 fn coefficient<'a>(found: &'a Calibration, name: &str) -> &'a Coefficient {
@@ -168,7 +167,7 @@ fn the_scale_factor_without_a_level() {
 
 #[test]
 fn four_positions_hide_what_they_cannot_tell() {
-    let found = plan(&experiment("tumble-plan.toml", Purpose::Plan)).expect("a plan");
+    let found = plan(&campaign("tumble-plan.toml", Purpose::Plan)).expect("a plan");
     assert_eq!(found.identifiability.rank, 4);
     let shifts = |name: &str| {
         let alias = found.aliases.iter().find(|alias| alias.name == name);
@@ -381,11 +380,11 @@ fn every_example_of_the_page_of_procedures_is_a_file_that_evaluates() {
             true => Purpose::Calibrate,
             false => Purpose::Plan,
         };
-        let experiment = read(&example, "docs/procedures.md", &folder, purpose)
+        let campaign = read(&example, "docs/procedures.md", &folder, purpose)
             .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
         match purpose {
-            Purpose::Calibrate => drop(calibrate(&experiment).expect("coefficients")),
-            Purpose::Plan => drop(plan(&experiment).expect("a plan")),
+            Purpose::Calibrate => drop(calibrate(&campaign).expect("coefficients")),
+            Purpose::Plan => drop(plan(&campaign).expect("a plan")),
         }
     }
     assert!(files.is_empty(), "not in docs/procedures.md:\n{files:?}");
@@ -493,9 +492,9 @@ fn the_example_of_the_page_of_recordings_evaluates() {
     std::fs::create_dir_all(&folder).expect("a folder");
     std::fs::write(folder.join("samples.csv"), block("```text\n")).expect("a file");
     let toml = block("```toml calibration-file\n");
-    let experiment = read(&toml, "docs/recordings.md", &folder, Purpose::Calibrate)
+    let campaign = read(&toml, "docs/recordings.md", &folder, Purpose::Calibrate)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
-    let found = calibrate(&experiment).expect("coefficients");
+    let found = calibrate(&campaign).expect("coefficients");
     // The first sample of each dwell is left out: means of 1001.1, 1001.2, 1001.3 and −998.9, −998.7, −998.9.
     let means = [1001.2, -2996.5 / 3.0];
     near(

@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use gumption::calibrate::{Purpose, read};
+use gumption::Files;
+use gumption::calibrate::{calibrate, load_from, read};
+use gumption::diagnose::case::{self, Case};
+use gumption::experiment::Purpose;
 
 const EXPERIMENT: &str = r#"
 recording = { file = "rate.csv", average = "none" }
@@ -22,17 +25,17 @@ run = "run"
 const RECORDING: &str = "omega [deg/s],run,T [°C],uu [mV],U [mV]\n-10,1,20,0.1,-19\n0,1,21,0.1,1.1\n10,1,22,0.1,21\n-10,2,20,0.1,-19.1\n0,2,21,0.1,1\n10,2,22,0.1,20.9\n";
 
 /// What is said of the experiment: the refusal, or the remarks.
-fn said(experiment: &str) -> String {
+fn said(campaign: &str) -> String {
     let folder = std::env::temp_dir().join(format!("gumption-refusals-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     std::fs::write(folder.join("rate.csv"), RECORDING).expect("written");
-    outcome(experiment, &folder)
+    outcome(campaign, &folder)
 }
 
-fn outcome(experiment: &str, folder: &Path) -> String {
-    match read(experiment, "rate.toml", folder, Purpose::Calibrate) {
-        Ok(experiment) => {
-            let remarks = experiment.remarks.iter();
+fn outcome(campaign: &str, folder: &Path) -> String {
+    match read(campaign, "rate.toml", folder, Purpose::Calibrate) {
+        Ok(campaign) => {
+            let remarks = campaign.experiment.remarks.iter();
             remarks.map(|remark| remark.en.as_str()).collect()
         }
         Err(rejection) => rejection.to_string(),
@@ -47,7 +50,10 @@ fn changed(from: &str, to: &str) -> String {
 #[test]
 fn what_cannot_be_used_is_refused_with_what_to_write_instead() {
     let cases = [
-        (changed("T = ", "Tx = "), "the recording has no column Tx"),
+        (
+            changed("T = ", "Tx = "),
+            "the recording has no column \"Tx\"",
+        ),
         (
             changed("[parameter.b]\n", "[parameter.b]\nper = \"run\"\n"),
             "separately = \"run\"",
@@ -83,4 +89,122 @@ fn what_only_a_diagnosis_uses_is_remarked_on() {
     );
     let walk = EXPERIMENT.to_owned() + "[noise]\nu = \"0.1 mV\"\nwalk = \"0.1 mV\"\n";
     assert!(said(&walk).contains("`walk` of [noise]"), "{}", said(&walk));
+}
+
+/// What `calibrate` and what `diagnose` say of the experiment, from files in memory.
+fn both(experiment: &str) -> [Result<(), String>; 2] {
+    let files = [
+        ("rate.csv", RECORDING.as_bytes()),
+        ("rest.csv", b"U [mV]\n0.1\n-0.1\n0.1\n-0.1\n0\n".as_slice()),
+        ("rate.toml", experiment.as_bytes()),
+    ];
+    let (files, path) = (Files::Library(&files), Path::new("rate.toml"));
+    let calibration = load_from(files, path, Purpose::Calibrate);
+    let diagnosis = Case::load_from(files, path, case::Purpose::Diagnosis);
+    [calibration.err(), diagnosis.err()].map(|rejection| match rejection {
+        None => Ok(()),
+        Some(rejection) => Err(rejection.to_string()),
+    })
+}
+
+#[test]
+fn every_command_refuses_the_same_mistakes() {
+    assert_eq!(both(EXPERIMENT), [Ok(()), Ok(())]);
+    let without = |table: &str| EXPERIMENT.replace("[parameter.K]\n\n[parameter.b]\n", table);
+    assert_eq!(both(&without("")), [Ok(()), Ok(())]);
+    let cases = [
+        // A misspelt name is no parameter.
+        (
+            without("").replace("K*omega", "K*omgea"),
+            "did you mean `omega`?",
+        ),
+        (
+            changed("K*omega + b", "K*omega + b + c"),
+            "c is neither a parameter",
+        ),
+        (
+            changed(
+                "omega = \"stimulus\"",
+                "omega = { role = \"stimulus\", like = \"kg\" }",
+            ),
+            "deg/s",
+        ),
+        (
+            changed("T = \"covariate\"", "T = \"covariate\"\nmass = \"ignore\"")
+                .replace("+ b", "+ b*mass"),
+            "to be ignored",
+        ),
+        (
+            changed("average = \"none\"", "dwells = [\"omega\"]"),
+            "steps = \"omega\"",
+        ),
+        (
+            changed(
+                "[parameter.b]\n",
+                "[parameter.b]\nvalue = \"1.5 mV\"\nu = 0.1\n",
+            ),
+            "in which unit?",
+        ),
+        (
+            changed("[parameter.b]\n", "[parameter.b]\nvalue = \"1.5 mV\"\n"),
+            "without `u`",
+        ),
+        (
+            EXPERIMENT.to_owned() + "[noise]\nu = 0.1\nat_rest = { file = \"rest.csv\" }\n",
+            "stated by `u` and `at_rest`",
+        ),
+        (
+            EXPERIMENT.to_owned() + "[noise]\nfrom = \"residuals\"\nwalk = 0.1\n",
+            "`walk` goes with `u`",
+        ),
+        (
+            EXPERIMENT
+                .replace(
+                    "\"U = K*omega + b\"",
+                    "[\"U = K*omega + b\", \"T = a*omega + d\"]",
+                )
+                .replace("T = \"covariate\"", "T = \"output\"")
+                + "[parameter.a]\n[parameter.d]\n[noise]\nu = 0.1\n",
+            "the noise has no unit",
+        ),
+        (
+            changed("U = K*omega + b", "U = K*omega + b*U"),
+            "on both sides",
+        ),
+    ];
+    for (experiment, expected) in cases {
+        for said in both(&experiment) {
+            let said = said.expect_err(&experiment);
+            assert!(said.contains(expected), "{experiment}\n{said}");
+        }
+    }
+}
+
+#[test]
+fn a_measured_noise_is_an_error_of_the_readings() {
+    let noise = |noise: &str| {
+        let experiment = format!("{EXPERIMENT}[noise]\n{noise}\n");
+        assert_eq!(both(&experiment), [Ok(()), Ok(())], "{noise}");
+        let files = [
+            ("rate.csv", RECORDING.as_bytes()),
+            ("rest.csv", b"U [mV]\n0.1\n-0.1\n0.1\n-0.1\n0\n".as_slice()),
+            ("rate.toml", experiment.as_bytes()),
+        ];
+        let path = Path::new("rate.toml");
+        let campaign = load_from(Files::Library(&files), path, Purpose::Calibrate)
+            .unwrap_or_else(|rejection| panic!("{rejection}"));
+        let found = calibrate(&campaign).expect("coefficients");
+        assert!(found.figures.coefficients.iter().all(|one| one.u > 0.0));
+        let doubt = &campaign.experiment.doubts[0];
+        (doubt.u, doubt.dof)
+    };
+    // Pairs of readings that differ by 0.1 mV: s² = 3 · 0.1²/2 / 3.
+    let (u, dof) = noise("replicates = [\"omega\"]");
+    assert!(
+        (u - 0.1 / 2.0_f64.sqrt()).abs() < 1e-12 && dof == 3.0,
+        "{u} {dof}"
+    );
+    // Four readings of ±0.1 mV about 0 and one of 0.
+    let (u, dof) = noise("at_rest = { file = \"rest.csv\" }");
+    assert!((u - 0.1).abs() < 1e-12 && dof == 4.0, "{u} {dof}");
 }

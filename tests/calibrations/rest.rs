@@ -1,6 +1,7 @@
 //! A triad that is turned by hand, without a table: its rests are found in the samples.
 
-use gumption::calibrate::{Purpose, calibrate, read};
+use gumption::calibrate::{calibrate, read};
+use gumption::experiment::Purpose;
 
 /// Directions of gravity that are no multiples of one another.
 const ATTITUDES: [[f64; 3]; 12] = [
@@ -52,11 +53,11 @@ fn rests_are_found_and_calibrated() {
         [columns]\ntime = \"time\"\nUx = { column = \"ax\" }\nUy = { column = \"ay\" }\nUz = { column = \"az\" }\n\
         [parameter]\nKx = { start = 1 }\nKy = { start = 1 }\nKz = { start = 1 }\n\
         bx = { start = 0 }\nby = { start = 0 }\nbz = { start = 0 }\n";
-    let experiment = |toml: &str| {
+    let campaign = |toml: &str| {
         read(toml, "phone.toml", &folder, Purpose::Calibrate)
             .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)))
     };
-    let rests = experiment(toml);
+    let rests = campaign(toml);
     assert_eq!(rests.points.len(), ATTITUDES.len());
     let found = calibrate(&rests).expect("coefficients");
     let value = |name: &str| {
@@ -82,7 +83,7 @@ fn rests_are_found_and_calibrated() {
         );
     }
     // Without a word on rests each row would be a point: that is said.
-    let rows = experiment(&toml.replace("still = 30\nsettle = \"0.5 s\"\n", ""));
+    let rows = campaign(&toml.replace("still = 30\nsettle = \"0.5 s\"\n", ""));
     let said = rows.points.findings.iter().map(|finding| finding.message());
     assert!(
         said.collect::<String>()

@@ -4,12 +4,10 @@
 use crate::common::{self, evaluation};
 use std::collections::BTreeSet;
 
-use gumption::calibrate::{
-    Calibration, Doubt, Experiment, Purpose, Scatter, Scope, Target, budget, calibrate, estimates,
-    read,
-};
+use gumption::calibrate::{Calibration, Campaign, Scatter, budget, calibrate, estimates, read};
 use gumption::distribution::Distribution as Shape;
 use gumption::experiment::procedure::PROCEDURES;
+use gumption::experiment::{Doubt, Purpose, Scope, Target};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
@@ -18,18 +16,18 @@ use rand_distr::{Distribution, Normal, Uniform};
 /// A file of `experiments/` and what comes of it.
 struct Example {
     name: String,
-    experiment: Experiment,
+    campaign: Campaign,
     found: Calibration,
 }
 
 fn example(name: &str, toml: &str) -> Example {
     let folder = common::root().join("experiments");
-    let experiment = read(toml, name, &folder, Purpose::Calibrate)
+    let campaign = read(toml, name, &folder, Purpose::Calibrate)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
-    let found = calibrate(&experiment).expect("coefficients");
+    let found = calibrate(&campaign).expect("coefficients");
     Example {
         name: name.to_owned(),
-        experiment,
+        campaign,
         found,
     }
 }
@@ -51,7 +49,7 @@ fn examples() -> Vec<Example> {
             }
         }
     }
-    let of_example = |one: &Example| one.experiment.heading.procedure.clone();
+    let of_example = |one: &Example| one.campaign.experiment.heading.procedure.clone();
     let seen: BTreeSet<String> = all.iter().filter_map(of_example).collect();
     let names = PROCEDURES.iter().map(|one| one.name.to_owned());
     assert_eq!(seen, names.collect(), "every procedure of the library");
@@ -61,7 +59,7 @@ fn examples() -> Vec<Example> {
 /// An estimator that shares nothing with the program's but the equations: numerical derivatives, columns of
 /// length one, and the pseudoinverse by singular values.
 struct Other<'e> {
-    experiment: &'e Experiment,
+    campaign: &'e Campaign,
     /// Point and response of each reading.
     rows: Vec<(usize, usize)>,
     /// Partly known parameters: place, value, standard uncertainty.
@@ -76,10 +74,11 @@ struct Other<'e> {
 
 impl<'e> Other<'e> {
     fn new(example: &'e Example) -> Other<'e> {
-        let (experiment, found) = (&example.experiment, &example.found);
-        let count = experiment.parameters.len();
+        let (campaign, found) = (&example.campaign, &example.found);
+        let count = campaign.experiment.parameters.len();
         let coefficients = &found.figures.coefficients[..count];
-        let priors: Vec<(usize, f64, f64)> = experiment
+        let priors: Vec<(usize, f64, f64)> = campaign
+            .experiment
             .parameters
             .iter()
             .enumerate()
@@ -90,8 +89,8 @@ impl<'e> Other<'e> {
             |r: usize| responses[r].rms * (responses[r].readings as f64 / responses[r].dof).sqrt();
         let weight = |r: usize| if priors.is_empty() { 1.0 } else { deviation(r) };
         let mut other = Other {
-            experiment,
-            rows: rows(experiment),
+            campaign,
+            rows: rows(campaign),
             weight: (0..responses.len()).map(weight).collect(),
             priors,
             at: coefficients.iter().map(|one| one.value).collect(),
@@ -103,19 +102,22 @@ impl<'e> Other<'e> {
     }
 
     fn nominal(&self) -> Vec<f64> {
-        let inputs = self.experiment.inputs.iter();
+        let inputs = self.campaign.experiment.inputs.iter();
         inputs.map(|input| input.value).collect()
     }
 
     fn value(&self, row: usize, parameters: &[f64], columns: &[f64], inputs: &[f64]) -> f64 {
         let symbols: Vec<f64> = [columns, parameters, inputs].concat();
-        self.experiment.equations.value(self.rows[row].1, &symbols)
+        self.campaign
+            .experiment
+            .equations
+            .value(self.rows[row].1, &symbols)
     }
 
     fn columns(&self, row: usize) -> Vec<f64> {
-        let columns = self.experiment.columns.iter();
+        let columns = self.campaign.experiment.columns.iter();
         let value = |name: &str| {
-            let column = self.experiment.points.column(name);
+            let column = self.campaign.points.column(name);
             column.map_or(f64::NAN, |column| column.values[self.rows[row].0])
         };
         columns.map(|column| value(&column.name)).collect()
@@ -177,7 +179,7 @@ impl<'e> Other<'e> {
     /// Parameters, then results.
     fn with_results(&self, parameters: Vec<f64>) -> Vec<f64> {
         let symbols = [parameters.as_slice(), &self.nominal()].concat();
-        let results = self.experiment.results.iter();
+        let results = self.campaign.results.iter();
         let results: Vec<f64> = results
             .map(|result| result.equation.value(0, &symbols))
             .collect();
@@ -186,9 +188,9 @@ impl<'e> Other<'e> {
 }
 
 /// Point and response of every reading that is there.
-fn rows(experiment: &Experiment) -> Vec<(usize, usize)> {
-    let responses = experiment.equations.responses().len();
-    (0..experiment.points.len())
+fn rows(campaign: &Campaign) -> Vec<(usize, usize)> {
+    let responses = campaign.experiment.equations.responses().len();
+    (0..campaign.points.len())
         .flat_map(|point| (0..responses).map(move |response| (point, response)))
         .collect()
 }
@@ -240,19 +242,19 @@ const TRIALS: usize = 10_000;
 const ALLOWED: f64 = 5.0;
 
 /// The errors of a doubt in every point.
-fn drawn(doubt: &Doubt, experiment: &Experiment, random: &mut StdRng) -> Vec<f64> {
+fn drawn(doubt: &Doubt, campaign: &Campaign, random: &mut StdRng) -> Vec<f64> {
     let one = |random: &mut StdRng| match &doubt.distribution {
         Shape::Uniform(limits) => Uniform::new_inclusive(limits.lower, limits.upper)
             .expect("a width")
             .sample(random),
         _ => Normal::new(0.0, doubt.u).expect("a width").sample(random),
     };
-    let points = experiment.points.len();
+    let points = campaign.points.len();
     match &doubt.scope {
         Scope::Common => vec![one(random); points],
         Scope::Each => (0..points).map(|_| one(random)).collect(),
         Scope::By(name) => {
-            let labels = experiment.points.labels(name).expect("labels");
+            let labels = campaign.points.labels(name).expect("labels");
             let of_level: Vec<f64> = labels.levels.iter().map(|_| one(random)).collect();
             let levels = labels.of_row.iter();
             levels.map(|level| of_level[*level as usize]).collect()
@@ -263,15 +265,15 @@ fn drawn(doubt: &Doubt, experiment: &Experiment, random: &mut StdRng) -> Vec<f64
 /// Observed values of a calibration whose true coefficients are the estimates of the example, with errors as
 /// the file states them and the scatter that was found.
 fn simulated(example: &Example, other: &Other<'_>, random: &mut StdRng) -> DVector<f64> {
-    let experiment = &example.experiment;
-    let points = experiment.points.len();
+    let campaign = &example.campaign;
+    let points = campaign.points.len();
     let mut inputs = vec![other.nominal(); points];
     let mut columns: Vec<Vec<f64>> = (0..other.rows.len())
         .map(|row| other.columns(row))
         .collect();
     let mut added = vec![0.0; other.rows.len()];
-    for doubt in &experiment.doubts {
-        let errors = drawn(doubt, experiment, random);
+    for doubt in &campaign.experiment.doubts {
+        let errors = drawn(doubt, campaign, random);
         for act in &doubt.acts {
             if let Target::Input(place) = act.on {
                 for (inputs, error) in inputs.iter_mut().zip(&errors) {
@@ -280,14 +282,20 @@ fn simulated(example: &Example, other: &Other<'_>, random: &mut StdRng) -> DVect
             }
             for (row, (point, response)) in other.rows.iter().enumerate() {
                 let error = act.coefficient * errors[*point];
-                let response = &experiment.equations.responses()[*response].name;
+                let response = &campaign.experiment.equations.responses()[*response].name;
                 match &act.on {
-                    Target::Input(place) if experiment.inputs[*place].name == *response => {
+                    Target::Input(place)
+                        if campaign.experiment.inputs[*place].name == *response =>
+                    {
                         added[row] += error
                     }
                     Target::Reading(name) if name == response => added[row] += error,
                     Target::Reading(name) => {
-                        let place = experiment.columns.iter().position(|c| c.name == *name);
+                        let place = campaign
+                            .experiment
+                            .columns
+                            .iter()
+                            .position(|c| c.name == *name);
                         columns[row][place.expect("a column")] -= error;
                     }
                     Target::Input(_) => {}
@@ -319,18 +327,18 @@ fn simulated(example: &Example, other: &Other<'_>, random: &mut StdRng) -> DVect
 }
 
 /// The example with other observed values, for the program itself.
-fn replaced(example: &Example, other: &Other<'_>, observed: &DVector<f64>) -> Option<Experiment> {
-    let mut experiment = example.experiment.clone();
+fn replaced(example: &Example, other: &Other<'_>, observed: &DVector<f64>) -> Option<Campaign> {
+    let mut campaign = example.campaign.clone();
     for ((point, response), value) in other.rows.iter().zip(observed.iter()) {
-        let name = &experiment.equations.responses()[*response].name;
-        let mut columns = experiment.points.columns.iter_mut();
+        let name = &campaign.experiment.equations.responses()[*response].name;
+        let mut columns = campaign.points.columns.iter_mut();
         columns.find(|column| column.name == *name)?.values[*point] = *value;
     }
     let readings = other.rows.len();
     for ((place, ..), value) in other.priors.iter().zip(observed.iter().skip(readings)) {
-        experiment.parameters[*place].known.as_mut()?.value = *value;
+        campaign.experiment.parameters[*place].known.as_mut()?.value = *value;
     }
-    Some(experiment)
+    Some(campaign)
 }
 
 fn scatters_as_predicted(example: &Example) {
@@ -347,10 +355,10 @@ fn scatters_as_predicted(example: &Example) {
         let observed = simulated(example, &other, &mut random);
         let found = other.with_results(other.solve(&observed, other.at.clone(), steps));
         if trial < 5
-            && let Some(experiment) = replaced(example, &other, &observed)
+            && let Some(campaign) = replaced(example, &other, &observed)
         {
             // The program itself; with partly known parameters its weights follow the scatter of the trial.
-            let own = estimates(&experiment).expect("coefficients");
+            let own = estimates(&campaign).expect("coefficients");
             let allowed = if other.priors.is_empty() { 1e-3 } else { 0.5 };
             for (i, (a, b)) in own.iter().zip(&found).enumerate() {
                 let u = predicted[(i, i)].sqrt();
@@ -409,7 +417,7 @@ fn written_budgets_give_the_same_by_both_methods() {
         let figures = &example.found.figures;
         let all: Vec<usize> = (0..figures.coefficients.len()).collect();
         let text =
-            budget(&example.experiment, &example.found, &all) + "\n[monte_carlo]\ntrials = 20000\n";
+            budget(&example.campaign, &example.found, &all) + "\n[monte_carlo]\ntrials = 20000\n";
         let evaluated = evaluation::evaluate(&text);
         for (one, result) in figures.coefficients.iter().zip(&evaluated.results) {
             let u = result.gum.u;

@@ -1,7 +1,8 @@
 //! The examples of docs/calibrate.md evaluate, and its plan says what the page says.
 
 use crate::common;
-use gumption::calibrate::{self, Purpose};
+use gumption::calibrate::{self};
+use gumption::experiment::Purpose;
 
 /// The blocks with this word behind the backquotes.
 fn blocks(word: &str) -> Vec<String> {

@@ -11,8 +11,9 @@ use super::{
     outlook_schema, plan, plan_schema,
 };
 use gumption_format::document::Document;
-use gumption_lab::calibrate::{self, Purpose};
+use gumption_lab::calibrate::{self};
 use gumption_lab::diagnose::{self, case};
+use gumption_lab::experiment::Purpose;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

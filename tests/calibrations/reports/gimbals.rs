@@ -2,7 +2,8 @@
 
 use super::page::{Page, fixed, powers};
 use super::{calibrated, common, fresh};
-use gumption::calibrate::{Purpose, load, plan};
+use gumption::calibrate::{load, plan};
+use gumption::experiment::Purpose;
 
 /// A coefficient and its standard uncertainty with the same number of decimals.
 fn shown(value: f64, u: f64) -> String {

@@ -11,28 +11,29 @@ use crate::common;
 use std::path::{Path, PathBuf};
 
 use gumption::calibrate::{
-    Calibration, Cause, Coefficient, Figures, Origin, Plan, Purpose, calibrate, load, plan, read,
+    Calibration, Cause, Coefficient, Figures, Origin, Plan, calibrate, load, plan, read,
 };
+use gumption::experiment::Purpose;
 
 /// The file of `experiments/`, evaluated.
 fn calibrated(file: &str) -> Calibration {
     let path = common::root().join("experiments").join(file);
-    let experiment = load(&path, Purpose::Calibrate)
+    let campaign = load(&path, Purpose::Calibrate)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
-    calibrate(&experiment).unwrap_or_else(|why| panic!("{file}: {why:?}"))
+    calibrate(&campaign).unwrap_or_else(|why| panic!("{file}: {why:?}"))
 }
 
 /// A calibration file whose recording is in `folder`.
 fn calibrated_text(toml: &str, folder: &Path) -> Calibration {
-    let experiment = read(toml, "calibration.toml", folder, Purpose::Calibrate)
+    let campaign = read(toml, "calibration.toml", folder, Purpose::Calibrate)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
-    calibrate(&experiment).unwrap_or_else(|why| panic!("{why:?}"))
+    calibrate(&campaign).unwrap_or_else(|why| panic!("{why:?}"))
 }
 
 fn planned(toml: &str) -> Plan {
-    let experiment = read(toml, "plan.toml", Path::new(""), Purpose::Plan)
+    let campaign = read(toml, "plan.toml", Path::new(""), Purpose::Plan)
         .unwrap_or_else(|rejection| panic!("{}", rejection.render(false)));
-    plan(&experiment).unwrap_or_else(|why| panic!("{why:?}"))
+    plan(&campaign).unwrap_or_else(|why| panic!("{why:?}"))
 }
 
 fn named<'a>(coefficients: &'a [Coefficient], name: &str) -> &'a Coefficient {

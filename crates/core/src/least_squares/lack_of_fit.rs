@@ -29,6 +29,7 @@ pub fn lack_of_fit(problem: &Problem, solution: &Solution) -> Option<LackOfFit> 
 
 /// The residual sum of squares, split into what replicates scatter and what the response misses.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Replicates {
     /// Weighted sum of squares of observations about the mean at the same predictors.
     pub pure_error: f64,

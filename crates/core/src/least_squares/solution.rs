@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 /// The parameters that minimise χ², and what follows.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Solution {
     /// Estimates.
     pub parameters: Vec<f64>,

@@ -18,6 +18,7 @@ pub struct RoundingRule {
 
 /// An estimate and its uncertainty in the same unit, rounded to the same last place.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Rounded {
     /// The estimate y.
     pub estimate: Decimal,

@@ -29,6 +29,7 @@ impl serde::Serialize for Unit {
 
 /// From a numerical value in one unit to that in another: `value · factor + offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Conversion {
     /// Multiplies the value.
     pub factor: f64,

@@ -26,6 +26,7 @@ pub struct Line {
 
 /// A ratio of mean squares and what it says.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Ratio {
     /// F.
     pub f: f64,

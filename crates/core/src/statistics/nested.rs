@@ -30,6 +30,7 @@ pub struct Nested {
 
 /// What was done with the differences between groups and between subgroups.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Verdicts {
     /// Between the groups.
     pub top: Verdict,

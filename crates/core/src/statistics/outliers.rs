@@ -24,6 +24,7 @@ pub enum OutlierTest {
 
 /// What a test found.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Suspect {
     /// Place of the most outlying reading, counted from 0.
     pub place: usize,

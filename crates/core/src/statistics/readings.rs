@@ -13,6 +13,7 @@ pub struct Series {
 
 /// What serial correlation does to the mean of readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Serial {
     /// By what it multiplies the variance of the mean: 1 + 2 Σ (1 - k/n) ρ_k.
     pub factor: f64,

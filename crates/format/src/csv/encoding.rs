@@ -15,6 +15,7 @@ pub enum Encoding {
 
 /// A table as text.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Decoded {
     /// Its text, without a mark of the encoding.
     pub text: String,
@@ -24,6 +25,7 @@ pub struct Decoded {
 
 /// Bytes that are text in none of the encodings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Undecodable {
     /// The first byte that is no UTF-8, the first of all being 1.
     pub byte: usize,

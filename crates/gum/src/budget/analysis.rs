@@ -33,6 +33,7 @@ pub enum Finding {
 
 /// Statistics of one series of readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Statistics {
     /// Number of readings.
     pub n: usize,

@@ -24,6 +24,7 @@ pub struct Part {
 
 /// An input or a component, the same wherever it is used.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
 pub struct Identity {
     /// The file that states it.
     pub part: Part,
@@ -33,6 +34,7 @@ pub struct Identity {
 
 /// A group of correlated components with all of its members, of which a budget may need some only.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Ensemble {
     /// The members.
     pub members: Vec<Member>,

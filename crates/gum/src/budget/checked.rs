@@ -49,6 +49,24 @@ pub struct Row {
     pub budget: Budget,
 }
 
+/// What tables state of quantities: `[constant]`, `[input]`, `[source]` and `[[correlation]]`, under a profile.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Quantities {
+    /// Profile and overrides.
+    pub conventions: Conventions,
+    /// Exactly known quantities.
+    pub constants: Vec<Constant>,
+    /// Those with an uncertainty.
+    pub inputs: Vec<Input>,
+    /// Every reason for doubt, once.
+    pub components: Vec<Component>,
+    /// Correlated components; a component is in at most one group.
+    pub groups: Vec<Group>,
+    /// What the reader should know.
+    pub remarks: Vec<Remark>,
+}
+
 /// A checked budget.
 #[derive(Debug, Clone)]
 pub struct Budget {

@@ -141,6 +141,7 @@ impl Detection {
 
 /// A component whose effect on an input follows the input's estimate.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Following {
     /// Index of the input.
     pub input: usize,

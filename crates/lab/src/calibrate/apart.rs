@@ -2,11 +2,12 @@
 
 use super::residual::Residual;
 use super::scatter::ResponseScatter;
-use super::words::Words;
+use crate::experiment::Words;
 use gumption_core::special::student_t_sf;
 
 /// A point whose residual the scatter of the others does not explain.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Apart {
     /// The response.
     pub response: String,

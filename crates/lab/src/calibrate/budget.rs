@@ -7,10 +7,11 @@
 use std::fmt::Write;
 
 use super::calibration::Calibration;
+use super::campaign::Campaign;
 use super::cause::{Cause, Origin};
 use super::coefficient::Coefficient;
-use super::components::lower_factor;
-use super::experiment::{Doubt, Experiment, Scope};
+use crate::experiment::components::lower_factor;
+use crate::experiment::{Doubt, Scope};
 use gumption_core::distribution::{Distribution, Normal, Uniform, Univariate};
 use gumption_core::quantity::Unit;
 use gumption_gum::budget::writing::{key, quoted};
@@ -19,14 +20,14 @@ use gumption_gum::budget::writing::{key, quoted};
 const LONGEST: usize = 100;
 
 /// A budget file whose measurands are some of the coefficients, by their places.
-pub fn budget(experiment: &Experiment, found: &Calibration, coefficients: &[usize]) -> String {
+pub fn budget(campaign: &Campaign, found: &Calibration, coefficients: &[usize]) -> String {
     let figures = &found.figures;
     let coefficients: Vec<usize> = coefficients
         .iter()
         .copied()
         .filter(|index| *index < figures.coefficients.len())
         .collect();
-    let mut text = head(experiment, found, &coefficients);
+    let mut text = head(campaign, found, &coefficients);
     let inputs: Vec<InputOfCause> = figures
         .causes
         .iter()
@@ -36,9 +37,7 @@ pub fn budget(experiment: &Experiment, found: &Calibration, coefficients: &[usiz
                 .iter()
                 .any(|index| matters(cause.contribution(*index), &figures.coefficients[*index]))
         })
-        .flat_map(|(number, cause)| {
-            InputOfCause::of(experiment, found, cause, number, &coefficients)
-        })
+        .flat_map(|(number, cause)| InputOfCause::of(campaign, found, cause, number, &coefficients))
         .collect();
     for index in &coefficients {
         measurand(&mut text, found, *index, &inputs);
@@ -49,12 +48,12 @@ pub fn budget(experiment: &Experiment, found: &Calibration, coefficients: &[usiz
     text
 }
 
-fn head(experiment: &Experiment, found: &Calibration, coefficients: &[usize]) -> String {
+fn head(campaign: &Campaign, found: &Calibration, coefficients: &[usize]) -> String {
     let names: Vec<&str> = coefficients
         .iter()
         .map(|index| found.figures.coefficients[*index].name.as_str())
         .collect();
-    let title = &experiment.heading.title.en;
+    let title = &campaign.experiment.heading.title.en;
     let title = if title.is_empty() {
         "Calibration"
     } else {
@@ -67,7 +66,7 @@ fn head(experiment: &Experiment, found: &Calibration, coefficients: &[usize]) ->
         let _ = writeln!(text, "{key} = {}", quoted(value));
     };
     line("title", &format!("{title}: {}", names.join(", ")));
-    let heading = &experiment.heading;
+    let heading = &campaign.experiment.heading;
     for (key, value) in [
         ("object", &heading.object),
         ("author", &heading.author),
@@ -78,12 +77,12 @@ fn head(experiment: &Experiment, found: &Calibration, coefficients: &[usize]) ->
             line(key, value);
         }
     }
-    let p = experiment.coverage_probability;
+    let p = campaign.experiment.coverage_probability;
     let _ = write!(
         text,
         "\n[conventions]\ncoverage_probability = {p:?}\nt_scale = \"standard-deviation\"\n"
     );
-    let mut own = experiment.own_units.clone();
+    let mut own = campaign.experiment.own_units.clone();
     own.sort();
     if !own.is_empty() {
         text += "\n[unit]\n";
@@ -130,7 +129,7 @@ impl InputOfCause {
     /// The input of a cause; scatter that is not one error for all coefficients has one for each
     /// coefficient, tied to the others by its covariance.
     fn of(
-        experiment: &Experiment,
+        campaign: &Campaign,
         found: &Calibration,
         cause: &Cause,
         number: usize,
@@ -140,7 +139,7 @@ impl InputOfCause {
         let places: Vec<Place<'_>> = coefficients.iter().map(of_place).collect();
         let name = name_of(cause, number);
         let count = cause.effects.ncols();
-        match doubt_of(experiment, cause) {
+        match doubt_of(campaign, cause) {
             Some(doubt) if count == 1 || (count <= LONGEST && doubt.dof.is_infinite()) => {
                 vec![stated(cause, doubt, &name, &places)]
             }
@@ -164,11 +163,12 @@ impl InputOfCause {
     }
 }
 
-fn doubt_of<'e>(experiment: &'e Experiment, cause: &Cause) -> Option<&'e Doubt> {
+fn doubt_of<'e>(campaign: &'e Campaign, cause: &Cause) -> Option<&'e Doubt> {
     let Origin::Stated { name, .. } = &cause.origin else {
         return None;
     };
-    experiment
+    campaign
+        .experiment
         .doubts
         .iter()
         .find(|doubt| doubt.name == *name && doubt.u > 0.0)

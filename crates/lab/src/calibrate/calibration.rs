@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::apart::{Apart, apart};
+use super::campaign::{Campaign, Scatter, Weights};
 use super::cause::{Cause, Contribution};
 use super::causes::causes;
 use super::coefficient::Coefficient;
-use super::experiment::{Experiment, Scatter, Weights};
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability, alias};
 use super::limits::{Limit, limits};
@@ -16,7 +16,7 @@ use super::signs::reversed;
 use super::stack::{Readings, Row, Stack};
 use super::swaps::swapped;
 use super::trouble::Trouble;
-use super::words::Words;
+use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
 use gumption_core::special::{student_t_sf, student_t_two_sided_quantile};
 
@@ -122,6 +122,7 @@ impl Calibration {
 
 /// How the values of a coefficient from several parts scatter, in its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct PartScatter {
     /// Arithmetic mean.
     pub mean: f64,
@@ -150,17 +151,17 @@ impl PartScatter {
 ///
 /// # Errors
 /// As [`calibrate`].
-pub fn estimates(experiment: &Experiment) -> Result<Vec<f64>, Trouble> {
-    let stack = Stack::new(experiment, Readings::Taken);
+pub fn estimates(campaign: &Campaign) -> Result<Vec<f64>, Trouble> {
+    let stack = Stack::new(campaign, Readings::Taken);
     let (solution, ..) = solved(&stack)?;
-    Ok(values(experiment, &solution.parameters))
+    Ok(values(campaign, &solution.parameters))
 }
 
 /// Parameters and results.
-fn values(experiment: &Experiment, parameters: &[f64]) -> Vec<f64> {
-    let inputs = experiment.inputs.iter().map(|input| input.value);
+fn values(campaign: &Campaign, parameters: &[f64]) -> Vec<f64> {
+    let inputs = campaign.experiment.inputs.iter().map(|input| input.value);
     let symbols: Vec<f64> = parameters.iter().copied().chain(inputs).collect();
-    let results = experiment.results.iter();
+    let results = campaign.results.iter();
     let results = results.map(|result| result.equation.value(0, &symbols));
     parameters.iter().copied().chain(results).collect()
 }
@@ -172,18 +173,18 @@ const ROUNDS: usize = 50;
 ///
 /// # Errors
 /// A [`Trouble`] says why there are no coefficients.
-pub fn calibrate(experiment: &Experiment) -> Result<Calibration, Trouble> {
-    let mut calibration = whole(experiment)?;
-    if let Some(labels) = experiment
+pub fn calibrate(campaign: &Campaign) -> Result<Calibration, Trouble> {
+    let mut calibration = whole(campaign)?;
+    if let Some(labels) = campaign
         .separately
         .as_ref()
-        .and_then(|name| experiment.points.labels(name))
+        .and_then(|name| campaign.points.labels(name))
     {
         for (level, label) in labels.levels.iter().enumerate() {
-            let rows: Vec<usize> = (0..experiment.points.len())
+            let rows: Vec<usize> = (0..campaign.points.len())
                 .filter(|row| labels.of_row[*row] as usize == level)
                 .collect();
-            let part = whole(&experiment.of_points(&rows)).map_err(|trouble| Trouble::InPart {
+            let part = whole(&campaign.of_points(&rows)).map_err(|trouble| Trouble::InPart {
                 label: label.clone(),
                 trouble: Box::new(trouble),
             })?;
@@ -193,9 +194,9 @@ pub fn calibrate(experiment: &Experiment) -> Result<Calibration, Trouble> {
     Ok(calibration)
 }
 
-fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
-    let stack = Stack::new(experiment, Readings::Taken);
-    let count = experiment.parameters.len();
+fn whole(campaign: &Campaign) -> Result<Calibration, Trouble> {
+    let stack = Stack::new(campaign, Readings::Taken);
+    let count = campaign.experiment.parameters.len();
     if stack.rows.len() < count || stack.readings() == 0 {
         return Err(Trouble::TooFew {
             readings: stack.rows.len(),
@@ -209,7 +210,7 @@ fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
     let swapped = swapped(&stack, &solution, &gain, &scatters);
     let limits = limits(&stack, &solution);
     let residuals = residuals(&stack, &solution, &gain, &scatters, &u);
-    let figures = figures(experiment, &solution.parameters, causes);
+    let figures = figures(campaign, &solution.parameters, causes);
     let explained = !swapped.is_empty() || !limits.is_empty();
     let apart = match explained {
         true => Vec::new(),
@@ -217,7 +218,7 @@ fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
     };
     Ok(Calibration {
         swapped,
-        reversed: reversed(&figures.coefficients, &experiment.same_sign),
+        reversed: reversed(&figures.coefficients, &campaign.same_sign),
         apart,
         limits,
         linear: stack.is_linear(),
@@ -227,7 +228,7 @@ fn whole(experiment: &Experiment) -> Result<Calibration, Trouble> {
         scatter: scatters.way,
         residuals,
         responses: scatters.responses,
-        identifiability: Identifiability::of(&jacobian, &experiment.parameters),
+        identifiability: Identifiability::of(&jacobian, &campaign.experiment.parameters),
         aliases: aliases(&stack, &solution.parameters, &u),
         iterations: solution.iterations,
         parts: Vec::new(),
@@ -242,7 +243,7 @@ fn solved(stack: &Stack<'_>) -> Result<(Solution, Vec<f64>, Scatters), Trouble> 
         false => Some(stack.start()?),
     };
     let mut u = weights(stack)?;
-    let couples = stack.readings() < stack.rows.len() && stack.experiment.weights == Weights::Equal;
+    let couples = stack.readings() < stack.rows.len() && stack.campaign.weights == Weights::Equal;
     if couples {
         first_scale(stack, &mut u);
     }
@@ -284,20 +285,21 @@ fn first_scale(stack: &Stack<'_>, u: &mut [f64]) {
 }
 
 /// Coefficients with their covariance from the causes.
-pub(super) fn figures(experiment: &Experiment, parameters: &[f64], causes: Vec<Cause>) -> Figures {
-    let parameters_first = experiment
+pub(super) fn figures(campaign: &Campaign, parameters: &[f64], causes: Vec<Cause>) -> Figures {
+    let parameters_first = campaign
+        .experiment
         .parameters
         .iter()
         .map(|p| (&p.name, &p.description, &p.unit));
     let all = parameters_first
         .chain(
-            experiment
+            campaign
                 .results
                 .iter()
                 .map(|r| (&r.name, &r.description, &r.unit)),
         )
-        .zip(values(experiment, parameters));
-    let count = experiment.parameters.len() + experiment.results.len();
+        .zip(values(campaign, parameters));
+    let count = campaign.experiment.parameters.len() + campaign.results.len();
     let mut covariance = DMatrix::zeros(count, count);
     for cause in &causes {
         covariance += &cause.effects * cause.effects.transpose();
@@ -314,7 +316,7 @@ pub(super) fn figures(experiment: &Experiment, parameters: &[f64], causes: Vec<C
                 value,
                 u,
                 dof,
-                k: student_t_two_sided_quantile(experiment.coverage_probability, dof),
+                k: student_t_two_sided_quantile(campaign.experiment.coverage_probability, dof),
                 p_value: 2.0 * student_t_sf((value / u).abs(), dof),
             }
         })
@@ -343,10 +345,10 @@ fn residuals(
     scatters: &Scatters,
     u: &[f64],
 ) -> Vec<Residual> {
-    let experiment = stack.experiment;
+    let campaign = stack.campaign;
     let ones = vec![1.0; stack.rows.len()];
     let jacobian = stack.jacobian(&solution.parameters, &ones);
-    let count = experiment.parameters.len();
+    let count = campaign.experiment.parameters.len();
     let mut residuals = Vec::new();
     for (index, row) in stack.rows.iter().enumerate() {
         let Row::Reading { point, response } = row else {
@@ -360,8 +362,10 @@ fn residuals(
         let s = scatters.responses[*response].s * u[index] * free.sqrt();
         let residual = solution.residuals[index];
         residuals.push(Residual {
-            point: experiment.points.names[*point].clone(),
-            response: experiment.equations.responses()[*response].name.clone(),
+            point: campaign.points.names[*point].clone(),
+            response: campaign.experiment.equations.responses()[*response]
+                .name
+                .clone(),
             observed: stack.observed[index],
             fitted: stack.observed[index] - residual,
             standardised: if free > 1e-9 && s > 0.0 {
@@ -376,7 +380,7 @@ fn residuals(
 
 /// What each omitted effect would shift, by the linearised estimator.
 pub(super) fn aliases(stack: &Stack<'_>, parameters: &[f64], u: &[f64]) -> Vec<Alias> {
-    let experiment = stack.experiment;
+    let campaign = stack.campaign;
     let Some(gain) = Gain::linear(stack, parameters, u) else {
         return Vec::new();
     };
@@ -386,8 +390,8 @@ pub(super) fn aliases(stack: &Stack<'_>, parameters: &[f64], u: &[f64]) -> Vec<A
     for (mut column, u) in scaled.column_iter_mut().zip(u) {
         column *= *u;
     }
-    let mut slopes = vec![0.0; experiment.symbols() + 1];
-    let of = |omitted: &super::experiment::Omitted| {
+    let mut slopes = vec![0.0; campaign.experiment.symbols() + 1];
+    let of = |omitted: &super::campaign::Omitted| {
         let effect = stack.rows.iter().enumerate().map(|(index, row)| match row {
             Row::Reading { response, .. } if *response == omitted.response => {
                 let mut symbols = stack.symbols(index, parameters);
@@ -403,9 +407,9 @@ pub(super) fn aliases(stack: &Stack<'_>, parameters: &[f64], u: &[f64]) -> Vec<A
             &column,
             &jacobian,
             &scaled,
-            experiment.parameters.len(),
+            campaign.experiment.parameters.len(),
         )
     };
     let mut of = of;
-    experiment.omitted.iter().map(&mut of).collect()
+    campaign.omitted.iter().map(&mut of).collect()
 }

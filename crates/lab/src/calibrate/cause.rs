@@ -2,12 +2,13 @@
 
 use nalgebra::DMatrix;
 
-use super::experiment::Scope;
+use crate::experiment::Scope;
 use gumption_core::distribution::Distribution;
 use gumption_gum::budget::Evaluation;
 
 /// A cause of doubt and what it does to the coefficients.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Cause {
     /// What it is.
     pub origin: Origin,

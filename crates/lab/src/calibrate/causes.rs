@@ -3,10 +3,10 @@
 use nalgebra::DMatrix;
 
 use super::cause::{Cause, Origin};
-use super::experiment::{Doubt, Scope, Target};
 use super::gain::Gain;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
+use crate::experiment::{Doubt, Scope, Target};
 use gumption_gum::budget::Evaluation;
 
 /// All causes that act on any coefficient.
@@ -18,7 +18,7 @@ pub(super) fn causes(stack: &Stack<'_>, gain: &Gain, scatters: &Scatters, u: &[f
         }
     }
     // The independent parts of correlated errors bear one name, and are one cause.
-    let doubts = &stack.experiment.doubts;
+    let doubts = &stack.campaign.experiment.doubts;
     all.extend(
         doubts
             .chunk_by(|a, b| a.name == b.name)
@@ -32,7 +32,7 @@ pub(super) fn causes(stack: &Stack<'_>, gain: &Gain, scatters: &Scatters, u: &[f
 }
 
 fn prior(stack: &Stack<'_>, gain: &Gain, row: usize, parameter: usize) -> Option<Cause> {
-    let one = &stack.experiment.parameters[parameter];
+    let one = &stack.campaign.experiment.parameters[parameter];
     let prior = one.known?;
     let effects = gain.by_observed.column(row) * prior.u;
     Some(Cause {

@@ -1,6 +1,6 @@
 //! A coefficient with its uncertainty.
 
-use super::words::Words;
+use crate::experiment::Words;
 use gumption_core::quantity::Unit;
 
 /// A coefficient.

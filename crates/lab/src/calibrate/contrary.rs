@@ -1,16 +1,16 @@
 //! What an experiment states in two ways, and what it states that a calibration does not use.
 
-use super::definer::Definer;
-use super::faults::KEY;
+use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
+use crate::experiment::faults::KEY;
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ExperimentTable, NoiseTable};
 use gumption_fault::Fault;
 use gumption_gum::budget::Remark;
 
 /// Faults of keys that would change the result of a calibration, and cannot.
-pub(super) fn check(definer: &mut Definer<'_>) {
-    let table = &definer.source.table;
+pub(super) fn check(checker: &mut Checker<'_>) {
+    let table = &checker.source.table;
     let per = entries(&table.parameter)
         .iter()
         .filter_map(|(name, entry)| Some((name, entry.value.per.as_ref()?)));
@@ -24,29 +24,8 @@ pub(super) fn check(definer: &mut Definer<'_>) {
                     column.value
                 ))
         })
-        .chain(table.noise.as_ref().and_then(|noise| {
-            let ways = ways(&noise.value);
-            (ways.len() > 1).then(|| {
-                Fault::new(KEY, noise.span.clone(), "the noise is to be stated in one way")
-                    .label(format!("stated by {}", ways.join(" and ")))
-                    .help("keep one of them")
-            })
-        }))
         .collect();
-    definer.faults.extend(faults);
-}
-
-/// The keys of `[noise]` that each say all of it.
-fn ways(noise: &NoiseTable) -> Vec<&'static str> {
-    let ways = [
-        ("`u`", noise.u.is_some()),
-        ("`replicates`", noise.replicates.is_some()),
-        ("`at_rest`", noise.at_rest.is_some()),
-        ("`budget`", noise.budget.is_some()),
-        ("`from`", noise.from.is_some()),
-    ];
-    let stated = ways.iter().filter(|(_, is_there)| *is_there);
-    stated.map(|(way, _)| *way).collect()
+    checker.faults.extend(faults);
 }
 
 /// Remarks on what is stated of the noise and not used by a calibration.

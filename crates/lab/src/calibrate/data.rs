@@ -1,45 +1,39 @@
 //! The points of a calibration file: from its recording, or from its schedule.
 
-use std::collections::HashSet;
-use std::path::Path;
-
-use super::definer::Definer;
 use super::dwells::{Dwelling, DwellsBy};
-use super::faults::{NO_DATA, RECORDING, UNKNOWN_SYMBOL};
-use super::label_columns::label_columns;
-use super::names::Names;
 use super::points::Points;
-use super::positions::{expected, optional};
-use super::purpose::Purpose;
 use super::schedule::scheduled;
+use crate::experiment::Purpose;
+use crate::experiment::checker::Checker;
+use crate::experiment::columns::Column;
 use crate::experiment::entries::{AverageEntry, RoleWord, Short};
+use crate::experiment::faults::{NO_DATA, RECORDING};
+use crate::experiment::labels::label_columns;
+use crate::experiment::names::Names;
+use crate::experiment::positions::{expected, optional};
 use crate::experiment::source::entries;
 use crate::experiment::tables::{ColumnTable, RecordingTable};
-use crate::recording::{
-    Checks, Finding, Heading, Problem, Recording, Request, Settling, Severity, check, headings,
-    text_of,
-};
+use crate::recording::{Checks, Finding, Problem, Recording, Request, Settling, Severity, check};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::Fault;
 use gumption_format::toml::Stated;
-use gumption_gum::budget::{Files, Rejection};
+use gumption_gum::budget::Rejection;
+use std::collections::HashSet;
 
 /// The points; `None` after faults of the calibration file.
 pub(super) fn points(
-    definer: &mut Definer<'_>,
+    checker: &mut Checker<'_>,
     names: &Names,
-    folder: &Path,
-    purpose: Purpose,
 ) -> Result<Option<Points>, Box<Rejection>> {
-    let table = &definer.source.table;
+    let table = &checker.source.table;
     let recording = table.recording.as_ref();
     let file = recording.and_then(|recording| recording.value.0.file.as_ref());
-    let points = match (file, &table.schedule, purpose) {
-        (_, Some(_), Purpose::Plan) => scheduled(definer, names),
-        (Some(file), _, _) => recorded(definer, names, file, folder, purpose)?,
+    let points = match (file, &table.schedule, checker.purpose) {
+        (_, Some(_), Purpose::Plan) => scheduled(checker, names),
+        (Some(file), _, _) => recorded(checker, names, file)?,
         (None, _, _) => {
             if !table.refused && !recording.is_some_and(|recording| recording.value.0.refused) {
-                definer.faults.push(no_data(purpose));
+                checker.faults.push(no_data(checker.purpose));
             }
             None
         }
@@ -66,58 +60,36 @@ fn no_data(purpose: Purpose) -> Fault {
 }
 
 /// Whether the first line of the recording can be read, where a file names one.
-pub(super) fn readable(definer: &Definer<'_>, folder: &Path) -> Result<(), Box<Rejection>> {
-    let recording = definer.source.table.recording.as_ref();
-    let Some(file) = recording.and_then(|recording| recording.value.0.file.as_ref()) else {
-        return Ok(());
-    };
-    let path = folder.join(&file.value);
-    let shown = path.display().to_string();
-    let text = text_of(Files::Disk, &path, &shown)?;
-    headings(&text, &definer.units)
-        .map(|_| ())
-        .map_err(|fault| Box::new(Rejection::new(&shown, &text, vec![*fault])))
+pub(super) fn readable(checker: &Checker<'_>) -> Result<(), Box<Rejection>> {
+    let recording = checker.source.table.recording.as_ref();
+    match recording.and_then(|recording| recording.value.0.file.as_ref()) {
+        Some(file) => checker.headings(file).map(|_| ()),
+        None => Ok(()),
+    }
 }
 
 fn recorded(
-    definer: &mut Definer<'_>,
+    checker: &mut Checker<'_>,
     names: &Names,
     file: &Stated<String>,
-    folder: &Path,
-    purpose: Purpose,
 ) -> Result<Option<Points>, Box<Rejection>> {
-    let path = folder.join(&file.value);
-    let shown = path.display().to_string();
-    let text = text_of(Files::Disk, &path, &shown)?;
-    let found = headings(&text, &definer.units)
-        .map_err(|fault| Box::new(Rejection::new(&shown, &text, vec![*fault])))?;
-    let Some(stated) = definer.source.table.recording.as_ref() else {
+    let found = checker.headings(file)?;
+    let Some(stated) = checker.source.table.recording.as_ref() else {
         return Ok(None);
     };
-    let Some(requests) = requests(definer, names, &stated.value.0, &found) else {
+    let Some(columns) = checker.columns(names, &found) else {
         return Ok(None);
     };
+    let requests = requests(checker, names, &columns, &stated.value.0);
+    let path = checker.folder.join(&file.value);
     let recording =
-        Recording::open(Files::Disk, &path, &requests, &definer.units).map_err(Box::new)?;
-    Ok(averaged(definer, names, &recording, stated, purpose))
-}
-
-/// What the file says of a column.
-fn column<'t>(definer: &Definer<'t>, role: &str) -> Option<&'t ColumnTable> {
-    let mut columns = entries(&definer.source.table.columns).iter();
-    let (_, entry) = columns.find(|(name, _)| name == role)?;
-    Some(&entry.value.0)
-}
-
-/// The header of a role: as the file says, else the role's own name.
-fn header<'t>(definer: &Definer<'t>, role: &'t str) -> &'t str {
-    let stated = column(definer, role).and_then(|table| table.column.as_ref());
-    stated.map_or(role, |header| header.value.as_str())
+        Recording::open(checker.files, &path, &requests, &checker.units).map_err(Box::new)?;
+    Ok(averaged(checker, names, &recording, stated))
 }
 
 /// The column of time.
-fn time<'t>(definer: &Definer<'t>) -> Option<&'t str> {
-    let mut columns = entries(&definer.source.table.columns).iter();
+fn time<'t>(checker: &Checker<'t>) -> Option<&'t str> {
+    let mut columns = entries(&checker.source.table.columns).iter();
     let is_time = |table: &ColumnTable| {
         let role = table.role.as_ref();
         role.is_some_and(|role| role.value == RoleWord::Time)
@@ -126,120 +98,43 @@ fn time<'t>(definer: &Definer<'t>) -> Option<&'t str> {
     Some(name)
 }
 
-fn is_there(found: &[Heading], header: &str) -> bool {
-    let wanted = header.trim();
-    found
-        .iter()
-        .any(|heading| heading.name == wanted || heading.text == wanted)
-}
-
-/// What to ask the recording for. Names that are neither declared nor recorded are faults of the file.
+/// The columns that a calibration asks the recording for, each once.
 fn requests(
-    definer: &mut Definer<'_>,
+    checker: &Checker<'_>,
     names: &Names,
+    columns: &[Column<'_>],
     table: &RecordingTable,
-    found: &[Heading],
-) -> Option<Vec<Request>> {
-    let before = definer.faults.len();
-    let mut requests = Vec::new();
-    for (role, place) in &names.columns {
-        let header = header(definer, role);
-        let entry = column(definer, role);
-        let mapped = entry.is_some_and(|entry| entry.column.is_some());
-        if !mapped && !is_there(found, header) {
-            let declared = entry.is_some();
-            definer
-                .faults
-                .push(not_recorded(role, place.clone(), declared, found, names));
-            continue;
-        }
-        let mut request = Request::numbers(role, header);
-        if let Some(unit) = entry.and_then(|entry| entry.unit.as_ref()) {
-            request = request.in_unit(definer.unit(unit)?);
-        }
-        if let Some(like) = entry.and_then(|entry| entry.like.as_ref()) {
-            request = request.like(definer.unit(like)?);
-        }
-        requests.push(request);
-    }
-    let declared = entries(&definer.source.table.columns).iter();
-    for (role, entry) in declared {
-        let is_named = names.columns.iter().any(|(name, _)| name == role)
-            || names.responses.contains(role)
-            || definer.given().contains(role);
-        let is_own = !definer.source.is_base(&entry.key);
-        if is_own && !is_named && !is_there(found, header(definer, role)) {
-            let fault = not_recorded(role, entry.key.clone(), true, found, names);
-            definer.faults.push(fault);
-        }
-    }
-    for role in &names.optional {
-        let header = header(definer, role);
-        let known = requests.iter().any(|request| request.role == *role);
-        if !known && is_there(found, header) {
-            requests.push(Request::numbers(role, header));
-        }
-    }
-    for role in label_columns(definer) {
-        requests.push(Request::labels(&role, header(definer, &role)));
-    }
+) -> Vec<Request> {
+    let labels = label_columns(checker);
     let steps = table.steps.as_ref().map(|steps| steps.value.as_str());
-    for role in [time(definer), steps].into_iter().flatten() {
-        if !requests.iter().any(|request| request.role == role) {
-            requests.push(Request::numbers(role, header(definer, role)));
+    let numbers = names.columns.iter().map(|(name, _)| name);
+    let named = numbers.chain(&names.optional);
+    let named = named.chain(labels.iter().map(|label| &label.name));
+    let noise = checker.source.table.noise.as_ref();
+    let replicates = noise.and_then(|noise| noise.value.replicates.as_ref());
+    let replicates = replicates.iter().flat_map(|list| texts(&list.value.0));
+    let wanted = named.map(String::as_str).chain(time(checker)).chain(steps);
+    let wanted = wanted.chain(replicates);
+    let mut requests: Vec<Request> = Vec::new();
+    for name in wanted {
+        let column = columns.iter().find(|column| column.name == name);
+        let asked = requests.iter().any(|request| request.role == name);
+        if let (Some(column), false) = (column.filter(|column| column.is_there), asked) {
+            requests.push(column.request());
         }
     }
-    (definer.faults.len() == before).then_some(requests)
-}
-
-fn not_recorded(
-    role: &str,
-    place: std::ops::Range<usize>,
-    declared: bool,
-    found: &[Heading],
-    names: &Names,
-) -> Fault {
-    let headers: Vec<&str> = found.iter().map(|heading| heading.name.as_str()).collect();
-    let listed = headers.join(", ");
-    if declared {
-        return Fault::new(
-            UNKNOWN_SYMBOL,
-            place,
-            format!("the recording has no column {role}"),
-        )
-        .label("a column of the recording")
-        .help(format!(
-            "say which column it is: [columns] {role} = {{ column = \"…\" }}; there are {listed}"
-        ));
-    }
-    let fault = Fault::new(
-        UNKNOWN_SYMBOL,
-        place,
-        format!("{role} is neither a parameter, an input nor a constant, and the recording has no such column"),
-    )
-    .label("not known");
-    let near = nearest(
-        role,
-        names.known().filter(|name| *name != role).chain(headers),
-    );
-    match near {
-        Some(near) => fault.help(format!("did you mean `{near}`?")),
-        None => fault.help(format!(
-            "list it under [parameter] if it is to be found, under [input] or [constant] if it is known; the columns are {listed}"
-        )),
-    }
+    requests
 }
 
 /// The points of a recording: its rows, or the averages of its dwells.
 fn averaged(
-    definer: &mut Definer<'_>,
+    checker: &mut Checker<'_>,
     names: &Names,
     recording: &Recording,
     stated: &Stated<Short<RecordingTable>>,
-    purpose: Purpose,
 ) -> Option<Points> {
     let table = &stated.value.0;
-    let findings = findings(definer, names, recording, table);
+    let findings = findings(checker, names, recording, table);
     let grave = findings
         .iter()
         .filter(|finding| finding.severity() == Severity::Error);
@@ -250,7 +145,7 @@ fn averaged(
             .file
             .as_ref()
             .map_or(stated.key.clone(), |file| file.span.clone());
-        definer.faults.push(
+        checker.faults.push(
             Fault::new(
                 RECORDING,
                 place,
@@ -264,10 +159,10 @@ fn averaged(
         return None;
     }
     let samples = table.holds_samples();
-    let mut points = if purpose == Purpose::Plan || !samples {
+    let mut points = if checker.purpose == Purpose::Plan || !samples {
         Points::of_rows(recording)
     } else {
-        let dwelling = dwelling(definer, names, recording, table)?;
+        let dwelling = dwelling(checker, names, recording, table)?;
         let (points, lost) = Points::of_dwells(recording, &dwelling);
         for dwell in &lost {
             let name = match &dwell.label {
@@ -277,7 +172,7 @@ fn averaged(
             let line = recording.line(dwell.rows.start);
             let rows = dwell.rows.len();
             let place = stated.key.clone();
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(RECORDING, place, format!(
                     "{}: the dwell {name}from line {line} on has too few samples: {rows} before settling is left out", recording.name))
                     .label("too few samples are left")
@@ -285,7 +180,7 @@ fn averaged(
             );
         }
         if points.names.is_empty() && lost.is_empty() {
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(
                     RECORDING,
                     stated.key.clone(),
@@ -305,19 +200,19 @@ fn averaged(
 }
 
 fn dwelling(
-    definer: &mut Definer<'_>,
+    checker: &mut Checker<'_>,
     names: &Names,
     recording: &Recording,
     table: &RecordingTable,
 ) -> Option<Dwelling> {
-    let time = time(definer).map(str::to_owned);
+    let time = time(checker).map(str::to_owned);
     let unit = time
         .as_ref()
         .and_then(|role| recording.column(role))
         .and_then(|column| column.unit.clone())
         .unwrap_or_else(Unit::one);
     let mut in_time = |stated: &Option<Stated<gumption_format::toml::Amount>>| match stated {
-        Some(amount) => definer.amount(amount, &unit).map(Some),
+        Some(amount) => checker.amount(amount, &unit).map(Some),
         None => Some(None),
     };
     let settle = in_time(&table.settle)?.unwrap_or(0.0);
@@ -370,13 +265,13 @@ const MANY: usize = 100;
 
 /// What is doubtful in the recording.
 fn findings(
-    definer: &Definer<'_>,
+    checker: &Checker<'_>,
     names: &Names,
     recording: &Recording,
     table: &RecordingTable,
 ) -> Vec<Finding> {
     let mut outputs: Vec<&str> = names.responses.iter().map(String::as_str).collect();
-    let ranges: Vec<(&str, [f64; 2])> = entries(&definer.source.table.columns)
+    let ranges: Vec<(&str, [f64; 2])> = entries(&checker.source.table.columns)
         .iter()
         .filter_map(
             |(role, entry)| match entry.value.0.range.as_ref()?.value.as_slice() {
@@ -385,7 +280,7 @@ fn findings(
             },
         )
         .collect();
-    let positions = definer.source.table.positions.as_ref();
+    let positions = checker.source.table.positions.as_ref();
     let expected: Vec<&str> = positions.map_or_else(Vec::new, |stated| expected(&stated.value));
     let column = positions.and_then(|stated| stated.value.column.as_ref());
     let samples = table.holds_samples();
@@ -397,7 +292,7 @@ fn findings(
     let mut findings = check(
         recording,
         &Checks {
-            time: time(definer),
+            time: time(checker),
             outputs: &outputs,
             ranges: &ranges,
             dwells: &dwells.map_or_else(Vec::new, |list| texts(&list.value.0)),

@@ -1,7 +1,7 @@
 //! From the samples of a recording to the averages of its dwells.
 
 use super::points::{PointColumn, Points};
-use super::words::Words;
+use crate::experiment::Words;
 use crate::recording::{
     Average, Column, Cut, Data, Dwell, Finding, Labels, Problem, Recording, Settling, Steps,
     Stillness, by_label, by_steps, by_stillness,

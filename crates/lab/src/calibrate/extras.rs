@@ -1,36 +1,41 @@
 //! Omitted effects and results: what a file says besides its equations.
 
-use super::definer::Definer;
-use super::experiment::{FunctionResult, Input, Omitted, Parameter};
-use super::faults::{RESULT, TERM};
-use super::symbols::{equation_text, quantity, symbol};
-use super::words::words;
+use super::campaign::{FunctionResult, Omitted};
+use crate::experiment::Experiment;
+use crate::experiment::checker::Checker;
+use crate::experiment::faults::{RESULT, TERM};
 use crate::experiment::source::entries;
+use crate::experiment::symbols::{equation_text, quantity, symbol};
+use crate::experiment::tables::OmittedTable;
+use crate::experiment::words::words;
 use gumption_core::equations::{EquationText, Equations, Quantity};
 use gumption_core::model::{Symbol, outline};
 use gumption_core::quantity::Unit;
 use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
-impl Definer<'_> {
+impl Checker<'_> {
     /// Effects that the equations leave out.
-    pub(super) fn omitted(
-        &mut self,
-        equations: &Equations,
-        symbols: &[Quantity],
-        constants: &[Symbol],
-    ) -> Vec<Omitted> {
+    pub(super) fn omitted(&mut self, experiment: &Experiment) -> Vec<Omitted> {
+        let (parameters, inputs) = (experiment.parameters.iter(), experiment.inputs.iter());
+        let symbols: Vec<Quantity> = experiment
+            .columns
+            .iter()
+            .cloned()
+            .chain(parameters.map(|p| quantity(&p.name, &p.unit)))
+            .chain(inputs.map(|i| quantity(&i.name, &i.unit)))
+            .collect();
         let table = &self.source.table;
         let shared = table.model.as_ref().map(equation_text);
         let mut all = Vec::new();
         for (name, entry) in entries(&table.omitted) {
             // What is estimated, or known with an uncertainty, is no longer left out.
             if symbols.iter().any(|symbol| symbol.name == *name)
-                || !self.has_columns(entry, symbols)
+                || !self.has_columns(entry, &symbols)
             {
                 continue;
             }
-            let found = self.omitted_one(name, entry, equations, symbols, constants, &shared);
+            let found = self.omitted_one(name, entry, experiment, &symbols, &shared);
             all.extend(found);
         }
         all
@@ -38,11 +43,7 @@ impl Definer<'_> {
 
     /// Whether the recording has what a procedure's omitted term needs; a term of the file itself must
     /// say what it needs.
-    fn has_columns(
-        &self,
-        entry: &Stated<crate::experiment::tables::OmittedTable>,
-        symbols: &[Quantity],
-    ) -> bool {
+    fn has_columns(&self, entry: &Stated<OmittedTable>, symbols: &[Quantity]) -> bool {
         let term = entry.value.term.as_ref();
         if !self.source.is_base(&entry.key) {
             return true;
@@ -60,10 +61,9 @@ impl Definer<'_> {
     fn omitted_one(
         &mut self,
         name: &str,
-        entry: &Stated<crate::experiment::tables::OmittedTable>,
-        equations: &Equations,
+        entry: &Stated<OmittedTable>,
+        experiment: &Experiment,
         symbols: &[Quantity],
-        constants: &[Symbol],
         shared: &Option<EquationText<'_>>,
     ) -> Option<Omitted> {
         let fault =
@@ -77,7 +77,8 @@ impl Definer<'_> {
             }
             return None;
         };
-        let responses = equations.responses();
+        let responses = experiment.equations.responses();
+        let constants = &experiment.constants;
         let response = match &entry.value.response {
             Some(stated) => responses.iter().position(|r| r.name == stated.value),
             None if responses.len() == 1 => Some(0),
@@ -158,16 +159,12 @@ impl Definer<'_> {
     }
 
     /// Functions of the parameters.
-    pub(super) fn results(
-        &mut self,
-        parameters: &[Parameter],
-        inputs: &[Input],
-        constants: &[Symbol],
-    ) -> Vec<FunctionResult> {
+    pub(super) fn results(&mut self, experiment: &Experiment) -> Vec<FunctionResult> {
+        let (parameters, inputs) = (experiment.parameters.iter(), experiment.inputs.iter());
+        let constants = &experiment.constants;
         let symbols: Vec<Quantity> = parameters
-            .iter()
             .map(|p| quantity(&p.name, &p.unit))
-            .chain(inputs.iter().map(|i| quantity(&i.name, &i.unit)))
+            .chain(inputs.map(|i| quantity(&i.name, &i.unit)))
             .collect();
         let known: Vec<Symbol> = constants
             .iter()

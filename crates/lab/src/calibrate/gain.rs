@@ -2,8 +2,9 @@
 
 use nalgebra::DMatrix;
 
-use super::experiment::{Experiment, Observed, Scope, Target};
+use super::campaign::Campaign;
 use super::stack::{Row, Stack};
+use crate::experiment::{Observed, Scope, Target};
 use gumption_core::least_squares::Solution;
 
 /// Derivatives of the coefficients (parameters, then results), one row for each, one column for each
@@ -22,33 +23,36 @@ pub(super) struct Gain {
 impl Gain {
     /// The derivatives of the estimator, as the solver found them.
     pub fn of_solution(stack: &Stack<'_>, solution: &Solution) -> Gain {
-        let columns = stack.experiment.columns.len();
+        let columns = stack.campaign.experiment.columns.len();
         let parts = Gain {
             by_observed: solution.by_y.clone(),
             by_column: solution.by_x[1..=columns].to_vec(),
             by_input: solution.by_x[1 + columns..].to_vec(),
             direct: DMatrix::zeros(0, 0),
         };
-        parts.with_results(stack.experiment, &solution.parameters)
+        parts.with_results(stack.campaign, &solution.parameters)
     }
 
     /// The derivatives of the estimator of the equations linearised at `parameters`, for rows of these
     /// standard uncertainties.
     pub fn linear(stack: &Stack<'_>, parameters: &[f64], u: &[f64]) -> Option<Gain> {
-        let experiment = stack.experiment;
+        let campaign = stack.campaign;
         let jacobian = stack.jacobian(parameters, u);
         let mut by_observed = jacobian.pseudo_inverse(1e-12).ok()?;
         for (mut column, u) in by_observed.column_iter_mut().zip(u) {
             column /= *u;
         }
-        let count = experiment.symbols();
+        let count = campaign.experiment.symbols();
         let mut by_symbol = vec![by_observed.clone(); count];
         let mut slopes = vec![0.0; count];
         for (index, row) in stack.rows.iter().enumerate() {
             match row {
                 Row::Reading { response, .. } => {
                     let symbols = stack.symbols(index, parameters);
-                    experiment.equations.at(*response, &symbols, &mut slopes);
+                    campaign
+                        .experiment
+                        .equations
+                        .at(*response, &symbols, &mut slopes);
                 }
                 Row::Prior { .. } => slopes.fill(0.0),
             }
@@ -59,27 +63,27 @@ impl Gain {
         }
         let parts = Gain {
             by_observed,
-            by_column: by_symbol[..experiment.columns.len()].to_vec(),
-            by_input: by_symbol[experiment.input_places()].to_vec(),
+            by_column: by_symbol[..campaign.experiment.columns.len()].to_vec(),
+            by_input: by_symbol[campaign.experiment.input_places()].to_vec(),
             direct: DMatrix::zeros(0, 0),
         };
-        Some(parts.with_results(experiment, parameters))
+        Some(parts.with_results(campaign, parameters))
     }
 
     /// With a row for each result below those of the parameters.
-    fn with_results(self, experiment: &Experiment, parameters: &[f64]) -> Gain {
-        let (count, inputs) = (parameters.len(), experiment.inputs.len());
-        let all = count + experiment.results.len();
+    fn with_results(self, campaign: &Campaign, parameters: &[f64]) -> Gain {
+        let (count, inputs) = (parameters.len(), campaign.experiment.inputs.len());
+        let all = count + campaign.results.len();
         let mut map = DMatrix::zeros(all, count);
         let mut direct = DMatrix::zeros(all, inputs);
         map.view_mut((0, 0), (count, count)).fill_with_identity();
         let values: Vec<f64> = parameters
             .iter()
             .copied()
-            .chain(experiment.inputs.iter().map(|input| input.value))
+            .chain(campaign.experiment.inputs.iter().map(|input| input.value))
             .collect();
         let mut slopes = vec![0.0; values.len()];
-        for (index, result) in experiment.results.iter().enumerate() {
+        for (index, result) in campaign.results.iter().enumerate() {
             result.equation.at(0, &values, &mut slopes);
             for (place, slope) in slopes.iter().enumerate() {
                 if place < count {
@@ -106,11 +110,12 @@ impl Gain {
     /// Change of the coefficients by an error of one of a target's values, row by row.
     fn by_row(&self, stack: &Stack<'_>, target: &Target) -> DMatrix<f64> {
         let mut gain = DMatrix::zeros(self.coefficients(), stack.rows.len());
-        let observes = |response: usize| match (&stack.experiment.observed[response], target) {
-            (Observed::Column(name), Target::Reading(column)) => name == column,
-            (Observed::Input(own), Target::Input(place)) => own == place,
-            _ => false,
-        };
+        let observes =
+            |response: usize| match (&stack.campaign.experiment.observed[response], target) {
+                (Observed::Column(name), Target::Reading(column)) => name == column,
+                (Observed::Input(own), Target::Input(place)) => own == place,
+                _ => false,
+            };
         for (index, row) in stack.rows.iter().enumerate() {
             let Row::Reading { response, .. } = row else {
                 continue;
@@ -123,7 +128,7 @@ impl Gain {
         match target {
             Target::Input(place) => gain += &self.by_input[*place],
             Target::Reading(name) => {
-                let columns = &stack.experiment.columns;
+                let columns = &stack.campaign.experiment.columns;
                 if let Some(place) = columns.iter().position(|column| column.name == *name) {
                     gain += &self.by_column[place];
                 }
@@ -154,7 +159,7 @@ impl Gain {
 /// Which error of a scope acts on each row.
 pub(super) fn levels(stack: &Stack<'_>, scope: &Scope) -> Vec<usize> {
     let labels = match scope {
-        Scope::By(name) => stack.experiment.points.labels(name),
+        Scope::By(name) => stack.campaign.points.labels(name),
         _ => None,
     };
     let level = |row: &Row| match (row, scope) {

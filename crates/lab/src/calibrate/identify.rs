@@ -2,10 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::experiment::Parameter;
+use crate::experiment::Parameter;
 
 /// Changes of parameters that leave every reading as it is, each relative to the first.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Combination {
     /// Names, changes and units; the change of the first is 1.
     pub changes: Vec<(String, f64, String)>,
@@ -13,6 +14,7 @@ pub struct Combination {
 
 /// How well the parameters are told apart.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Identifiability {
     /// Number of independent combinations of parameters that the readings determine.
     pub rank: usize,
@@ -28,6 +30,7 @@ pub struct Identifiability {
 
 /// A parameter whose effect others imitate nearly.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct NearAlias {
     /// The parameter.
     pub parameter: String,
@@ -40,6 +43,7 @@ pub struct NearAlias {
 
 /// What an omitted effect would do.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Alias {
     /// Name of the coefficient of the effect.
     pub name: String,
@@ -53,6 +57,7 @@ pub struct Alias {
 
 /// What an omitted effect of some size does to the coefficients.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Shifts {
     /// Coefficients that it shifts, without those that it shifts slightly beside others.
     pub listed: Vec<Shift>,

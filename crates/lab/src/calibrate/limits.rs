@@ -1,11 +1,12 @@
 //! Averages that an instrument could not exceed.
 
 use super::stack::{Row, Stack};
-use super::words::Words;
+use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
 
 /// A value at which readings of a response stay, although its equation says that they differ.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Limit {
     /// The response.
     pub response: String,
@@ -20,9 +21,9 @@ const APART: f64 = 0.02;
 
 /// Extreme values that a response takes in points where its equation has different ones.
 pub(super) fn limits(stack: &Stack<'_>, solution: &Solution) -> Vec<Limit> {
-    let experiment = stack.experiment;
+    let campaign = stack.campaign;
     let mut found = Vec::new();
-    for (response, quantity) in experiment.equations.responses().iter().enumerate() {
+    for (response, quantity) in campaign.experiment.equations.responses().iter().enumerate() {
         let of_response = |index: &usize| matches!(stack.rows[*index], Row::Reading { response: own, .. } if own == response);
         let rows: Vec<usize> = (0..stack.rows.len()).filter(of_response).collect();
         let range = |rows: &[usize], of: &dyn Fn(usize) -> f64| {
@@ -57,8 +58,10 @@ impl Stack<'_> {
     /// The point of a row.
     fn name(&self, row: usize) -> Words {
         match self.rows[row] {
-            Row::Reading { point, .. } => self.experiment.points.names[point].clone(),
-            Row::Prior { parameter } => Words::plain(&self.experiment.parameters[parameter].name),
+            Row::Reading { point, .. } => self.campaign.points.names[point].clone(),
+            Row::Prior { parameter } => {
+                Words::plain(&self.campaign.experiment.parameters[parameter].name)
+            }
         }
     }
 }

@@ -8,12 +8,12 @@
 //! | chapter | holds |
 //! |---|---|
 //! | `define` | from tables to a checked experiment, or all faults |
-//! | `definer`, `purpose` | what all checks share; what a file is read for |
+//! | `checker`, `purpose` | what all checks share; what a file is read for |
 //! | `names`, `symbols`, `parameters`, `extras` | what names are; units; omitted effects and results |
 //! | `known`, `doubts`, `components` | inputs and readings; the errors that make them uncertain |
 //! | `data`, `label_columns`, `positions`, `schedule` | where the points come from |
 //! | `points`, `dwells`, `together` | the points of an experiment: rows, or averages of dwells and of repeated positions |
-//! | `experiment`, `words` | the checked experiment; texts in both languages |
+//! | `campaign` | an experiment with its points |
 //! | `stack` | its readings as a problem of least squares |
 //! | `gain` | how coefficients follow readings, columns and inputs |
 //! | `scatter`, `cause`, `causes` | what makes the coefficients uncertain |
@@ -32,64 +32,45 @@
 mod apart;
 mod budget;
 mod calibration;
+mod campaign;
 mod cause;
 mod causes;
 mod coefficient;
-mod components;
 mod contrary;
 mod data;
 mod define;
-mod definer;
-mod doubts;
 mod dwells;
-mod experiment;
+
 mod extras;
-pub mod faults;
 mod gain;
 mod identify;
-mod inferred;
-mod known;
-mod label_columns;
 mod limits;
-mod names;
-mod parameters;
+mod noise;
 mod plan;
 mod points;
-mod positions;
-mod prior;
-mod purpose;
 mod residual;
 mod scatter;
 mod schedule;
 mod signs;
 mod stack;
 mod swaps;
-mod symbols;
 #[cfg(test)]
 mod tests;
 mod together;
 mod trouble;
-mod words;
 
 pub use apart::Apart;
 pub use budget::budget;
 pub use calibration::{Calibration, Figures, PartScatter, calibrate, estimates};
+pub use campaign::{Campaign, FunctionResult, Omitted, Scatter, Weights};
 pub use cause::{Cause, Contribution, Origin};
 pub use coefficient::Coefficient;
-pub(crate) use define::doubts_of;
-pub use define::{load, read};
-pub(crate) use doubts::Doubts;
+pub use define::{load, load_from, read};
 pub use dwells::{Dwelling, DwellsBy};
-pub use experiment::{
-    Act, Doubt, Experiment, FunctionResult, Heading, Input, Observed, Omitted, Parameter, Prior,
-    Scatter, Scope, Target, Weights,
-};
 pub use identify::{Alias, Combination, Identifiability, NearAlias, Shift, Shifts};
 pub use limits::Limit;
 pub use plan::{Plan, plan};
 pub use points::{PointColumn, Points};
-pub use purpose::Purpose;
 pub use residual::Residual;
 pub use scatter::{Misfit, ResponseScatter, ScatterTest};
 pub use trouble::Trouble;
-pub use words::Words;

@@ -1,8 +1,8 @@
 //! What a schedule would tell, before anything is measured.
 
 use super::calibration::{Figures, aliases, figures};
+use super::campaign::Campaign;
 use super::causes::causes;
-use super::experiment::Experiment;
 use super::gain::Gain;
 use super::identify::{Alias, Identifiability};
 use super::scatter::Scatters;
@@ -29,9 +29,10 @@ pub struct Plan {
 ///
 /// # Errors
 /// Parameters of equations that are not linear in them have no start value.
-pub fn plan(experiment: &Experiment) -> Result<Plan, Trouble> {
-    let stack = Stack::new(experiment, Readings::Planned);
-    let open: Vec<String> = experiment
+pub fn plan(campaign: &Campaign) -> Result<Plan, Trouble> {
+    let stack = Stack::new(campaign, Readings::Planned);
+    let open: Vec<String> = campaign
+        .experiment
         .parameters
         .iter()
         .filter(|parameter| parameter.start.is_none())
@@ -43,23 +44,24 @@ pub fn plan(experiment: &Experiment) -> Result<Plan, Trouble> {
     if stack.rows.is_empty() {
         return Err(Trouble::TooFew {
             readings: 0,
-            parameters: experiment.parameters.len(),
+            parameters: campaign.experiment.parameters.len(),
         });
     }
-    let values: Vec<f64> = experiment
+    let values: Vec<f64> = campaign
+        .experiment
         .parameters
         .iter()
         .map(|parameter| parameter.start.unwrap_or(0.0))
         .collect();
     let u = expected_u(&stack);
     let jacobian = stack.jacobian(&values, &u);
-    let identifiability = Identifiability::of(&jacobian, &experiment.parameters);
-    let complete = identifiability.rank == experiment.parameters.len();
+    let identifiability = Identifiability::of(&jacobian, &campaign.experiment.parameters);
+    let complete = identifiability.rank == campaign.experiment.parameters.len();
     let gain = Gain::linear(&stack, &values, &u).filter(|_| complete);
     Ok(Plan {
         figures: gain.map(|gain| {
             let causes = causes(&stack, &gain, &Scatters::stated(), &u);
-            figures(experiment, &values, causes)
+            figures(campaign, &values, causes)
         }),
         aliases: if complete {
             aliases(&stack, &values, &u)
@@ -74,12 +76,14 @@ pub fn plan(experiment: &Experiment) -> Result<Plan, Trouble> {
 
 /// What each row would scatter by: its stated errors, if all have them, else all alike.
 fn expected_u(stack: &Stack<'_>) -> Vec<f64> {
-    let experiment = stack.experiment;
+    let campaign = stack.campaign;
     let own = |response: usize| -> f64 {
-        let super::experiment::Observed::Column(name) = &experiment.observed[response] else {
+        let crate::experiment::Observed::Column(name) = &campaign.experiment.observed[response]
+        else {
             return 0.0;
         };
-        let each = experiment
+        let each = campaign
+            .experiment
             .doubts
             .iter()
             .map(|doubt| doubt.of_each_reading(name).powi(2));
@@ -87,7 +91,9 @@ fn expected_u(stack: &Stack<'_>) -> Vec<f64> {
     };
     let of_row = |row: &Row| match row {
         Row::Reading { response, .. } => own(*response),
-        Row::Prior { parameter } => experiment.parameters[*parameter].known.map_or(1.0, |p| p.u),
+        Row::Prior { parameter } => campaign.experiment.parameters[*parameter]
+            .known
+            .map_or(1.0, |p| p.u),
     };
     let u: Vec<f64> = stack.rows.iter().map(of_row).collect();
     if u.iter().all(|u| *u > 0.0) {

@@ -1,6 +1,6 @@
 //! The points of an experiment: what was set and what was read, once for each.
 
-use super::words::Words;
+use crate::experiment::Words;
 use crate::recording::{Average, Data, Finding, Labels, Recording};
 use gumption_core::quantity::Unit;
 
@@ -19,6 +19,7 @@ pub struct Points {
 
 /// A column of numbers.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct PointColumn {
     /// The role that it plays in the equations.
     pub name: String,

@@ -1,9 +1,10 @@
 //! What is left of a reading.
 
-use super::words::Words;
+use crate::experiment::Words;
 
 /// What is left of a reading.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Residual {
     /// The point.
     pub point: Words,

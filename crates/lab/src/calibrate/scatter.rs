@@ -2,11 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::campaign::{Campaign, Scatter, Weights};
 use super::cause::{Cause, Origin};
-use super::experiment::{Experiment, Observed, Scatter, Scope, Target, Weights};
 use super::gain::{Gain, levels};
 use super::stack::{Row, Stack};
 use super::trouble::Trouble;
+use crate::experiment::{Observed, Scope, Target};
 use gumption_core::least_squares::Solution;
 use gumption_core::special::chi_squared_sf;
 use gumption_gum::budget::Evaluation;
@@ -19,6 +20,7 @@ pub(super) struct Scatters {
 
 /// The scatter of the readings of one response.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ResponseScatter {
     /// The response.
     pub response: String,
@@ -42,6 +44,7 @@ pub struct ResponseScatter {
 
 /// Whether residuals are as large as the known errors of the readings let expect.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ScatterTest {
     /// The residual standard deviation to expect, in the unit of the response.
     pub expected: f64,
@@ -100,12 +103,12 @@ impl Misfit {
     }
 }
 
-impl Experiment {
+impl Campaign {
     /// What tells the scatter: as the file says, else residuals where there are any, else samples.
     pub(super) fn way_of_scatter(&self, rows: usize) -> Scatter {
         match self.scatter {
             Some(way) => way,
-            None if rows > self.parameters.len() => Scatter::Residuals,
+            None if rows > self.experiment.parameters.len() => Scatter::Residuals,
             None if self.points.are_sampled() => Scatter::Dwells,
             None => Scatter::Stated,
         }
@@ -117,20 +120,22 @@ impl Experiment {
 /// # Errors
 /// Weights by readings without uncertainty.
 pub(super) fn weights(stack: &Stack<'_>) -> Result<Vec<f64>, Trouble> {
-    let experiment = stack.experiment;
+    let campaign = stack.campaign;
     let own = known_u(stack, true);
     let mut u = Vec::with_capacity(stack.rows.len());
     for (index, row) in stack.rows.iter().enumerate() {
         u.push(match row {
-            Row::Prior { parameter } => experiment.parameters[*parameter]
+            Row::Prior { parameter } => campaign.experiment.parameters[*parameter]
                 .known
                 .map_or(1.0, |prior| prior.u),
-            Row::Reading { response, .. } => match experiment.weights {
+            Row::Reading { response, .. } => match campaign.weights {
                 Weights::Equal => 1.0,
                 Weights::Readings if own[index] > 0.0 => own[index],
                 Weights::Readings => {
                     return Err(Trouble::NoWeights {
-                        response: experiment.equations.responses()[*response].name.clone(),
+                        response: campaign.experiment.equations.responses()[*response]
+                            .name
+                            .clone(),
                     });
                 }
             },
@@ -142,20 +147,21 @@ pub(super) fn weights(stack: &Stack<'_>) -> Result<Vec<f64>, Trouble> {
 /// Standard uncertainty of each reading by itself: stated errors of each reading, and its samples if
 /// wanted. Zero where nothing is known.
 fn known_u(stack: &Stack<'_>, samples: bool) -> Vec<f64> {
-    let experiment = stack.experiment;
+    let campaign = stack.campaign;
     let of_row = |row: &Row| {
         let Row::Reading { point, response } = row else {
             return 0.0;
         };
-        let Observed::Column(name) = &experiment.observed[*response] else {
+        let Observed::Column(name) = &campaign.experiment.observed[*response] else {
             return 0.0;
         };
-        let stated: f64 = experiment
+        let stated: f64 = campaign
+            .experiment
             .doubts
             .iter()
             .map(|doubt| doubt.of_each_reading(name).powi(2))
             .sum();
-        let column = experiment.points.column(name);
+        let column = campaign.points.column(name);
         let sampled = column
             .and_then(|column| column.averages.get(*point))
             .filter(|_| samples);
@@ -175,19 +181,19 @@ impl Scatters {
         gain: &Gain,
         u: &[f64],
     ) -> Result<Scatters, Trouble> {
-        let experiment = stack.experiment;
-        let way = experiment.way_of_scatter(stack.rows.len());
-        let sampled = experiment.points.are_sampled();
+        let campaign = stack.campaign;
+        let way = campaign.way_of_scatter(stack.rows.len());
+        let sampled = campaign.points.are_sampled();
         if way == Scatter::Dwells && !sampled {
             return Err(Trouble::NoSamples);
         }
         let ones = vec![1.0; stack.rows.len()];
         let jacobian = stack.jacobian(&solution.parameters, &ones);
         let (known, stated) = (known_u(stack, true), known_u(stack, false));
-        let parameters = experiment.parameters.len();
+        let parameters = campaign.experiment.parameters.len();
         let explained = explained(stack, solution, gain, &jacobian);
         let mut responses = Vec::new();
-        for (response, quantity) in experiment.equations.responses().iter().enumerate() {
+        for (response, quantity) in campaign.experiment.equations.responses().iter().enumerate() {
             let rows: Vec<usize> = (0..stack.rows.len())
                 .filter(|row| matches!(stack.rows[*row], Row::Reading { response: own, .. } if own == response))
                 .collect();
@@ -211,7 +217,7 @@ impl Scatters {
                 Scatter::Residuals => dof == 0.0,
                 // Nobody said that nothing but the stated errors matters, and none is stated.
                 Scatter::Stated => {
-                    experiment.scatter.is_none() && rows.iter().any(|row| stated[*row] == 0.0)
+                    campaign.scatter.is_none() && rows.iter().any(|row| stated[*row] == 0.0)
                 }
                 Scatter::Dwells => false,
             };
@@ -312,7 +318,7 @@ fn explained(
 ) -> Vec<f64> {
     let parameters = solution.parameters.len();
     let mut explained = vec![0.0; stack.rows.len()];
-    let doubts = stack.experiment.doubts.iter();
+    let doubts = stack.campaign.experiment.doubts.iter();
     for doubt in doubts.filter(|doubt| doubt.scope != Scope::Common) {
         let mut misfits = vec![0.0; stack.rows.len()];
         for act in &doubt.acts {
@@ -346,8 +352,8 @@ fn explained(
 
 /// Every average of samples scatters by itself.
 fn of_samples(stack: &Stack<'_>, gain: &Gain) -> Vec<Cause> {
-    let experiment = stack.experiment;
-    let sampled = experiment
+    let campaign = stack.campaign;
+    let sampled = campaign
         .points
         .columns
         .iter()

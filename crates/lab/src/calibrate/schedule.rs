@@ -1,11 +1,11 @@
 //! The points of an experiment that is planned.
 
-use super::definer::Definer;
-use super::faults::SCHEDULE;
-use super::label_columns::label_columns;
-use super::names::Names;
 use super::points::{PointColumn, Points};
-use super::words::Words;
+use crate::experiment::Words;
+use crate::experiment::checker::Checker;
+use crate::experiment::faults::SCHEDULE;
+use crate::experiment::labels::label_columns;
+use crate::experiment::names::Names;
 use crate::experiment::source::entries;
 use crate::recording::{Heading, Labels};
 use gumption_core::quantity::Unit;
@@ -14,16 +14,16 @@ use gumption_format::toml::Cell;
 use gumption_format::toml::Stated;
 
 /// The points of a schedule in the file.
-pub(super) fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Points> {
-    let table = &definer.source.table;
+pub(super) fn scheduled(checker: &mut Checker<'_>, names: &Names) -> Option<Points> {
+    let table = &checker.source.table;
     let stated = table.schedule.as_ref()?;
-    let before = definer.faults.len();
+    let before = checker.faults.len();
     let mut points = Points::default();
     let mut length: Option<(usize, std::ops::Range<usize>)> = None;
     for (key, list) in entries(&table.schedule) {
         let (first, place) = length.get_or_insert((list.value.len(), list.span.clone()));
         if list.value.len() != *first {
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(
                     SCHEDULE,
                     list.span.clone(),
@@ -37,11 +37,11 @@ pub(super) fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Poin
             );
             continue;
         }
-        let heading = Heading::read(key, &definer.units);
+        let heading = Heading::read(key, &checker.units);
         let unit = match heading.unit {
             Ok(unit) => unit.unwrap_or_else(Unit::one),
             Err(error) => {
-                definer
+                checker
                     .faults
                     .push(Fault::from(error).moved(|_| list.key.clone()));
                 continue;
@@ -55,7 +55,9 @@ pub(super) fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Poin
                 Cell::Text(_) => None,
             })
             .collect();
-        let is_label = label_columns(definer).contains(&heading.name);
+        let is_label = label_columns(checker)
+            .iter()
+            .any(|label| label.name == heading.name);
         match numbers {
             Some(values) if !is_label => points.columns.push(PointColumn {
                 name: heading.name,
@@ -72,7 +74,7 @@ pub(super) fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Poin
         .collect();
     for (role, place) in &names.columns {
         if points.column(role).is_none() {
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(
                     SCHEDULE,
                     stated.key.clone(),
@@ -86,7 +88,7 @@ pub(super) fn scheduled(definer: &mut Definer<'_>, names: &Names) -> Option<Poin
             );
         }
     }
-    (definer.faults.len() == before).then_some(points)
+    (checker.faults.len() == before).then_some(points)
 }
 
 fn labels(cells: &[Stated<Cell>]) -> Labels {

@@ -2,10 +2,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::experiment::{Experiment, Observed, Target};
+use super::campaign::Campaign;
 use super::identify::combinations;
 use super::trouble::Trouble;
-use super::words::Words;
+use crate::experiment::Words;
+use crate::experiment::{Observed, Target};
 use gumption_core::least_squares::{
     Errors, Failure, Problem, Response, Scale, Solution, Spread, solve,
 };
@@ -21,7 +22,7 @@ pub(super) enum Row {
 
 /// The readings of an experiment.
 pub(super) struct Stack<'e> {
-    pub experiment: &'e Experiment,
+    pub campaign: &'e Campaign,
     pub rows: Vec<Row>,
     /// Observed values; empty for a plan.
     pub observed: Vec<f64>,
@@ -32,23 +33,25 @@ pub(super) struct Stack<'e> {
 
 impl<'e> Stack<'e> {
     /// The readings; without `readings`, those that the schedule will give.
-    pub fn new(experiment: &'e Experiment, readings: Readings) -> Stack<'e> {
+    pub fn new(campaign: &'e Campaign, readings: Readings) -> Stack<'e> {
         let mut stack = Stack {
-            experiment,
+            campaign,
             rows: Vec::new(),
             observed: Vec::new(),
             left_out: 0,
-            linear: experiment
+            linear: campaign
+                .experiment
                 .equations
-                .are_affine_in(&experiment.parameter_places().collect::<Vec<_>>()),
+                .are_affine_in(&campaign.experiment.parameter_places().collect::<Vec<_>>()),
         };
-        for point in 0..experiment.points.len() {
-            for response in 0..experiment.equations.responses().len() {
-                let complete = experiment
+        for point in 0..campaign.points.len() {
+            for response in 0..campaign.experiment.equations.responses().len() {
+                let complete = campaign
+                    .experiment
                     .equations
                     .uses(response)
                     .iter()
-                    .filter_map(|place| experiment.columns.get(*place))
+                    .filter_map(|place| campaign.experiment.columns.get(*place))
                     .all(|column| stack.column(&column.name, point).is_finite());
                 let observed = match readings {
                     Readings::Taken => stack.observed(point, response),
@@ -62,7 +65,7 @@ impl<'e> Stack<'e> {
                 }
             }
         }
-        for (parameter, one) in experiment.parameters.iter().enumerate() {
+        for (parameter, one) in campaign.experiment.parameters.iter().enumerate() {
             if let Some(prior) = one.known {
                 stack.rows.push(Row::Prior { parameter });
                 stack.observed.push(prior.value);
@@ -72,17 +75,17 @@ impl<'e> Stack<'e> {
     }
 
     fn column(&self, name: &str, point: usize) -> f64 {
-        let column = self.experiment.points.column(name);
+        let column = self.campaign.points.column(name);
         column
             .and_then(|column| column.values.get(point).copied())
             .unwrap_or(f64::NAN)
     }
 
     fn observed(&self, point: usize, response: usize) -> f64 {
-        match &self.experiment.observed[response] {
+        match &self.campaign.experiment.observed[response] {
             Observed::Column(name) => self.column(name, point),
             Observed::Constant(value) => *value,
-            Observed::Input(place) => self.experiment.inputs[*place].value,
+            Observed::Input(place) => self.campaign.experiment.inputs[*place].value,
         }
     }
 
@@ -104,11 +107,17 @@ impl<'e> Stack<'e> {
             Row::Prior { .. } => 0,
         };
         let columns = self
+            .campaign
             .experiment
             .columns
             .iter()
             .map(|column| self.column(&column.name, point));
-        let inputs = self.experiment.inputs.iter().map(|input| input.value);
+        let inputs = self
+            .campaign
+            .experiment
+            .inputs
+            .iter()
+            .map(|input| input.value);
         columns
             .chain(parameters.iter().copied())
             .chain(inputs)
@@ -117,14 +126,15 @@ impl<'e> Stack<'e> {
 
     /// ∂f/∂parameter, row by row; with `u` in units of the standard uncertainty of each row.
     pub fn jacobian(&self, parameters: &[f64], u: &[f64]) -> DMatrix<f64> {
-        let places = self.experiment.parameter_places();
+        let places = self.campaign.experiment.parameter_places();
         let mut jacobian = DMatrix::zeros(self.rows.len(), parameters.len());
-        let mut slopes = vec![0.0; self.experiment.symbols()];
+        let mut slopes = vec![0.0; self.campaign.experiment.symbols()];
         for (index, row) in self.rows.iter().enumerate() {
             match *row {
                 Row::Reading { response, .. } => {
                     let symbols = self.symbols(index, parameters);
-                    self.experiment
+                    self.campaign
+                        .experiment
                         .equations
                         .at(response, &symbols, &mut slopes);
                     for (column, place) in places.clone().enumerate() {
@@ -140,19 +150,26 @@ impl<'e> Stack<'e> {
     /// Change of each row's misfit by a unit error of a target: of what is observed there, less that of
     /// its equation.
     pub fn misfit_by(&self, target: &Target, parameters: &[f64]) -> Vec<f64> {
-        let experiment = self.experiment;
+        let campaign = self.campaign;
         let place = match target {
-            Target::Input(place) => Some(experiment.input_places().start + place),
-            Target::Reading(name) => experiment.columns.iter().position(|c| c.name == *name),
+            Target::Input(place) => Some(campaign.experiment.input_places().start + place),
+            Target::Reading(name) => campaign
+                .experiment
+                .columns
+                .iter()
+                .position(|c| c.name == *name),
         };
-        let mut slopes = vec![0.0; experiment.symbols()];
+        let mut slopes = vec![0.0; campaign.experiment.symbols()];
         let mut of_row = |(index, row): (usize, &Row)| {
             let Row::Reading { response, .. } = row else {
                 return 0.0;
             };
             let symbols = self.symbols(index, parameters);
-            experiment.equations.at(*response, &symbols, &mut slopes);
-            let observed = match (&experiment.observed[*response], target) {
+            campaign
+                .experiment
+                .equations
+                .at(*response, &symbols, &mut slopes);
+            let observed = match (&campaign.experiment.observed[*response], target) {
                 (Observed::Column(name), Target::Reading(column)) => name == column,
                 (Observed::Input(own), Target::Input(place)) => own == place,
                 _ => false,
@@ -167,9 +184,12 @@ impl<'e> Stack<'e> {
     /// # Errors
     /// Too few rows, parameters that the rows do not tell apart, no minimum.
     pub fn solve(&self, u: &[f64], start: Option<Vec<f64>>) -> Result<Solution, Trouble> {
-        let (columns, inputs) = (self.experiment.columns.len(), self.experiment.inputs.len());
+        let (columns, inputs) = (
+            self.campaign.experiment.columns.len(),
+            self.campaign.experiment.inputs.len(),
+        );
         let mut x = DMatrix::zeros(self.rows.len(), 1 + columns + inputs);
-        let zeros = vec![0.0; self.experiment.parameters.len()];
+        let zeros = vec![0.0; self.campaign.experiment.parameters.len()];
         for index in 0..self.rows.len() {
             x[(index, 0)] = index as f64;
             let symbols = self.symbols(index, &zeros);
@@ -179,7 +199,7 @@ impl<'e> Stack<'e> {
                 x[(index, 1 + place)] = if value.is_finite() { value } else { 0.0 };
             }
             for place in 0..inputs {
-                x[(index, 1 + columns + place)] = self.experiment.inputs[place].value;
+                x[(index, 1 + columns + place)] = self.campaign.experiment.inputs[place].value;
             }
         }
         let problem = Problem {
@@ -208,17 +228,17 @@ impl<'e> Stack<'e> {
                 let ones = vec![1.0; self.rows.len()];
                 let at = self
                     .start()
-                    .unwrap_or_else(|_| vec![1.0; self.experiment.parameters.len()]);
+                    .unwrap_or_else(|_| vec![1.0; self.campaign.experiment.parameters.len()]);
                 let jacobian = self.jacobian(&at, &ones);
                 Trouble::Undetermined {
-                    combinations: combinations(&jacobian, &self.experiment.parameters),
+                    combinations: combinations(&jacobian, &self.campaign.experiment.parameters),
                 }
             }
             Failure::Undefined { point } | Failure::NotFinite { point, .. } => {
                 let (point, response) = match self.rows.get(point) {
                     Some(Row::Reading { point, response }) => (
-                        self.experiment.points.names[*point].clone(),
-                        self.experiment.equations.responses()[*response]
+                        self.campaign.points.names[*point].clone(),
+                        self.campaign.experiment.equations.responses()[*response]
                             .name
                             .clone(),
                     ),
@@ -238,7 +258,7 @@ impl<'e> Stack<'e> {
     /// # Errors
     /// No such way has a solution.
     pub fn start(&self) -> Result<Vec<f64>, Trouble> {
-        let parameters = &self.experiment.parameters;
+        let parameters = &self.campaign.experiment.parameters;
         let stated: Vec<f64> = parameters.iter().map(|p| p.start.unwrap_or(0.0)).collect();
         let open: Vec<usize> = (0..parameters.len())
             .filter(|place| parameters[*place].start.is_none())
@@ -268,10 +288,10 @@ impl<'e> Stack<'e> {
 
     /// A largest set of open parameters with this one in which the equations are affine.
     fn affine_with(&self, first: usize, open: &[usize]) -> Vec<usize> {
-        let offset = self.experiment.parameter_places().start;
+        let offset = self.campaign.experiment.parameter_places().start;
         let affine = |set: &[usize]| {
             let places: Vec<usize> = set.iter().map(|place| offset + place).collect();
-            self.experiment.equations.are_affine_in(&places)
+            self.campaign.experiment.equations.are_affine_in(&places)
         };
         let mut set = vec![first];
         if !affine(&set) {
@@ -325,7 +345,7 @@ impl<'e> Stack<'e> {
         match self.rows[row] {
             Row::Reading { response, .. } => {
                 let symbols = self.symbols(row, parameters);
-                self.experiment.equations.value(response, &symbols)
+                self.campaign.experiment.equations.value(response, &symbols)
             }
             Row::Prior { parameter } => parameters[parameter],
         }
@@ -343,7 +363,7 @@ pub(super) enum Readings {
 /// derivatives of the parameters by each of them.
 impl Response for Stack<'_> {
     fn parameters(&self) -> usize {
-        self.experiment.parameters.len()
+        self.campaign.experiment.parameters.len()
     }
 
     fn is_linear(&self) -> bool {
@@ -359,7 +379,7 @@ impl Response for Stack<'_> {
     ) -> f64 {
         by_parameter.fill(0.0);
         by_predictor.fill(0.0);
-        let (columns, count) = (self.experiment.columns.len(), parameters.len());
+        let (columns, count) = (self.campaign.experiment.columns.len(), parameters.len());
         match self.rows.get(predictors[0] as usize) {
             Some(Row::Prior { parameter }) => {
                 by_parameter[*parameter] = 1.0;
@@ -371,6 +391,7 @@ impl Response for Stack<'_> {
                 symbols.extend_from_slice(&predictors[1 + columns..]);
                 let mut slopes = vec![0.0; symbols.len()];
                 let value = self
+                    .campaign
                     .experiment
                     .equations
                     .at(*response, &symbols, &mut slopes);

@@ -2,11 +2,11 @@
 
 use nalgebra::DMatrix;
 
-use super::experiment::Experiment;
+use super::campaign::Campaign;
 use super::gain::Gain;
 use super::scatter::Scatters;
 use super::stack::{Row, Stack};
-use super::words::Words;
+use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
 
 /// Larger experiments are not searched: their pairs are too many.
@@ -33,7 +33,7 @@ pub(super) fn swapped(
     gain: &Gain,
     scatters: &Scatters,
 ) -> Vec<[Words; 2]> {
-    let points = stack.experiment.points.len();
+    let points = stack.campaign.points.len();
     let dof: f64 = scatters.responses.iter().map(|one| one.dof).sum();
     if points > MOST_POINTS || dof < LEAST_DOF {
         return Vec::new();
@@ -52,7 +52,7 @@ pub(super) fn swapped(
         }
     }
     let mut found: Vec<([Words; 2], f64)> = Vec::new();
-    for exchange in exchanges(stack.experiment) {
+    for exchange in exchanges(stack.campaign) {
         let Some(after) = exchanged(stack, &solution.residuals, &projector, &exchange.pairs) else {
             continue;
         };
@@ -71,7 +71,7 @@ pub(super) fn swapped(
 
 /// Sums of squares of the residuals of each response.
 fn squares(stack: &Stack<'_>, residuals: &[f64]) -> Vec<f64> {
-    let mut sums = vec![0.0; stack.experiment.equations.responses().len()];
+    let mut sums = vec![0.0; stack.campaign.experiment.equations.responses().len()];
     for (row, residual) in stack.rows.iter().zip(residuals) {
         if let Row::Reading { response, .. } = row {
             sums[*response] += residual * residual;
@@ -99,8 +99,8 @@ struct Exchange {
 }
 
 /// Any two points; and any two labels of a column that several points have.
-fn exchanges(experiment: &Experiment) -> Vec<Exchange> {
-    let names = &experiment.points.names;
+fn exchanges(campaign: &Campaign) -> Vec<Exchange> {
+    let names = &campaign.points.names;
     let points = names.len();
     let mut all: Vec<Exchange> = (0..points)
         .flat_map(|first| (first + 1..points).map(move |second| [first, second]))
@@ -109,7 +109,7 @@ fn exchanges(experiment: &Experiment) -> Vec<Exchange> {
             pairs: vec![pair],
         })
         .collect();
-    for (_, labels) in &experiment.points.labels {
+    for (_, labels) in &campaign.points.labels {
         let of_level = |level: usize| -> Vec<usize> {
             let has = |point: &usize| {
                 labels

@@ -1,7 +1,7 @@
 //! Points that a procedure averages: readings of the same position, half a turn apart.
 
 use super::points::{PointColumn, Points};
-use super::words::Words;
+use crate::experiment::Words;
 use crate::recording::{Average, Finding, Labels, Problem};
 
 impl Points {

@@ -1,8 +1,8 @@
 //! Why an experiment gives no coefficients.
 
-use super::faults::{SCATTER, START, TOO_FEW};
 use super::identify::Combination;
-use super::words::Words;
+use crate::experiment::Words;
+use crate::experiment::faults::{SCATTER, START, TOO_FEW};
 use gumption_fault::Code;
 
 /// Why an experiment gives no coefficients.

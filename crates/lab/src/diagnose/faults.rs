@@ -19,10 +19,6 @@ codes! {
         "The search found no finite minimum, or the recording determines too few of the parameters. Check the model, give starts, or state what is known of a parameter beforehand: value and u.";
     TOO_FEW = "D0108", "the recording has too few rows", "记录的行数太少",
         "The recording must have more rows than the model has parameters, or there is nothing to confront the model with.";
-    NOISE = "D0109", "the claim about the noise is not clear", "噪声的声明不明确",
-        "One of: u (with dof), a column with the role \"u\", replicates, at_rest, budget. Without any of them the noise is estimated from what the model leaves.";
-    UNIT_CLASH = "D0110", "two units do not fit", "两处单位不一致",
-        "A unit in the case contradicts the unit in the first line of the recording, or has another dimension than it should.";
     CANDIDATE = "D0111", "an explanation of the user's own is not clear", "自定义的解释不明确",
         "An omitted effect has a `term`, linear in its own name, or a `formula` of what it adds per unit of its size; with a formula, `node` names the parameter or column that it changes.\n\n    [omitted.mount_sag]\n    term = \"mount_sag * sin(phi) * cos(phi)\"";
     SETTING = "D0112", "a setting is out of range", "设置超出允许范围",

@@ -6,13 +6,43 @@
 //! | `hints` | what writers of experiments mistake, also wordings of former versions |
 //! | [`procedure`] | the procedures of the library: experiments themselves |
 //! | `source` | the tables of a file over those of its procedure |
+//! | `checker`, `purpose` | what all checks share; what a file is read for |
+//! | `names`, `inferred`, `labels`, `columns` | what the names of the equations are; columns of the recording |
+//! | `known`, `quantities`, `components`, `doubt` | inputs and readings; the errors that make them uncertain |
+//! | `positions`, `noise`, `at_rest` | what labels stand for; what tells the noise |
+//! | `symbols`, `parameters`, `lower` | units of what is estimated; the equations |
+//! | `checked`, `words` | the checked experiment; texts in both languages |
 
+pub(crate) mod at_rest;
+mod checked;
+pub(crate) mod checker;
+pub(crate) mod columns;
+pub(crate) mod components;
+mod doubt;
 pub mod entries;
 pub mod faults;
 mod hints;
+pub(crate) mod inferred;
+mod known;
+pub(crate) mod labels;
+mod lower;
+pub(crate) mod names;
+pub(crate) mod noise;
+mod parameters;
+pub(crate) mod positions;
 pub mod procedure;
+mod purpose;
+mod quantities;
 pub(crate) mod source;
+pub(crate) mod symbols;
 pub mod tables;
+pub(crate) mod words;
+
+pub use at_rest::RestReadings;
+pub use checked::{Experiment, Heading, Observed, Parameter};
+pub use doubt::{Act, Doubt, Input, Prior, Scope, Target};
+pub use purpose::Purpose;
+pub use words::Words;
 
 use gumption_format::toml::{FromToml, KeyRow, Table};
 use serde_json::{Value, json};

@@ -282,7 +282,7 @@ table! {
     NoiseTable "[noise]" {
         /// What tells it, where nothing below is stated: "residuals" (default), "dwells" or "stated".
         from: NoiseWord,
-        /// Standard uncertainty of the output of one row (of one reading, with a column of counts).
+        /// Standard uncertainty of the output of one row (of one reading, with a column of counts); without a unit in that of the outputs.
         u: Amount,
         /// Degrees of freedom of `u`; infinite if left out.
         dof: Dof,

@@ -13,6 +13,7 @@ const TELLING: usize = 30;
 /// The Allan deviation of readings, at averaging times of 1, 2, 4 … intervals up to a quarter of the
 /// recording.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Allan {
     /// Time from one reading to the next.
     pub interval: f64,
@@ -26,6 +27,7 @@ pub struct Allan {
 
 /// The Allan deviation at one averaging time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct AllanPoint {
     /// Averaging time in intervals.
     pub intervals: usize,

@@ -13,6 +13,7 @@ const LONGEST: usize = 4096;
 ///
 /// All values but counts and coefficients are in the unit of the readings.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Average {
     /// Arithmetic mean.
     pub mean: f64,
@@ -43,6 +44,7 @@ pub struct Average {
 ///
 /// Serial correlation of the residuals is taken into account as for the mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Drift {
     /// Change per unit of time.
     pub slope: f64,

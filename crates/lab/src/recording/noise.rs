@@ -10,6 +10,7 @@ use gumption_core::special::{chi_squared_sf, normal_quantile};
 ///
 /// Units, with the readings in R and the interval in s: N in R·√s, B in R, K in R/√s.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Noises {
     /// N, for the rate of a gyro the angle random walk: the part that falls with τ^−½.
     pub white: Coefficient,

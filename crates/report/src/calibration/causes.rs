@@ -9,7 +9,8 @@ use gumption_format::document::{
     ColumnKind::{Bar, Names, Numbers, Words},
     Row, Table,
 };
-use gumption_lab::calibrate::{Cause, Contribution, Figures, Origin, Scope};
+use gumption_lab::calibrate::{Cause, Contribution, Figures, Origin};
+use gumption_lab::experiment::Scope;
 
 use super::sections::{DIGITS, head_of, shown_u};
 

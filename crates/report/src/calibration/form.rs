@@ -7,10 +7,11 @@ use crate::language::Language;
 use gumption_core::quantity::Unit;
 use gumption_format::machine::{self, Machine, Number, all, form};
 use gumption_lab::calibrate::{
-    Alias, Apart, Calibration, Cause, Coefficient, Combination, Contribution, Experiment, Figures,
+    Alias, Apart, Calibration, Campaign, Cause, Coefficient, Combination, Contribution, Figures,
     Identifiability, Limit, Misfit, NearAlias, Omitted, Origin, Plan, Residual, ResponseScatter,
-    Scatter, ScatterTest, Scope, Words,
+    Scatter, ScatterTest,
 };
+use gumption_lab::experiment::{Scope, Words};
 use gumption_lab::recording::Finding;
 
 use super::causes::cause_name;
@@ -19,10 +20,10 @@ use super::trouble::in_words;
 
 form! {
     /// Coefficients from a recording and measurement equations.
-    CalibrationForm<'a> of (experiment: &'a Experiment, found: &'a Calibration, l: Language) {
+    CalibrationForm<'a> of (campaign: &'a Campaign, found: &'a Calibration, l: Language) {
         /// What a plan has as well.
         #[serde(flatten)]
-        common: Common<'a> = Common::of(experiment, Some(&found.figures), &found.identifiability, &found.aliases, l),
+        common: Common<'a> = Common::of(campaign, Some(&found.figures), &found.identifiability, &found.aliases, l),
         /// `calibration`.
         kind: &'static str = "calibration",
         /// Number of readings used.
@@ -49,7 +50,7 @@ form! {
         },
         /// The scatter of each response.
         responses: Vec<ResponseForm<'a>> = {
-            let pairs = found.responses.iter().zip(experiment.equations.responses());
+            let pairs = found.responses.iter().zip(campaign.experiment.equations.responses());
             pairs.map(|(one, quantity)| ResponseForm::of(one, &quantity.unit)).collect()
         },
         /// What is left of each reading.
@@ -57,14 +58,14 @@ form! {
         /// Coefficients of parts of the recording, where the file wants them one by one.
         parts: Vec<PartForm<'a>> = all(&found.parts, |(label, part)| PartForm::of(label, &part.figures, l)),
         /// What is doubtful in the recording.
-        findings: Vec<FindingForm> = all(&experiment.points.findings, |one| FindingForm::of(one, l)),
+        findings: Vec<FindingForm> = all(&campaign.points.findings, |one| FindingForm::of(one, l)),
     }
 
     /// What a schedule would tell, before anything is measured.
-    PlanForm<'a> of (experiment: &'a Experiment, plan: &'a Plan, l: Language) {
+    PlanForm<'a> of (campaign: &'a Campaign, plan: &'a Plan, l: Language) {
         /// What a calibration has as well.
         #[serde(flatten)]
-        common: Common<'a> = Common::of(experiment, plan.figures.as_ref(), &plan.identifiability, &plan.aliases, l),
+        common: Common<'a> = Common::of(campaign, plan.figures.as_ref(), &plan.identifiability, &plan.aliases, l),
         /// `plan`.
         kind: &'static str = "plan",
         /// Number of readings.
@@ -75,31 +76,31 @@ form! {
 
     /// What calibrations and plans have in common.
     Common<'a> of (
-        experiment: &'a Experiment,
+        campaign: &'a Campaign,
         figures: Option<&'a Figures>,
         identifiability: &'a Identifiability,
         aliases: &'a [Alias],
         l: Language
     ) {
         /// Title.
-        title: &'a str = said(&experiment.heading.title, l),
+        title: &'a str = said(&campaign.experiment.heading.title, l),
         /// Procedure of the library.
-        procedure: Option<&'a str> = experiment.heading.procedure.as_deref(),
+        procedure: Option<&'a str> = campaign.experiment.heading.procedure.as_deref(),
         /// Where the method comes from.
-        reference: Option<&'a str> = experiment.heading.reference.as_deref(),
+        reference: Option<&'a str> = campaign.experiment.heading.reference.as_deref(),
         /// What is calibrated.
-        object: Option<&'a str> = experiment.heading.object.as_deref(),
+        object: Option<&'a str> = campaign.experiment.heading.object.as_deref(),
         /// Who did it.
-        author: Option<&'a str> = experiment.heading.author.as_deref(),
+        author: Option<&'a str> = campaign.experiment.heading.author.as_deref(),
         /// When.
-        date: Option<&'a str> = experiment.heading.date.as_deref(),
+        date: Option<&'a str> = campaign.experiment.heading.date.as_deref(),
         /// Measurement equations.
         equations: Vec<&'a str> = {
-            let equations = &experiment.equations;
+            let equations = &campaign.experiment.equations;
             (0..equations.responses().len()).map(|response| equations.text(response)).collect()
         },
         /// Probability of the coverage intervals.
-        coverage_probability: Number = Number(experiment.coverage_probability),
+        coverage_probability: Number = Number(campaign.experiment.coverage_probability),
         /// Parameters, then results; of a plan with the values that were assumed, and none where the schedule does not
         /// determine all of them.
         coefficients: Vec<CoefficientForm<'a>> = figures.map_or_else(Vec::new, |figures| coefficients(figures, l)),
@@ -115,8 +116,8 @@ form! {
         identifiability: IdentifiabilityForm<'a> = IdentifiabilityForm::of(identifiability, l),
         /// Effects outside the equations.
         omitted: Vec<OmittedForm<'a>> = {
-            let pairs = experiment.omitted.iter().zip(aliases);
-            pairs.map(|(omitted, alias)| OmittedForm::of(omitted, alias, experiment, l)).collect()
+            let pairs = campaign.omitted.iter().zip(aliases);
+            pairs.map(|(omitted, alias)| OmittedForm::of(omitted, alias, campaign, l)).collect()
         },
     }
 
@@ -228,7 +229,7 @@ form! {
     }
 
     /// An effect outside the equations.
-    OmittedForm<'a> of (omitted: &'a Omitted, alias: &'a Alias, experiment: &'a Experiment, l: Language) {
+    OmittedForm<'a> of (omitted: &'a Omitted, alias: &'a Alias, campaign: &'a Campaign, l: Language) {
         /// Its name.
         name: &'a str = &alias.name,
         /// What it would add to an equation.
@@ -245,8 +246,8 @@ form! {
         visible: Number = Number(alias.visible),
         /// What it does to each coefficient.
         shifts: Vec<ShiftForm<'a>> = {
-            let parameters = experiment.parameters.iter().map(|one| (&one.name, &one.unit));
-            let results = experiment.results.iter().map(|one| (&one.name, &one.unit));
+            let parameters = campaign.experiment.parameters.iter().map(|one| (&one.name, &one.unit));
+            let results = campaign.results.iter().map(|one| (&one.name, &one.unit));
             let all = parameters.chain(results).zip(&alias.shifts);
             all.map(|((name, unit), shift)| ShiftForm::of(name, unit, *shift)).collect()
         },

@@ -6,7 +6,7 @@ use crate::phrase::section;
 use crate::symbol;
 use gumption_core::quantity::Unit;
 use gumption_format::document::Block;
-use gumption_lab::calibrate::{Alias, Experiment, Figures, Identifiability, Omitted, Plan};
+use gumption_lab::calibrate::{Alias, Campaign, Figures, Identifiability, Omitted, Plan};
 
 use super::sections::said;
 use super::trouble::{changes, in_words};
@@ -56,7 +56,7 @@ pub(super) fn identifiability(found: &Identifiability, l: Language) -> Vec<Block
 
 /// What omitted effects would shift.
 pub(super) fn aliases(
-    experiment: &Experiment,
+    campaign: &Campaign,
     aliases: &[Alias],
     figures: Option<&Figures>,
     l: Language,
@@ -64,8 +64,12 @@ pub(super) fn aliases(
     if aliases.is_empty() {
         return Vec::new();
     }
-    let parameters = experiment.parameters.iter().map(|p| (&p.name, &p.unit));
-    let results = experiment.results.iter().map(|r| (&r.name, &r.unit));
+    let parameters = campaign
+        .experiment
+        .parameters
+        .iter()
+        .map(|p| (&p.name, &p.unit));
+    let results = campaign.results.iter().map(|r| (&r.name, &r.unit));
     let all = figures.map_or(&[][..], |figures| &figures.coefficients);
     let told = Told {
         coefficients: parameters
@@ -75,7 +79,7 @@ pub(super) fn aliases(
         u: all.iter().map(|one| one.u).collect(),
         l,
     };
-    let pairs = experiment.omitted.iter().zip(aliases);
+    let pairs = campaign.omitted.iter().zip(aliases);
     vec![
         section(
             l,

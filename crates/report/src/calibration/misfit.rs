@@ -10,8 +10,9 @@ use gumption_format::document::{
     Table,
 };
 use gumption_lab::calibrate::{
-    Apart, Calibration, Experiment, Limit, Misfit, ResponseScatter, Scatter, ScatterTest, Words,
+    Apart, Calibration, Campaign, Limit, Misfit, ResponseScatter, Scatter, ScatterTest,
 };
+use gumption_lab::experiment::Words;
 
 use super::sections::{DIGITS, said, shown_u};
 use super::trouble::counted;
@@ -19,7 +20,7 @@ use super::trouble::counted;
 /// More residuals than these are not listed.
 const RESIDUALS: usize = 12;
 
-pub(super) fn residuals(experiment: &Experiment, found: &Calibration, l: Language) -> Vec<Block> {
+pub(super) fn residuals(campaign: &Campaign, found: &Calibration, l: Language) -> Vec<Block> {
     let way = match found.scatter {
         Scatter::Residuals => l.pick(
             "The scatter of the readings in the uncertainties above is the part of the residuals that the stated errors do not explain.",
@@ -36,7 +37,7 @@ pub(super) fn residuals(experiment: &Experiment, found: &Calibration, l: Languag
     };
     let mut blocks = vec![
         section(l, "Residuals", "残差"),
-        Block::Table(scatter(experiment, found, l)),
+        Block::Table(scatter(campaign, found, l)),
         Block::Paragraph(way.to_owned()),
     ];
     if found.responses.iter().all(|one| one.dof == 0.0) {
@@ -54,7 +55,7 @@ pub(super) fn residuals(experiment: &Experiment, found: &Calibration, l: Languag
     blocks
 }
 
-fn scatter(experiment: &Experiment, found: &Calibration, l: Language) -> Table {
+fn scatter(campaign: &Campaign, found: &Calibration, l: Language) -> Table {
     let mut table = table(
         l,
         [
@@ -69,7 +70,11 @@ fn scatter(experiment: &Experiment, found: &Calibration, l: Language) -> Table {
             ("unit", Word::Unit.of(l), Names),
         ],
     );
-    for (one, quantity) in found.responses.iter().zip(experiment.equations.responses()) {
+    for (one, quantity) in found
+        .responses
+        .iter()
+        .zip(campaign.experiment.equations.responses())
+    {
         let of_test = |value: fn(&ScatterTest) -> f64, digits: u8| {
             let test = one.test.as_ref();
             test.map_or(String::new(), |test| significant(value(test), digits))
@@ -208,13 +213,13 @@ fn stands_apart(one: &Apart, l: Language) -> String {
 
 /// What a reader must know.
 pub(super) fn remarks(
-    experiment: &Experiment,
+    campaign: &Campaign,
     found: Option<&Calibration>,
     assumed: &[String],
     l: Language,
 ) -> Vec<Block> {
     let mut items: Vec<String> = Vec::new();
-    for finding in &experiment.points.findings {
+    for finding in &campaign.points.findings {
         items.push(l.pick(
             format!("{}; {}.", finding.message(), finding.advice()),
             format!("{}；{}。", finding.message_zh(), finding.advice_zh()),
@@ -251,7 +256,7 @@ pub(super) fn remarks(
             format!("{names} 未给出数值，按零计算：与之成比例的效应未体现。请给出预期值：[parameter.{}] start = …。", assumed[0]),
         ));
     }
-    let remarks = experiment.remarks.iter();
+    let remarks = campaign.experiment.remarks.iter();
     items.extend(remarks.map(|remark| l.pick(&remark.en, &remark.zh).clone()));
     if items.is_empty() {
         return Vec::new();

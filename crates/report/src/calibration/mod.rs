@@ -9,31 +9,31 @@ mod trouble;
 
 use crate::language::Language;
 use gumption_format::document::{Block, Document};
-use gumption_lab::calibrate::{Calibration, Experiment, Plan, Trouble};
+use gumption_lab::calibrate::{Calibration, Campaign, Plan, Trouble};
 
 pub use form::{calibration_schema, plan_schema};
 
 /// The document of a calibration.
-pub fn calibration(experiment: &Experiment, found: &Calibration, language: Language) -> Document {
+pub fn calibration(campaign: &Campaign, found: &Calibration, language: Language) -> Document {
     let l = language;
     let blocks: Vec<Block> = [
-        sections::heading(experiment, l),
-        sections::equations(experiment, l),
-        sections::coefficients(experiment, &found.figures, l),
+        sections::heading(campaign, l),
+        sections::equations(campaign, l),
+        sections::coefficients(campaign, &found.figures, l),
         sections::parts(found, l),
         sections::correlations(&found.figures, l),
         causes::budgets(&found.figures, l),
-        misfit::residuals(experiment, found, l),
+        misfit::residuals(campaign, found, l),
         hidden::identifiability(&found.identifiability, l),
-        hidden::aliases(experiment, &found.aliases, Some(&found.figures), l),
-        misfit::remarks(experiment, Some(found), &[], l),
+        hidden::aliases(campaign, &found.aliases, Some(&found.figures), l),
+        misfit::remarks(campaign, Some(found), &[], l),
     ]
     .concat();
-    Document::new(&form::CalibrationForm::of(experiment, found, l), l, blocks)
+    Document::new(&form::CalibrationForm::of(campaign, found, l), l, blocks)
 }
 
 /// The document of a plan.
-pub fn plan(experiment: &Experiment, plan: &Plan, language: Language) -> Document {
+pub fn plan(campaign: &Campaign, plan: &Plan, language: Language) -> Document {
     let l = language;
     let figures = plan.figures.as_ref();
     let expected = figures.map(|figures| {
@@ -45,16 +45,16 @@ pub fn plan(experiment: &Experiment, plan: &Plan, language: Language) -> Documen
         .concat()
     });
     let blocks: Vec<Block> = [
-        sections::heading(experiment, l),
-        sections::equations(experiment, l),
+        sections::heading(campaign, l),
+        sections::equations(campaign, l),
         hidden::schedule(plan, l),
         hidden::identifiability(&plan.identifiability, l),
         expected.unwrap_or_default(),
-        hidden::aliases(experiment, &plan.aliases, figures, l),
-        misfit::remarks(experiment, None, &plan.assumed, l),
+        hidden::aliases(campaign, &plan.aliases, figures, l),
+        misfit::remarks(campaign, None, &plan.assumed, l),
     ]
     .concat();
-    Document::new(&form::PlanForm::of(experiment, plan, l), l, blocks)
+    Document::new(&form::PlanForm::of(campaign, plan, l), l, blocks)
 }
 
 /// Why there are no coefficients, in sentences.

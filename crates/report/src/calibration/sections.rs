@@ -10,7 +10,8 @@ use gumption_format::document::{
     ColumnKind::{Names, Numbers, Wrapped},
     Row,
 };
-use gumption_lab::calibrate::{Calibration, Coefficient, Experiment, Figures, PartScatter, Words};
+use gumption_lab::calibrate::{Calibration, Campaign, Coefficient, Figures, PartScatter};
+use gumption_lab::experiment::Words;
 
 /// Digits of standard uncertainties.
 pub(super) const DIGITS: u8 = 3;
@@ -19,8 +20,8 @@ pub(super) fn said(words: &Words, l: Language) -> &str {
     l.pick(&words.en, &words.zh)
 }
 
-pub(super) fn heading(experiment: &Experiment, l: Language) -> Vec<Block> {
-    let heading = &experiment.heading;
+pub(super) fn heading(campaign: &Campaign, l: Language) -> Vec<Block> {
+    let heading = &campaign.experiment.heading;
     let title = match said(&heading.title, l) {
         "" => l.pick("Calibration", "校准"),
         title => title,
@@ -46,17 +47,20 @@ pub(super) fn heading(experiment: &Experiment, l: Language) -> Vec<Block> {
     blocks
 }
 
-pub(super) fn equations(experiment: &Experiment, l: Language) -> Vec<Block> {
-    let all = 0..experiment.equations.responses().len();
-    let lines = all.flat_map(|response| experiment.equations.text(response).lines());
+pub(super) fn equations(campaign: &Campaign, l: Language) -> Vec<Block> {
+    let all = 0..campaign.experiment.equations.responses().len();
+    let lines = all.flat_map(|response| campaign.experiment.equations.text(response).lines());
     vec![
         section(l, "Measurement equations", "测量方程"),
         Block::Formula(lines.map(str::to_owned).collect()),
     ]
 }
 
-pub(super) fn coefficients(experiment: &Experiment, figures: &Figures, l: Language) -> Vec<Block> {
-    let expanded = format!("U ({})", probability(experiment.coverage_probability));
+pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) -> Vec<Block> {
+    let expanded = format!(
+        "U ({})",
+        probability(campaign.experiment.coverage_probability)
+    );
     let estimate = Word::Estimate.of(l);
     let mut table = table(
         l,

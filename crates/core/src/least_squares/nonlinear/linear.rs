@@ -67,6 +67,7 @@ impl Linear {
 
 /// Where the search ended.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Minimum {
     /// The best parameters.
     pub parameters: Vec<f64>,

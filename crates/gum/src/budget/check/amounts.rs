@@ -5,13 +5,13 @@ use std::ops::Range;
 use super::checker::Checker;
 use super::draft::{Context, show};
 use super::entries::entries;
+use super::units;
 use crate::budget::faults::{NOT_POSITIVE, RELATIVE_TO_ZERO, RELATIVE_UNCLEAR, UNIT_CLASH};
 use crate::budget::tables::FileTable;
-use gumption_core::quantity::{DefinitionError, Unit, revolutions_as_angle};
+use gumption_core::quantity::{Unit, revolutions_as_angle};
 use gumption_fault::Fault;
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
-use gumption_format::toml::StringMap;
 
 /// Whether a unit of dimension one names a ratio, of which one asks "of what?" (in contrast to angles).
 pub(super) fn is_ratio(symbol: &str) -> bool {
@@ -26,35 +26,9 @@ pub(super) fn is_in_ratios(unit: &Unit) -> bool {
 impl Checker<'_> {
     /// Reads the `[unit]` table.
     pub(super) fn define_units(&mut self, file: &FileTable) {
-        let stated = entries(&file.unit);
-        let pairs = stated
-            .iter()
-            .map(|(name, definition)| (name.as_str(), definition.value.as_str()));
-        let mut circle: Option<Fault> = None;
-        for (index, error) in self.names.units.define_all(pairs) {
-            let Some((name, definition)) = stated.get(index) else {
-                continue;
-            };
-            let in_circle = matches!(&error, DefinitionError::Circular(_));
-            let fault = match error {
-                DefinitionError::Name(error) => {
-                    Fault::from(error).moved(|_| definition.key.clone())
-                }
-                DefinitionError::Definition(error) | DefinitionError::Circular(error) => {
-                    self.in_string(Fault::from(error), definition)
-                }
-            };
-            // The units of one circle are one mistake.
-            match &mut circle {
-                _ if !in_circle => self.report(fault),
-                None => circle = Some(fault),
-                Some(first) => {
-                    let label = format!("`{name}` waits for another one, too");
-                    first.related.push((fault.span, label));
-                }
-            }
-        }
-        self.messages.faults.extend(circle);
+        let (units, faults) = units::defined(entries(&file.unit), self.source.text);
+        self.names.units = units;
+        self.messages.faults.extend(faults);
     }
 
     /// A stated unit; dimension one when none is stated, nothing when it was refused.
@@ -65,21 +39,9 @@ impl Checker<'_> {
         match self.names.units.parse(&stated.value) {
             Ok(unit) => Some(unit),
             Err(error) => {
-                let fault = self.in_string(Fault::from(error), stated);
+                let fault = units::placed(Fault::from(error), stated, self.source.text);
                 self.refuse(fault)
             }
-        }
-    }
-
-    /// Moves a fault inside a text of the file to its place in the file.
-    fn in_string(&self, fault: Fault, stated: &Stated<String>) -> Fault {
-        match StringMap::new(self.source.text, stated.span.clone()) {
-            Some(map) if map.text() == stated.value => fault.moved(|range| map.place(range)),
-            // The unit of an amount: `span` is the place of the unit itself, without quotes.
-            _ if self.source.text.get(stated.span.clone()) == Some(stated.value.as_str()) => {
-                fault.moved(|range| stated.span.start + range.start..stated.span.start + range.end)
-            }
-            _ => fault.moved(|_| stated.span.clone()),
         }
     }
 

@@ -36,16 +36,19 @@ mod taken;
 mod tests;
 mod type_a;
 mod type_b;
+pub(super) mod units;
 mod vectors;
 mod ways;
 
 use std::path::Path;
 
+use super::checked::Quantities;
 use super::tables::FileTable;
 use super::{Budget, Component, Heading, MonteCarloSettings, NamedFigure, Owner, Row, Trials};
 pub(super) use checker::Origin;
 use checker::{Checker, Source};
 use entries::{entries, shared};
+use gumption_core::quantity::UnitTable;
 use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 
@@ -129,6 +132,47 @@ fn heading(file: &FileTable) -> Heading {
     }
 }
 
+/// The quantities of tables without formulas.
+///
+/// # Errors
+/// All faults, in no particular order.
+pub(super) fn quantities(
+    file: &FileTable,
+    unnamed: &[String],
+    units: &UnitTable,
+    text: &str,
+    origin: Origin<'_>,
+) -> Result<Quantities, Vec<Fault>> {
+    let (conventions, resolution, faults) = conventions::conventions(file);
+    let source = Source {
+        text,
+        origin,
+        date: heading(file).date,
+    };
+    let mut checker = Checker::new(source, file, conventions);
+    checker.messages.faults = faults;
+    checker.names.units = units.clone();
+    checker.check_names(file, unnamed);
+    checker.monte_carlo(file);
+    let constants = checker.constants(file);
+    let mut register = register::Register::default();
+    checker.sources(shared(file), &mut register);
+    checker.inputs(file, resolution, &mut register);
+    checker.unused_sources(shared(file), &register);
+    let groups = checker.groups(file, &[], &mut register);
+    if !checker.messages.faults.is_empty() {
+        return Err(checker.messages.faults);
+    }
+    Ok(Quantities {
+        conventions: checker.conventions,
+        constants,
+        inputs: register.inputs,
+        components: register.components,
+        groups,
+        remarks: checker.messages.remarks,
+    })
+}
+
 fn budget(
     file: &FileTable,
     text: &str,
@@ -160,7 +204,7 @@ impl Checker<'_> {
         row: Option<&str>,
     ) -> Option<Budget> {
         self.define_units(file);
-        self.check_names(file);
+        self.check_names(file, &[]);
         let monte_carlo = self.monte_carlo(file);
         let constants = self.constants(file);
         let mut register = register::Register::default();

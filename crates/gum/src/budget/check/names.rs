@@ -39,8 +39,8 @@ fn mended(name: &str) -> String {
 }
 
 impl Checker<'_> {
-    /// Checks every name that formulas may use, and that none is used twice.
-    pub(super) fn check_names(&mut self, file: &FileTable) {
+    /// Checks every name that formulas may use (`unnamed` are not among them), and that none is used twice.
+    pub(super) fn check_names(&mut self, file: &FileTable, unnamed: &[String]) {
         let mut used: HashMap<String, Range<usize>> = HashMap::new();
         let constants = entries(&file.constant)
             .iter()
@@ -49,7 +49,9 @@ impl Checker<'_> {
             .iter()
             .map(|(name, stated)| (name, stated.key.clone(), "input"));
         for (name, place, kind) in constants.chain(inputs) {
-            self.check_name(name, &place, kind);
+            if !unnamed.contains(name) {
+                self.check_name(name, &place, kind);
+            }
             self.check_use(&mut used, name, place);
         }
         for (name, stated) in entries(&file.measurand) {

@@ -1,7 +1,8 @@
 //! Coefficients and uncertainties that can be written down.
 
-use super::super::{Origin, Scope, calibrate, plan};
-use super::{experiment, near, planned};
+use super::super::{Origin, calibrate, plan};
+use super::{campaign, near, planned};
+use crate::experiment::Scope;
 
 /// A line through readings: `U = K*omega*(1 + e_rate) + b`.
 const RATE: &str = r#"
@@ -20,8 +21,8 @@ const RATES: &str = "omega [deg/s],U [mV]\n-100,-199.2\n-50,-99.3\n0,0.9\n50,100
 
 #[test]
 fn a_line_has_the_closed_form_and_a_common_error_does_not_average() {
-    let experiment = experiment(RATE, RATES);
-    let found = calibrate(&experiment).expect("coefficients");
+    let campaign = campaign(RATE, RATES);
+    let found = calibrate(&campaign).expect("coefficients");
     let [k, b] = found.figures.coefficients.as_slice() else {
         panic!("two coefficients");
     };
@@ -59,8 +60,8 @@ fn a_line_has_the_closed_form_and_a_common_error_does_not_average() {
 fn an_error_of_each_point_averages() {
     let each = RATE.replace("u = 1e-4", "u = 1e-4\nscope = \"each\"") + "\n";
     let each = format!("noise.from = \"stated\"\n{each}");
-    let experiment = experiment(&each, RATES);
-    let found = calibrate(&experiment).expect("coefficients");
+    let campaign = campaign(&each, RATES);
+    let found = calibrate(&campaign).expect("coefficients");
     let k = &found.figures.coefficients[0];
     // ∂K/∂e_i = −K x_i²/Sxx, up to terms of the size of the residuals.
     let fourth: f64 = [100.0_f64, 50.0, 0.0, 50.0, 100.0]
@@ -75,7 +76,7 @@ fn an_error_by_level_is_shared_within_the_level() {
     let csv = "omega [deg/s],day,U [mV]\n-100,1,-200\n100,1,200\n-100,2,-200\n100,2,200\n";
     let toml = RATE.replace("u = 1e-4", "u = 1e-4\nby = \"day\"");
     let toml = format!("noise.from = \"stated\"\n{toml}");
-    let found = calibrate(&experiment(&toml, csv)).expect("coefficients");
+    let found = calibrate(&campaign(&toml, csv)).expect("coefficients");
     near(
         found.figures.coefficients[0].u,
         2.0 * 1e-4 / 2.0_f64.sqrt(),
@@ -113,8 +114,8 @@ half_width = 1.1e-5
 unit = "V"
 "#;
     let csv = "theta [deg],E [mV]\n0,0.0601\n90,99.9047\n180,-0.1018\n270,-99.9304\n";
-    let experiment = experiment(toml, csv);
-    let found = calibrate(&experiment).expect("coefficients");
+    let campaign = campaign(toml, csv);
+    let found = calibrate(&campaign).expect("coefficients");
     let k1 = &found.figures.coefficients[1];
     assert_eq!((k1.name.as_str(), k1.unit.symbol.as_str()), ("K1", "mA/gn"));
     near(k1.value, (99.9047 + 99.9304) / 2.0 / 500.0, 1e-6);
@@ -168,7 +169,7 @@ half_width = 1.1e-5
 unit = "V"
 "#;
     let csv = "theta [deg],E [mV]\n0,0.0601\n90,99.9047\n180,-0.1018\n270,-99.9304\n";
-    let found = calibrate(&experiment(toml, csv)).expect("coefficients");
+    let found = calibrate(&campaign(toml, csv)).expect("coefficients");
     let value = |name: &str| {
         let coefficients = &found.figures.coefficients;
         let found = coefficients.iter().find(|c| c.name == name).expect(name);
@@ -243,7 +244,7 @@ fn a_partly_known_parameter_is_between_known_and_unknown() {
     let toml = "noise.from = \"stated\"\nweights = \"readings\"\n".to_owned()
         + RATE
         + "[input.b]\nvalue = 1\nunit = \"mV\"\nu = 0.2\n[reading.U]\nu = 0.1\n";
-    let found = calibrate(&experiment(&toml, RATES)).expect("coefficients");
+    let found = calibrate(&campaign(&toml, RATES)).expect("coefficients");
     let b = &found.figures.coefficients[1];
     let (own, prior) = (5.0 / 0.01, 1.0 / 0.04);
     let mean = (-199.2 - 99.3 + 0.9 + 100.8 + 201.1) / 5.0;
@@ -254,7 +255,7 @@ fn a_partly_known_parameter_is_between_known_and_unknown() {
 #[test]
 fn results_are_functions_of_parameters() {
     let toml = RATE.to_owned() + "[result.offset]\nmodel = \"b/K\"\nunit = \"deg/s\"\n";
-    let found = calibrate(&experiment(&toml, RATES)).expect("coefficients");
+    let found = calibrate(&campaign(&toml, RATES)).expect("coefficients");
     let [k, b, offset] = found.figures.coefficients.as_slice() else {
         panic!("three");
     };
@@ -311,7 +312,7 @@ z = { u = 0.1 }
 [recording]
 file = "run.csv"
 "#;
-    let found = calibrate(&experiment(toml, &csv)).expect("coefficients");
+    let found = calibrate(&campaign(toml, &csv)).expect("coefficients");
     let c = &found.figures.coefficients;
     near(c[0].value, k, 1e-9);
     near(c[1].value, b[0], 1e-7);
@@ -325,10 +326,10 @@ fn written_budgets_give_the_same_uncertainty_by_both_methods() {
     let toml = RATE.to_owned()
         + "[reading.U]\nhalf_width = 0.1\n[input.e_scale]\nu = 3e-4\ndof = 7\nscope = \"each\"\n";
     let toml = toml.replace("(1 + e_rate)", "(1 + e_rate + e_scale)");
-    let experiment = experiment(&toml, RATES);
-    let found = calibrate(&experiment).expect("coefficients");
+    let campaign = campaign(&toml, RATES);
+    let found = calibrate(&campaign).expect("coefficients");
     for places in [vec![0], vec![1], vec![0, 1]] {
-        let text = super::super::budget(&experiment, &found, &places);
+        let text = super::super::budget(&campaign, &found, &places);
         let loaded = gumption_gum::budget::read(&text, "budget.toml", "".as_ref())
             .unwrap_or_else(|rejection| panic!("{}\n{text}", rejection.render(false)));
         let budget = &loaded.rows[0].budget;
@@ -357,7 +358,7 @@ fn a_shared_source_is_one_error() {
     );
     let one = RATE.replace("b\"]", "b*(1 + 2*e_rate)\"]");
     let figures = |toml: &str| {
-        calibrate(&experiment(toml, RATES))
+        calibrate(&campaign(toml, RATES))
             .expect("coefficients")
             .figures
     };
@@ -394,7 +395,7 @@ r = 0.6
 file = "run.csv"
 "#;
     let csv = "omega [deg/s],U [mV],V [mV]\n-2,1,2\n-1,1,2\n0,1,2\n1,1,2\n2,1,2\n";
-    let found = calibrate(&experiment(toml, csv))
+    let found = calibrate(&campaign(toml, csv))
         .expect("coefficients")
         .figures;
     let (u, v) = (0.02, 0.03 / 3.0_f64.sqrt());
@@ -415,7 +416,7 @@ fn correlated_inputs_add_or_cancel() {
         )
     };
     let of_errors = |r: f64| {
-        let found = calibrate(&experiment(&toml(r), RATES)).expect("coefficients");
+        let found = calibrate(&campaign(&toml(r), RATES)).expect("coefficients");
         let stated = found
             .figures
             .causes

@@ -7,7 +7,8 @@ mod simulations;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::{Experiment, Purpose, read};
+use super::{Campaign, read};
+use crate::experiment::Purpose;
 use gumption_gum::budget::Rejection;
 
 /// A folder with a recording, removed afterwards.
@@ -31,16 +32,16 @@ impl Drop for Folder {
     }
 }
 
-fn rejected(toml: &str, csv: &str, purpose: Purpose) -> Result<Experiment, Rejection> {
+fn rejected(toml: &str, csv: &str, purpose: Purpose) -> Result<Campaign, Rejection> {
     let folder = Folder::with(csv);
     read(toml, "calibration.toml", &folder.0, purpose)
 }
 
-fn experiment(toml: &str, csv: &str) -> Experiment {
+fn campaign(toml: &str, csv: &str) -> Campaign {
     rejected(toml, csv, Purpose::Calibrate).unwrap_or_else(|r| panic!("{}", r.render(false)))
 }
 
-fn planned(toml: &str) -> Experiment {
+fn planned(toml: &str) -> Campaign {
     rejected(toml, "", Purpose::Plan).unwrap_or_else(|r| panic!("{}", r.render(false)))
 }
 

@@ -1,7 +1,8 @@
 //! What is wrong is said, and where.
 
-use super::super::{Purpose, Trouble, Words, calibrate};
-use super::{experiment, rejected};
+use super::super::{Trouble, calibrate};
+use super::{campaign, rejected};
+use crate::experiment::{Purpose, Words};
 
 const RATE: &str = r#"
 equations = ["U = K*omega + b"]
@@ -134,7 +135,7 @@ fn times_must_go_forward() {
 
 #[test]
 fn what_cannot_be_found_is_said() {
-    let trouble = |toml: &str, csv: &str| calibrate(&experiment(toml, csv)).expect_err("trouble");
+    let trouble = |toml: &str, csv: &str| calibrate(&campaign(toml, csv)).expect_err("trouble");
     let two = "omega [deg/s],U [mV]\n0,1\n";
     assert_eq!(
         trouble(RATE, two),
@@ -161,7 +162,7 @@ fn what_cannot_be_found_is_said() {
 #[test]
 fn missing_readings_are_left_out_and_counted() {
     let csv = "omega [deg/s],U [mV]\n0,1\n1,\n2,3\n3,4.1\n";
-    let found = calibrate(&experiment(RATE, csv)).expect("coefficients");
+    let found = calibrate(&campaign(RATE, csv)).expect("coefficients");
     assert_eq!((found.readings, found.left_out), (3, 1));
 }
 
@@ -169,7 +170,7 @@ fn missing_readings_are_left_out_and_counted() {
 fn exchanged_labels_are_found() {
     let good = "position,U [mV]\nup,1.001\ndown,-0.999\nlevel,0.002\nup,1.000\ndown,-1.001\nlevel,-0.001\nup,0.999\ndown,-1.002\n";
     assert_eq!(
-        calibrate(&experiment(POSITIONS, good))
+        calibrate(&campaign(POSITIONS, good))
             .expect("figures")
             .swapped,
         Vec::<[Words; 2]>::new()
@@ -178,7 +179,7 @@ fn exchanged_labels_are_found() {
         .replacen("up,", "x,", 1)
         .replacen("down,", "up,", 1)
         .replacen("x,", "down,", 1);
-    let found = calibrate(&experiment(POSITIONS, &bad)).expect("figures");
+    let found = calibrate(&campaign(POSITIONS, &bad)).expect("figures");
     assert_eq!(
         found.swapped,
         [[2, 3].map(|line| Words::new(format!("line {line}"), format!("第 {line} 行")))]
@@ -200,15 +201,15 @@ fn saturated_samples_are_warned_of() {
     }
     let toml =
         POSITIONS.to_owned() + "dwells = [\"position\"]\n[columns]\nU = { range = [-10, 10] }\n";
-    let experiment = experiment(&toml, &csv);
+    let campaign = campaign(&toml, &csv);
     assert!(
-        experiment
+        campaign
             .points
             .findings
             .iter()
             .any(|f| f.message().contains("saturated")),
         "{:?}",
-        experiment.points.findings
+        campaign.points.findings
     );
 }
 
@@ -240,7 +241,7 @@ fn a_partly_known_parameter_shares_no_error() {
 #[test]
 fn averages_at_a_limit_are_told() {
     let csv = "omega [deg/s],U [mV]\n-200,-2000\n-100,-1000.2\n0,0.3\n100,1000.1\n200,2000.2\n300,2500\n400,2500\n";
-    let found = calibrate(&experiment(RATE, csv)).expect("coefficients");
+    let found = calibrate(&campaign(RATE, csv)).expect("coefficients");
     let [limit] = found.limits.as_slice() else {
         panic!("one limit: {:?}", found.limits);
     };
@@ -249,7 +250,7 @@ fn averages_at_a_limit_are_told() {
         .replace("300,2500", "300,3000.3")
         .replace("400,2500", "400,4000.2");
     assert_eq!(
-        calibrate(&experiment(RATE, &good))
+        calibrate(&campaign(RATE, &good))
             .expect("coefficients")
             .limits,
         []
@@ -257,7 +258,7 @@ fn averages_at_a_limit_are_told() {
     // Equal readings of equal points are no limit.
     let again = "omega [deg/s],U [mV]\n-1,-2\n-1,-2\n0,0.01\n0,-0.01\n1,2\n1,2\n1,2\n";
     assert_eq!(
-        calibrate(&experiment(RATE, again))
+        calibrate(&campaign(RATE, again))
             .expect("coefficients")
             .limits,
         []
@@ -269,13 +270,13 @@ fn averages_at_a_limit_are_told() {
 fn positions_are_averaged_together() {
     let toml = POSITIONS.replace("file =", "together = [\"position\"]\nfile =");
     let csv = "position,turned,U [mV]\nup,no,1.5\nup,yes,0.5\ndown,no,-1.3\ndown,yes,-0.7\nlevel,no,0.5\nlevel,yes,-0.5\n";
-    let found = calibrate(&experiment(&toml, csv)).expect("coefficients");
+    let found = calibrate(&campaign(&toml, csv)).expect("coefficients");
     assert_eq!(found.readings, 3);
     assert!(found.responses[0].rms < 1e-12, "{}", found.responses[0].rms);
     let lost = csv.replace("down,yes,-0.7\n", "");
-    let experiment = experiment(&toml, &lost);
-    let [finding] = experiment.points.findings.as_slice() else {
-        panic!("{:?}", experiment.points.findings);
+    let campaign = campaign(&toml, &lost);
+    let [finding] = campaign.points.findings.as_slice() else {
+        panic!("{:?}", campaign.points.findings);
     };
     assert!(
         finding.message().contains("\"down\" has 1 point "),
@@ -305,7 +306,7 @@ fn exchanged_labels_are_found_by_the_response_that_sees_them() {
         }
     }
     let of = |lines: &[String]| {
-        let found = calibrate(&experiment(TRIAD, &lines.join("\n"))).expect("coefficients");
+        let found = calibrate(&campaign(TRIAD, &lines.join("\n"))).expect("coefficients");
         assert_eq!(found.apart, []);
         found.swapped
     };
@@ -330,7 +331,7 @@ fn a_sign_unlike_the_others_is_told() {
     const TRIAD: &str = "procedure = \"accelerometer-six-positions\"\nconstant.g = \"1 gn\"\n[recording]\nfile = \"run.csv\"\naverage = \"none\"\n";
     let good = "position,Uax [V],Uay [V],Uaz [V]\nx up,1.001,0,0\nx down,-1,0.001,0\ny up,0,1,0.001\ny down,0,-1,0\nz up,0,0,1\nz down,0.001,0,-1\n";
     let of = |csv: &str| {
-        calibrate(&experiment(TRIAD, csv))
+        calibrate(&campaign(TRIAD, csv))
             .expect("coefficients")
             .reversed
     };
@@ -365,8 +366,9 @@ fn inputs_and_parameters_that_change_places_keep_their_units() {
             )
         })
         .collect();
-    let experiment = experiment(toml, &format!("theta [deg],E [V]\n{rows}"));
-    let theta0 = experiment
+    let campaign = campaign(toml, &format!("theta [deg],E [V]\n{rows}"));
+    let theta0 = campaign
+        .experiment
         .parameters
         .iter()
         .find(|one| one.name == "theta0");
@@ -374,8 +376,12 @@ fn inputs_and_parameters_that_change_places_keep_their_units() {
     assert_eq!(theta0.unit.symbol, "rad");
     let description = theta0.description.as_ref().expect("what it is");
     assert!(description.en.contains("Level angle"), "{}", description.en);
-    let k2 = experiment.inputs.iter().find(|one| one.name == "K2");
-    let of = experiment.units.parse("s^2/m").expect("a unit");
+    let k2 = campaign
+        .experiment
+        .inputs
+        .iter()
+        .find(|one| one.name == "K2");
+    let of = campaign.experiment.units.parse("s^2/m").expect("a unit");
     assert_eq!(k2.expect("an input").unit.dimension, of.dimension);
 }
 
@@ -384,11 +390,7 @@ fn inputs_and_parameters_that_change_places_keep_their_units() {
 fn a_reading_that_stands_apart_is_told() {
     let csv =
         "omega [deg/s],U [mV]\n-3,-6.01\n-2,-3.99\n-1,-2.00\n0,0.01\n1,1.99\n2,4.01\n3,6.00\n";
-    let of = |csv: &str| {
-        calibrate(&experiment(RATE, csv))
-            .expect("coefficients")
-            .apart
-    };
+    let of = |csv: &str| calibrate(&campaign(RATE, csv)).expect("coefficients").apart;
     assert_eq!(of(csv), []);
     let bad = of(&csv.replace("1,1.99", "1,1.49"));
     let [one] = bad.as_slice() else {
@@ -427,10 +429,10 @@ fn a_reading_that_stands_apart_is_told() {
 #[test]
 fn unknown_scatter_is_refused() {
     let csv = "omega [deg/s],U [mV]\n0,1\n1,2\n";
-    let found = calibrate(&experiment(RATE, csv));
+    let found = calibrate(&campaign(RATE, csv));
     assert!(matches!(found, Err(Trouble::NoScatter { .. })), "{found:?}");
     let stated = RATE.to_owned() + "[reading.U]\nu = 0.1\n";
-    let found = calibrate(&experiment(&stated, csv)).expect("coefficients");
+    let found = calibrate(&campaign(&stated, csv)).expect("coefficients");
     let b = found
         .figures
         .coefficients
@@ -448,7 +450,7 @@ fn labels_exchanged_throughout_are_found() {
         .replace("level", "up")
         .replace('x', "level");
     let of = |csv: &str| {
-        calibrate(&experiment(POSITIONS, csv))
+        calibrate(&campaign(POSITIONS, csv))
             .expect("coefficients")
             .swapped
     };
@@ -473,10 +475,10 @@ fn spikes_are_told_at_their_line() {
         }
     }
     let toml = POSITIONS.replace("file =", "dwells = [\"position\"]\nfile =");
-    assert!(experiment(&toml, &csv).points.findings.is_empty());
+    assert!(campaign(&toml, &csv).points.findings.is_empty());
     let mut lines: Vec<&str> = csv.lines().collect();
     lines[250] = "down,3";
-    let hurt = experiment(&toml, &lines.join("\n"));
+    let hurt = campaign(&toml, &lines.join("\n"));
     let [spike] = hurt.points.findings.as_slice() else {
         panic!("{:?}", hurt.points.findings);
     };

@@ -10,9 +10,9 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, Normal, Uniform};
 
-use super::super::experiment::{Act, Doubt, Scope, Target};
-use super::super::{Experiment, calibrate, estimates};
-use super::experiment;
+use super::super::{Campaign, calibrate, estimates};
+use super::campaign;
+use crate::experiment::{Act, Doubt, Scope, Target};
 
 /// Simulated calibrations; fewer where the program is slow.
 const TRIALS: usize = if cfg!(debug_assertions) {
@@ -32,40 +32,45 @@ struct Scatter {
 
 /// One calibration of simulated readings. The readings follow the equations with the true errors; the
 /// evaluation knows none of them.
-fn simulated(experiment: &Experiment, truth: &[f64], s: f64, random: &mut StdRng) -> Experiment {
-    let mut trial = experiment.clone();
-    let points = experiment.points.len();
+fn simulated(campaign: &Campaign, truth: &[f64], s: f64, random: &mut StdRng) -> Campaign {
+    let mut trial = campaign.clone();
+    let points = campaign.points.len();
     let mut true_inputs: Vec<Vec<f64>> = (0..points)
-        .map(|_| experiment.inputs.iter().map(|input| input.value).collect())
-        .collect();
-    let mut true_columns: Vec<Vec<f64>> = (0..points)
-        .map(|point| {
-            let columns = experiment.columns.iter();
-            columns
-                .map(|column| {
-                    experiment
-                        .points
-                        .column(&column.name)
-                        .expect("there")
-                        .values[point]
-                })
+        .map(|_| {
+            campaign
+                .experiment
+                .inputs
+                .iter()
+                .map(|input| input.value)
                 .collect()
         })
         .collect();
-    let mut errors_of_responses = vec![vec![0.0; points]; experiment.equations.responses().len()];
-    for doubt in &experiment.doubts {
-        let drawn = errors(doubt, experiment, random);
+    let mut true_columns: Vec<Vec<f64>> = (0..points)
+        .map(|point| {
+            let columns = campaign.experiment.columns.iter();
+            columns
+                .map(|column| campaign.points.column(&column.name).expect("there").values[point])
+                .collect()
+        })
+        .collect();
+    let mut errors_of_responses =
+        vec![vec![0.0; points]; campaign.experiment.equations.responses().len()];
+    for doubt in &campaign.experiment.doubts {
+        let drawn = errors(doubt, campaign, random);
         for Act { on, coefficient } in &doubt.acts {
             for point in 0..points {
                 let error = coefficient * drawn[point];
                 match on {
                     Target::Input(place) => true_inputs[point][*place] += error,
                     Target::Reading(name) => {
-                        let responses = experiment.equations.responses();
+                        let responses = campaign.experiment.equations.responses();
                         if let Some(r) = responses.iter().position(|r| r.name == *name) {
                             errors_of_responses[r][point] += error;
-                        } else if let Some(c) =
-                            experiment.columns.iter().position(|c| c.name == *name)
+                        } else if let Some(c) = campaign
+                            .experiment
+                            .columns
+                            .iter()
+                            .position(|c| c.name == *name)
                         {
                             true_columns[point][c] -= error;
                         }
@@ -75,13 +80,13 @@ fn simulated(experiment: &Experiment, truth: &[f64], s: f64, random: &mut StdRng
         }
     }
     let noise = Normal::new(0.0, s).expect("a scatter");
-    for (r, response) in experiment.equations.responses().iter().enumerate() {
+    for (r, response) in campaign.experiment.equations.responses().iter().enumerate() {
         let values: Vec<f64> = (0..points)
             .map(|point| {
                 let mut symbols = true_columns[point].clone();
                 symbols.extend_from_slice(truth);
                 symbols.extend_from_slice(&true_inputs[point]);
-                experiment.equations.value(r, &symbols)
+                campaign.experiment.equations.value(r, &symbols)
                     + errors_of_responses[r][point]
                     + noise.sample(random)
             })
@@ -96,15 +101,15 @@ fn simulated(experiment: &Experiment, truth: &[f64], s: f64, random: &mut StdRng
 }
 
 /// The error of a doubt in every point.
-fn errors(doubt: &Doubt, experiment: &Experiment, random: &mut StdRng) -> Vec<f64> {
+fn errors(doubt: &Doubt, campaign: &Campaign, random: &mut StdRng) -> Vec<f64> {
     let half = doubt.u * 3.0_f64.sqrt();
     let shape = Uniform::new_inclusive(-half, half).expect("a width");
-    let points = experiment.points.len();
+    let points = campaign.points.len();
     match &doubt.scope {
         Scope::Common => vec![shape.sample(random); points],
         Scope::Each => (0..points).map(|_| shape.sample(random)).collect(),
         Scope::By(name) => {
-            let labels = experiment.points.labels(name).expect("labels");
+            let labels = campaign.points.labels(name).expect("labels");
             let of_level: Vec<f64> = labels.levels.iter().map(|_| shape.sample(random)).collect();
             labels
                 .of_row
@@ -115,10 +120,10 @@ fn errors(doubt: &Doubt, experiment: &Experiment, random: &mut StdRng) -> Vec<f6
     }
 }
 
-fn scatter(experiment: &Experiment, truth: &[f64], s: f64) -> Scatter {
+fn scatter(campaign: &Campaign, truth: &[f64], s: f64) -> Scatter {
     let mut random = StdRng::seed_from_u64(4);
     let found: Vec<Vec<f64>> = (0..TRIALS)
-        .map(|_| estimates(&simulated(experiment, truth, s, &mut random)).expect("coefficients"))
+        .map(|_| estimates(&simulated(campaign, truth, s, &mut random)).expect("coefficients"))
         .collect();
     let count = found[0].len();
     let n = TRIALS as f64;
@@ -133,7 +138,7 @@ fn scatter(experiment: &Experiment, truth: &[f64], s: f64) -> Scatter {
     // Where residuals tell the scatter, u² is an estimate; its mean is what to compare.
     let mut predicted = DMatrix::zeros(count, count);
     for _ in 0..PREDICTIONS {
-        let one = calibrate(&simulated(experiment, truth, s, &mut random)).expect("coefficients");
+        let one = calibrate(&simulated(campaign, truth, s, &mut random)).expect("coefficients");
         predicted += one.figures.covariance / PREDICTIONS as f64;
     }
     Scatter {
@@ -202,9 +207,9 @@ file = "run.csv"
             csv += &format!("{omega},{day},0,0\n");
         }
     }
-    let experiment = experiment(toml, &csv);
+    let campaign = campaign(toml, &csv);
     let truth = [2.0, 0.3, 0.01];
-    agrees(&scatter(&experiment, &truth, 0.05));
+    agrees(&scatter(&campaign, &truth, 0.05));
 }
 
 #[test]
@@ -236,7 +241,7 @@ file = "run.csv"
     for theta in (0..360).step_by(45) {
         csv += &format!("{theta},{}\n", 100.0 * f64::from(theta).to_radians().sin());
     }
-    let experiment = experiment(toml, &csv);
+    let campaign = campaign(toml, &csv);
     let truth = [1e-3, 0.2, 1e-4, -5e-4];
-    agrees(&scatter(&experiment, &truth, 0.01));
+    agrees(&scatter(&campaign, &truth, 0.01));
 }

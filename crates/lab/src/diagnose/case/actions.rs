@@ -1,9 +1,9 @@
 //! Further measurements that the user could make.
 
-use super::checker::Checker;
 use super::rows::{Complete, Rows, continued};
 use super::{Action, Column, Data};
 use crate::diagnose::faults::{MISSING, ROWS, SETTING};
+use crate::experiment::checker::Checker;
 use crate::experiment::entries::RowsEntry;
 use crate::experiment::tables::{ActionTable, ExperimentTable, OrderWord};
 use crate::recording::Labels;
@@ -13,7 +13,7 @@ use gumption_format::toml::{Cell, Named, OneOrMany};
 
 impl Checker<'_> {
     /// The actions of a case with a recording of so many rows.
-    pub fn actions(
+    pub(super) fn actions(
         &mut self,
         file: &ExperimentTable,
         columns: &[Column],

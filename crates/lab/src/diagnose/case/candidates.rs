@@ -1,9 +1,9 @@
 //! The user's own explanations.
 
-use super::checker::Checker;
 use super::declared::Declared;
 use super::{Column, UserCandidate};
 use crate::diagnose::faults::{CANDIDATE, UNKNOWN_NAME};
+use crate::experiment::checker::Checker;
 use crate::experiment::tables::{ExperimentTable, OmittedTable};
 use gumption_core::equations::{EquationText, Equations, Quantity};
 use gumption_core::model::{Role, Symbol, outline};

@@ -1,108 +1,119 @@
-//! From the text of a case to a checked [`Case`]: recording, columns, constants, noise, settings.
+//! From a checked experiment to a [`Case`]: rows of its recording, the declared model, noise, settings.
 
 use std::path::Path;
 
-use super::checker::Checker;
+use super::candidates;
 use super::models::models;
-use super::{Case, Column, Data, Purpose, candidates, columns, declared, disused};
-use crate::diagnose::faults::{MISSING, UNIT_CLASH};
-use crate::experiment::entries::RoleWord;
-use crate::experiment::source;
+use super::{Case, Column, Purpose, columns, disused, inputs};
+use crate::diagnose::faults::MISSING;
+use crate::experiment::checker::{Checker, opened};
+use crate::experiment::names::{Kind, Names};
 use crate::experiment::tables::ExperimentTable;
-use crate::recording::{Heading, Recording, Request, headings, text_of};
-use gumption_core::model::{Role as SymbolRole, Symbol};
-use gumption_core::quantity::{Unit, UnitTable};
+use crate::experiment::{Purpose as Use, inferred, positions};
+use crate::recording::{Recording, Request};
+use gumption_core::equations::Quantity;
 use gumption_fault::Fault;
-use gumption_format::toml::faults::{NOT_UTF8, TOML_SYNTAX, UNREADABLE_FILE};
+use gumption_format::toml::faults::TOML_SYNTAX;
+use gumption_gum::budget::quantities::text_of;
 use gumption_gum::budget::{Files, Rejection};
 
 /// Reads and checks a case.
 pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
     let name = path.display().to_string();
-    let reject = |text: &str, faults| Rejection::new(&name, text, faults);
-    let bytes = files.read(path).map_err(|error| {
-        let message = format!("{name} cannot be read: {error}");
-        let fault = Fault::new(UNREADABLE_FILE, 0..0, message);
-        reject(
-            "",
-            vec![fault.help("name a case, as in `gumption diagnose case.toml`")],
-        )
-    })?;
-    let text = String::from_utf8(bytes).map_err(|_| {
-        let fault = Fault::new(NOT_UTF8, 0..0, format!("{name} is not UTF-8 text"));
-        reject("", vec![fault.help("save the file as UTF-8")])
-    })?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
-    let source = source::read(&text).map_err(|faults| reject(&text, faults))?;
+    let text = text_of(files, path)?;
+    let mut source = opened(&text, &name)?;
     if source.faults.iter().any(|fault| fault.code == TOML_SYNTAX) {
-        return Err(reject(&text, source.faults));
+        return Err(Rejection::new(&name, &text, source.faults));
     }
-    let mut checker = Checker {
-        source: &source,
-        text: &source.text,
-        folder: path.parent().unwrap_or_else(|| Path::new("")),
-        files,
-        purpose,
-        units: UnitTable::default(),
-        stated: Vec::new(),
-        faults: source.faults.clone(),
+    let folder = path.parent().unwrap_or_else(|| Path::new(""));
+    let purpose = match purpose {
+        Purpose::Diagnosis => Use::Calibrate,
+        Purpose::Plan => Use::Plan,
     };
-    checker.units(&source.table);
-    checker.case(&source.table, path, &name)
+    let units = Checker::new(&source, purpose, files, folder).units;
+    inferred::add(&mut source, &units, files, folder);
+    let mut checker = Checker::new(&source, purpose, files, folder);
+    let case = checker.case(path);
+    let is_whole = checker.faults.is_empty();
+    match case {
+        Ok(Some(case)) if is_whole => Ok(case),
+        Err(recording) if is_whole => Err(*recording),
+        Ok(_) => Err(checker.rejection(&name)),
+        // What is wrong in the recording is told after what is wrong in the file.
+        Err(recording) => {
+            let mut rejection = checker.rejection(&name);
+            rejection.others.push(*recording);
+            Err(rejection)
+        }
+    }
 }
 
 impl Checker<'_> {
-    fn case(mut self, file: &ExperimentTable, path: &Path, name: &str) -> Result<Case, Rejection> {
+    fn case(&mut self, path: &Path) -> Result<Option<Case>, Box<Rejection>> {
+        let file = &self.source.table;
         let models = models(file);
         let (Some(recording), Some(models)) = (&file.recording, &models) else {
             self.missing(file);
-            return Err(self.rejection(name));
+            return Ok(None);
         };
         let Some(csv) = recording.value.0.file.as_ref() else {
-            self.faults.push(
-                Fault::new(MISSING, recording.key.clone(), "the recording has no file")
-                    .label("`file` is missing"),
-            );
-            return Err(self.rejection(name));
+            let message = "the recording has no file";
+            let fault = Fault::new(MISSING, recording.key.clone(), message);
+            self.faults.push(fault.label("`file` is missing"));
+            return Ok(None);
         };
-        let csv_path = self.folder.join(&csv.value);
-        let headings = self.headings(&csv_path)?;
-        let mut constants = self.constants(file);
+        let headings = self.headings(csv)?;
         // They need no column: what is wrong in them is told beside wrong columns.
         let settings = self.settings(file);
-        let wanted = self.wanted(file, models, &headings, &constants);
-        if !self.faults.is_empty() {
-            return Err(self.rejection(name));
-        }
-        let present = wanted.iter().filter(|w| w.present);
-        let requests: Vec<Request> = present.map(|w| w.request.clone()).collect();
+        let Some(names) = Names::of(self) else {
+            return Ok(None);
+        };
+        let Some(wanted) = self.columns(&names, &headings) else {
+            return Ok(None);
+        };
+        let present = wanted.iter().filter(|column| column.is_there);
+        let requests: Vec<Request> = present.map(|column| column.request()).collect();
+        let csv_path = self.folder.join(&csv.value);
         let recorded = Recording::open(self.files, &csv_path, &requests, &self.units)?;
-        let (mut columns, rows, left_out) = self.columns(&wanted, &recorded);
+        let (mut columns, rows, left_out) = self.rows_of(&wanted, &recorded);
         if rows == 0 {
-            self.faults
-                .push(columns::nothing_left(csv, &wanted, &recorded));
-            return Err(self.rejection(name));
+            let fault = columns::nothing_left(csv, &wanted, &recorded);
+            self.faults.push(fault);
+            return Ok(None);
         }
-        if !positions(&mut self, file, &mut columns) {
-            return Err(self.rejection(name));
+        let labels = |name: &str| {
+            let mut columns = columns.iter();
+            let column = columns.find(|column| column.name == name)?;
+            column.labels().cloned()
+        };
+        let row = |row: usize| format!("line {}", recorded.line(row));
+        let Some(given) = positions::given(self, labels, row) else {
+            return Ok(None);
+        };
+        columns.extend(given.into_iter().map(Column::given));
+        let Some(experiment) = self.experiment(&names, &quantities(&columns, &names)) else {
+            return Ok(None);
+        };
+        for column in &mut columns {
+            let mut used = experiment.columns.iter();
+            let used = used.find(|used| used.name == column.name);
+            column.as_difference = used.is_some_and(|used| used.unit != column.unit);
         }
-        let with_inputs = self.with_inputs(file, &mut columns, &mut constants, rows);
-        let file = &with_inputs;
-        let declared = declared::with_points(&mut self, file, models, &mut columns, &constants);
-        let noise = self.noise(file, &columns, declared.as_ref());
+        let mut constants = experiment.constants.clone();
+        let unknowns = self.unknowns(&experiment, &names, &mut columns, &mut constants, rows);
+        let stated = inputs::errors_of_readings(&experiment, &mut columns);
+        let declared = unknowns.and_then(|unknowns| {
+            self.declared_model(&experiment, &names, unknowns, &columns, &constants)
+        });
+        let noise = self.noise(file, &columns, declared.as_ref(), &stated);
         let averaging = self.averaging(file, &columns);
         let actions = self.actions(file, &columns, rows);
         let held_out = self.held_out(file, &columns);
-        let candidates = match &declared {
-            Some(declared) => {
-                candidates::candidates(&mut self, file, &columns, &constants, declared)
-            }
-            None => Vec::new(),
+        let Some(declared) = declared else {
+            return Ok(None);
         };
-        let (Some(declared), true) = (declared, self.faults.is_empty()) else {
-            return Err(self.rejection(name));
-        };
-        Ok(Case {
+        let candidates = candidates::candidates(self, file, &columns, &constants, &declared);
+        Ok(Some(Case {
             title: file.title.as_ref().map_or_else(
                 || {
                     path.file_stem()
@@ -114,11 +125,11 @@ impl Checker<'_> {
             ),
             reference: file.reference.as_ref().map(|text| text.value.clone()),
             note: file.note.as_ref().map(|text| text.value.clone()),
-            remarks: disused::remarks(self.source, &self.source.table),
-            text: self.text[..self.source.own].to_owned(),
+            remarks: [experiment.remarks, disused::remarks(self.source, file)].concat(),
+            text: self.source.text[..self.source.own].to_owned(),
             path: path.to_path_buf(),
-            units: self.units,
-            own_units: own_units(file),
+            units: self.units.clone(),
+            own_units: experiment.own_units,
             rows,
             left_out,
             columns,
@@ -133,15 +144,7 @@ impl Checker<'_> {
             held_out,
             averaging,
             settings,
-        })
-    }
-
-    /// All faults, at their places in the file itself.
-    fn rejection(self, name: &str) -> Rejection {
-        let source = self.source;
-        let faults = self.faults.into_iter();
-        let faults = faults.map(|fault| source.in_own_text(fault)).collect();
-        Rejection::new(name, &source.text[..source.own], faults)
+        }))
     }
 
     fn missing(&mut self, file: &ExperimentTable) {
@@ -170,125 +173,17 @@ impl Checker<'_> {
             }
         }
     }
-
-    fn headings(&self, path: &Path) -> Result<Vec<Heading>, Rejection> {
-        let name = path.display().to_string();
-        let text = text_of(self.files, path, &name)?;
-        headings(&text, &self.units).map_err(|fault| Rejection::new(&name, &text, vec![*fault]))
-    }
-
-    fn units(&mut self, file: &ExperimentTable) {
-        let Some(named) = &file.unit else { return };
-        for (name, definition) in &named.value.entries {
-            if self.units.define(name, &definition.value).is_err() {
-                self.faults.push(
-                    Fault::new(
-                        UNIT_CLASH,
-                        definition.span.clone(),
-                        format!("{:?} does not define a unit", definition.value),
-                    )
-                    .label("expected other units, with a number if need be: \"0.5 mV\""),
-                );
-            }
-        }
-    }
-
-    fn constants(&mut self, file: &ExperimentTable) -> Vec<Symbol> {
-        let Some(named) = &file.constant else {
-            return Vec::new();
-        };
-        let mut constants = Vec::new();
-        for (name, stated) in &named.value.entries {
-            let table = &stated.value.0;
-            let unit = self.unit(table.unit.as_ref()).unwrap_or_else(Unit::one);
-            let value = table
-                .value
-                .as_ref()
-                .and_then(|value| self.quantity(value, &unit));
-            let role = match (value, &table.values) {
-                (Some(value), _) => SymbolRole::Constant(value),
-                (None, Some(values)) => {
-                    SymbolRole::ConstantVector(values.value.iter().map(|v| v.value).collect())
-                }
-                (None, None) => {
-                    if table.value.is_none() && !table.refused {
-                        self.faults.push(
-                            Fault::new(
-                                MISSING,
-                                stated.span.clone(),
-                                format!("the constant {name} has no value"),
-                            )
-                            .label("state `value`"),
-                        );
-                    }
-                    continue;
-                }
-            };
-            constants.push(Symbol {
-                name: name.clone(),
-                unit,
-                role,
-            });
-        }
-        constants
-    }
 }
 
-/// Adds the quantities that labels stand for; whether that was possible.
-fn positions(checker: &mut Checker<'_>, file: &ExperimentTable, columns: &mut Vec<Column>) -> bool {
-    let Some(table) = file.positions.as_ref().map(|stated| &stated.value) else {
-        return true;
+/// The columns of numbers that equations may use.
+fn quantities(columns: &[Column], names: &Names) -> Vec<Quantity> {
+    let is_named = |column: &&Column| {
+        column.labels().is_none() && names.kind(&column.name) == Some(Kind::Column)
     };
-    let (Some(name), Some(gives), Some(at)) = (&table.column, &table.gives, &table.at) else {
-        return true;
-    };
-    let Some(labels) = checker
-        .known(name, columns)
-        .and_then(|place| columns[place].labels().cloned())
-    else {
-        return false;
-    };
-    for (place, given) in gives.value.iter().enumerate() {
-        let stated = table.units.as_ref();
-        let unit = stated.and_then(|units| units.value.get(place));
-        let Some(unit) = checker.unit(unit) else {
-            return false;
-        };
-        let value = |label: &String| {
-            let mut entries = at.value.entries.iter();
-            let (_, values) = entries.find(|(other, _)| other == label)?;
-            values.value.get(place).map(|value| value.value)
-        };
-        let values: Vec<Option<f64>> = labels.levels.iter().map(value).collect();
-        if let Some(level) = values.iter().position(Option::is_none) {
-            let label = &labels.levels[level];
-            let message = format!("the position \"{label}\" has no value of {}", given.value);
-            let fault = Fault::new(MISSING, at.key.clone(), message);
-            checker.faults.push(fault.label("the known positions"));
-            return false;
-        }
-        let of_row = labels.of_row.iter();
-        let numbers = of_row.map(|level| values.get(*level as usize).copied().flatten());
-        columns.push(Column {
-            name: given.value.clone(),
-            header: given.value.clone(),
-            role: RoleWord::Stimulus,
-            unit,
-            data: Data::Numbers(numbers.map(|value| value.unwrap_or(f64::NAN)).collect()),
-            u: None,
-            u_common: None,
-            full_scale: None,
-            resolution: None,
-            as_difference: false,
-        });
-    }
-    true
-}
-
-fn own_units(file: &ExperimentTable) -> Vec<(String, String)> {
-    let named = file.unit.as_ref().map_or(&[][..], |n| &n.value.entries);
-    let pairs = named
-        .iter()
-        .map(|(name, unit)| (name.clone(), unit.value.clone()));
-    pairs.collect()
+    let used = columns.iter().filter(is_named);
+    used.map(|column| Quantity {
+        name: column.name.clone(),
+        unit: column.unit.clone(),
+    })
+    .collect()
 }

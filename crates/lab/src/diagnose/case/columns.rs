@@ -1,145 +1,29 @@
-//! The columns that take part, and their rows.
+//! The columns of a case, and their rows.
 
-use std::ops::Range;
-
-use super::checker::Checker;
-use super::{Column, Data, Purpose};
-use crate::diagnose::faults::{TOO_FEW, UNKNOWN_NAME};
+use super::{Column, Data};
+use crate::diagnose::faults::TOO_FEW;
+use crate::experiment::checker::Checker;
+use crate::experiment::columns::Column as Wanted;
 use crate::experiment::entries::RoleWord;
-use crate::experiment::tables::{ColumnTable, ExperimentTable, HoldsWord};
-use crate::recording::{Content, Heading, Labels, Recording, Request};
-use gumption_core::model::Symbol;
+use crate::experiment::positions::Given;
+use crate::experiment::tables::ColumnTable;
+use crate::recording::{Labels, Recording};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
-use gumption_format::toml::Stated;
-use gumption_format::toml::{Amount, OneOrMany};
-use gumption_gum::budget::writing::key;
+use gumption_fault::Fault;
+use gumption_format::toml::{Amount, Stated};
 
 impl Checker<'_> {
-    /// The columns that take part: the declared ones, and those that only the model names.
-    pub fn wanted(
+    /// The columns without the rows that lack a value, how many rows are left, and how many are not.
+    pub(super) fn rows_of(
         &mut self,
-        file: &ExperimentTable,
-        models: &Stated<OneOrMany<String>>,
-        headings: &[Heading],
-        constants: &[Symbol],
-    ) -> Vec<Wanted> {
-        let mut wanted = Vec::new();
-        let declared = file
-            .columns
-            .as_ref()
-            .map_or(&[][..], |named| named.value.entries.as_slice());
-        for (name, stated) in declared {
-            let table = &stated.value.0;
-            let role = match &table.role {
-                Some(role) => role.value,
-                None => self.role_in(models, name, table),
-            };
-            if role == RoleWord::Ignore {
-                continue;
-            }
-            let header = table.column.as_ref().map_or(name, |column| &column.value);
-            let present = headings
-                .iter()
-                .any(|h| h.text == *header || h.name == *header);
-            let expected = self.purpose == Purpose::Plan && role == RoleWord::Output;
-            // What a procedure can use need not be there.
-            let offered = self.source.is_base(&stated.key)
-                && matches!(role, RoleWord::Covariate | RoleWord::Factor);
-            if !present && offered {
-                continue;
-            }
-            if !present && !expected {
-                let asked = table.column.as_ref();
-                let span = asked.map_or(&stated.key, |column| &column.span).clone();
-                let renamed = asked.is_none().then(|| {
-                    let role = role.word();
-                    format!("{} = {{ role = \"{role}\", column = \"…\" }}", key(name))
-                });
-                self.faults
-                    .push(no_column(header, span, headings, renamed.as_deref()));
-                continue;
-            }
-            let unit = match &table.unit {
-                Some(unit) => self.unit(Some(unit)),
-                None => None,
-            };
-            wanted.push(Wanted::new(
-                name,
-                header,
-                role,
-                unit,
-                present,
-                Some((stated.key.clone(), table.clone())),
-            ));
-        }
-        let known = |name: &str, wanted: &[Wanted]| {
-            constants.iter().any(|constant| constant.name == name)
-                || wanted.iter().any(|w| w.name == name)
-                || declared.iter().any(|(declared, _)| declared == name)
-        };
-        for model in &models.value.0 {
-            let Ok(outline) = gumption_core::model::outline(&model.value, &self.units) else {
-                continue;
-            };
-            let given = outline
-                .gives
-                .iter()
-                .map(|(name, _)| (name, RoleWord::Output));
-            let needed = outline
-                .needs
-                .iter()
-                .map(|(name, _)| (name, RoleWord::Stimulus));
-            for (name, role) in given.chain(needed) {
-                let heading = headings.iter().any(|h| h.text == *name || h.name == *name);
-                if heading && !known(name, &wanted) {
-                    wanted.push(Wanted::new(name, name, role, None, true, None));
-                }
-            }
-        }
-        wanted
-    }
-
-    /// The role that a column has by its place in the equations.
-    fn role_in(
-        &self,
-        models: &Stated<OneOrMany<String>>,
-        name: &str,
-        table: &ColumnTable,
-    ) -> RoleWord {
-        let outlines = models.value.0.iter();
-        let outlines: Vec<_> = outlines
-            .filter_map(|model| gumption_core::model::outline(&model.value, &self.units).ok())
-            .collect();
-        let holds = table.holds.as_ref().map(|word| word.value);
-        if holds == Some(HoldsWord::Labels) {
-            RoleWord::Factor
-        } else if outlines
-            .iter()
-            .any(|outline| outline.gives.iter().any(|(given, _)| given == name))
-        {
-            RoleWord::Output
-        } else if outlines
-            .iter()
-            .any(|outline| outline.needs.iter().any(|(needed, _)| needed == name))
-        {
-            RoleWord::Stimulus
-        } else {
-            RoleWord::Covariate
-        }
-    }
-
-    /// The columns without the rows that lack a value.
-    pub fn columns(
-        &mut self,
-        wanted: &[Wanted],
+        wanted: &[Wanted<'_>],
         recorded: &Recording,
     ) -> (Vec<Column>, usize, usize) {
         let all = recorded.rows();
         let complete: Vec<usize> = (0..all)
             .filter(|row| {
                 wanted.iter().all(|w| match recorded.numbers(&w.name) {
-                    Some(numbers) => !w.present || numbers[*row].is_finite(),
+                    Some(numbers) => !w.is_there || numbers[*row].is_finite(),
                     None => true,
                 })
             })
@@ -150,9 +34,11 @@ impl Checker<'_> {
             let unit = match (column.and_then(|c| c.unit.clone()), &w.unit) {
                 (_, Some(unit)) => unit.clone(),
                 (Some(unit), None) => unit,
+                // A plan has no readings; the unit of its responses is stated, or follows.
+                (None, None) if !w.is_there => self.planned_unit(&w.name).unwrap_or_else(Unit::one),
                 (None, None) => Unit::one(),
             };
-            let data = if !w.present {
+            let data = if !w.is_there {
                 Data::Absent
             } else if let Some(numbers) = recorded.numbers(&w.name) {
                 Data::Numbers(complete.iter().map(|row| numbers[*row]).collect())
@@ -164,9 +50,8 @@ impl Checker<'_> {
             } else {
                 Data::Absent
             };
-            let table = w.stated.as_ref().map(|(_, table)| table);
             let mut amount = |of: fn(&ColumnTable) -> &Option<Stated<Amount>>| {
-                let stated = of(table?).as_ref()?;
+                let stated = of(w.table?).as_ref()?;
                 self.spread(stated, &unit)
             };
             let (u, u_common) = (amount(|t| &t.u), amount(|t| &t.u_common));
@@ -187,56 +72,38 @@ impl Checker<'_> {
         }
         (columns, complete.len(), all - complete.len())
     }
-
-    /// A column that a key names.
-    pub fn known(&mut self, name: &Stated<String>, columns: &[Column]) -> Option<usize> {
-        let found = columns.iter().position(|column| column.name == name.value);
-        if found.is_none() {
-            let names = columns.iter().map(|column| column.name.as_str());
-            let fault = Fault::new(
-                UNKNOWN_NAME,
-                name.span.clone(),
-                format!("the experiment has no column {}", name.value),
-            )
-            .label("not a column of this experiment");
-            self.faults.push(match nearest(&name.value, names) {
-                Some(near) => fault.help(format!("did you mean \"{near}\"?")),
-                None => fault.help("declare it below [columns]"),
-            });
-        }
-        found
-    }
 }
 
-/// A column that the recording does not have; `renamed` declares another one under its name.
-fn no_column(name: &str, span: Range<usize>, headings: &[Heading], renamed: Option<&str>) -> Fault {
-    let names: Vec<&str> = headings.iter().map(|h| h.name.as_str()).collect();
-    let texts = headings.iter().map(|h| h.text.as_str());
-    let near = nearest(name, names.iter().copied().chain(texts));
-    let help = match (near, renamed) {
-        (Some(near), _) => format!("did you mean \"{near}\"?"),
-        (None, None) => format!("its columns are: {}", names.join(", ")),
-        (None, Some(renamed)) => format!(
-            "its columns are: {}; to call one of them {name}, write {renamed}",
-            names.join(", ")
-        ),
-    };
-    Fault::new(
-        UNKNOWN_NAME,
-        span,
-        format!("the recording has no column \"{name}\""),
-    )
-    .label("not in the first line of the recording")
-    .help(help)
+impl Column {
+    /// A stimulus that no instrument recorded.
+    pub(super) fn applied(name: &str, unit: &Unit, values: Vec<f64>) -> Column {
+        Column {
+            name: name.to_owned(),
+            header: name.to_owned(),
+            role: RoleWord::Stimulus,
+            unit: unit.clone(),
+            data: Data::Numbers(values),
+            u: None,
+            u_common: None,
+            full_scale: None,
+            resolution: None,
+            as_difference: false,
+        }
+    }
+
+    /// A quantity that positions give.
+    pub(super) fn given(given: Given) -> Column {
+        Column::applied(&given.name, &given.unit, given.values)
+    }
 }
 
 /// No row has all that the case declares: the column that lacks most of it.
 pub(super) fn nothing_left(
     file: &Stated<String>,
-    wanted: &[Wanted],
+    wanted: &[Wanted<'_>],
     recorded: &Recording,
 ) -> Fault {
-    let lacks = |one: &Wanted| {
+    let lacks = |one: &Wanted<'_>| {
         let numbers = recorded.numbers(&one.name).unwrap_or_default();
         numbers.iter().filter(|x| !x.is_finite()).count()
     };
@@ -249,11 +116,8 @@ pub(super) fn nothing_left(
         ),
     )
     .label("this recording");
-    let emptiest = wanted
-        .iter()
-        .filter(|one| one.present)
-        .max_by_key(|one| lacks(one));
-    match emptiest {
+    let there = wanted.iter().filter(|one| one.is_there);
+    match there.max_by_key(|one| lacks(one)) {
         Some(one) if lacks(one) > 0 => fault.help(format!(
             "`{}` has none in {} of {} rows; a column that does not matter may have the role \"ignore\"",
             one.name,
@@ -261,50 +125,5 @@ pub(super) fn nothing_left(
             recorded.rows()
         )),
         _ => fault,
-    }
-}
-
-/// A column that is asked of the recording.
-pub(super) struct Wanted {
-    name: String,
-    header: String,
-    role: RoleWord,
-    unit: Option<Unit>,
-    pub present: bool,
-    stated: Option<(Range<usize>, ColumnTable)>,
-    pub request: Request,
-}
-
-impl Wanted {
-    fn new(
-        name: &str,
-        header: &str,
-        role: RoleWord,
-        unit: Option<Unit>,
-        present: bool,
-        stated: Option<(Range<usize>, ColumnTable)>,
-    ) -> Wanted {
-        let content = match role {
-            RoleWord::Run
-            | RoleWord::Factor
-            | RoleWord::Position
-            | RoleWord::Axis
-            | RoleWord::Direction => Content::Labels,
-            _ => Content::Numbers,
-        };
-        let request = Request {
-            content,
-            unit: unit.clone(),
-            ..Request::numbers(name, header)
-        };
-        Wanted {
-            name: name.to_owned(),
-            header: header.to_owned(),
-            role,
-            unit,
-            present,
-            stated,
-            request,
-        }
     }
 }

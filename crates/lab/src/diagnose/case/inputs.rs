@@ -1,109 +1,103 @@
 //! Inputs and errors of readings, as what they are in a diagnosis: a common error is a parameter that is partly
 //! known, one for each label a parameter `per` label, one for each row noise of a column.
 
-use gumption_format::toml::{Amount, Named, Stated};
-
-use super::checker::Checker;
-use super::{Column, Data};
-use crate::calibrate::{Doubt, Doubts, Scope, Target, doubts_of};
+use super::{Column, Parameter};
+use crate::diagnose::faults::PER;
+use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
-use crate::experiment::tables::{ExperimentTable, ParameterTable};
-use gumption_core::equations::Quantity;
-use gumption_core::model::{Role, Symbol, outline};
-use gumption_core::quantity::Unit;
+use crate::experiment::names::Names;
+use crate::experiment::source::entries;
+use crate::experiment::{Doubt, Experiment, Scope, Target};
+use gumption_core::model::{Role, Symbol};
+use gumption_fault::Fault;
 
 impl Checker<'_> {
-    /// The tables with inputs as parameters; exactly known ones join the constants, those with an error for
-    /// each row the columns.
-    pub fn with_inputs(
+    /// The parameters of the experiment and its uncertain inputs, in the order in which the equations name them.
+    /// Exactly known inputs join the constants, those with an error for each row the columns.
+    pub(super) fn unknowns(
         &mut self,
-        file: &ExperimentTable,
+        experiment: &Experiment,
+        names: &Names,
         columns: &mut Vec<Column>,
         constants: &mut Vec<Symbol>,
         rows: usize,
-    ) -> ExperimentTable {
-        let mut file = file.clone();
-        if file.input.is_none() && file.reading.is_none() {
-            return file;
-        }
-        let quantities: Vec<Quantity> = columns
-            .iter()
-            .filter(|column| column.labels().is_none())
-            .map(|column| Quantity {
-                name: column.name.clone(),
-                unit: column.unit.clone(),
-            })
-            .collect();
-        let doubts = match doubts_of(self.source, &quantities, self.folder) {
-            Ok(doubts) => doubts,
-            Err(faults) => {
-                self.faults.extend(faults);
-                return file;
-            }
-        };
-        let needed = self.needed(&file);
-        for (place, input) in doubts.inputs.iter().enumerate() {
-            let error = Error::of(&doubts, &Target::Input(place));
+    ) -> Option<Vec<Parameter>> {
+        let mut parameters = Vec::new();
+        for (place, input) in experiment.inputs.iter().enumerate() {
+            let error = Error::of(experiment, &Target::Input(place));
             if error.is_none() {
                 constants.push(Symbol {
                     name: input.name.clone(),
                     unit: input.unit.clone(),
                     role: Role::Constant(input.value),
                 });
-            } else if !needed.contains(&input.name) {
+            } else if !names.is_needed(&input.name) {
                 // Only results of a calibration use it.
             } else if error.each > 0.0 {
                 columns.push(Column {
-                    name: input.name.clone(),
-                    header: input.name.clone(),
-                    role: RoleWord::Stimulus,
-                    unit: input.unit.clone(),
-                    data: Data::Numbers(vec![input.value; rows]),
                     u: Some(error.each),
                     u_common: (error.common > 0.0).then_some(error.common),
-                    full_scale: None,
-                    resolution: None,
-                    as_difference: false,
+                    ..Column::applied(&input.name, &input.unit, vec![input.value; rows])
                 });
             } else {
-                let known = (input.value, libm::hypot(error.common, error.by.1));
-                let per = (error.by.1 > 0.0).then(|| error.by.0.clone());
-                prior(&mut file, &input.name, &input.unit, known, per);
+                let per = (error.by.1 > 0.0).then(|| {
+                    let mut columns = columns.iter();
+                    columns.position(|column| column.name == error.by.0)
+                });
+                parameters.push(Parameter {
+                    name: input.name.clone(),
+                    unit: input.unit.clone(),
+                    start: Some(input.value),
+                    prior: Some((input.value, libm::hypot(error.common, error.by.1))),
+                    per: per.flatten(),
+                });
             }
         }
-        for (name, unit, known) in &doubts.priors {
-            prior(&mut file, name, unit, (known.value, known.u), None);
+        let tables = entries(&self.source.table.parameter);
+        for parameter in &experiment.parameters {
+            let table = tables.iter().find(|(name, _)| *name == parameter.name);
+            let per = match table.and_then(|(_, table)| table.value.per.as_ref()) {
+                None => None,
+                Some(column) => {
+                    let place = self.known(column, columns)?;
+                    if columns[place].labels().is_none() {
+                        let message = format!("{} holds no labels", column.value);
+                        let fault = Fault::new(PER, column.span.clone(), message);
+                        return self
+                            .refuse(fault.label("expected a run, factor, position or axis"));
+                    }
+                    Some(place)
+                }
+            };
+            parameters.push(Parameter {
+                name: parameter.name.clone(),
+                unit: parameter.unit.clone(),
+                start: parameter.start,
+                prior: parameter.known.map(|known| (known.value, known.u)),
+                per,
+            });
         }
-        for column in columns.iter_mut() {
-            let error = Error::of(&doubts, &Target::Reading(column.name.clone()));
-            let common = error.common;
-            let each = libm::hypot(error.each, error.by.1);
-            if common > 0.0 {
-                column.u_common = Some(libm::hypot(column.u_common.unwrap_or(0.0), common));
-            }
-            // What the residuals tell of the noise of an output holds its own errors already.
-            if each > 0.0 && column.role != RoleWord::Output {
-                column.u = Some(libm::hypot(column.u.unwrap_or(0.0), each));
-            }
-        }
-        self.stated = columns
-            .iter()
-            .map(|column| Error::of(&doubts, &Target::Reading(column.name.clone())))
-            .map(|error| libm::hypot(error.each, error.by.1))
-            .collect();
-        file
+        parameters.sort_by_key(|parameter| names.place(&parameter.name));
+        Some(parameters)
     }
+}
 
-    /// Names on the right of the equations.
-    fn needed(&self, file: &ExperimentTable) -> Vec<String> {
-        let shared = file.model.as_ref().map_or("", |text| text.value.as_str());
-        let texts = file.equations.iter().flat_map(|list| &list.value.0);
-        let outlines = texts
-            .filter_map(|text| outline(&format!("{shared}\n{}", text.value), &self.units).ok());
-        outlines
-            .flat_map(|outline| outline.needs.into_iter().map(|(name, _)| name))
-            .collect()
-    }
+/// Adds what the file says of errors of readings to the columns; the standard uncertainty of each reading by
+/// itself, in the order of the columns.
+pub(super) fn errors_of_readings(experiment: &Experiment, columns: &mut [Column]) -> Vec<f64> {
+    let add = |column: &mut Column| {
+        let error = Error::of(experiment, &Target::Reading(column.name.clone()));
+        let each = libm::hypot(error.each, error.by.1);
+        if error.common > 0.0 {
+            column.u_common = Some(libm::hypot(column.u_common.unwrap_or(0.0), error.common));
+        }
+        // What the residuals tell of the noise of an output holds its own errors already.
+        if each > 0.0 && column.role != RoleWord::Output {
+            column.u = Some(libm::hypot(column.u.unwrap_or(0.0), each));
+        }
+        each
+    };
+    columns.iter_mut().map(add).collect()
 }
 
 /// The standard uncertainties of one quantity, by the rows on which one error acts.
@@ -116,9 +110,9 @@ struct Error {
 }
 
 impl Error {
-    fn of(doubts: &Doubts, target: &Target) -> Error {
+    fn of(experiment: &Experiment, target: &Target) -> Error {
         let mut error = Error::default();
-        for doubt in &doubts.doubts {
+        for doubt in &experiment.doubts {
             let u = effect(doubt, target);
             match &doubt.scope {
                 Scope::Common => error.common = libm::hypot(error.common, u),
@@ -141,57 +135,4 @@ impl Error {
 fn effect(doubt: &Doubt, target: &Target) -> f64 {
     let acts = doubt.acts.iter().filter(|act| act.on == *target);
     acts.map(|act| act.coefficient * doubt.u).sum::<f64>().abs()
-}
-
-/// States what is known of a parameter, unless the file states it.
-fn prior(
-    file: &mut ExperimentTable,
-    name: &str,
-    unit: &Unit,
-    (value, u): (f64, f64),
-    per: Option<String>,
-) {
-    let place = file.input.as_ref().map_or(0..0, |named| {
-        let mut entries = named.value.entries.iter();
-        let own = entries.find(|(other, _)| other == name);
-        own.map_or(named.key.clone(), |(_, entry)| entry.key.clone())
-    });
-    let at = |number: f64| Stated {
-        value: Amount { number, unit: None },
-        span: place.clone(),
-        key: place.clone(),
-    };
-    let text = |text: String| Stated {
-        value: text,
-        span: place.clone(),
-        key: place.clone(),
-    };
-    let parameters = file.parameter.get_or_insert_with(|| Stated {
-        value: Named {
-            entries: Vec::new(),
-            refused: false,
-        },
-        span: place.clone(),
-        key: place.clone(),
-    });
-    let entries = &mut parameters.value.entries;
-    let own = entries.iter().position(|(other, _)| other == name);
-    let own = own.unwrap_or_else(|| {
-        let table = Stated {
-            value: ParameterTable::default(),
-            span: place.clone(),
-            key: place.clone(),
-        };
-        entries.push((name.to_owned(), table));
-        entries.len() - 1
-    });
-    if let Some((_, entry)) = entries.get_mut(own) {
-        let table = &mut entry.value;
-        table.unit.get_or_insert_with(|| text(unit.symbol.clone()));
-        if table.value.is_none() {
-            table.value = Some(at(value));
-            table.u = Some(at(u));
-        }
-        table.per = table.per.take().or(per.map(text));
-    }
 }

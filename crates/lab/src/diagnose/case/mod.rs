@@ -1,7 +1,6 @@
 //! The case file: a declared model, a recording, and what is claimed about both.
 
 mod actions;
-mod at_rest;
 mod candidates;
 mod check;
 mod checker;
@@ -11,7 +10,6 @@ mod disused;
 mod inputs;
 mod models;
 mod noise;
-mod parameters;
 mod rows;
 mod settings;
 
@@ -23,9 +21,10 @@ use gumption_core::model::Symbol;
 use gumption_core::quantity::{Unit, UnitTable};
 use gumption_gum::budget::{Files, Rejection, Remark};
 
+pub use crate::experiment::RestReadings;
+pub(super) use crate::experiment::at_rest::hours;
 pub use crate::experiment::entries::RoleWord as Role;
 pub(super) use actions::repeated;
-pub(super) use at_rest::hours;
 pub use rows::Rows;
 pub(super) use rows::interval;
 
@@ -180,15 +179,6 @@ pub enum NoiseClaim {
     },
 }
 
-/// What an output showed at rest.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RestReadings {
-    /// Times, h; `None` where the file has none.
-    pub times: Option<Vec<f64>>,
-    /// Readings in the unit of the response.
-    pub readings: Vec<f64>,
-}
-
 /// Where a stated noise comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NoiseOrigin {
@@ -293,6 +283,14 @@ impl Case {
     /// All faults of the case, or all faults of the recording.
     pub fn load(path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
         check::load(Files::Disk, path, purpose)
+    }
+
+    /// As [`load`](Self::load), with files that may be in memory.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn load_from(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Case, Rejection> {
+        check::load(files, path, purpose)
     }
 
     /// The column of a name.

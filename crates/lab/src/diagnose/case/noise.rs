@@ -2,113 +2,79 @@
 
 use std::ops::Range;
 
-use super::at_rest::hours;
-use super::checker::Checker;
 use super::declared::Declared;
 use super::{Column, NoiseClaim, NoiseOrigin, Observed, Response};
-use crate::diagnose::faults::{NOISE, SETTING};
+use crate::experiment::at_rest::{Headed, hours};
+use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
+use crate::experiment::faults::NOISE;
+use crate::experiment::noise::Way;
 use crate::experiment::tables::{ExperimentTable, NoiseTable, NoiseWord, StaticTable};
+use gumption_core::quantity::Unit;
 use gumption_fault::Fault;
 use gumption_format::toml::Stated;
-use gumption_gum::propagate;
 
 impl Checker<'_> {
-    pub fn noise(
+    pub(super) fn noise(
         &mut self,
         file: &ExperimentTable,
         columns: &[Column],
         declared: Option<&Declared>,
+        stated: &[f64],
     ) -> NoiseClaim {
         let per_row = columns
             .iter()
             .position(|column| column.role == RoleWord::Uncertainty);
-        let Some(stated) = &file.noise else {
+        let Some((way, place)) = self.noise_way(per_row.is_some()) else {
             return per_row.map_or(NoiseClaim::Estimated, NoiseClaim::PerRow);
         };
-        let table = &stated.value;
-        // A column of the role "u" is what `from = "stated"` means.
-        let is_stated = |from: &Stated<NoiseWord>| from.value == NoiseWord::Stated;
-        let from = table.from.as_ref();
-        let from = from.is_some_and(|from| per_row.is_none() || !is_stated(from));
-        let ways = [
-            ("`u`", table.u.is_some()),
-            ("`replicates`", table.replicates.is_some()),
-            ("`at_rest`", table.at_rest.is_some()),
-            ("`budget`", table.budget.is_some()),
-            ("`from`", from),
-            ("a column with the role \"u\"", per_row.is_some()),
-        ];
-        let present = ways.iter().filter(|(_, is_there)| *is_there);
-        let present: Vec<&str> = present.map(|(way, _)| *way).collect();
-        if present.len() != 1 {
-            if !table.refused {
-                self.faults.push(not_one_way(stated.span.clone(), &present));
-            }
-            return NoiseClaim::Estimated;
-        }
-        if table.u.is_none() {
-            for (key, stated) in [("walk", &table.walk), ("resolution", &table.resolution)] {
-                if let Some(stated) = stated {
-                    let message = format!("`{key}` goes with `u`");
-                    let fault = Fault::new(NOISE, stated.span.clone(), message);
-                    self.faults.push(fault.label("`u` is missing"));
+        let responses = declared.map_or(&[][..], |declared| declared.responses.as_slice());
+        match way {
+            Way::Stated(amount, dof) => {
+                let units: Vec<Unit> = responses.iter().map(|r| r.unit.difference()).collect();
+                let units: Vec<&Unit> = units.iter().collect();
+                let u = self.noise_in(amount, &units).unwrap_or_default();
+                let table = file.noise.as_ref().map(|noise| noise.value.clone());
+                let table = table.unwrap_or_default();
+                NoiseClaim::Stated {
+                    u: self.with_resolution(&table, columns, responses, u),
+                    dof,
+                    walk: self.walk(&table, columns, responses),
+                    origin: NoiseOrigin::Case,
                 }
             }
-        }
-        if let Some(column) = per_row {
-            return NoiseClaim::PerRow(column);
-        }
-        let dof = table.dof.as_ref().map_or(f64::INFINITY, |dof| dof.value.0);
-        if dof <= 0.0 {
-            self.faults.push(Fault::new(
-                SETTING,
-                stated.span.clone(),
-                "degrees of freedom are positive",
-            ));
-        }
-        let responses = declared.map_or(&[][..], |declared| declared.responses.as_slice());
-        if let Some(amount) = &table.u {
-            let u: Vec<f64> = responses
-                .iter()
-                .filter_map(|response| self.spread(amount, &response.unit))
-                .collect();
-            let u = self.with_resolution(table, columns, responses, u);
-            let walk = self.walk(table, columns, responses);
-            let origin = NoiseOrigin::Case;
-            return NoiseClaim::Stated {
-                u,
-                dof,
-                walk,
-                origin,
-            };
-        }
-        if let Some(names) = &table.replicates {
-            let found = names
-                .value
-                .0
-                .iter()
-                .filter_map(|name| self.known(name, columns))
-                .collect();
-            return NoiseClaim::Replicates(found);
-        }
-        if let Some(at_rest) = &table.at_rest {
-            return self.at_rest(at_rest, columns, responses);
-        }
-        if let Some(path) = &table.budget {
-            return self.budget(path, responses);
-        }
-        match table.from.as_ref().map(|word| word.value) {
-            Some(NoiseWord::Stated) => self.of_readings(stated.span.clone(), responses),
-            Some(NoiseWord::Dwells) => self.of_dwells(file, stated.span.clone(), columns),
-            _ => NoiseClaim::Estimated,
+            Way::Replicates(names) => {
+                let found = names.iter().filter_map(|name| self.known(name, columns));
+                NoiseClaim::Replicates(found.collect())
+            }
+            Way::AtRest(at_rest) => self.of_rest(at_rest, columns, responses),
+            Way::Budget(path) => {
+                let outputs = responses.iter();
+                let outputs = outputs.map(|r| (r.name.clone(), r.unit.difference()));
+                let outputs: Vec<(String, Unit)> = outputs.collect();
+                self.noise_of_budget(path, &outputs)
+                    .map_or(NoiseClaim::Estimated, |(u, dof)| NoiseClaim::Stated {
+                        walk: vec![0.0; u.len()],
+                        u,
+                        dof,
+                        origin: NoiseOrigin::Budget(path.value.clone()),
+                    })
+            }
+            Way::From(NoiseWord::Stated) => self.of_readings(place, responses, stated),
+            Way::From(NoiseWord::Dwells) => self.of_dwells(file, place, columns),
+            Way::From(NoiseWord::Residuals) => NoiseClaim::Estimated,
         }
     }
 
     /// The errors that `[reading]` states of each reading are all there is.
-    fn of_readings(&mut self, place: Range<usize>, responses: &[Response]) -> NoiseClaim {
+    fn of_readings(
+        &mut self,
+        place: Range<usize>,
+        responses: &[Response],
+        stated: &[f64],
+    ) -> NoiseClaim {
         let of = |response: &Response| match response.observed {
-            Observed::Column(column) => self.stated.get(column).copied().unwrap_or(0.0),
+            Observed::Column(column) => stated.get(column).copied().unwrap_or(0.0),
             Observed::Constant(_) => 0.0,
         };
         let u: Vec<f64> = responses.iter().map(of).collect();
@@ -149,116 +115,44 @@ impl Checker<'_> {
         NoiseClaim::Replicates(found.collect())
     }
 
-    fn at_rest(
+    /// What the outputs showed at rest.
+    fn of_rest(
         &mut self,
         stated: &Stated<StaticTable>,
         columns: &[Column],
         responses: &[Response],
     ) -> NoiseClaim {
-        let Some(file) = &stated.value.file else {
-            self.faults.push(
-                Fault::new(
-                    NOISE,
-                    stated.span.clone(),
-                    "a recording at rest has a `file`",
-                )
-                .label("expected `file`"),
-            );
+        let headed = |column: &Column| Headed {
+            name: column.name.clone(),
+            header: column.header.clone(),
+            unit: column.unit.clone(),
+        };
+        let column = |response: &Response| match response.observed {
+            Observed::Column(column) => columns.get(column).map(headed),
+            Observed::Constant(_) => None,
+        };
+        let named = stated.value.column.as_ref();
+        let outputs: Option<Vec<Headed>> = responses.iter().map(column).collect();
+        let Some(outputs) = outputs else {
+            let message = "what is observed at rest is a column";
+            self.faults
+                .push(Fault::new(NOISE, stated.span.clone(), message));
             return NoiseClaim::Estimated;
         };
-        let path = self.folder.join(&file.value);
-        let named = stated
-            .value
-            .column
-            .as_ref()
-            .map(|column| column.value.as_str());
-        match super::at_rest::read(self.files, &path, named, columns, responses, &self.units) {
-            Ok(readings) => NoiseClaim::AtRest {
-                file: file.value.clone(),
-                column: named
-                    .or_else(|| super::at_rest::only_column(columns, responses))
-                    .map(str::to_owned),
-                readings,
-            },
-            Err(why) => {
-                self.faults.push(Fault::new(
-                    NOISE,
-                    file.span.clone(),
-                    format!("the recording at rest: {why}"),
-                ));
-                NoiseClaim::Estimated
-            }
-        }
-    }
-
-    /// The noise that a budget claims: the combined standard uncertainty of the measurand that is called like
-    /// the response, or of its only one.
-    fn budget(&mut self, path: &Stated<String>, responses: &[Response]) -> NoiseClaim {
-        let refuse = |checker: &mut Self, message: String| {
-            checker
-                .faults
-                .push(Fault::new(NOISE, path.span.clone(), message));
-            NoiseClaim::Estimated
+        let time = columns.iter().find(|column| column.role == RoleWord::Time);
+        let time = time.map(headed);
+        let Some(readings) = self.at_rest(stated, &outputs, time.as_ref()) else {
+            return NoiseClaim::Estimated;
         };
-        let loaded = match gumption_gum::budget::load(&self.folder.join(&path.value)) {
-            Ok(loaded) => loaded,
-            Err(rejection) => {
-                let first = rejection
-                    .faults
-                    .first()
-                    .map_or_else(String::new, |fault| fault.message.clone());
-                return refuse(
-                    self,
-                    format!("the budget {} is refused: {first}", path.value),
-                );
-            }
+        let only = match outputs.as_slice() {
+            [only] => Some(only.header.clone()),
+            _ => None,
         };
-        let Some(row) = loaded.rows.first() else {
-            return refuse(self, "the budget is empty".into());
-        };
-        let options = propagate::Options {
-            monte_carlo: propagate::MonteCarloChoice::Off,
-            ..propagate::Options::default()
-        };
-        let Ok(evaluation) = propagate::evaluate(&row.budget, &options) else {
-            return refuse(self, "the budget has no result".into());
-        };
-        let outputs = row.budget.model.outputs();
-        let mut u = Vec::new();
-        let mut dof = f64::INFINITY;
-        for response in responses {
-            let named = outputs
-                .iter()
-                .position(|output| output.name == response.name);
-            let only = (outputs.len() == 1).then_some(0);
-            let Some(at) = named.or(only) else {
-                return refuse(
-                    self,
-                    format!("the budget has no measurand {}", response.name),
-                );
-            };
-            let own = outputs[at].unit.difference();
-            let Some(conversion) = own.conversion_to(&response.unit.difference()) else {
-                let message = format!(
-                    "{} is in {} in the budget and in {} here",
-                    response.name, own.symbol, response.unit.symbol
-                );
-                return refuse(self, message);
-            };
-            let gum = &evaluation.results[at].gum;
-            u.push(conversion.apply(gum.u));
-            dof = dof.min(match gum.freedom {
-                propagate::Freedom::WelchSatterthwaite(dof)
-                | propagate::Freedom::Ensembles(dof) => dof,
-                propagate::Freedom::Refused { lower_bound, .. } => lower_bound,
-                propagate::Freedom::Infinite => f64::INFINITY,
-            });
-        }
-        NoiseClaim::Stated {
-            u,
-            dof,
-            walk: vec![0.0; responses.len()],
-            origin: NoiseOrigin::Budget(path.value.clone()),
+        let file = stated.value.file.as_ref();
+        NoiseClaim::AtRest {
+            file: file.map_or_else(String::new, |file| file.value.clone()),
+            column: named.map(|column| column.value.clone()).or(only),
+            readings,
         }
     }
 
@@ -300,18 +194,4 @@ impl Checker<'_> {
         let of = |response: &Response| self.spread(stated, &response.unit).unwrap_or(0.0);
         responses.iter().map(of).collect()
     }
-}
-
-/// Noise that is claimed twice, or not at all.
-fn not_one_way(span: Range<usize>, present: &[&str]) -> Fault {
-    let fault = Fault::new(NOISE, span, "the noise is to be stated in one way");
-    if present.is_empty() {
-        return fault.label(
-            "expected one of `u`, `replicates`, `at_rest`, `budget`, `from`, or a column \"u\"",
-        );
-    }
-    let present = present.join(" and ");
-    fault
-        .label(format!("stated by {present}"))
-        .help("keep one of them")
 }

@@ -3,9 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use super::checker::Checker;
 use super::{Case, Column, Data, HeldOut};
 use crate::diagnose::faults::{MISSING, ROWS};
+use crate::experiment::checker::Checker;
 use crate::experiment::entries::RoleWord;
 use crate::experiment::tables::ExperimentTable;
 use crate::recording::{Content, Labels, Recording, Request, headings, text_of};
@@ -159,7 +159,11 @@ pub(super) enum Complete {
 
 impl Checker<'_> {
     /// The recording that is to be predicted.
-    pub fn held_out(&mut self, file: &ExperimentTable, columns: &[Column]) -> Option<HeldOut> {
+    pub(super) fn held_out(
+        &mut self,
+        file: &ExperimentTable,
+        columns: &[Column],
+    ) -> Option<HeldOut> {
         let stated = file.held_out.as_ref()?;
         let Some(path) = &stated.value.file else {
             if !stated.value.refused {
@@ -176,7 +180,7 @@ impl Checker<'_> {
     }
 
     /// Reads rows of the columns of a case from another file.
-    pub fn rows_of_file(
+    pub(super) fn rows_of_file(
         &mut self,
         path: &Stated<String>,
         columns: &[Column],

@@ -1,16 +1,16 @@
 //! How rows are averaged, and how the diagnosis is run.
 
-use super::checker::Checker;
 use super::{Averaging, Blocks, Column, Role, Settings};
 use crate::diagnose::catalogue::effects;
 use crate::diagnose::faults::{ROLE, SETTING, UNKNOWN_NAME};
+use crate::experiment::checker::Checker;
 use crate::experiment::entries::AverageEntry;
 use crate::experiment::tables::{DiagnosisTable, ExperimentTable};
 use gumption_fault::{Fault, nearest};
 use gumption_format::toml::{Amount, Stated};
 
 impl Checker<'_> {
-    pub fn averaging(&mut self, file: &ExperimentTable, columns: &[Column]) -> Averaging {
+    pub(super) fn averaging(&mut self, file: &ExperimentTable, columns: &[Column]) -> Averaging {
         let table = file
             .recording
             .as_ref()
@@ -64,7 +64,7 @@ impl Checker<'_> {
             }
             return stated.value.number.max(0.0) as usize;
         };
-        let Some(settle) = self.quantity(stated, &column.unit) else {
+        let Some(settle) = self.amount(stated, &column.unit) else {
             return 0;
         };
         let mut intervals: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -78,7 +78,7 @@ impl Checker<'_> {
         }
     }
 
-    pub fn settings(&mut self, file: &ExperimentTable) -> Settings {
+    pub(super) fn settings(&mut self, file: &ExperimentTable) -> Settings {
         let table = file
             .diagnosis
             .as_ref()

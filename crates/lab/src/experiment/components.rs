@@ -2,54 +2,55 @@
 
 use nalgebra::DMatrix;
 
-use super::definer::Definer;
-use super::experiment::{Act, Doubt, Scope, Target};
+use super::checker::Checker;
+use super::doubt::{Act, Doubt, Scope, Target};
 use super::faults::KEY;
 use super::known::Known;
-use crate::experiment::source::entries;
-use crate::experiment::tables::ScopeWord;
+use super::source::entries;
+use super::tables::ScopeWord;
 use gumption_core::distribution::{Distribution, Normal};
 use gumption_core::quantity::Unit;
 use gumption_fault::Fault;
 use gumption_format::toml::Stated;
-use gumption_gum::budget::{Budget, Evaluation, Group, Owner};
+use gumption_gum::budget::quantities::Quantities;
+use gumption_gum::budget::{Evaluation, Group, Owner};
 
 /// Every component as an error, correlated ones as sums of independent errors; `inputs` are the names of
 /// the inputs that the equations see.
-pub(super) fn of(
-    definer: &mut Definer<'_>,
-    budget: &Budget,
+pub(crate) fn of(
+    checker: &mut Checker<'_>,
+    stated: &Quantities,
     known: &[Known<'_>],
     inputs: &[String],
 ) -> Option<Vec<Doubt>> {
-    let before = definer.faults.len();
-    let found: Vec<Found> = (0..budget.components.len())
-        .map(|index| Found::of(definer, budget, known, inputs, index))
+    let before = checker.faults.len();
+    let found: Vec<Found> = (0..stated.components.len())
+        .map(|index| Found::of(checker, stated, known, inputs, index))
         .collect();
     let is_correlated = |index: usize| {
-        let mut groups = budget.groups.iter();
+        let mut groups = stated.groups.iter();
         groups.any(|group| group.members.contains(&index))
     };
     for (index, one) in found.iter().enumerate() {
         if let Some(prior) = &one.prior
             && (is_correlated(index) || !one.acts.is_empty())
         {
-            definer.faults.push(shared_by_prior(prior));
+            checker.faults.push(shared_by_prior(prior));
         }
     }
     let mut doubts: Vec<Doubt> = found
         .iter()
         .enumerate()
         .filter(|(index, one)| !one.acts.is_empty() && !is_correlated(*index))
-        .map(|(index, one)| one.doubt(budget, index))
+        .map(|(index, one)| one.doubt(stated, index))
         .collect();
-    for group in &budget.groups {
-        match factored(budget, group, &found) {
+    for group in &stated.groups {
+        match factored(stated, group, &found) {
             Some(parts) => doubts.extend(parts),
-            None => definer.faults.push(scopes_differ(definer, budget, group)),
+            None => checker.faults.push(scopes_differ(checker, stated, group)),
         }
     }
-    (definer.faults.len() == before).then_some(doubts)
+    (checker.faults.len() == before).then_some(doubts)
 }
 
 /// What a component acts on.
@@ -62,24 +63,24 @@ struct Found {
 
 impl Found {
     fn of(
-        definer: &Definer<'_>,
-        budget: &Budget,
+        checker: &Checker<'_>,
+        stated: &Quantities,
         known: &[Known<'_>],
         inputs: &[String],
         index: usize,
     ) -> Found {
-        let component = &budget.components[index];
+        let component = &stated.components[index];
         let mut found = Found {
             acts: Vec::new(),
             scope: match &component.owner {
-                Owner::Source(name) => scope_of_source(definer, name),
+                Owner::Source(name) => scope_of_source(checker, name),
                 Owner::Input(_) => Scope::Common,
             },
             prior: None,
         };
         for one in known {
             let name = one.own_name();
-            let input = budget.inputs.iter().find(|input| input.name == name);
+            let input = stated.inputs.iter().find(|input| input.name == name);
             let terms = input.iter().flat_map(|input| &input.terms);
             for term in terms.filter(|term| term.component == index) {
                 let on = if one.is_reading {
@@ -106,10 +107,10 @@ impl Found {
         found
     }
 
-    fn doubt(&self, budget: &Budget, index: usize) -> Doubt {
-        let component = &budget.components[index];
+    fn doubt(&self, stated: &Quantities, index: usize) -> Doubt {
+        let component = &stated.components[index];
         Doubt {
-            name: shown(&component.name),
+            name: component.name.clone(),
             acts: self.acts.clone(),
             scope: self.scope.clone(),
             u: component.u,
@@ -122,19 +123,14 @@ impl Found {
     }
 }
 
-/// The name of a component in reports.
-fn shown(name: &str) -> String {
-    name.replace("_reading", " (reading)")
-}
-
 /// Correlated errors as sums of independent normal ones, by the Cholesky factor of their correlation
 /// matrix. Together they are one cause, of one name. `None` where one error of one member acts on other
 /// points than one of another.
-fn factored(budget: &Budget, group: &Group, found: &[Found]) -> Option<Vec<Doubt>> {
+fn factored(stated: &Quantities, group: &Group, found: &[Found]) -> Option<Vec<Doubt>> {
     let members: Vec<usize> = (0..group.members.len())
         .filter(|place| !found[group.members[*place]].acts.is_empty())
         .collect();
-    let component = |place: usize| &budget.components[group.members[place]];
+    let component = |place: usize| &stated.components[group.members[place]];
     let scope = &found[group.members[*members.first()?]].scope;
     let mut scopes = members.iter().map(|p| &found[group.members[*p]].scope);
     if !scopes.all(|other| other == scope) {
@@ -144,7 +140,7 @@ fn factored(budget: &Budget, group: &Group, found: &[Found]) -> Option<Vec<Doubt
         group.correlation[(members[i], members[j])]
     });
     let factor = lower_factor(&r);
-    let names: Vec<String> = members.iter().map(|p| shown(&component(*p).name)).collect();
+    let names: Vec<String> = members.iter().map(|p| component(*p).name.clone()).collect();
     let dofs = members.iter().map(|place| component(*place).dof);
     let part = |column: usize| Doubt {
         name: names.join(" & "),
@@ -182,7 +178,7 @@ fn factored(budget: &Budget, group: &Group, found: &[Found]) -> Option<Vec<Doubt
 }
 
 /// Cholesky factor of a matrix that may be singular.
-pub(super) fn lower_factor(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+pub(crate) fn lower_factor(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let n = matrix.nrows();
     let mut factor = DMatrix::<f64>::zeros(n, n);
     for column in 0..n {
@@ -203,8 +199,8 @@ pub(super) fn lower_factor(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     factor
 }
 
-fn scope_of_source(definer: &Definer<'_>, name: &str) -> Scope {
-    let mut sources = entries(&definer.source.table.source).iter();
+fn scope_of_source(checker: &Checker<'_>, name: &str) -> Scope {
+    let mut sources = entries(&checker.source.table.source).iter();
     let Some((_, entry)) = sources.find(|(other, _)| other == name) else {
         return Scope::Common;
     };
@@ -241,16 +237,16 @@ fn shared_by_prior(prior: &Stated<String>) -> Fault {
     .help(format!("state what is known of {name} by an uncertainty of its own, or do not list it as [parameter.{name}]"))
 }
 
-fn scopes_differ(definer: &Definer<'_>, budget: &Budget, group: &Group) -> Fault {
-    let stated = definer.source.table.correlation.as_ref();
-    let place = stated.map_or(0..0, |stated| {
-        let first = stated.value.0.first();
-        first.map_or(stated.key.clone(), |entry| entry.span.clone())
+fn scopes_differ(checker: &Checker<'_>, stated: &Quantities, group: &Group) -> Fault {
+    let correlations = checker.source.table.correlation.as_ref();
+    let place = correlations.map_or(0..0, |list| {
+        let first = list.value.0.first();
+        first.map_or(list.key.clone(), |entry| entry.span.clone())
     });
     let names: Vec<String> = group
         .members
         .iter()
-        .map(|index| shown(&budget.components[*index].name))
+        .map(|index| stated.components[*index].name.clone())
         .collect();
     Fault::new(
         KEY,

@@ -2,16 +2,16 @@
 
 use std::collections::HashSet;
 
-use super::definer::Definer;
+use super::checker::Checker;
 use super::faults::POSITION;
-use super::points::{PointColumn, Points};
-use crate::experiment::tables::PositionsTable;
+use super::tables::PositionsTable;
+use crate::recording::Labels;
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Stated;
 
 /// Labels that must occur.
-pub(super) fn expected(table: &PositionsTable) -> Vec<&str> {
+pub(crate) fn expected(table: &PositionsTable) -> Vec<&str> {
     let optional = optional(table);
     let at = table.at.iter().flat_map(|named| &named.value.entries);
     at.map(|(label, _)| label.as_str())
@@ -20,32 +20,43 @@ pub(super) fn expected(table: &PositionsTable) -> Vec<&str> {
 }
 
 /// Labels that may be missing.
-pub(super) fn optional(table: &PositionsTable) -> HashSet<&str> {
+pub(crate) fn optional(table: &PositionsTable) -> HashSet<&str> {
     let listed = table.optional.iter().flat_map(|list| &list.value);
     listed.map(|stated| stated.value.as_str()).collect()
 }
 
-/// Adds the quantities that positions give; whether that was possible.
-pub(super) fn add(definer: &mut Definer<'_>, points: &mut Points) -> bool {
-    let Some(stated) = definer.source.table.positions.as_ref() else {
-        return true;
+/// A quantity that positions give, row by row.
+pub(crate) struct Given {
+    pub name: String,
+    pub unit: Unit,
+    pub values: Vec<f64>,
+}
+
+/// The quantities that positions give: by the labels of their column, whose rows `row` names in messages.
+pub(crate) fn given(
+    checker: &mut Checker<'_>,
+    labels: impl Fn(&str) -> Option<Labels>,
+    row: impl Fn(usize) -> String,
+) -> Option<Vec<Given>> {
+    let Some(stated) = checker.source.table.positions.as_ref() else {
+        return Some(Vec::new());
     };
     let table = &stated.value;
-    let before = definer.faults.len();
+    let before = checker.faults.len();
     let (Some(column), Some(gives), Some(at)) = (&table.column, &table.gives, &table.at) else {
         if !table.refused {
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(POSITION, stated.key.clone(), "[positions] is not complete")
                     .label("expected `column`, `gives` and `at`")
                     .help("write column = \"position\", gives = [\"nx\", \"ny\", \"nz\"], at = { \"x up\" = [1, 0, 0] }"),
             );
         }
-        return false;
+        return None;
     };
     let count = gives.value.len();
     for (label, values) in &at.value.entries {
         if values.value.len() != count {
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(
                     POSITION,
                     values.span.clone(),
@@ -59,9 +70,9 @@ pub(super) fn add(definer: &mut Definer<'_>, points: &mut Points) -> bool {
             );
         }
     }
-    let units = given_units(definer, table, count);
-    let Some(labels) = points.labels(&column.value).cloned() else {
-        definer.faults.push(
+    let units = given_units(checker, table, count);
+    let Some(labels) = labels(&column.value) else {
+        return checker.refuse(
             Fault::new(
                 POSITION,
                 column.span.clone(),
@@ -69,42 +80,35 @@ pub(super) fn add(definer: &mut Definer<'_>, points: &mut Points) -> bool {
             )
             .label("expected a column of labels"),
         );
-        return false;
     };
-    let rows: Option<Vec<&Vec<Stated<f64>>>> = (0..points.len())
-        .map(|row| {
-            let label = labels.text(row);
-            let found = at.value.entries.iter().find(|(name, _)| name == label);
-            if found.is_none() {
-                definer.faults.push(unknown_position(
-                    label,
-                    &points.names[row].en,
-                    table,
-                    stated,
-                ));
+    let mut rows: Vec<&[Stated<f64>]> = Vec::new();
+    let mut unknown: Vec<&str> = Vec::new();
+    for place in 0..labels.of_row.len() {
+        let label = labels.text(place);
+        match at.value.entries.iter().find(|(name, _)| name == label) {
+            Some((_, values)) => rows.push(&values.value),
+            None if unknown.contains(&label) => {}
+            None => {
+                unknown.push(label);
+                let fault = unknown_position(label, &row(place), table, stated);
+                checker.faults.push(fault);
             }
-            found.map(|(_, values)| &values.value)
-        })
-        .collect();
-    let (Some(rows), Some(units)) = (rows, units) else {
-        return false;
-    };
-    if definer.faults.len() > before {
-        return false;
+        }
     }
-    for (place, (name, unit)) in gives.value.iter().zip(units).enumerate() {
-        points.columns.push(PointColumn {
-            name: name.value.clone(),
-            unit,
-            values: rows.iter().map(|values| values[place].value).collect(),
-            averages: Vec::new(),
-        });
+    if checker.faults.len() > before {
+        return None;
     }
-    true
+    let names = gives.value.iter().zip(units?).enumerate();
+    let given = names.map(|(place, (name, unit))| Given {
+        name: name.value.clone(),
+        unit,
+        values: rows.iter().map(|values| values[place].value).collect(),
+    });
+    Some(given.collect())
 }
 
 fn given_units(
-    definer: &mut Definer<'_>,
+    checker: &mut Checker<'_>,
     table: &PositionsTable,
     count: usize,
 ) -> Option<Vec<Unit>> {
@@ -112,7 +116,7 @@ fn given_units(
         return Some(vec![Unit::one(); count]);
     };
     if units.value.len() != count {
-        definer.faults.push(
+        checker.faults.push(
             Fault::new(
                 POSITION,
                 units.span.clone(),
@@ -122,7 +126,7 @@ fn given_units(
         );
         return None;
     }
-    units.value.iter().map(|unit| definer.unit(unit)).collect()
+    units.value.iter().map(|unit| checker.unit(unit)).collect()
 }
 
 fn unknown_position(

@@ -4,20 +4,20 @@ use std::path::Path;
 
 use gumption_format::toml::{Named, Stated};
 
-use crate::experiment::source::{Source, entries};
-use crate::experiment::tables::ParameterTable;
+use super::source::{Source, entries};
+use super::tables::ParameterTable;
 use crate::recording::{Heading, headings, text_of};
 use gumption_core::model::outline;
 use gumption_core::quantity::UnitTable;
 use gumption_fault::nearest;
-use gumption_gum::budget::Files;
+use gumption_format::files::Files;
 
 /// Lists the parameters of a file that has no `[parameter]`.
-pub(super) fn add(source: &mut Source, units: &UnitTable, folder: &Path) {
+pub(crate) fn add(source: &mut Source, units: &UnitTable, files: Files<'_>, folder: &Path) {
     if source.table.parameter.is_some() {
         return;
     }
-    let Some(known) = known(source, units, folder) else {
+    let Some(known) = known(source, units, files, folder) else {
         return;
     };
     let shared = source.table.model.as_ref().map_or("", |text| &text.value);
@@ -57,13 +57,18 @@ pub(super) fn add(source: &mut Source, units: &UnitTable, folder: &Path) {
 }
 
 /// Names of columns, constants, inputs and quantities of positions; `None` without a recording or a schedule.
-fn known(source: &Source, units: &UnitTable, folder: &Path) -> Option<Vec<String>> {
+fn known(
+    source: &Source,
+    units: &UnitTable,
+    files: Files<'_>,
+    folder: &Path,
+) -> Option<Vec<String>> {
     let table = &source.table;
     let mut known: Vec<String> = Vec::new();
     let recording = table.recording.as_ref();
     if let Some(file) = recording.and_then(|stated| stated.value.0.file.as_ref()) {
         let path = folder.join(&file.value);
-        let text = text_of(Files::Disk, &path, &file.value).ok()?;
+        let text = text_of(files, &path, &file.value).ok()?;
         let found = headings(&text, units).ok()?;
         known.extend(found.into_iter().map(|heading| heading.name));
     }

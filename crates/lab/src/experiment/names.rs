@@ -3,10 +3,11 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::definer::Definer;
-use super::faults::NAME_TWICE;
+use super::checker::Checker;
+use super::entries::RoleWord;
+use super::faults::{NAME_TWICE, UNKNOWN_SYMBOL};
 use super::purpose::Purpose;
-use crate::experiment::source::entries;
+use super::source::entries;
 use gumption_core::model::outline;
 use gumption_fault::Fault;
 use gumption_format::toml::Stated;
@@ -14,7 +15,7 @@ use gumption_format::toml::StringMap;
 
 /// What a name is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(crate) enum Kind {
     /// A column of the points, or a quantity that positions give.
     Column,
     Parameter,
@@ -23,58 +24,74 @@ pub(super) enum Kind {
 }
 
 /// The names of the equations.
-pub(super) struct Names {
+pub(crate) struct Names {
     kinds: HashMap<String, Kind>,
     /// Columns of numbers that the points must have, each where it stands first.
     pub columns: Vec<(String, Range<usize>)>,
     /// Names on left sides, in the order of the equations.
     pub responses: Vec<String>,
+    /// Where they stand.
+    lefts: Vec<Range<usize>>,
     /// Those of them that no right side needs: a plan does without them.
     pub only_left: Vec<String>,
     /// Columns that only omitted terms need.
     pub optional: Vec<String>,
+    /// Quantities that positions give.
+    pub given: Vec<String>,
+    /// Names that right sides need.
+    needed: Vec<String>,
 }
 
 impl Names {
     /// Reads the equations; `None` if one is not well formed, or names are in doubt.
-    pub fn of(definer: &mut Definer<'_>, purpose: Purpose) -> Option<Names> {
-        let before = definer.faults.len();
+    pub fn of(checker: &mut Checker<'_>) -> Option<Names> {
+        let before = checker.faults.len();
         let mut names = Names {
-            kinds: declared(definer),
+            kinds: declared(checker),
             columns: Vec::new(),
             responses: Vec::new(),
+            lefts: Vec::new(),
             only_left: Vec::new(),
             optional: Vec::new(),
+            given: checker.given(),
+            needed: Vec::new(),
         };
-        let table = &definer.source.table;
+        let table = &checker.source.table;
         let mut needs: Vec<(String, Range<usize>)> = Vec::new();
         let mut own: Vec<String> = Vec::new();
         if let Some(model) = &table.model {
-            let (given, needed) = definer.outlined(model)?;
+            let (given, needed) = checker.outlined(model)?;
             own.extend(given);
             needs.extend(needed);
         }
         for text in table.equations.iter().flat_map(|list| &list.value.0) {
-            if let Some((given, needed)) = definer.outlined(text) {
+            if let Some((given, needed)) = checker.outlined(text) {
+                if let Some(given) = given.last() {
+                    let mut again = needed.iter().filter(|(name, _)| name == given);
+                    if let Some((_, place)) = again.next() {
+                        checker.faults.push(both_sides(given, place));
+                    }
+                    names.responses.push(given.clone());
+                    names.lefts.push(text.span.clone());
+                }
                 needs.extend(needed.into_iter().filter(|(name, _)| !own.contains(name)));
                 if let Some(given) = given.last() {
-                    names.responses.push(given.clone());
                     needs.push((given.clone(), text.span.clone()));
                 }
             }
         }
-        if definer.faults.len() > before {
+        if checker.faults.len() > before {
             return None;
         }
-        let given = definer.given();
         let right: Vec<String> = needs.iter().map(|(name, _)| name.clone()).collect();
+        names.needed.clone_from(&right);
         for (name, place) in needs {
             if names.kinds.contains_key(&name) && names.kind(&name) != Some(Kind::Column) {
                 continue;
             }
             names.kinds.insert(name.clone(), Kind::Column);
             let known = names.columns.iter().any(|(other, _)| *other == name);
-            if !known && !given.contains(&name) {
+            if !known && !names.given.contains(&name) {
                 names.columns.push((name, place));
             }
         }
@@ -84,11 +101,11 @@ impl Names {
             .filter(|name| right.iter().filter(|other| other == name).count() == 1)
             .cloned()
             .collect();
-        names.optional = definer.optional(&names, &own);
+        names.optional = checker.optional(&names, &own);
         for name in &names.optional {
             names.kinds.insert(name.clone(), Kind::Column);
         }
-        if purpose == Purpose::Plan {
+        if checker.purpose == Purpose::Plan {
             let left = names.only_left.clone();
             names.columns.retain(|(name, _)| !left.contains(name));
         }
@@ -100,15 +117,50 @@ impl Names {
         self.kinds.get(name).copied()
     }
 
+    /// What a column is by its place in the equations.
+    pub fn role(&self, name: &str) -> RoleWord {
+        if self.responses.iter().any(|response| response == name) {
+            RoleWord::Output
+        } else if self.needed.iter().any(|needed| needed == name) {
+            RoleWord::Stimulus
+        } else {
+            RoleWord::Covariate
+        }
+    }
+
+    /// Whether a right side needs it.
+    pub fn is_needed(&self, name: &str) -> bool {
+        self.needed.iter().any(|needed| needed == name)
+    }
+
+    /// Its place in the order in which the equations name things.
+    pub fn place(&self, name: &str) -> usize {
+        let place = self.needed.iter().position(|needed| needed == name);
+        place.unwrap_or(self.needed.len())
+    }
+
+    /// The equation that has it on the left.
+    pub fn place_of_left(&self, name: &str) -> Range<usize> {
+        let lefts = self.responses.iter().zip(&self.lefts);
+        let mut own = lefts.filter(|(response, _)| *response == name);
+        own.next().map_or(0..0, |(_, place)| place.clone())
+    }
+
     /// All names that stand for something, for suggestions.
     pub fn known(&self) -> impl Iterator<Item = &str> {
         self.kinds.keys().map(String::as_str)
     }
 }
 
+fn both_sides(name: &str, place: &Range<usize>) -> Fault {
+    let message = format!("{name} is on both sides of an equation");
+    Fault::new(UNKNOWN_SYMBOL, place.clone(), message)
+        .label("expected columns, parameters, inputs and constants")
+}
+
 /// What the file declares.
-fn declared(definer: &mut Definer<'_>) -> HashMap<String, Kind> {
-    let table = &definer.source.table;
+fn declared(checker: &mut Checker<'_>) -> HashMap<String, Kind> {
+    let table = &checker.source.table;
     let mut kinds: HashMap<String, (Kind, Range<usize>)> = HashMap::new();
     let mut faults = Vec::new();
     let mut declare = |name: &str, kind: Kind, place: &Range<usize>| {
@@ -141,17 +193,17 @@ fn declared(definer: &mut Definer<'_>) -> HashMap<String, Kind> {
         let replaced = entries(&table.constant)
             .iter()
             .any(|(other, _)| other == name);
-        if !(replaced && definer.source.is_base(&entry.key)) {
+        if !(replaced && checker.source.is_base(&entry.key)) {
             declare(name, Kind::Input, &entry.key);
         }
     }
     for (name, entry) in entries(&table.constant) {
         declare(name, Kind::Constant, &entry.key);
     }
-    for (name, place) in definer.given_places() {
+    for (name, place) in checker.given_places() {
         declare(&name, Kind::Column, &place);
     }
-    definer.faults.extend(faults);
+    checker.faults.extend(faults);
     kinds
         .into_iter()
         .map(|(name, (kind, _))| (name, kind))
@@ -161,7 +213,7 @@ fn declared(definer: &mut Definer<'_>) -> HashMap<String, Kind> {
 /// Names that a text defines, and names that it needs with their places.
 type Outlined = (Vec<String>, Vec<(String, Range<usize>)>);
 
-impl Definer<'_> {
+impl Checker<'_> {
     fn outlined(&mut self, text: &Stated<String>) -> Option<Outlined> {
         let map = StringMap::new(&self.source.text, text.span.clone())
             .filter(|map| map.text() == text.value);
@@ -211,7 +263,7 @@ impl Definer<'_> {
     }
 
     /// Quantities that positions give.
-    pub(super) fn given(&self) -> Vec<String> {
+    pub(crate) fn given(&self) -> Vec<String> {
         self.given_places()
             .into_iter()
             .map(|(name, _)| name)

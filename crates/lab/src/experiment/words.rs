@@ -27,7 +27,7 @@ impl Words {
 }
 
 /// The text that the file states in both languages.
-pub(super) fn words(en: &Option<Stated<String>>, zh: &Option<Stated<String>>) -> Option<Words> {
+pub(crate) fn words(en: &Option<Stated<String>>, zh: &Option<Stated<String>>) -> Option<Words> {
     let en = en.as_ref()?.value.clone();
     let zh = zh
         .as_ref()

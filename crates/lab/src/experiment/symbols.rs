@@ -6,7 +6,7 @@ use gumption_core::quantity::Unit;
 use gumption_format::toml::Stated;
 
 /// An equation and its place.
-pub(super) fn equation_text(stated: &Stated<String>) -> EquationText<'_> {
+pub(crate) fn equation_text(stated: &Stated<String>) -> EquationText<'_> {
     EquationText {
         text: &stated.value,
         at: stated.span.clone(),
@@ -14,7 +14,7 @@ pub(super) fn equation_text(stated: &Stated<String>) -> EquationText<'_> {
 }
 
 /// A name with its unit.
-pub(super) fn quantity(name: &str, unit: &Unit) -> Quantity {
+pub(crate) fn quantity(name: &str, unit: &Unit) -> Quantity {
     Quantity {
         name: name.to_owned(),
         unit: unit.clone(),
@@ -22,7 +22,7 @@ pub(super) fn quantity(name: &str, unit: &Unit) -> Quantity {
 }
 
 /// A symbol for the inference of units, where its place does not matter.
-pub(super) fn symbol(quantity: Quantity) -> Symbol {
+pub(crate) fn symbol(quantity: Quantity) -> Symbol {
     Symbol {
         name: quantity.name,
         unit: quantity.unit,

@@ -1,32 +1,29 @@
-//! Why inputs and readings are doubted: their estimates and components, by the check of budgets.
+//! Why inputs and readings are doubted: their estimates and components, by the check of a budget's quantities.
 //!
-//! `[input.X]` and `[reading.X]` take the keys of a budget's inputs. They are handed to that check as the
-//! inputs of a budget whose measurands are the inputs themselves, so that every way of stating an
+//! `[input.X]` and `[reading.X]` take the keys of a budget's inputs, so that every way of stating an
 //! uncertainty, and every message about it, is the same in both kinds of files.
 
-use std::path::Path;
-
+use super::checker::Checker;
 use super::components;
-use super::definer::Definer;
-use super::experiment::{Doubt, Input, Prior};
+use super::doubt::{Doubt, Input, Prior};
 use super::faults::{KEY, STATE_INPUT};
 use super::known::Known;
 use super::names::{Kind, Names};
+use super::source::entries;
+use super::tables::{KnownTable, SharedTable};
 use super::words::words;
-use crate::experiment::source::entries;
-use crate::experiment::tables::{KnownTable, SharedTable};
 use gumption_core::equations::Quantity;
 use gumption_core::model::{Role, Symbol};
 use gumption_core::quantity::Unit;
 use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Amount, Named, OneOrMany};
-use gumption_gum::budget::doubts::checked;
+use gumption_gum::budget::Remark;
+use gumption_gum::budget::quantities::{Quantities, quantities};
 use gumption_gum::budget::tables::{ConstantEntry, Sources};
 use gumption_gum::budget::tables::{
-    ConstantTable, CorrelationTable, FileTable, InputTable, MeasurandTable, SourceTable,
+    ConstantTable, CorrelationTable, FileTable, InputTable, SourceTable,
 };
-use gumption_gum::budget::{Budget, Remark};
 
 /// What the file says of inputs, readings and constants.
 pub(crate) struct Doubts {
@@ -40,19 +37,17 @@ pub(crate) struct Doubts {
 }
 
 /// Checks `[input]`, `[reading]` and `[constant]`.
-pub(super) fn of(
-    definer: &mut Definer<'_>,
-    names: &Names,
-    columns: &[Quantity],
-    folder: &Path,
-) -> Option<Doubts> {
-    let known = known(definer, names, columns)?;
-    let file = file(definer, &known);
-    let text = definer.source.text.clone();
-    let budget = match checked(file, &text, folder) {
-        Ok(budget) => budget,
+pub(crate) fn of(checker: &mut Checker<'_>, names: &Names, columns: &[Quantity]) -> Option<Doubts> {
+    let known = known(checker, names, columns)?;
+    let tables = tables(checker, &known);
+    let readings = known.iter().filter(|one| one.is_reading);
+    let readings: Vec<String> = readings.map(Known::own_name).collect();
+    let text = &checker.source.text;
+    let (units, files, folder) = (&checker.units, checker.files, checker.folder);
+    let stated = match quantities(&tables, &readings, units, text, files, folder) {
+        Ok(stated) => stated,
         Err(faults) => {
-            definer.faults.extend(faults.into_iter().filter(is_own));
+            checker.faults.extend(faults);
             return None;
         }
     };
@@ -60,31 +55,30 @@ pub(super) fn of(
         inputs: Vec::new(),
         doubts: Vec::new(),
         priors: Vec::new(),
-        constants: budget
+        constants: stated
             .constants
             .iter()
-            .filter(|constant| constant.name != PLACEHOLDER)
             .filter(|constant| !known.iter().any(|one| one.own_name() == constant.name))
             .map(|c| (c.name.clone(), c.unit.clone(), c.values.clone()))
             .collect(),
-        coverage_probability: budget.conventions.coverage_probability,
-        remarks: budget.remarks.clone(),
+        coverage_probability: stated.conventions.coverage_probability,
+        remarks: stated.remarks.clone(),
     };
-    let parameters: Vec<&String> = entries(&definer.source.table.parameter)
+    let parameters: Vec<&String> = entries(&checker.source.table.parameter)
         .iter()
         .map(|(name, _)| name)
         .collect();
     for one in known.iter().filter(|one| !one.is_reading) {
-        let value = value_of(&budget, one);
+        let value = value_of(&stated, one);
         if parameters.iter().any(|name| *name == one.name) {
-            let prior = prior(&budget, one, value);
+            let prior = prior(&stated, one, value);
             if prior.u > 0.0 {
                 doubts
                     .priors
                     .push((one.name.to_owned(), one.unit.clone(), prior));
                 continue;
             }
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(
                     KEY,
                     one.entry.key.clone(),
@@ -98,7 +92,7 @@ pub(super) fn of(
             );
             return None;
         }
-        let own = entries(&definer.source.table.input);
+        let own = entries(&checker.source.table.input);
         let table = own
             .iter()
             .find(|(name, _)| name == one.name)
@@ -116,27 +110,20 @@ pub(super) fn of(
         .iter()
         .map(|input| input.name.clone())
         .collect();
-    doubts.doubts = components::of(definer, &budget, &known, &inputs)?;
+    doubts.doubts = components::of(checker, &stated, &known, &inputs)?;
     Some(doubts)
-}
-
-/// A budget must have an uncertain input; this one is in none of its formulas' meaning.
-const PLACEHOLDER: &str = "nothing_else_is_uncertain";
-
-fn is_own(fault: &Fault) -> bool {
-    !fault.message.contains(PLACEHOLDER)
 }
 
 /// All inputs and readings with their units.
 fn known<'t>(
-    definer: &mut Definer<'t>,
+    checker: &mut Checker<'t>,
     names: &Names,
     columns: &[Quantity],
 ) -> Option<Vec<Known<'t>>> {
-    let before = definer.faults.len();
-    let source = definer.source;
+    let before = checker.faults.len();
+    let source = checker.source;
     let mut symbols: Vec<Symbol> = columns.iter().map(column_symbol).collect();
-    symbols.extend(constants(definer));
+    symbols.extend(constants(checker));
     let mut all = Vec::new();
     for (name, entry) in entries(&source.table.input) {
         if names.kind(name) == Some(Kind::Constant) {
@@ -150,14 +137,14 @@ fn known<'t>(
             && !source.listed.inputs.contains(name)
             && !source.listed.parameters.contains(name)
         {
-            definer
+            checker
                 .faults
                 .push(state_input(name, entry, source.procedure.as_ref()));
             continue;
         }
         let unit = match (&entry.value.input.unit, &entry.value.like) {
-            (Some(text), _) => definer.unit(text)?,
-            (None, Some(like)) => definer.unit_like(like, &symbols, &[])?,
+            (Some(text), _) => checker.unit(text)?,
+            (None, Some(like)) => checker.unit_like(like, &symbols, &[])?,
             (None, None) => Unit::one(),
         };
         symbols.push(column_symbol(&Quantity {
@@ -179,14 +166,14 @@ fn known<'t>(
             names
                 .responses
                 .contains(name)
-                .then(|| definer.response_unit(name))
+                .then(|| checker.planned_unit(name).unwrap_or_else(Unit::one))
         };
         let Some(own) = column
             .map(|column| column.unit.difference())
             .or_else(planned)
         else {
             let known: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(
                     KEY,
                     entry.key.clone(),
@@ -199,12 +186,12 @@ fn known<'t>(
         };
         let stated = entry.value.input.unit.as_ref();
         let unit = match stated {
-            Some(text) => definer.unit(text)?,
+            Some(text) => checker.unit(text)?,
             None => own.clone(),
         };
         let Some(conversion) = unit.difference().conversion_to(&own) else {
             let place = stated.map_or(entry.key.clone(), |text| text.span.clone());
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(
                     KEY,
                     place,
@@ -224,7 +211,7 @@ fn known<'t>(
     }
     for one in &all {
         if let Some(values) = &one.table().values {
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(
                     KEY,
                     values.key.clone(),
@@ -235,7 +222,7 @@ fn known<'t>(
             );
         }
         if let Some(from) = &one.table().from {
-            definer.faults.push(
+            checker.faults.push(
                 Fault::new(
                     KEY,
                     from.key.clone(),
@@ -246,12 +233,12 @@ fn known<'t>(
             );
         }
     }
-    (definer.faults.len() == before).then_some(all)
+    (checker.faults.len() == before).then_some(all)
 }
 
 /// Constants as far as their units can be read; their check tells what is wrong with the others.
-fn constants(definer: &Definer<'_>) -> Vec<Symbol> {
-    let entries = entries(&definer.source.table.constant).iter();
+fn constants(checker: &Checker<'_>) -> Vec<Symbol> {
+    let entries = entries(&checker.source.table.constant).iter();
     let symbol = |(name, entry): &(String, Stated<ConstantEntry>)| {
         let table = &entry.value.0;
         let own = table.unit.as_ref().map(|text| text.value.as_str());
@@ -260,7 +247,7 @@ fn constants(definer: &Definer<'_>) -> Vec<Symbol> {
             .as_ref()
             .and_then(|value| value.value.unit.as_ref());
         let text = own.or(amount.map(|(text, _)| text.as_str()));
-        let unit = text.map_or(Some(Unit::one()), |text| definer.units.parse(text).ok())?;
+        let unit = text.map_or(Some(Unit::one()), |text| checker.units.parse(text).ok())?;
         Some(column_symbol(&Quantity {
             name: name.clone(),
             unit,
@@ -294,94 +281,56 @@ fn state_input(
         ))
 }
 
-/// The budget that the check sees.
-fn file(definer: &Definer<'_>, known: &[Known<'_>]) -> FileTable {
-    let table = &definer.source.table;
+/// The quantities as the check of a budget's quantities reads them.
+fn tables(checker: &Checker<'_>, known: &[Known<'_>]) -> FileTable {
+    let table = &checker.source.table;
     let mut inputs = Vec::new();
     let mut constants: Vec<(String, Stated<ConstantEntry>)> = entries(&table.constant).to_vec();
-    let mut measurands = Vec::new();
     for one in known {
-        let name = one.own_name();
-        let unit = Some(at(one.unit.symbol.clone(), &one.entry.key));
-        let zero = at(
-            Amount {
-                number: 0.0,
-                unit: None,
-            },
-            &one.entry.key,
-        );
-        let value = one.table().value.clone().or(Some(zero));
+        let key = &one.entry.key;
+        let unit = Some(at(one.unit.symbol.clone(), key));
+        let zero = Amount {
+            number: 0.0,
+            unit: None,
+        };
+        let value = one.table().value.clone().or_else(|| Some(at(zero, key)));
         if one.is_exact() {
             let constant = ConstantEntry(ConstantTable {
                 value,
-                unit: unit.clone(),
+                unit,
                 ..ConstantTable::default()
             });
-            constants.push((name.clone(), at(constant, &one.entry.key)));
+            constants.push((one.own_name(), at(constant, key)));
         } else {
-            let mut input = one.table().clone();
-            input.value = value;
-            input.unit.clone_from(&unit);
-            inputs.push((
-                name.clone(),
-                Stated {
-                    value: input,
-                    span: one.entry.span.clone(),
-                    key: one.entry.key.clone(),
-                },
-            ));
+            let input = InputTable {
+                value,
+                unit,
+                ..one.table().clone()
+            };
+            inputs.push((one.own_name(), one.entry.map(|_| input.clone())));
         }
-        measurands.push(measurand(&name, unit, &one.entry.key));
     }
-    for (name, entry) in entries(&table.constant) {
-        let unit = entry.value.0.unit.clone();
-        measurands.push(measurand(name, unit, &entry.key));
-    }
-    let nowhere = 0..0;
-    let mut filler = InputTable {
-        value: Some(at(
-            Amount {
-                number: 0.0,
-                unit: None,
-            },
-            &nowhere,
-        )),
-        ..InputTable::default()
-    };
-    filler.component.u = Some(at(
-        gumption_gum::budget::variants::Amounts::One(Amount {
-            number: 1.0,
-            unit: None,
-        }),
-        &nowhere,
-    ));
-    filler.component.present.push(("u", nowhere.clone()));
-    inputs.push((PLACEHOLDER.to_owned(), at(filler, &nowhere)));
-    measurands.push(measurand(PLACEHOLDER, None, &nowhere));
     FileTable {
-        title: table.title.clone(),
         date: table.date.clone(),
         profile: table.profile.clone(),
         conventions: table.conventions.clone(),
         monte_carlo: table.monte_carlo.clone(),
-        unit: table.unit.clone(),
-        constant: Some(at(named(constants), &nowhere)),
-        measurand: Some(at(named(measurands), &nowhere)),
-        input: Some(at(named(inputs), &nowhere)),
-        source: Some(at(Sources(named(shared(definer))), &nowhere)),
-        correlation: correlation(definer, known),
+        constant: Some(at(named(constants), &(0..0))),
+        input: Some(at(named(inputs), &(0..0))),
+        source: Some(at(Sources(named(shared(checker))), &(0..0))),
+        correlation: correlation(checker, known),
         ..FileTable::default()
     }
 }
 
 /// Shared causes as those of a budget.
-fn shared(definer: &Definer<'_>) -> Vec<(String, Stated<SourceTable>)> {
+fn shared(checker: &Checker<'_>) -> Vec<(String, Stated<SourceTable>)> {
     let table = |entry: &Stated<SharedTable>| Stated {
         value: entry.value.source.clone(),
         span: entry.span.clone(),
         key: entry.key.clone(),
     };
-    let stated = entries(&definer.source.table.source).iter();
+    let stated = entries(&checker.source.table.source).iter();
     stated
         .map(|(name, entry)| (name.clone(), table(entry)))
         .collect()
@@ -389,10 +338,10 @@ fn shared(definer: &Definer<'_>) -> Vec<(String, Stated<SourceTable>)> {
 
 /// Correlations by the names that inputs and readings have in the budget.
 fn correlation(
-    definer: &Definer<'_>,
+    checker: &Checker<'_>,
     known: &[Known<'_>],
 ) -> Option<Stated<OneOrMany<CorrelationTable>>> {
-    let mut stated = definer.source.table.correlation.clone()?;
+    let mut stated = checker.source.table.correlation.clone()?;
     let names = stated
         .value
         .0
@@ -413,19 +362,6 @@ fn correlation(
     Some(stated)
 }
 
-fn measurand(
-    name: &str,
-    unit: Option<Stated<String>>,
-    place: &std::ops::Range<usize>,
-) -> (String, Stated<MeasurandTable>) {
-    let table = MeasurandTable {
-        model: Some(at(name.to_owned(), place)),
-        unit,
-        ..MeasurandTable::default()
-    };
-    (format!("evaluation_of_{name}"), at(table, place))
-}
-
 fn named<T>(entries: Vec<(String, Stated<T>)>) -> Named<T> {
     Named {
         entries,
@@ -441,31 +377,27 @@ fn at<T>(value: T, place: &std::ops::Range<usize>) -> Stated<T> {
     }
 }
 
-fn value_of(budget: &Budget, one: &Known<'_>) -> f64 {
+fn value_of(stated: &Quantities, one: &Known<'_>) -> f64 {
     let name = one.own_name();
-    let input = budget.inputs.iter().find(|input| input.name == name);
-    let constant = || {
-        budget
-            .constants
-            .iter()
-            .find(|constant| constant.name == name)
-    };
+    let input = stated.inputs.iter().find(|input| input.name == name);
+    let mut constants = stated.constants.iter();
     match input {
         Some(input) => input.estimate,
-        None => constant()
-            .and_then(|c| c.values.first().copied())
+        None => constants
+            .find(|constant| constant.name == name)
+            .and_then(|constant| constant.values.first().copied())
             .unwrap_or(0.0),
     }
 }
 
 /// What an input says of the parameter of its name.
-fn prior(budget: &Budget, one: &Known<'_>, value: f64) -> Prior {
+fn prior(stated: &Quantities, one: &Known<'_>, value: f64) -> Prior {
     let name = one.own_name();
-    let input = budget.inputs.iter().find(|input| input.name == name);
+    let input = stated.inputs.iter().find(|input| input.name == name);
     let terms = input.iter().flat_map(|input| &input.terms);
     let parts: Vec<(f64, f64)> = terms
         .map(|term| {
-            let component = &budget.components[term.component];
+            let component = &stated.components[term.component];
             (component.u * term.coefficient, component.dof)
         })
         .collect();

@@ -1,12 +1,12 @@
 //! An input or a reading before its check.
 
-use crate::experiment::tables::KnownTable;
+use super::tables::KnownTable;
 use gumption_core::quantity::Unit;
 use gumption_format::toml::Stated;
 use gumption_gum::budget::tables::InputTable;
 
 /// A quantity before its check.
-pub(super) struct Known<'t> {
+pub(crate) struct Known<'t> {
     pub name: &'t str,
     pub entry: &'t Stated<KnownTable>,
     pub unit: Unit,
@@ -16,10 +16,10 @@ pub(super) struct Known<'t> {
 }
 
 impl Known<'_> {
-    /// Readings and inputs may have the same name; in the budget they may not.
+    /// Readings and inputs may have the same name; among quantities they may not.
     pub fn own_name(&self) -> String {
         match self.is_reading {
-            true => format!("{}_reading", self.name),
+            true => format!("{} (reading)", self.name),
             false => self.name.to_owned(),
         }
     }

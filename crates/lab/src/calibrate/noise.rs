@@ -1,0 +1,157 @@
+//! The noise that `[noise]` states: an error of each reading.
+
+use super::points::Points;
+use crate::experiment::at_rest::Headed;
+use crate::experiment::checker::Checker;
+use crate::experiment::faults::NOISE;
+use crate::experiment::noise::Way;
+use crate::experiment::source::entries;
+use crate::experiment::{Act, Doubt, Experiment, Observed, Purpose, Scope, Target};
+use gumption_core::distribution::{Distribution, Normal};
+use gumption_core::quantity::Unit;
+use gumption_fault::Fault;
+use gumption_format::toml::Stated;
+use gumption_gum::budget::Evaluation;
+
+/// Standard uncertainty with its degrees of freedom.
+type Scatter = (f64, f64);
+
+/// Adds the stated noise to the errors of the readings; whether there is one, `None` after a fault.
+pub(super) fn add(
+    checker: &mut Checker<'_>,
+    points: &Points,
+    experiment: &mut Experiment,
+) -> Option<bool> {
+    let before = checker.faults.len();
+    let Some((way, _)) = checker.noise_way(false) else {
+        return (checker.faults.len() == before).then_some(false);
+    };
+    let columns = experiment
+        .observed
+        .iter()
+        .filter_map(|observed| match observed {
+            Observed::Column(name) => experiment.columns.iter().find(|c| c.name == *name),
+            _ => None,
+        });
+    let outputs: Vec<(String, Unit)> = columns
+        .map(|column| (column.name.clone(), column.unit.difference()))
+        .collect();
+    let found: Vec<Scatter> = match way {
+        Way::From(_) => return Some(false),
+        // Before there are readings, only what is stated tells their noise.
+        Way::Replicates(_) if checker.purpose == Purpose::Plan => return Some(false),
+        Way::Stated(u, dof) => {
+            let units: Vec<&Unit> = outputs.iter().map(|(_, unit)| unit).collect();
+            let u = checker.noise_in(u, &units)?.into_iter();
+            u.map(|u| (u, dof)).collect()
+        }
+        Way::Budget(path) => {
+            let (u, dof) = checker.noise_of_budget(path, &outputs)?;
+            u.into_iter().map(|u| (u, dof)).collect()
+        }
+        Way::AtRest(stated) => {
+            let headed: Vec<Headed> = outputs.iter().map(|of| headed(checker, of)).collect();
+            let rest = checker.at_rest(stated, &headed, None)?;
+            rest.iter()
+                .map(|rest| pooled([rest.readings.as_slice()]))
+                .collect()
+        }
+        Way::Replicates(columns) => replicates(checker, points, columns, &outputs)?,
+    };
+    for ((name, unit), (u, dof)) in outputs.into_iter().zip(found) {
+        experiment.doubts.push(Doubt {
+            name: format!("{name}.noise"),
+            acts: vec![Act {
+                on: Target::Reading(name),
+                coefficient: 1.0,
+            }],
+            scope: Scope::Each,
+            u,
+            dof,
+            unit,
+            distribution: Distribution::Normal(Normal { mean: 0.0, sd: u }),
+            evaluation: match dof.is_finite() {
+                true => Evaluation::TypeA,
+                false => Evaluation::TypeB,
+            },
+            how: "u".to_owned(),
+        });
+    }
+    Some(true)
+}
+
+/// An output as the recording heads it.
+fn headed(checker: &Checker<'_>, (name, unit): &(String, Unit)) -> Headed {
+    let mut declared = entries(&checker.source.table.columns).iter();
+    let table = declared.find(|(other, _)| other == name);
+    let header = table.and_then(|(_, entry)| entry.value.0.column.as_ref());
+    Headed {
+        name: name.clone(),
+        header: header.map_or(name, |header| &header.value).clone(),
+        unit: unit.clone(),
+    }
+}
+
+/// Standard deviation about the means of groups, with its degrees of freedom.
+fn pooled<'g>(groups: impl IntoIterator<Item = &'g [f64]>) -> Scatter {
+    let (mut sum, mut dof) = (0.0, 0.0);
+    for group in groups {
+        let mean = group.iter().sum::<f64>() / group.len() as f64;
+        sum += group.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+        dof += group.len() as f64 - 1.0;
+    }
+    ((sum / dof).sqrt(), dof)
+}
+
+/// The scatter of points that agree in all of these columns.
+fn replicates(
+    checker: &mut Checker<'_>,
+    points: &Points,
+    columns: &[Stated<String>],
+    outputs: &[(String, Unit)],
+) -> Option<Vec<Scatter>> {
+    let mut keys: Vec<Vec<String>> = vec![Vec::new(); points.len()];
+    for column in columns {
+        let number = |row: usize| Some(points.column(&column.value)?.values[row].to_string());
+        let label = |row: usize| Some(points.labels(&column.value)?.text(row).to_owned());
+        for (row, key) in keys.iter_mut().enumerate() {
+            let Some(own) = label(row).or_else(|| number(row)) else {
+                let message = format!("the experiment has no column {}", column.value);
+                let fault = Fault::new(NOISE, column.span.clone(), message);
+                return checker.refuse(fault.label("expected a column of the recording"));
+            };
+            key.push(own);
+        }
+    }
+    let mut distinct = keys.clone();
+    distinct.sort();
+    distinct.dedup();
+    let scatter = |(name, _): &(String, Unit)| {
+        let values = &points.column(name)?.values;
+        let groups: Vec<Vec<f64>> = distinct
+            .iter()
+            .map(|key| {
+                let own = keys.iter().zip(values).filter(|(other, _)| *other == key);
+                own.map(|(_, value)| *value)
+                    .filter(|value| value.is_finite())
+                    .collect()
+            })
+            .filter(|group: &Vec<f64>| group.len() > 1)
+            .collect();
+        let (u, dof) = pooled(groups.iter().map(Vec::as_slice));
+        (u > 0.0).then_some((u, dof))
+    };
+    let found: Option<Vec<Scatter>> = outputs.iter().map(scatter).collect();
+    if found.is_none() {
+        let place = columns.first().map_or(0..0, |column| column.span.clone());
+        let fault = Fault::new(
+            NOISE,
+            place,
+            "no rows agree in these columns, or they do not scatter",
+        );
+        checker
+            .faults
+            .push(fault.label("rows that agree are replicates"));
+    }
+    found
+}

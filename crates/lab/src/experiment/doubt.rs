@@ -1,0 +1,85 @@
+//! What is known of quantities, and why it is doubted.
+
+use gumption_core::distribution::Distribution;
+use gumption_core::quantity::Unit;
+use gumption_gum::budget::Evaluation;
+
+use super::words::Words;
+
+/// What is known of a parameter before the calibration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prior {
+    /// Its value.
+    pub value: f64,
+    /// Its standard uncertainty.
+    pub u: f64,
+    /// Degrees of freedom of `u`.
+    pub dof: f64,
+}
+
+/// An error of a reference, or a quantity of the set-up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Input {
+    /// As the equations call it.
+    pub name: String,
+    /// What it is.
+    pub description: Option<Words>,
+    /// Its unit.
+    pub unit: Unit,
+    /// Its value.
+    pub value: f64,
+}
+
+/// On which points one error acts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Scope {
+    /// One error acts on all.
+    Common,
+    /// Each point has its own.
+    Each,
+    /// Points with the same label in this column share one.
+    By(String),
+}
+
+/// A reason for doubt: an error of expectation zero.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Doubt {
+    /// As the file calls it: `e_rate`, `R.calibration`.
+    pub name: String,
+    /// What it acts on.
+    pub acts: Vec<Act>,
+    /// On which points one error acts.
+    pub scope: Scope,
+    /// Its standard uncertainty.
+    pub u: f64,
+    /// Degrees of freedom of `u`.
+    pub dof: f64,
+    /// Unit of the error.
+    pub unit: Unit,
+    /// Its distribution.
+    pub distribution: Distribution,
+    /// Type A or B.
+    pub evaluation: Evaluation,
+    /// How `u` follows from what the file states.
+    pub how: String,
+}
+
+/// What an error acts on.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Act {
+    /// The quantity.
+    pub on: Target,
+    /// Change of the quantity per unit of the error.
+    pub coefficient: f64,
+}
+
+/// A quantity that errors act on.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Target {
+    /// An input, by its place among the inputs.
+    Input(usize),
+    /// The readings of a column, by its name.
+    Reading(String),
+}

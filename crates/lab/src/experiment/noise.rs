@@ -1,0 +1,170 @@
+//! What a file says of the noise of its readings: one way of saying it, checked.
+
+use std::ops::Range;
+
+use super::checker::Checker;
+use super::faults::NOISE;
+use super::tables::{NoiseTable, NoiseWord};
+use gumption_core::quantity::Unit;
+use gumption_fault::{Fault, Rejection};
+use gumption_format::toml::{Amount, Stated};
+use gumption_gum::budget::{self, Loaded};
+use gumption_gum::propagate::{self, Freedom};
+
+/// The ways of `[noise]`, of which a file takes one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Way<'t> {
+    /// A standard uncertainty with its degrees of freedom.
+    Stated(&'t Stated<Amount>, f64),
+    /// Rows that agree in these columns differ by noise only.
+    Replicates(&'t [Stated<String>]),
+    /// A recording at rest.
+    AtRest(&'t Stated<super::tables::StaticTable>),
+    /// A budget.
+    Budget(&'t Stated<String>),
+    /// What a word says.
+    From(NoiseWord),
+}
+
+impl<'s> Checker<'s> {
+    /// The way in which the noise is stated, and its place; `None` where nothing is, or after a fault.
+    /// `per_row`: a column holds it.
+    pub fn noise_way(&mut self, per_row: bool) -> Option<(Way<'s>, Range<usize>)> {
+        let stated = self.source.table.noise.as_ref()?;
+        let table = &stated.value;
+        let dof = table.dof.as_ref().map_or(f64::INFINITY, |dof| dof.value.0);
+        let ways = [
+            ("`u`", table.u.as_ref().map(|u| Way::Stated(u, dof))),
+            (
+                "`replicates`",
+                table
+                    .replicates
+                    .as_ref()
+                    .map(|r| Way::Replicates(&r.value.0)),
+            ),
+            ("`at_rest`", table.at_rest.as_ref().map(Way::AtRest)),
+            ("`budget`", table.budget.as_ref().map(Way::Budget)),
+            (
+                "`from`",
+                table.from.as_ref().map(|from| Way::From(from.value)),
+            ),
+        ];
+        // A column of the role "u" is what `from = "stated"` means.
+        let is_column = |way: &Way<'_>| per_row && matches!(way, Way::From(NoiseWord::Stated));
+        let there = ways.into_iter().filter_map(|(key, way)| Some((key, way?)));
+        let mut there: Vec<(&str, Way<'s>)> = there.filter(|(_, way)| !is_column(way)).collect();
+        let before = self.faults.len();
+        let column = per_row.then_some("a column with the role \"u\"");
+        let said: Vec<&str> = there.iter().map(|(key, _)| *key).chain(column).collect();
+        if said.len() != 1 && !table.refused {
+            self.faults.push(not_one_way(stated.span.clone(), &said));
+        }
+        if dof <= 0.0 {
+            let message = "degrees of freedom are positive";
+            self.faults
+                .push(Fault::new(NOISE, stated.span.clone(), message));
+        }
+        self.only_with_u(table);
+        let (_, way) = there.pop()?;
+        (self.faults.len() == before && said.len() == 1).then(|| (way, stated.span.clone()))
+    }
+
+    /// The noise that a budget claims for outputs of these names and units of differences, with its degrees of
+    /// freedom.
+    pub fn noise_of_budget(
+        &mut self,
+        path: &Stated<String>,
+        outputs: &[(String, Unit)],
+    ) -> Option<(Vec<f64>, f64)> {
+        let loaded = budget::load_from(self.files, &self.folder.join(&path.value), None);
+        match of_budget(&loaded, &path.value, outputs) {
+            Ok(found) => Some(found),
+            Err(message) => self.refuse(Fault::new(NOISE, path.span.clone(), message)),
+        }
+    }
+
+    fn only_with_u(&mut self, table: &NoiseTable) {
+        let with_u = [("walk", &table.walk), ("resolution", &table.resolution)];
+        for (key, stated) in with_u {
+            if let (Some(stated), None) = (stated, &table.u) {
+                let fault =
+                    Fault::new(NOISE, stated.span.clone(), format!("`{key}` goes with `u`"));
+                self.faults.push(fault.label("`u` is missing"));
+            }
+        }
+    }
+
+    /// One stated u for outputs in these units. Without a unit of its own it is in theirs, which must be one.
+    pub fn noise_in(&mut self, u: &Stated<Amount>, units: &[&Unit]) -> Option<Vec<f64>> {
+        let first = units.first();
+        let differs = |unit: &&&Unit| first.is_some_and(|first| first.symbol != unit.symbol);
+        if u.value.unit.is_none()
+            && let (Some(first), Some(other)) = (first, units.iter().find(differs))
+        {
+            let message = format!(
+                "the noise has no unit, and the outputs are in {} and in {}",
+                first.symbol, other.symbol
+            );
+            return self.refuse(Fault::new(NOISE, u.span.clone(), message)
+                .label("in which unit?")
+                .help("state it with its unit, or for each output below [reading.NAME] with from = \"stated\""));
+        }
+        units.iter().map(|unit| self.spread(u, unit)).collect()
+    }
+}
+
+/// The standard uncertainty that a budget claims for each output, in its unit, with the fewest degrees of freedom:
+/// that of the measurand of its name, or of the only one.
+fn of_budget(
+    loaded: &Result<Loaded, Rejection>,
+    path: &str,
+    outputs: &[(String, Unit)],
+) -> Result<(Vec<f64>, f64), String> {
+    let loaded = loaded.as_ref().map_err(|rejection| {
+        let first = rejection.faults.first();
+        let first = first.map_or_else(String::new, |fault| fault.message.clone());
+        format!("the budget {path} is refused: {first}")
+    })?;
+    let row = loaded.rows.first().ok_or("the budget is empty")?;
+    let options = propagate::Options {
+        monte_carlo: propagate::MonteCarloChoice::Off,
+        ..propagate::Options::default()
+    };
+    let evaluation = propagate::evaluate(&row.budget, &options)
+        .map_err(|_| "the budget has no result".to_owned())?;
+    let claimed = row.budget.model.outputs();
+    let mut u = Vec::new();
+    let mut least = f64::INFINITY;
+    for (name, unit) in outputs {
+        let named = claimed.iter().position(|output| output.name == *name);
+        let only = (claimed.len() == 1).then_some(0);
+        let at = named.or(only);
+        let at = at.ok_or_else(|| format!("the budget has no measurand {name}"))?;
+        let own = claimed[at].unit.difference();
+        let conversion = own.conversion_to(unit).ok_or_else(|| {
+            let (own, unit) = (&own.symbol, &unit.symbol);
+            format!("{name} is in {own} in the budget and in {unit} here")
+        })?;
+        let gum = &evaluation.results[at].gum;
+        u.push(conversion.apply(gum.u));
+        least = least.min(match gum.freedom {
+            Freedom::WelchSatterthwaite(dof) | Freedom::Ensembles(dof) => dof,
+            Freedom::Refused { lower_bound, .. } => lower_bound,
+            Freedom::Infinite => f64::INFINITY,
+        });
+    }
+    Ok((u, least))
+}
+
+/// Noise that is claimed twice, or not at all.
+fn not_one_way(span: Range<usize>, present: &[&str]) -> Fault {
+    let fault = Fault::new(NOISE, span, "the noise is to be stated in one way");
+    if present.is_empty() {
+        return fault.label(
+            "expected one of `u`, `replicates`, `at_rest`, `budget`, `from`, or a column \"u\"",
+        );
+    }
+    fault
+        .label(format!("stated by {}", present.join(" and ")))
+        .help("keep one of them")
+}

@@ -94,10 +94,14 @@ impl Checker<'_> {
         let Some(experiment) = self.experiment(&names, &quantities(&columns, &names)) else {
             return Ok(None);
         };
+        let differs = |used: &Quantity| {
+            let mut own = columns.iter().filter(|column| column.name == used.name);
+            own.any(|column| column.unit != used.unit)
+        };
+        // All columns or none: what the equations do not use may stand in explanations of the user's own.
+        let as_differences = experiment.columns.iter().any(differs);
         for column in &mut columns {
-            let mut used = experiment.columns.iter();
-            let used = used.find(|used| used.name == column.name);
-            column.as_difference = used.is_some_and(|used| used.unit != column.unit);
+            column.as_difference = as_differences && column.unit.is_point();
         }
         let mut constants = experiment.constants.clone();
         let unknowns = self.unknowns(&experiment, &names, &mut columns, &mut constants, rows);

@@ -36,17 +36,23 @@ pub fn budget(bytes: &[u8]) {
 
 /// A budget file, evaluated, and everything that is said of it in every form.
 pub fn statement(bytes: &[u8]) {
-    let Some(budgets) = budgets(bytes) else { return };
+    let Some(budgets) = budgets(bytes) else {
+        return;
+    };
     evaluated(&budgets);
 }
 
 /// Formulas over inputs of several units.
 pub fn language(bytes: &[u8]) {
-    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return;
+    };
     let units = UnitTable::default();
     let symbol = |(name, unit, role): (&str, &str, Role)| Symbol {
         name: name.to_string(),
-        unit: units.parse(unit).unwrap_or_else(|_| gumption::quantity::Unit::one()),
+        unit: units
+            .parse(unit)
+            .unwrap_or_else(|_| gumption::quantity::Unit::one()),
         role,
     };
     let symbols: Vec<Symbol> = [
@@ -91,7 +97,9 @@ pub fn language(bytes: &[u8]) {
 
 /// A unit, and a definition by it; what is read once is read again from its own symbol.
 pub fn units(bytes: &[u8]) {
-    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return;
+    };
     let mut units = UnitTable::default();
     if let Ok(unit) = units.parse(text) {
         assert_eq!(units.parse(&unit.symbol).as_ref(), Ok(&unit));
@@ -117,10 +125,15 @@ pub fn csv(bytes: &[u8]) {
 
 /// An experiment, with the recordings of the library beside it.
 pub fn experiment(bytes: &[u8]) {
-    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let Ok(text) = std::str::from_utf8(bytes) else {
+        return;
+    };
     let folder = root().join("experiments");
     for purpose in [Purpose::Calibrate, Purpose::Plan] {
-        match (calibrate::read(text, "experiment.toml", &folder, purpose), purpose) {
+        match (
+            calibrate::read(text, "experiment.toml", &folder, purpose),
+            purpose,
+        ) {
             (Err(rejection), _) => said(&rejection),
             (Ok(read), Purpose::Calibrate) => {
                 if let Ok(found) = calibrate::calibrate(&read) {
@@ -179,7 +192,9 @@ fn evaluated(budgets: &[Budget]) {
         ..Options::default()
     };
     for budget in budgets.iter().take(MOST) {
-        let Ok(evaluation) = propagate::evaluate(budget, &options) else { continue };
+        let Ok(evaluation) = propagate::evaluate(budget, &options) else {
+            continue;
+        };
         for language in [Language::English, Language::Chinese] {
             let report = Report {
                 budget,
@@ -204,7 +219,10 @@ fn said(rejection: &Rejection) {
 /// A document in every form.
 fn shown(document: &gumption::document::Document) {
     for format in FORMATS {
-        harmless(&String::from_utf8_lossy(&(format.render)(document, &Page::default())));
+        harmless(&String::from_utf8_lossy(&(format.render)(
+            document,
+            &Page::default(),
+        )));
     }
 }
 

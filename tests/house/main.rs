@@ -1,10 +1,12 @@
 //! The house keeps its shape: what may use what, which packages a library may ask for, and how many places an
 //! addition touches. Everything is read from the sources.
 
+mod dependencies;
 mod lexer;
 mod matrix;
 mod modules;
 mod rings;
+mod sources;
 mod walks;
 
 #[path = "../common/files.rs"]

@@ -60,10 +60,18 @@ const WALKS: [Walk; 4] = [
 
 /// Words of the sources outside of tests.
 fn sources() -> Vec<(String, BTreeSet<String>)> {
+    let word = |token: &Token| token.0.trim_matches(['"', '#']).to_owned();
+    let lists = token_lists().into_iter();
+    lists
+        .map(|(file, tokens)| (file, tokens.iter().map(word).collect()))
+        .collect()
+}
+
+/// The sources outside of tests.
+pub fn token_lists() -> Vec<(String, Vec<Token>)> {
     let (mut found, mut tests) = (Vec::new(), Vec::new());
     for path in ["src", "crates"].map(|folder| files(folder, "rs")).concat() {
         let (tokens, for_tests) = tokens(&std::fs::read_to_string(&path).expect("a source"));
-        let word = |token: &Token| token.0.trim_matches(['"', '#']).to_owned();
         let file = relative(&path);
         let stem = file.trim_end_matches(".rs");
         let folder = ["/mod", "/lib", "/main"]
@@ -71,7 +79,7 @@ fn sources() -> Vec<(String, BTreeSet<String>)> {
             .find_map(|root| stem.strip_suffix(root));
         let folder = folder.unwrap_or(stem);
         tests.extend(for_tests.iter().map(|test| format!("{folder}/{test}")));
-        found.push((file.clone(), tokens.iter().map(word).collect()));
+        found.push((file.clone(), tokens));
     }
     let is_test = |file: &str| {
         let of = |test: &String| file.strip_prefix(test.as_str());

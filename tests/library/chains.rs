@@ -484,3 +484,37 @@ fn follows(value: &serde_json::Value, schema: &serde_json::Value, path: &str) {
         assert!(object.contains_key(key), "{path}.{key} is missing");
     }
 }
+
+/// A thread of a test has the smallest stack that is usual; a chain that is too long for it is refused.
+#[test]
+fn a_chain_has_an_end() {
+    let budgets = |count: usize| -> Vec<(String, String)> {
+        let input = |index: usize| match index + 1 < count {
+            true => format!("from = {{ budget = \"{}.toml\" }}", index + 1),
+            false => "value = 1, u = 0.1".to_owned(),
+        };
+        let text = |index| {
+            format!(
+                "title = \"c\"\n[measurand.Y]\nmodel = \"x\"\nunit = \"1\"\n[input]\nx = {{ {} }}\n",
+                input(index)
+            )
+        };
+        (0..count)
+            .map(|index| (format!("{index}.toml"), text(index)))
+            .collect()
+    };
+    let read = |count: usize| {
+        let texts = budgets(count);
+        let files: Vec<(&str, &[u8])> = texts
+            .iter()
+            .map(|(name, text)| (name.as_str(), text.as_bytes()))
+            .collect();
+        gumption::read(gumption::Files::Library(&files), "0.toml").map(|read| read.len())
+    };
+    assert_eq!(read(33), Ok(1));
+    let refused = read(3000).expect_err("too long").to_string();
+    assert!(
+        refused.contains("error[B0707]: more than 32 budgets"),
+        "{refused}"
+    );
+}

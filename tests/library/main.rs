@@ -12,6 +12,7 @@ mod common;
 mod bit_identity;
 mod budgets;
 mod chains;
+mod fuzzed;
 mod independent;
 mod interruption;
 mod peers;

@@ -22,6 +22,8 @@ pub use place::located;
 pub use score::{Finding, Graded, GradedEffect, grade};
 pub use vocabulary::accepts;
 
+use gumption_format::files::Files;
+
 use super::files::{CASE, CaseFile};
 use super::truth::{Truth, seal};
 
@@ -45,7 +47,9 @@ pub enum Refused {
 /// When a file is missing, or a seal does not hold.
 pub fn sealed_truth(folder: &Path) -> Result<Truth, Refused> {
     let read = |path: PathBuf| {
-        std::fs::read_to_string(&path).map_err(|error| Refused::Unreadable(path, error.to_string()))
+        let bytes = Files::Disk.read(&path);
+        let text = bytes.map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+        text.map_err(|error| Refused::Unreadable(path, error.to_string()))
     };
     let truth_path = folder.join("truth.json");
     let truth_text = read(truth_path.clone())?;

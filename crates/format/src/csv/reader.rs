@@ -174,7 +174,7 @@ pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejectio
             "the path starts from the folder of the file that names it",
         )
     })?;
-    decode(&bytes).map(|decoded| decoded.text).map_err(|error| {
+    let decoded = decode(&bytes).map_err(|error| {
         let Undecodable { byte, line } = error;
         let message =
             format!("{name} is neither UTF-8, UTF-16 nor GBK from byte {byte} on, in line {line}");
@@ -183,7 +183,34 @@ pub fn text_of(files: Files, path: &Path, name: &str) -> Result<String, Rejectio
             message,
             "save it as CSV in UTF-8: spreadsheets call it “CSV UTF-8”; or convert it, `iconv -f LATIN1 -t UTF-8 old.csv > new.csv`",
         )
-    })
+    })?;
+    match is_table(&decoded.text) {
+        true => Ok(decoded.text),
+        false => Err(refuse(
+            UNREADABLE,
+            format!("{name} is no table of values: no line below its first has a number"),
+            "name a CSV file with the names of columns in its first line",
+        )),
+    }
+}
+
+/// Whether a text may be a table of values; nothing is quoted of one that cannot be, as it may be anything.
+fn is_table(text: &str) -> bool {
+    /// Lines that are looked at.
+    const MOST: usize = 1000;
+    let number = |field: &str| {
+        let field = field.trim().trim_matches('"');
+        let time = |c: char| c.is_ascii_digit() || ":.-+TZ/ ".contains(c);
+        field.parse::<f64>().is_ok()
+            || (field.starts_with(|c: char| c.is_ascii_digit()) && field.chars().all(time))
+    };
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    lines.next().is_none()
+        || lines
+            .take(MOST)
+            .any(|line| line.split([',', ';', '\t']).any(number))
 }
 
 /// A column that is being read.

@@ -5,7 +5,7 @@ use std::path::Path;
 use gumption_fault::{Code, Fault, Rejection};
 use toml::de::DeTable;
 
-use super::faults::NOT_UTF8;
+use super::faults::{NOT_UTF8, TOML_SYNTAX};
 use super::syntax::{elsewhere, leaves_the_rest, syntax_faults};
 use super::table::{Hints, Reader, Table, read_table};
 
@@ -32,15 +32,32 @@ pub fn tables_of<T: Table>(
     Ok((read, faults))
 }
 
+/// Most bytes of a file: every value keeps its place, so that `1,` takes about 200 bytes. A correlation matrix of 2000
+/// quantities fits.
+const MOST_BYTES: usize = 16 << 20;
+
 /// The text of a file's bytes.
 ///
 /// # Errors
-/// It is not UTF-8.
+/// It is too large, not UTF-8, or nothing in it is written as TOML.
 pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
     let name = path.display().to_string();
-    String::from_utf8(bytes).map_err(|error| {
+    if bytes.len() > MOST_BYTES {
+        let (size, most) = (bytes.len() >> 20, MOST_BYTES >> 20);
+        let message = format!(
+            "{name} has {size} MiB of TOML; at most {most} MiB are read, as its values take a hundred times as much memory"
+        );
+        let help = "put long lists into a CSV file, and name that";
+        return Err(Rejection::new(
+            &name,
+            "",
+            vec![Fault::new(TOML_SYNTAX, 0..0, message).help(help)],
+        ));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
+        let shown = if is_toml(&valid) { valid.as_str() } else { "" };
         let fault = Fault::new(
             NOT_UTF8,
             at..at,
@@ -48,6 +65,28 @@ pub fn decoded(bytes: Vec<u8>, path: &Path) -> Result<String, Rejection> {
         )
         .label("the readable part ends here")
         .help("save the file as UTF-8");
-        Rejection::new(&name, &valid, vec![fault])
+        Rejection::new(&name, shown, vec![fault])
+    })?;
+    match text.trim().is_empty() || is_toml(&text) {
+        true => Ok(text),
+        false => {
+            let message = format!(
+                "{name} is no budget and no experiment: no line of it has the form `key = value`"
+            );
+            let fault = Fault::new(TOML_SYNTAX, 0..0, message);
+            let help = "name a file in TOML; `gumption new budget.toml` writes one to start from";
+            Err(Rejection::new(&name, "", vec![fault.help(help)]))
+        }
+    }
+}
+
+/// Whether a text may be TOML. Nothing is quoted of one that cannot be: it may be anything.
+fn is_toml(text: &str) -> bool {
+    let sign = |c: char| c.is_alphanumeric() || " \t_-.\"'“”‘’".contains(c);
+    text.lines().any(|line| {
+        let line = line.trim_start_matches(['\u{feff}', ' ', '\t']);
+        let key = line.split_once(['=', '＝']).map(|(key, _)| key.trim());
+        line.starts_with(['[', '［', '【', '#', '{'])
+            || key.is_some_and(|key| !key.is_empty() && key.chars().all(sign))
     })
 }

@@ -226,6 +226,10 @@ budget is read with `from = { budget = … }`.";
 SAVED_STALE = "B0706", "a file has changed since results were saved", "结果保存后文件已被修改",
 "A saved result and another file state the same component (the same file and name) differently, so that their \
 correlation is not known. Evaluate the changed budget again and save its results anew.";
+
+FROM_DEEP = "B0707", "too many budgets use one another", "评定文件逐层引用过深",
+"A chain of budgets may be 32 files deep. Save the result of one in between (`gumption eval FILE --save saved.json`) and go \
+on from it with `from = { result = … }`.";
 }
 
 #[cfg(test)]

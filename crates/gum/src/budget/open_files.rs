@@ -9,11 +9,27 @@ use std::rc::Rc;
 
 use super::checked::Loaded;
 use super::saved::SavedResults;
-use gumption_fault::Rejection;
+use gumption_fault::{Fault, Rejection};
 use gumption_format::files::Files;
+use gumption_format::toml::faults::UNREADABLE_FILE;
 
 /// Reads and checks a budget of this content.
 pub(super) type ReadBudget = fn(&OpenFiles<'_>, &Path, Vec<u8>) -> Result<Loaded, Rejection>;
+
+/// Most budgets below one another: a chain of calibrations has a few, and each takes its part of the stack, of which a
+/// thread has 2 MiB.
+pub(super) const DEEPEST: usize = 32;
+
+/// The rejection of another budget. Of a file that is none nothing is quoted, as it may be anything; a budget has a
+/// table of measurands.
+fn of_a_budget(rejection: Rejection) -> Rejection {
+    if rejection.text.is_empty() || rejection.text.contains("[measurand") {
+        return rejection;
+    }
+    let message = format!("{} is no budget: it has no [measurand]", rejection.name);
+    let fault = Fault::new(UNREADABLE_FILE, 0..0, message);
+    Rejection::new(&rejection.name, "", vec![fault.help("name a budget file")])
+}
 
 /// Files that have been read, and those that are being read.
 #[derive(Debug)]
@@ -42,6 +58,8 @@ pub(super) enum Missing {
     Circle(Vec<PathBuf>),
     /// It is not what it should be, in words.
     Unfit(String),
+    /// Too many budgets use one another, down to this one.
+    Deep,
 }
 
 impl<'a> OpenFiles<'a> {
@@ -71,11 +89,15 @@ impl<'a> OpenFiles<'a> {
         if let Some(known) = self.budgets.borrow().get(&identity) {
             return known.clone().ok_or(Missing::Refused);
         }
+        if self.open.borrow().len() > DEEPEST {
+            return Err(Missing::Deep);
+        }
         let bytes = self.bytes(path)?;
         let before = self.rejections.borrow().len();
         let loaded = match (self.read_budget)(self, path, bytes) {
             Ok(loaded) => Some(Rc::new(loaded)),
             Err(rejection) => {
+                let rejection = of_a_budget(rejection);
                 self.rejections.borrow_mut().insert(before, rejection);
                 None
             }

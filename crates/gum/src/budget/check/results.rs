@@ -6,9 +6,9 @@ use super::checker::Checker;
 use super::register::{InputEntry, Register, blank};
 use super::taken::{OtherResult, Taken};
 use crate::budget::faults::{
-    FROM, FROM_CIRCLE, FROM_MEASURAND, FROM_REFUSED, SAVED_RESULT, UNIT_CLASH,
+    FROM, FROM_CIRCLE, FROM_DEEP, FROM_MEASURAND, FROM_REFUSED, SAVED_RESULT, UNIT_CLASH,
 };
-use crate::budget::open_files::Missing;
+use crate::budget::open_files::{DEEPEST, Missing};
 use crate::budget::tables::{FromTable, InputTable};
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, nearest};
@@ -337,6 +337,12 @@ impl Checker<'_> {
                     .label(label)
                     .help("a result cannot depend on itself: put what both need into a third file")
             }
+            Missing::Deep => fault(
+                FROM_DEEP,
+                format!("more than {DEEPEST} budgets use one another, down to {name}"),
+            )
+            .label("one too many")
+            .help("save the result of a budget in between with --save, and go on from it with `from = { result = … }`"),
             Missing::Unfit(_) if name.ends_with(".toml") => fault(
                 SAVED_RESULT,
                 format!("{name} is a budget, not a file of saved results"),

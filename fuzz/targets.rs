@@ -9,7 +9,8 @@
 use std::path::{Path, PathBuf};
 
 use gumption::budget::Budget;
-use gumption::calibrate::{self, Purpose};
+use gumption::calibrate;
+use gumption::experiment::Purpose;
 use gumption::model::{self, MeasurandSource, Role, Symbol};
 use gumption::propagate::{self, MonteCarloChoice, Options};
 use gumption::quantity::UnitTable;

@@ -1,13 +1,14 @@
 //! What is asked of a recording: candidates as columns, the recording as residuals, and the effects that were
 //! found in the model.
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, DVector};
 
 use super::adopt::{self, Free};
 use super::case::Case;
-use super::catalogue::{self, Cell, Finer, FittedModel, Variation};
+use super::catalogue::{self, Cell, Finer, FittedModel, Node, Variation};
 use super::design::Design;
 use super::evidence::{
     self, Atom, Baseline, Candidate, Examination, Fitted, Prior, Question, Refusal, Shape, TRACE,
@@ -46,7 +47,7 @@ impl<'f> Candidates<'f> {
         }
     }
 
-    /// Effects of a known size that are seen with another one are something else: without them, again.
+    /// Effects that are seen with a size which they cannot have are something else: without them, again.
     pub(super) fn ask(
         &mut self,
         claimed: &Claimed,
@@ -62,7 +63,7 @@ impl<'f> Candidates<'f> {
                 settings: settings.clone(),
             };
             let examination = evidence::examine(&question, progress)?;
-            let missized = missized(&self.cells, &examination);
+            let missized = missized(&self.fitted, &self.cells, &self.places, &examination);
             if missized.is_empty() {
                 return Ok((baseline, examination));
             }
@@ -319,15 +320,75 @@ fn refit(
     fit::near(&design, &claimed.u, start)
 }
 
-/// Candidates of a known size (a reversal, an exchange) that would have to have another size here.
-fn missized(cells: &[Cell], examination: &Examination) -> Vec<usize> {
+/// Candidates that would have to have a size here which they cannot have: a reversal that is not complete, a change of
+/// the scale that leaves nothing of the response.
+fn missized(
+    fitted: &FittedModel<'_>,
+    cells: &[Cell],
+    places: &[(usize, usize)],
+    examination: &Examination,
+) -> Vec<usize> {
     let named = examination.slots.iter().flat_map(|slot| &slot.named);
     let wrong = named.filter(|named| {
         let effect = cells[named.candidate].effect;
         let sizes = named.estimate.iter().enumerate();
-        sizes
+        let is_other = sizes
             .map(|(at, size)| (*size, named.covariance[(at, at)].max(0.0).sqrt()))
-            .any(|(size, u)| !effect.admits(size, u))
+            .any(|(size, u)| !effect.admits(size, u));
+        let takes_all = || {
+            named.variants.first().is_some_and(|variant| {
+                let (cell, variation) = places[variant.atom];
+                takes_all(
+                    &cells[cell].variants[variation],
+                    named.estimate.as_slice(),
+                    fitted.rows(),
+                )
+            })
+        };
+        is_other || (effect.exact.is_none() && takes_all())
     });
     wrong.map(|named| named.candidate).collect()
+}
+
+/// Whether sizes leave nothing of a response in some row: a relative change of its scale of −1 or beyond.
+fn takes_all(variation: &Variation, sizes: &[f64], rows: usize) -> bool {
+    let mut changes = BTreeMap::new();
+    let mut coefficient = 0;
+    for (number, term) in variation.terms.iter().enumerate() {
+        coefficient += usize::from(number > 0 && !term.tied);
+        let size = sizes
+            .get(coefficient)
+            .copied()
+            .filter(|size| size.is_finite());
+        if let (Node::Gain, Some(size)) = (term.node, size) {
+            let change = changes
+                .entry(term.response)
+                .or_insert_with(|| vec![0.0; rows]);
+            for (change, x) in change.iter_mut().zip(&term.modifier.values) {
+                *change += size * x;
+            }
+        }
+    }
+    changes.values().flatten().any(|change| *change <= -1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::catalogue::{Modifier, Term};
+    use super::*;
+
+    #[test]
+    fn a_scale_that_is_taken_away_is_no_effect() {
+        let step = |node: Node| {
+            let modifier = Modifier::number(vec![0.0, 0.0, 1.0], "step");
+            Variation::one("", Term::new(node, modifier))
+        };
+        assert!(takes_all(&step(Node::Gain), &[-1.0], 3));
+        assert!(!takes_all(&step(Node::Gain), &[-0.5], 3));
+        assert!(!takes_all(&step(Node::Output), &[-3.0], 3));
+        // Each response has a scale of its own.
+        let half = |response: usize| step(Node::Gain).terms[0].clone().on(response);
+        let both = Variation::of("", vec![half(0), half(1)]);
+        assert!(!takes_all(&both, &[-0.6, -0.6], 3));
+    }
 }

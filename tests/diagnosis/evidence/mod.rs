@@ -13,7 +13,6 @@ use std::collections::BTreeMap;
 use bench::Bench;
 use grade::{Grade, Open, Share, grade, grade_open, grade_several};
 use gumption::diagnose::evidence::{State, Verdict};
-use gumption::diagnose::other_methods::{forward_bic, w_test};
 use nalgebra::DVector;
 
 /// Alarms and unique names among recordings of nothing.
@@ -87,40 +86,6 @@ fn several(effects: usize, lambda: f64, count: u64) -> BTreeMap<&'static str, u6
         }
     }
     tally
-}
-
-/// Candidates that the rivals name for nothing and for single effects: alarms, right, wrong.
-fn rivals(lambda: f64, count: u64) -> [(&'static str, [Share; 3]); 2] {
-    let mut all = [
-        ("w-test", Default::default()),
-        ("forward BIC", Default::default()),
-    ];
-    for (place, bench) in Bench::all(1).iter().enumerate() {
-        for k in 0..count {
-            let stream = place as u64 * 1_000_000 + 4 * k;
-            let hidden = bench.hide(lambda, 5, stream);
-            for (which, (_, shares)) in all.iter_mut().enumerate() {
-                let ask = |effect: &DVector<f64>, stream| {
-                    bench.ask(
-                        effect,
-                        &bench.rig.atoms,
-                        5,
-                        stream,
-                        |question| match which {
-                            0 => w_test(question),
-                            _ => forward_bic(question),
-                        },
-                    )
-                };
-                let [alarms, right, wrong]: &mut [Share; 3] = shares;
-                alarms.count(!ask(&bench.nothing(), stream + 3).is_empty());
-                let named = ask(&hidden.effect, stream + 2);
-                right.count(named == [hidden.candidate]);
-                wrong.count(named.iter().any(|name| *name != hidden.candidate));
-            }
-        }
-    }
-    all
 }
 
 fn share_of(grades: &[(f64, Grade)], wanted: &[Grade]) -> Share {
@@ -205,8 +170,5 @@ fn measured() {
             "{effects} effects of λ {lambda}: {:?}",
             several(effects, lambda, 25)
         );
-    }
-    for (name, [alarms, right, wrong]) in rivals(10.0, 50) {
-        println!("{name}: alarms {alarms}, λ 10: right {right}, wrong {wrong}");
     }
 }

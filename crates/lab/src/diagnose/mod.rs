@@ -44,7 +44,6 @@
 //! | `chance` | draws in proportion to weights; random numbers |
 //! | `simulate` | the recording that a case predicts |
 //! | `stand_in` | what can stand in for something whose trace is known |
-//! | `opinions`, [`other_methods`] | what methods in common use say of the same case |
 
 mod accidents;
 mod adopt;
@@ -71,8 +70,6 @@ mod noise;
 mod noise_correlation;
 mod noise_growth;
 mod omitted;
-mod opinions;
-pub mod other_methods;
 mod parts;
 mod plan;
 mod prolonged;
@@ -98,11 +95,10 @@ pub use improved::improved;
 pub use noise::{Claimed, Origin};
 pub use noise_growth::Growth;
 pub use omitted::Omitted;
-pub use opinions::{Opinion, Pick, opinions};
 pub use parts::Confirmation;
 pub use plan::{Outlook, Promise, Prospect, plan};
 pub use result::budget;
 pub use run::{Diagnosis, diagnose};
 pub use separation::Separating;
 pub use simulate::{Sheet, Simulation, simulate};
-pub use stand_in::{StandIn, stand_ins};
+pub use stand_in::{Pick, StandIn, stand_ins};

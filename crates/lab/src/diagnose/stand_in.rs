@@ -5,15 +5,23 @@ use nalgebra::{DMatrix, DVector};
 
 use super::candidates::{baseline, question};
 use super::case::Case;
-use super::catalogue::{self, FittedModel};
+use super::catalogue::{self, EffectId, FittedModel};
 use super::design::Design;
 use super::evidence::Shape;
 use super::failure::Failure;
 use super::noise;
-use super::opinions::Pick;
 
 /// A direction of which less than this (squared) is left adds nothing.
 const DEPENDENT: f64 = 1e-6;
+
+/// A name that may be given.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pick {
+    /// Identifier of the catalogue.
+    pub id: EffectId,
+    /// What it follows.
+    pub along: String,
+}
 
 /// A variant of a candidate, and how well it can stand in.
 #[derive(Debug, Clone, PartialEq)]

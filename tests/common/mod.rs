@@ -14,6 +14,7 @@ pub use files::{assert_fresh, calibrations, files, relative, root, stale};
 pub fn program() -> Command {
     let mut program = Command::new(env!("CARGO_BIN_EXE_gumption"));
     program.env("NO_COLOR", "1").env("COLUMNS", "100");
+    program.env("LC_ALL", "C.UTF-8");
     program
 }
 

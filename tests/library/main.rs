@@ -15,6 +15,7 @@ mod chains;
 mod fuzzed;
 mod independent;
 mod interruption;
+mod known;
 mod peers;
 mod published;
 mod references;

@@ -8,7 +8,7 @@
 //! | [`statistics`] | readings: scatter, serial correlation, analysis of variance, outlier tests | dd, special |
 //! | [`distribution`] | the distributions that a component may have: one file each, and a registry | special |
 //! | [`least_squares`] | parameters of a response from observed points: linear, nonlinear, errors in both variables | dd, special |
-//! | [`model`] | the model language: text → tree → graph → values, derivatives, blocks of trials | quantity, special |
+//! | [`model`] | the model language: text → tree → graph → values, derivatives, blocks of trials | dd, quantity, special |
 //! | [`equations`] | measurement equations over rows of data | model, least_squares |
 //!
 //! Words of this crate: a *jet* is a value with its derivatives along a direction; a *tape* or *program* is a graph of

@@ -16,6 +16,10 @@ pub(super) fn code(what: &Figure) -> &'static str {
         Figure::Estimate => "value",
         Figure::StandardUncertainty => "standard_uncertainty",
         Figure::ExpandedUncertainty => "expanded_uncertainty",
+        Figure::RelativeUncertainty => "relative_standard_uncertainty",
+        Figure::RelativeExpanded => "relative_expanded_uncertainty",
+        Figure::Variance => "variance",
+        Figure::Covariance(_) => "covariance",
         Figure::CoverageFactor => "coverage_factor",
         Figure::DegreesOfFreedom => "effective_degrees_of_freedom",
         Figure::CoverageProbability => "coverage_probability",
@@ -47,7 +51,9 @@ pub(super) fn subject<'a>(report: &Report<'a>, what: &Figure) -> Option<&'a str>
     match what {
         Figure::Input(index, _) => budget.inputs.get(*index).map(|input| input.name.as_str()),
         Figure::Component(index, _) => budget.components.get(*index).map(|c| c.name.as_str()),
-        Figure::Correlation(with) => budget.measurands.get(*with).map(|m| m.name.as_str()),
+        Figure::Correlation(with) | Figure::Covariance(with) => {
+            budget.measurands.get(*with).map(|m| m.name.as_str())
+        }
         Figure::Named(name) => (report.evaluation.figures.iter())
             .find(|figure| figure.name == *name)
             .map(|figure| figure.name.as_str()),
@@ -62,6 +68,10 @@ pub(super) fn label(report: &Report<'_>, what: &Figure) -> String {
         Figure::Estimate => Word::Estimate.of(l),
         Figure::StandardUncertainty => Word::StandardUncertainty.of(l),
         Figure::ExpandedUncertainty => Word::ExpandedUncertainty.of(l),
+        Figure::RelativeUncertainty => l.pick("u/|y|", "u/|y|"),
+        Figure::RelativeExpanded => l.pick("U/|y|", "U/|y|"),
+        Figure::Variance => l.pick("variance u²", "方差 u²"),
+        Figure::Covariance(_) => l.pick("covariance with", "协方差，与"),
         Figure::CoverageFactor => Word::CoverageFactor.of(l),
         Figure::DegreesOfFreedom => Word::FreedomEffective.of(l),
         Figure::CoverageProbability => l.pick("coverage probability", "包含概率"),
@@ -86,7 +96,9 @@ pub(super) fn label(report: &Report<'_>, what: &Figure) -> String {
         Figure::Named(name) => return name.clone(),
     };
     match subject(report, what) {
-        Some(name) if matches!(what, Figure::Correlation(_)) => format!("{plain} {name}"),
+        Some(name) if matches!(what, Figure::Correlation(_) | Figure::Covariance(_)) => {
+            format!("{plain} {name}")
+        }
         Some(name) => format!("{name}: {plain}"),
         None => plain.to_string(),
     }
@@ -186,8 +198,8 @@ fn verdict(comparison: &Comparison, claim: Option<&Claim>, language: Language) -
         Some(ratio) if (0.5..2.0).contains(&ratio) => {
             let percent = significant(100.0 * (ratio - 1.0), 2);
             language.pick(
-                format!("differs by {percent} %"),
-                format!("相差 {percent} %"),
+                format!("differs by {percent} % of the claim"),
+                format!("相差声称值的 {percent} %"),
             )
         }
         Some(ratio) => {

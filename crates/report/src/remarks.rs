@@ -54,6 +54,8 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::NotValidated => "not_validated",
         FindingKind::Undecided { .. } => "undecided",
         FindingKind::NeedsMonteCarlo => "needs_monte_carlo",
+        FindingKind::TrialsUnresolved { .. } => "trials_unresolved",
+        FindingKind::SlopesUnresolved => "slopes_unresolved",
         FindingKind::MomentsMissing { .. } => "moments_missing",
         FindingKind::FailedTrials { .. } => "failed_trials",
         FindingKind::NotConverged { .. } => "not_converged",
@@ -105,6 +107,11 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             grouped(*trials),
         ),
         FindingKind::NeedsMonteCarlo => "First order is doubtful for this budget and Monte Carlo was not run, so nothing checks the result. Run the evaluation with Monte Carlo before using it.".to_string(),
+        FindingKind::TrialsUnresolved { error } => format!(
+            "The model takes large numbers from one another. The estimate is computed with twice the digits and holds; the trials of Monte Carlo are doubles, which know y only to {}, not to the tolerance of JCGM 101, clause 8. Monte Carlo was left out, and nothing validates the GUM result. For a validation take the common part out of the inputs, and write it as a difference.",
+            amount(report, measurand, significant(*error, 2)),
+        ),
+        FindingKind::SlopesUnresolved => "The sensitivity coefficients are what rounding left of larger numbers: a change of the estimates in their last digits changes u in the digits that are printed. Write the formula so that large terms do not cancel: write it as a difference.".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_english(reason),
         FindingKind::FailedTrials { failed, trials } => format!(
             "In {} of {} Monte Carlo trials the model had no finite value (for example a division by zero or the root of a negative number). The results leave these trials out. Check whether the distributions of the inputs reach values that are physically impossible.",
@@ -178,6 +185,11 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             grouped(*trials),
         ),
         FindingKind::NeedsMonteCarlo => "一阶近似对本评定是否适用存疑，而蒙特卡洛法未运行，结果没有得到验证。使用前应运行蒙特卡洛法。".to_string(),
+        FindingKind::TrialsUnresolved { error } => format!(
+            "模型中大数相减。估计值以双倍精度计算，是可靠的；蒙特卡洛试验用双精度数计算，y 只能分辨到 {}，达不到 JCGM 101 第 8 章的数值容差。因此未采用蒙特卡洛法，GUM 结果没有得到验证。如需验证，请把输入量中的公共部分提出，以差值表示。",
+            amount(report, measurand, significant(*error, 2)),
+        ),
+        FindingKind::SlopesUnresolved => "灵敏系数是大数相消后的舍入残余：估计值末位的变动会改变所给 u 的有效数字。请改写公式，避免大数相消，以差值表示。".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_chinese(reason),
         FindingKind::FailedTrials { failed, trials } => format!(
             "{} 次蒙特卡洛试验中有 {} 次模型没有有限值（例如除以零或对负数开方），这些试验未计入结果。请检查输入量的分布是否包含物理上不可能的值。",
@@ -414,6 +426,9 @@ pub fn failure(error: &EvaluationError, language: Language) -> String {
         ),
         EvaluationError::NoDerivative { measurand, input } => format!(
             "在估计值处，{measurand} 的测量模型对 {input} 的导数不是有限值，GUM 法不适用，而蒙特卡洛法被关闭。请运行蒙特卡洛法。"
+        ),
+        EvaluationError::Unresolved { measurand, error } => format!(
+            "{measurand} 的估计值只能计算到 {error:.1e}，其误差超过不确定度所允许的范围：模型中大数或函数值相减，剩下的有效位数太少。请把公共部分从公式中提出，以差值表示：直接以小的差值作为输入量，或利用恒等式，例如 a^2 - b^2 = (a - b)*(a + b)。"
         ),
         EvaluationError::AllTrialsFailed { measurand } => {
             format!("所有蒙特卡洛试验都没有得到 {measurand} 的有限值。请核对输入量的分布和公式。")

@@ -31,6 +31,7 @@ mod outline;
 mod parser;
 mod printer;
 mod reductions;
+mod resolution;
 mod scales;
 mod space;
 mod syntax;
@@ -54,6 +55,7 @@ pub use cut::Cut;
 pub use interaction::Neighbours;
 pub use notice::{Notice, Office};
 pub use outline::{Outline, outline};
+pub use resolution::Resolved;
 pub use tree::Leaf;
 
 use jet::Jet;
@@ -198,6 +200,11 @@ impl Model {
             .iter()
             .map(|id| values[*id as usize].value())
             .collect()
+    }
+
+    /// f(x) for every output by twice the precision, and how far the arithmetic knows it.
+    pub fn resolved(&self, x: &[f64]) -> Vec<Resolved> {
+        resolution::resolved(&self.graph, x)
     }
 
     /// ∂f_o/∂x_i, outputs × inputs, by one reverse sweep per output.

@@ -72,7 +72,7 @@ impl<'a> Sheet<'a> {
     }
 
     /// Whether a comma in a field can be a decimal sign: where it separates no columns.
-    pub(super) fn has_decimal_commas(&self) -> bool {
+    pub fn has_decimal_commas(&self) -> bool {
         self.separator != b','
     }
 

@@ -38,6 +38,8 @@ pub struct Heading {
     pub reference: Option<String>,
     /// Anything the reader should know.
     pub note: Option<String>,
+    /// Whether rows of its series whose labels differ in their last number repeat one another.
+    pub repetitions: bool,
 }
 
 /// One evaluation of a file: the file itself, or a row of its series.

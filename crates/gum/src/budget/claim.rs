@@ -67,6 +67,14 @@ pub enum Figure {
     StandardUncertainty,
     /// U.
     ExpandedUncertainty,
+    /// u(y)/|y|.
+    RelativeUncertainty,
+    /// U/|y|.
+    RelativeExpanded,
+    /// u²(y).
+    Variance,
+    /// u(y, y′) with another measurand (index).
+    Covariance(usize),
     /// k.
     CoverageFactor,
     /// ν_eff.

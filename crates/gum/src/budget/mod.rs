@@ -9,6 +9,7 @@
 //! with E zero-mean deviations. A shared source is simply a component that occurs in several inputs.
 
 mod analysis;
+mod cell;
 pub mod chain;
 mod check;
 mod checked;
@@ -21,6 +22,7 @@ pub mod faults;
 mod fit;
 pub mod hints;
 mod open_files;
+mod points;
 mod profile;
 pub mod quantities;
 mod reader;

@@ -12,6 +12,7 @@ use super::checked::Loaded;
 use super::faults::UNUSED;
 use super::hints::HINTS;
 use super::open_files::OpenFiles;
+use super::points::Points;
 use super::series;
 use super::tables::FileTable;
 use gumption_fault::{Fault, Rejection};
@@ -153,7 +154,7 @@ fn read_under(
     if !errors.iter().all(leaves_the_rest) {
         return Err(Rejection::new(name, text, syntax));
     }
-    let (variants, mut faults) = variants(table.get_ref(), text, profile);
+    let (variants, mut faults) = variants(table.get_ref(), text, origin, profile);
     let checked = origin
         .files
         .within(origin.file, || check::rows(variants, text, origin));
@@ -180,20 +181,35 @@ fn read_under(
 fn variants(
     table: &DeTable<'_>,
     text: &str,
+    origin: Origin<'_>,
     profile: Option<&Profile>,
 ) -> (Vec<Variant>, Vec<Fault>) {
     let mut reader = Reader::new(text, &HINTS);
     let file = tables(table, profile, &mut reader);
-    let rows = match &file.series {
-        Some(stated) => series::variants(table, stated, &mut reader.faults),
-        None => Vec::new(),
+    let stated = file.series.as_ref();
+    let named = stated.and_then(|stated| stated.value.file.as_ref());
+    let points = named.map(|named| Points::read(named, origin, &mut reader.faults));
+    let rows = match (stated, &points) {
+        (Some(stated), None) => series::variants(table, stated, None, &mut reader.faults),
+        (Some(stated), Some(Some(points))) => {
+            series::variants(table, stated, Some(points), &mut reader.faults)
+        }
+        _ => Vec::new(),
     };
+    let repetitions = stated.and_then(|stated| stated.value.repetitions.as_ref());
+    let repetitions = repetitions.is_some_and(|stated| stated.value);
     // With a faulty series the file itself is still checked.
     if rows.is_empty() {
-        return (vec![Variant { label: None, file }], reader.faults);
+        let alone = Variant {
+            label: None,
+            repetitions,
+            file,
+        };
+        return (vec![alone], reader.faults);
     }
     let rows = rows.into_iter().map(|row| Variant {
         label: row.label,
+        repetitions,
         file: tables(&row.table, profile, &mut reader),
     });
     (rows.collect(), reader.faults)

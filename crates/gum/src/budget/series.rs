@@ -4,12 +4,14 @@
 //! that are read as if somebody had written them, so that a column may be any number that a budget can state.
 
 use toml::Spanned;
-use toml::de::{DeArray, DeString, DeTable, DeValue};
+use toml::de::{DeString, DeTable, DeValue};
 
+use super::cell::Entry;
 use super::faults::{SERIES, UNKNOWN_NAME};
+use super::points::Points;
 use super::tables::{FileTable, SeriesTable};
 use gumption_fault::{Fault, nearest};
-use gumption_format::toml::{Cell, amount_parts};
+use gumption_format::toml::amount_parts;
 use gumption_format::toml::{Raw, Stated, Table};
 
 /// One row: its label, and the file with its values in place.
@@ -32,44 +34,65 @@ const OWNERS: [&str; 3] = ["input", "constant", "source"];
 pub(super) fn variants<'t>(
     file: &DeTable<'t>,
     stated: &Stated<SeriesTable>,
+    points: Option<&'t Points>,
     faults: &mut Vec<Fault>,
 ) -> Vec<Variant<'t>> {
     let before = faults.len();
     let table = &stated.value;
-    let (Some(columns), Some(rows)) = (&table.columns, &table.rows) else {
-        if !table.refused {
-            faults.push(incomplete(stated));
+    let (columns, rows) = match (points, &table.columns, &table.rows) {
+        (Some(points), None, None) => {
+            let rows = points
+                .rows()
+                .map(|cells| (points.columns[0].span.clone(), cells));
+            (points.columns.as_slice(), rows.collect())
         }
-        return Vec::new();
-    };
-    let kinds: Vec<Option<Column>> = columns
-        .value
-        .iter()
-        .map(|name| column(file, name, faults))
-        .collect();
-    if rows.value.is_empty() {
-        faults.push(
-            Fault::new(SERIES, rows.span.clone(), "the series has no rows")
-                .label("nothing to evaluate"),
-        );
-    }
-    let raw = raw_rows(file);
-    let mut variants = Vec::new();
-    for (row, cells) in rows.value.iter().zip(raw) {
-        if row.value.len() != kinds.len() {
+        (None, Some(columns), Some(rows)) => {
+            (columns.value.as_slice(), rows_of_file(file, &rows.value))
+        }
+        (Some(_), ..) => {
             faults.push(
                 Fault::new(
                     SERIES,
-                    row.span.clone(),
-                    format!(
-                        "a row of {} entries for {} columns",
-                        row.value.len(),
-                        kinds.len()
-                    ),
+                    stated.span.clone(),
+                    "the rows of the series are stated twice",
                 )
-                .label(format!("expected {} entries", kinds.len()))
-                .related(columns.span.clone(), "the columns"),
+                .label("in a file and here")
+                .help("the first line of `file` names the columns: leave out `columns` and `rows`"),
             );
+            return Vec::new();
+        }
+        _ => {
+            if !table.refused {
+                faults.push(incomplete(stated));
+            }
+            return Vec::new();
+        }
+    };
+    let rows: Vec<(std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>)> = rows;
+    let kinds: Vec<Option<Column>> = columns
+        .iter()
+        .map(|name| column(file, name, faults))
+        .collect();
+    if rows.is_empty() {
+        faults.push(
+            Fault::new(SERIES, stated.span.clone(), "the series has no rows")
+                .label("nothing to evaluate"),
+        );
+    }
+    let mut variants = Vec::new();
+    for (place, cells) in rows {
+        if cells.len() != kinds.len() {
+            let message = format!(
+                "a row of {} entries for {} columns",
+                cells.len(),
+                kinds.len()
+            );
+            let fault = Fault::new(SERIES, place, message)
+                .label(format!("expected {} entries", kinds.len()));
+            faults.push(match &table.columns {
+                Some(columns) => fault.related(columns.span.clone(), "the columns"),
+                None => fault,
+            });
             continue;
         }
         let mut variant = Variant {
@@ -77,13 +100,12 @@ pub(super) fn variants<'t>(
             table: file.clone(),
         };
         variant.table.remove("series");
-        for ((kind, name), (cell, raw)) in kinds
-            .iter()
-            .zip(&columns.value)
-            .zip(row.value.iter().zip(cells))
-        {
+        for ((kind, name), (cell, raw)) in kinds.iter().zip(columns).zip(&cells) {
             match kind {
                 Some(Column::Label) => variant.label = Some(label(&cell.value)),
+                Some(Column::Path(path)) if is_left_out(&cell.value, path) => {
+                    leave_out(&mut variant.table, path);
+                }
                 Some(Column::Path(path)) => set(&mut variant.table, path, name, cell, raw, faults),
                 None => {}
             }
@@ -94,6 +116,65 @@ pub(super) fn variants<'t>(
         variants.clear();
     }
     variants
+}
+
+/// Whether a cell leaves out what its column names: an empty one, and an uncertainty of zero.
+fn is_left_out(cell: &Entry, path: &[String]) -> bool {
+    const DEVIATIONS: [&str; 4] = ["u", "U", "half_width", "step"];
+    let owned = path
+        .first()
+        .is_some_and(|owner| OWNERS.contains(&owner.as_str()));
+    let deviation = path
+        .last()
+        .is_some_and(|key| DEVIATIONS.contains(&key.as_str()));
+    match cell {
+        Entry::Text(text) => text.is_empty(),
+        Entry::Number(number) => *number == 0.0 && deviation && owned,
+        Entry::List => false,
+    }
+}
+
+/// Takes out a key, or the component of a list to which it belongs.
+fn leave_out(table: &mut DeTable<'_>, path: &[String]) {
+    let Some((first, rest)) = path.split_first() else {
+        return;
+    };
+    let key = named_component(table, first);
+    let path: Vec<String> = key.into_iter().chain(rest.iter().cloned()).collect();
+    let Some((first, rest)) = path.split_first() else {
+        return;
+    };
+    let Some((next, below)) = rest.split_first() else {
+        table.remove(first.as_str());
+        return;
+    };
+    match table.get_mut(first.as_str()).map(Spanned::get_mut) {
+        Some(DeValue::Table(inner)) => leave_out(inner, rest),
+        Some(DeValue::Array(list)) => {
+            let named = list.iter().position(|entry| is_called(entry, next));
+            let numbered = next
+                .parse::<usize>()
+                .ok()
+                .and_then(|number| number.checked_sub(1));
+            let place = named.or(numbered).filter(|place| *place < list.len());
+            match (place, first == "components") {
+                (Some(place), true) => {
+                    let kept = list.iter().enumerate().filter(|(other, _)| *other != place);
+                    *list = kept.map(|(_, entry)| entry.clone()).collect();
+                }
+                // Without a number the first of several claims is meant.
+                (place, _) => {
+                    let below = if place.is_some() { below } else { rest };
+                    if let Some(DeValue::Table(inner)) =
+                        list.get_mut(place.unwrap_or(0)).map(Spanned::get_mut)
+                    {
+                        leave_out(inner, below);
+                    }
+                }
+            }
+        }
+        _ => {}
+    }
 }
 
 fn incomplete(stated: &Stated<SeriesTable>) -> Fault {
@@ -110,26 +191,36 @@ fn incomplete(stated: &Stated<SeriesTable>) -> Fault {
     .label(format!("`{missing}` is missing"))
 }
 
-/// The cells as the file has them.
-fn raw_rows<'a, 't>(file: &'a DeTable<'t>) -> Vec<&'a DeArray<'t>> {
-    let Some(DeValue::Table(series)) = file.get("series").map(Spanned::get_ref) else {
+/// The rows that the file states: their places, and their cells as read and as the file has them.
+fn rows_of_file<'t>(
+    file: &DeTable<'t>,
+    rows: &[Stated<Vec<Stated<Entry>>>],
+) -> Vec<(std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>)> {
+    let raw = match file.get("series").map(Spanned::get_ref) {
+        Some(DeValue::Table(series)) => series.get("rows").map(Spanned::get_ref),
+        _ => None,
+    };
+    let Some(DeValue::Array(raw)) = raw else {
         return Vec::new();
     };
-    let Some(DeValue::Array(rows)) = series.get("rows").map(Spanned::get_ref) else {
-        return Vec::new();
-    };
+    let raw = raw.iter().filter_map(|row| match row.get_ref() {
+        DeValue::Array(cells) => Some(cells),
+        _ => None,
+    });
     rows.iter()
-        .filter_map(|row| match row.get_ref() {
-            DeValue::Array(cells) => Some(cells),
-            _ => None,
+        .zip(raw)
+        .map(|(row, raw)| {
+            let cells = row.value.iter().cloned().zip(raw.iter().cloned());
+            (row.span.clone(), cells.collect())
         })
         .collect()
 }
 
-fn label(cell: &Cell) -> String {
+fn label(cell: &Entry) -> String {
     match cell {
-        Cell::Text(text) => text.clone(),
-        Cell::Number(number) => number.to_string(),
+        Entry::Text(text) => text.clone(),
+        Entry::Number(number) => number.to_string(),
+        Entry::List => "[…]".into(),
     }
 }
 
@@ -246,11 +337,14 @@ fn set<'t>(
     table: &mut DeTable<'t>,
     path: &[String],
     name: &Stated<String>,
-    cell: &Stated<Cell>,
+    cell: &Stated<Entry>,
     raw: &Raw<'t>,
     faults: &mut Vec<Fault>,
 ) {
-    if let (Cell::Text(text), Some("value")) = (&cell.value, path.last().map(String::as_str)) {
+    let amount = |text: &str| amount_parts(text).is_some();
+    if let (Entry::Text(text), Some("value")) = (&cell.value, path.last().map(String::as_str))
+        && !amount(text)
+    {
         faults.push(
             Fault::new(
                 SERIES,

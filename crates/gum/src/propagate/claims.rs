@@ -3,6 +3,7 @@
 use crate::budget::{Budget, Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Part};
 
 use super::result::{Clause8, Evaluation, MeasurandResult};
+use gumption_core::quantity::Rounding;
 
 /// One claimed figure against one obtained figure.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
@@ -19,6 +20,8 @@ pub struct Comparison {
     /// An expanded uncertainty rounded by the budget's own conventions, as a certificate would state
     /// it; `None` for other figures, which claims state to nearest.
     pub rounded: Option<f64>,
+    /// Whether the figure is an expanded uncertainty that is always rounded up, claimed by its digits.
+    pub always_up: bool,
     /// Whether the claim is about this method; otherwise the figure is shown beside for information.
     pub judged: bool,
     /// Whether a verdict depends on it: the claim is about this method and its source is known well enough.
@@ -42,8 +45,22 @@ impl Comparison {
     /// Whether the obtained figure is the claimed one within its tolerance, or an expanded uncertainty
     /// becomes it when rounded by the budget's conventions (which may always round up).
     pub fn agrees(&self) -> bool {
+        if self.always_up {
+            return self.is_rounded_up();
+        }
         let nearly = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs();
         self.is_near() || self.rounded.is_some_and(|r| nearly(r, self.claimed.value))
+    }
+
+    /// Whether an uncertainty that is always rounded up becomes the claimed one: that is not smaller, and larger by
+    /// less than a unit of its last digit.
+    fn is_rounded_up(&self) -> bool {
+        let unit = 2.0 * self.claimed.tolerance;
+        let slack = 1e-9 * unit + 4.0 * f64::EPSILON * self.claimed.value.abs();
+        self.obtained.is_some_and(|obtained| {
+            let more = self.claimed.value - obtained;
+            more >= -slack && more < unit
+        })
     }
 
     /// Whether the obtained figure as it is lies within the tolerance.
@@ -94,6 +111,7 @@ pub fn compare_claims(budget: &Budget, evaluation: &Evaluation) -> Vec<Compariso
                         method,
                         obtained,
                         rounded,
+                        always_up: is_always_up(budget, figure),
                         judged,
                         decides: judged && claim.confidence != Confidence::Low,
                     });
@@ -102,6 +120,18 @@ pub fn compare_claims(budget: &Budget, evaluation: &Evaluation) -> Vec<Compariso
         }
     }
     comparisons
+}
+
+/// Whether a figure is an expanded uncertainty that the conventions always round up, and whose tolerance is half a unit
+/// of a digit, not an amount of its own.
+fn is_always_up(budget: &Budget, figure: &ClaimedFigure) -> bool {
+    let place = libm::log10(2.0 * figure.tolerance);
+    budget.conventions.rounding == Rounding::Up
+        && matches!(
+            figure.what,
+            Figure::ExpandedUncertainty | Figure::RelativeExpanded
+        )
+        && (place - place.round()).abs() < 1e-6
 }
 
 fn methods(claimed: ClaimedMethod, what: &Figure) -> Vec<(Method, bool)> {
@@ -149,6 +179,19 @@ fn by_gum(
                 .figure(&Figure::CoverageFactor)
                 .map_or(gum.coverage.expanded, |k| k * gum.u),
         ),
+        Figure::RelativeUncertainty => Some(gum.u / gum.estimate.abs()),
+        Figure::RelativeExpanded => {
+            let k = claim.figure(&Figure::CoverageFactor);
+            let expanded = k.map_or(gum.coverage.expanded, |k| k * gum.u);
+            Some(expanded / gum.estimate.abs())
+        }
+        Figure::Variance => Some(gum.u * gum.u),
+        Figure::Covariance(with) => {
+            let other = evaluation.results.get(*with)?;
+            let joint = evaluation.joint.as_ref()?;
+            let r = joint.correlation.get((claim.measurand, *with))?;
+            Some(r * gum.u * other.gum.u)
+        }
         Figure::CoverageFactor => Some(gum.coverage.k),
         Figure::DegreesOfFreedom => Some(gum.freedom.value()),
         Figure::CoverageProbability => Some(gum.coverage.probability),
@@ -229,6 +272,19 @@ fn by_monte_carlo(
             Some(k) => monte_carlo.u.map(|u| k * u),
             None => Some(half),
         },
+        Figure::RelativeUncertainty => Some(monte_carlo.u? / monte_carlo.estimate?.abs()),
+        Figure::RelativeExpanded => {
+            let k = claim.figure(&Figure::CoverageFactor);
+            let expanded = k.map_or(Some(half), |k| monte_carlo.u.map(|u| k * u));
+            Some(expanded? / monte_carlo.estimate?.abs())
+        }
+        Figure::Variance => monte_carlo.u.map(|u| u * u),
+        Figure::Covariance(with) => {
+            let other = evaluation.results.get(*with)?.monte_carlo.as_ref()?;
+            let joint = evaluation.joint.as_ref()?;
+            let all = joint.monte_carlo_correlation.as_ref()?;
+            Some(all.get((claim.measurand, *with))? * monte_carlo.u? * other.u?)
+        }
         Figure::Lower => Some(monte_carlo.symmetric[0]),
         Figure::Upper => Some(monte_carlo.symmetric[1]),
         Figure::ShortestLower => Some(monte_carlo.shortest[0]),
@@ -280,6 +336,7 @@ mod tests {
             method: Method::Gum,
             obtained: Some(obtained),
             rounded,
+            always_up: false,
             judged: true,
             decides: true,
         }
@@ -289,6 +346,21 @@ mod tests {
     fn a_figure_agrees_within_half_a_unit() {
         assert!(claim_of(4.3e-4, 4.25e-4, None).agrees());
         assert!(!claim_of(4.3e-4, 4.23e-4, None).agrees());
+    }
+
+    #[test]
+    fn always_up_is_never_down() {
+        let up = |claimed, obtained| Comparison {
+            claimed: ClaimedFigure {
+                tolerance: 0.005,
+                ..claim_of(claimed, obtained, None).claimed
+            },
+            always_up: true,
+            ..claim_of(claimed, obtained, None)
+        };
+        assert!(!up(0.05, 0.0541).agrees());
+        assert!(up(0.06, 0.0541).agrees() && up(0.05, 0.05).agrees());
+        assert!(!up(0.07, 0.0541).agrees());
     }
 
     #[test]

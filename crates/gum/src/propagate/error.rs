@@ -17,6 +17,13 @@ pub enum EvaluationError {
         /// With respect to what.
         input: String,
     },
+    /// The arithmetic does not know the estimate to the digits that its uncertainty has.
+    Unresolved {
+        /// Whose estimate.
+        measurand: String,
+        /// How far it may be off, in the unit of the measurand.
+        error: f64,
+    },
     /// Every trial failed.
     AllTrialsFailed {
         /// Its name.
@@ -34,6 +41,10 @@ impl fmt::Display for EvaluationError {
             EvaluationError::NoDerivative { measurand, input } => write!(
                 f,
                 "The model of {measurand} has no finite derivative with respect to {input} at the estimates, so the GUM method cannot be used, and Monte Carlo was switched off. Run the evaluation with Monte Carlo."
+            ),
+            EvaluationError::Unresolved { measurand, error } => write!(
+                f,
+                "The estimate of {measurand} is known to {error:.1e} only, which is more than its uncertainty allows: the model takes large numbers, or values of functions, from one another, and few digits are left. Take the common part out of the formula, and write it as a difference: state the small difference itself as an input, or use an identity such as a^2 - b^2 = (a - b)*(a + b)."
             ),
             EvaluationError::AllTrialsFailed { measurand } => write!(
                 f,

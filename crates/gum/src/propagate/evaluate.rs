@@ -7,8 +7,8 @@ use super::options::{Options, Workers};
 use super::result::{Clause8, Evaluation, Gum, MeasurandResult, MissingMoments, MonteCarlo, Quasi};
 use super::second_order::{SecondOrderOutcome, Terms};
 use super::{
-    coverage, decide, findings, freedom, gum, joint, monte_carlo, second_order, tolerance,
-    validation,
+    coverage, decide, findings, freedom, gum, joint, monte_carlo, resolution, second_order,
+    tolerance, validation,
 };
 use crate::budget::{Budget, MonteCarloSettings, Trials};
 
@@ -21,10 +21,21 @@ use crate::budget::{Budget, MonteCarloSettings, Trials};
 pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, EvaluationError> {
     let settings = options.monte_carlo.settings(budget);
     let linear = gum::linearise(budget)?;
+    let second_order = second_order::evaluate(budget, &linear);
+    if let Some((measurand, error)) =
+        resolution::unresolved_estimate(budget, &linear, &second_order)
+    {
+        let output = budget.model.outputs().get(measurand);
+        return Err(EvaluationError::Unresolved {
+            measurand: output.map(|output| output.name.clone()).unwrap_or_default(),
+            error,
+        });
+    }
+    let unresolved = resolution::unresolved_trials(budget, &linear, &second_order);
+    let settings = settings.filter(|_| unresolved.is_empty());
     if settings.is_none() {
         require_derivatives(budget, &linear)?;
     }
-    let second_order = second_order::evaluate(budget, &linear);
     let gums: Vec<Gum> = (0..linear.measurands.len())
         .map(|measurand| first_order(budget, &linear, measurand))
         .collect();
@@ -56,6 +67,7 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         results: &results,
         second_order: &second_order,
         monte_carlo: monte_carlo.as_ref(),
+        unresolved: &unresolved,
     };
     let findings = evidence.findings();
     let run = monte_carlo.map(|Outcome { run, .. }| run);

@@ -2,6 +2,7 @@
 
 use super::gum::Linear;
 use super::monte_carlo::Outcome;
+use super::resolution;
 use super::result::{
     Basis, Clause8, Finding, FindingKind, Freedom, Gum, MeasurandResult, MissingMoments,
     MonteCarlo, Validation,
@@ -102,6 +103,8 @@ pub(super) struct Evidence<'a> {
     pub results: &'a [MeasurandResult],
     pub second_order: &'a [SecondOrderOutcome],
     pub monte_carlo: Option<&'a Outcome>,
+    /// Measurands whose trials doubles do not resolve, for which Monte Carlo was left out; how far they are off.
+    pub unresolved: &'a [(usize, f64)],
 }
 
 impl Evidence<'_> {
@@ -113,11 +116,12 @@ impl Evidence<'_> {
         let mut findings = whole(self.of_fits());
         findings.extend(whole(of_model));
         findings.extend(whole(self.of_run()));
-        if doubtful_model && self.monte_carlo.is_none() {
+        if doubtful_model && self.monte_carlo_is_missing() {
             findings.extend(whole([FindingKind::NeedsMonteCarlo]));
         }
         for measurand in 0..self.results.len() {
-            let mut kinds = self.of_first_order(measurand);
+            let mut kinds = self.of_arithmetic(measurand);
+            kinds.extend(self.of_first_order(measurand));
             kinds.extend(self.of_second_order(measurand, doubtful_model));
             kinds.extend(self.of_monte_carlo(measurand));
             findings.extend(kinds.into_iter().map(|kind| Finding {
@@ -187,6 +191,20 @@ impl Evidence<'_> {
             .collect()
     }
 
+    /// Whether nobody asked for Monte Carlo, which could be run.
+    fn monte_carlo_is_missing(&self) -> bool {
+        self.monte_carlo.is_none() && self.unresolved.is_empty()
+    }
+
+    /// What the arithmetic does not resolve.
+    fn of_arithmetic(&self, measurand: usize) -> Vec<FindingKind> {
+        let trials = self.unresolved.iter().find(|(of, _)| *of == measurand);
+        let trials = trials.map(|(_, error)| FindingKind::TrialsUnresolved { error: *error });
+        let lost = resolution::slopes_are_lost(self.budget, self.linear, measurand);
+        let slopes = lost.then_some(FindingKind::SlopesUnresolved);
+        trials.into_iter().chain(slopes).collect()
+    }
+
     fn of_first_order(&self, measurand: usize) -> Vec<FindingKind> {
         let gum = &self.results[measurand].gum;
         match &gum.freedom {
@@ -223,7 +241,7 @@ impl Evidence<'_> {
                 found.matters
             }
         };
-        if doubtful && !already_doubtful && self.monte_carlo.is_none() {
+        if doubtful && !already_doubtful && self.monte_carlo_is_missing() {
             kinds.push(FindingKind::NeedsMonteCarlo);
         }
         kinds

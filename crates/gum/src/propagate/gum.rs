@@ -12,7 +12,7 @@ use super::error::EvaluationError;
 use super::freedom;
 use super::result::Contribution;
 use crate::budget::{Budget, Input};
-use gumption_core::model::Model;
+use gumption_core::model::{Model, Resolved};
 
 /// A budget made linear at its estimates.
 #[derive(Debug, Clone)]
@@ -21,6 +21,8 @@ pub(super) struct Linear {
     pub x: Vec<f64>,
     /// f(x), one per measurand.
     pub values: Vec<f64>,
+    /// How far the arithmetic knows them.
+    pub resolved: Vec<Resolved>,
     /// c = ∂f/∂x, measurands × inputs.
     pub gradient: DMatrix<f64>,
     pub covariance: Covariance,
@@ -54,15 +56,28 @@ pub(super) struct MeasurandForm {
 /// When a measurand has no finite value there.
 pub(super) fn linearise(budget: &Budget) -> Result<Linear, EvaluationError> {
     let x: Vec<f64> = budget.inputs.iter().map(|input| input.estimate).collect();
-    let values = budget.model.values(&x);
+    let mut values = budget.model.values(&x);
     if let Some(bad) = values.iter().position(|value| !value.is_finite()) {
         return Err(EvaluationError::NoValue {
             measurand: name(&budget.model, bad),
         });
     }
+    let resolved = budget.model.resolved(&x);
+    for (value, resolved) in values.iter_mut().zip(&resolved) {
+        settle(value, resolved);
+    }
     let gradient = budget.model.gradients(&x);
     let covariance = Covariance::new(&budget.components, &budget.groups);
-    Ok(Linear::new(x, values, gradient, covariance, &budget.inputs))
+    let linear = Linear::new(x, values, gradient, covariance, &budget.inputs);
+    Ok(Linear { resolved, ..linear })
+}
+
+/// The value by twice the precision, where doubles are off by more than a unit in the last place.
+fn settle(value: &mut f64, resolved: &Resolved) {
+    let off = (*value - resolved.value).abs();
+    if off > f64::EPSILON * resolved.value.abs() && resolved.error < off {
+        *value = resolved.value;
+    }
 }
 
 fn name(model: &Model, output: usize) -> String {
@@ -112,6 +127,7 @@ impl Linear {
         Linear {
             x,
             values,
+            resolved: Vec::new(),
             gradient,
             covariance,
             inputs,

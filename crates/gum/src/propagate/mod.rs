@@ -19,6 +19,7 @@ mod monte_carlo;
 mod options;
 mod progress;
 mod reported;
+mod resolution;
 mod result;
 mod second_order;
 mod shape;

@@ -56,7 +56,7 @@ pub(super) fn blocks(rows: &[Report<'_>]) -> Vec<Block> {
             blocks.push(Block::Table(series.claims().without_empty_columns()));
         }
         let repetitions = series.repetitions();
-        if !repetitions.rows.is_empty() {
+        if first.budget.heading.repetitions && !repetitions.rows.is_empty() {
             blocks.push(titled(l.pick("repetitions", "重复性")));
             blocks.push(Block::Table(repetitions));
         }

@@ -231,7 +231,14 @@ pub(super) fn unit(report: &Report<'_>, comparison: &Comparison) -> String {
             let figure = figures.find(|figure| figure.name == *name);
             figure.map_or(String::new(), |figure| symbol(&figure.unit))
         }
-        Figure::CoverageFactor
+        Figure::Variance => match difference_symbol(&output.unit) {
+            unit if unit.is_empty() => unit,
+            unit => format!("({unit})²"),
+        },
+        Figure::Covariance(_)
+        | Figure::RelativeUncertainty
+        | Figure::RelativeExpanded
+        | Figure::CoverageFactor
         | Figure::DegreesOfFreedom
         | Figure::CoverageProbability
         | Figure::Correlation(_)

@@ -23,6 +23,11 @@ pub(super) fn is_in_ratios(unit: &Unit) -> bool {
     unit.dimension.is_none() && (is_ratio(&unit.symbol) || unit.symbol.starts_with('%'))
 }
 
+/// Whether a unit is a share of something, % or ppm, that does not say of what.
+pub(super) fn is_bare_ratio(unit: &Unit) -> bool {
+    unit.dimension.is_none() && is_ratio(&unit.symbol) && !unit.symbol.contains('/')
+}
+
 impl Checker<'_> {
     /// Reads the `[unit]` table.
     pub(super) fn define_units(&mut self, file: &FileTable) {
@@ -75,6 +80,11 @@ impl Checker<'_> {
             return self.refuse(fault);
         };
         let number = conversion.apply(amount.value.number);
+        // 5 % of mg/kg is no value that anybody reads as 50 000 mg/kg.
+        if is_bare_ratio(&own) && unit.symbol.contains('/') && !own.is_one() {
+            let fault = share_of_what(amount, &own, unit, owner);
+            return self.refuse(fault);
+        }
         match (own.is_point(), unit.is_point()) {
             (true, false) => {
                 let fault = point_for_difference(amount, &own, unit, owner, number);
@@ -103,6 +113,10 @@ impl Checker<'_> {
         let Some(own) = self.amount_unit(&amount.value)? else {
             return Some(amount.value.number);
         };
+        if is_bare_ratio(&own) && is_in_ratios(&unit) && !own.is_one() {
+            let fault = share_of_what(amount, &own, &unit, owner);
+            return self.refuse(fault);
+        }
         self.difference_in(amount, &own.difference(), &unit, owner)
     }
 
@@ -246,6 +260,29 @@ impl Checker<'_> {
             ),
         }
     }
+}
+
+/// A share of a quantity that is itself a ratio: of its value, or as it stands?
+fn share_of_what(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) -> Fault {
+    let number = amount.value.number;
+    let plain = own.conversion_to(unit);
+    let plain = show(plain.map_or(number, |conversion| conversion.apply(number)));
+    let (symbol, within) = (
+        &own.symbol,
+        match unit.is_one() {
+            true => String::new(),
+            false => format!(", in {}", unit.symbol),
+        },
+    );
+    Fault::new(
+        RELATIVE_UNCLEAR,
+        amount.span.clone(),
+        format!("{number} {symbol} of {owner} may be meant of its value or as it stands"),
+    )
+    .label("relative or absolute?")
+    .help(format!(
+        "as it stands, write the plain number {plain}{within}; of the value, write what {number} {symbol} of it is{within}"
+    ))
 }
 
 /// The two readings of `"1 %"` for a quantity that is itself a ratio, with their numbers.

@@ -1,5 +1,6 @@
 //! Claims: what somebody's certificate says, each figure with the tolerance of its digits.
 
+use super::amounts::{is_bare_ratio, is_in_ratios};
 use super::checker::Checker;
 use super::entries::entries;
 use super::register::Register;
@@ -9,13 +10,15 @@ use crate::budget::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, Par
 use gumption_core::quantity::{Decimal, Unit};
 use gumption_fault::{Fault, nearest};
 use gumption_format::toml::Amount;
-use gumption_format::toml::Stated;
+use gumption_format::toml::{OneOrMany, Stated};
 
 /// The keys of a claim that state a figure.
-const FIGURES: [&str; 14] = [
+const FIGURES: [&str; 16] = [
     "value",
     "u",
     "U",
+    "variance",
+    "covariance",
     "k",
     "dof",
     "p",
@@ -29,8 +32,8 @@ const FIGURES: [&str; 14] = [
     "figures",
 ];
 
-/// No double has more.
-const MOST_DIGITS: u64 = 17;
+/// Decimals of so many digits survive a double; of more, nobody could say that they agree.
+const MOST_DIGITS: u64 = 15;
 
 /// The significant digits that a claim asks for.
 fn correct_digits(stated: &Stated<u64>) -> u8 {
@@ -54,6 +57,18 @@ impl Reading<'_> {
     fn tolerance(&self, of: impl Fn(&ToleranceTable) -> &Option<Stated<f64>>) -> Option<f64> {
         let table = &self.table.tolerance.as_ref()?.value;
         of(table).as_ref().map(|stated| stated.value)
+    }
+
+    /// The tolerances of both ends of an interval.
+    fn ends(
+        &self,
+        of: impl Fn(&ToleranceTable) -> &Option<Stated<OneOrMany<f64>>>,
+    ) -> [Option<f64>; 2] {
+        let stated = self.table.tolerance.as_ref();
+        let stated = stated.and_then(|table| of(&table.value).as_ref());
+        let list = stated.map_or(&[][..], |stated| &stated.value.0);
+        let end = |place: usize| list.get(place).or(list.first()).map(|stated| stated.value);
+        [end(0), end(1)]
     }
 
     fn push(&mut self, what: Figure, value: f64, half_digit: f64, stated: Option<f64>) {
@@ -94,6 +109,21 @@ impl Checker<'_> {
                 Fault::new(CLAIM, stated.span.clone(), "the claim states no figure")
                     .label("nothing to compare")
                     .help(format!("add at least one of {}", FIGURES.join(", "))),
+            );
+        }
+        if let Some(digits) = table
+            .digits
+            .as_ref()
+            .filter(|digits| digits.value > MOST_DIGITS)
+        {
+            self.report(
+                Fault::new(
+                    CLAIM,
+                    digits.span.clone(),
+                    format!("{} correct digits cannot be shown", digits.value),
+                )
+                .label(format!("at most {MOST_DIGITS}"))
+                .help("the numbers of a report are doubles, in which 15 decimal digits survive"),
             );
         }
         let about_analyses = table.measurand.is_none()
@@ -178,11 +208,39 @@ impl Checker<'_> {
                 );
                 continue;
             }
-            if let Some(number) = self.difference(amount, reading.unit, reading.name) {
+            if let Some((relative, scale)) = self.claimed_of_value(amount, &what, reading.unit) {
+                let half = scale * self.half_digit(amount);
+                reading.push(relative, scale * amount.value.number, half, tolerance);
+            } else if let Some(number) = self.difference(amount, reading.unit, reading.name) {
                 let half = self.half_digit_of(amount, reading.unit, reading.name);
                 reading.push(what, number, half, tolerance);
             }
         }
+        if let Some(variance) = &table.variance {
+            let stated = reading.tolerance(|t| &t.variance);
+            let half = self.half_digit(variance);
+            reading.push(Figure::Variance, variance.value, half, stated);
+        }
+    }
+
+    /// An uncertainty in % or ppm of a value that has another unit: which relative figure it is, and the factor that
+    /// makes it a number.
+    fn claimed_of_value(
+        &mut self,
+        amount: &Stated<Amount>,
+        what: &Figure,
+        unit: &Unit,
+    ) -> Option<(Figure, f64)> {
+        let relative = match what {
+            Figure::StandardUncertainty => Figure::RelativeUncertainty,
+            Figure::ExpandedUncertainty => Figure::RelativeExpanded,
+            _ => return None,
+        };
+        amount.value.unit.as_ref()?;
+        let own = self.amount_unit(&amount.value)??;
+        let share = is_bare_ratio(&own) && !is_in_ratios(unit);
+        let conversion = own.conversion_to(&Unit::one())?;
+        share.then_some((relative, conversion.factor))
     }
 
     /// k, ν, p and the factors of the region.
@@ -238,15 +296,15 @@ impl Checker<'_> {
             (
                 &table.interval,
                 [Figure::Lower, Figure::Upper],
-                reading.tolerance(|t| &t.interval),
+                reading.ends(|t| &t.interval),
             ),
             (
                 &table.shortest,
                 [Figure::ShortestLower, Figure::ShortestUpper],
-                reading.tolerance(|t| &t.shortest),
+                reading.ends(|t| &t.shortest),
             ),
         ];
-        for (stated, figures, tolerance) in intervals {
+        for (stated, figures, tolerances) in intervals {
             let Some(stated) = stated else { continue };
             let limits: Vec<Option<f64>> = stated
                 .value
@@ -267,7 +325,8 @@ impl Checker<'_> {
                 );
                 continue;
             }
-            for ((limit, amount), what) in limits.into_iter().zip(&stated.value).zip(figures) {
+            let ends = limits.into_iter().zip(&stated.value);
+            for (((limit, amount), what), tolerance) in ends.zip(figures).zip(tolerances) {
                 let half = self.half_digit_of(amount, reading.unit, reading.name);
                 reading.push(what, limit.unwrap_or(f64::NAN), half, tolerance);
             }
@@ -275,20 +334,25 @@ impl Checker<'_> {
     }
 
     fn correlations_claimed(&mut self, reading: &mut Reading<'_>) {
-        for (name, r) in entries(&reading.table.correlation) {
-            let wanted = r.map(|_| name.clone());
+        let table = reading.table;
+        let correlations = entries(&table.correlation).iter();
+        let covariances = entries(&table.covariance).iter();
+        let all = correlations
+            .map(|entry| (entry, Figure::Correlation as fn(usize) -> Figure))
+            .chain(covariances.map(|entry| (entry, Figure::Covariance as fn(usize) -> Figure)));
+        for ((name, number), figure) in all {
+            let wanted = number.map(|_| name.clone());
             let wanted = Some(Stated {
-                span: r.key.clone(),
+                span: number.key.clone(),
                 ..wanted
             });
-            if let Some(with) = self.claimed(&wanted, &r.key) {
-                let stated = reading.tolerance(|t| &t.correlation);
-                reading.push(
-                    Figure::Correlation(with),
-                    r.value,
-                    self.half_digit(r),
-                    stated,
-                );
+            if let Some(with) = self.claimed(&wanted, &number.key) {
+                let figure = figure(with);
+                let stated = match figure {
+                    Figure::Covariance(_) => reading.tolerance(|t| &t.covariance),
+                    _ => reading.tolerance(|t| &t.correlation),
+                };
+                reading.push(figure, number.value, self.half_digit(number), stated);
             }
         }
     }
@@ -450,7 +514,7 @@ impl Checker<'_> {
     }
 
     /// Half a unit of the last digit as the file writes the number: 0.5e-4 for `0.0710`.
-    fn half_digit<T>(&self, stated: &Stated<T>) -> f64 {
+    pub(super) fn half_digit<T>(&self, stated: &Stated<T>) -> f64 {
         let text = self
             .source
             .text

@@ -216,6 +216,11 @@ impl Checker<'_> {
         Some(Statement {
             names: [a.name.clone(), b.name.clone()],
             r: r.value,
+            half: if r.value.fract() == 0.0 {
+                0.0
+            } else {
+                self.half_digit(r)
+            },
             place,
             scale,
             offset,

@@ -6,6 +6,7 @@ use nalgebra::DMatrix;
 
 use super::checker::Checker;
 use super::draft::show;
+use super::nearest::within_rounding;
 use super::register::{Register, t_dof};
 use super::statement::{ROUNDING, Statement};
 use crate::budget::faults::{NOT_SEMIDEFINITE, UNATTAINABLE};
@@ -30,15 +31,38 @@ impl Checker<'_> {
         let r: Vec<f64> = own.iter().map(|statement| statement.r).collect();
         let correlation = matrix(&members, &own, &r);
         // Without a statement only a common ν joins them, and the matrix is the identity.
-        if !own.is_empty()
-            && let Some(smallest) = negative_eigenvalue(&correlation)
-        {
-            return self.refuse(contradiction(&members, &own, &r, smallest));
-        }
+        let negative = match own.is_empty() {
+            true => None,
+            false => negative_eigenvalue(&correlation),
+        };
+        let correlation = match negative {
+            None => correlation,
+            Some(smallest) => match within_rounding(&correlation, &halves(&members, &own)) {
+                Some(nearest) => {
+                    self.remark_rounded(smallest, &correlation, &nearest);
+                    nearest
+                }
+                None => return self.refuse(contradiction(&members, &own, &r, smallest)),
+            },
+        };
         let place = own
             .first()
             .map_or(0..0, |statement| statement.place.clone());
         self.join(members, correlation, register, &place)
+    }
+
+    /// Tells that coefficients were moved within their rounding.
+    pub(super) fn remark_rounded(
+        &mut self,
+        smallest: f64,
+        stated: &DMatrix<f64>,
+        nearest: &DMatrix<f64>,
+    ) {
+        let (smallest, moved) = (show(smallest), format!("{:.1e}", (nearest - stated).amax()));
+        self.remark(
+            format!("The stated correlation coefficients are rounded, and by that alone their matrix has the negative eigenvalue {smallest}, which no quantities have. The nearest possible matrix is used (Higham 2002); it differs from the stated one by at most {moved}, within the last digits that are stated."),
+            format!("所给相关系数经过修约，仅由修约就使其矩阵出现负特征值 {smallest}，而实际量的矩阵不会如此。计算采用最接近的可能矩阵（Higham 2002），与所给值最多相差 {moved}，在所给末位数字的修约范围之内。"),
+        );
     }
 
     /// The joint distribution of correlated components.
@@ -188,6 +212,23 @@ fn matrix(members: &[usize], statements: &[&Statement], r: &[f64]) -> DMatrix<f6
         }
     }
     matrix
+}
+
+/// Half a unit of the last digit of each coefficient, as it falls on the components.
+fn halves(members: &[usize], statements: &[&Statement]) -> DMatrix<f64> {
+    let mut halves = DMatrix::zeros(members.len(), members.len());
+    for statement in statements {
+        for (a, b, share) in &statement.pairs {
+            let (Ok(i), Ok(j)) = (members.binary_search(a), members.binary_search(b)) else {
+                continue;
+            };
+            let half = (statement.half * statement.scale * share).abs();
+            halves[(i, j)] = half;
+            halves[(j, i)] = half;
+        }
+    }
+    // The diagonal is one but for the last bits.
+    halves.map(|half| half + 1e-9)
 }
 
 /// The smallest eigenvalue of a correlation matrix, if it is negative beyond rounding.

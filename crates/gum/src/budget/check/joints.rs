@@ -8,6 +8,7 @@ use super::checker::Checker;
 use super::correlations::Side;
 use super::draft::{Draft, Kind, Location, show};
 use super::groups::negative_eigenvalue;
+use super::nearest::within_rounding;
 use super::register::{Register, no_such_input};
 use super::statement::Statement;
 use super::type_a::{mean_and_squares, student};
@@ -200,6 +201,20 @@ impl Checker<'_> {
         Some(matrix)
     }
 
+    /// How far the digits of a covariance matrix leave each correlation coefficient open.
+    fn halves_of_covariance(&self, stated: &Matrix, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        let half = |i: usize, j: usize| {
+            let entry = stated.value.get(i).and_then(|row| row.value.get(j));
+            let entry = entry.filter(|entry| entry.value.fract() != 0.0);
+            entry.map_or(0.0, |entry| self.half_digit(entry))
+        };
+        DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+            let (v, w) = (matrix[(i, i)], matrix[(j, j)]);
+            let r = matrix[(i, j)].abs() / (v * w).sqrt();
+            half(i, j) / (v * w).sqrt() + r * (half(i, i) / v + half(j, j) / w) / 2.0 + 1e-9
+        })
+    }
+
     fn by_covariance(
         &mut self,
         stated: &Stated<JointTable>,
@@ -230,13 +245,21 @@ impl Checker<'_> {
                 matrix[(i, j)] / (u[i] * u[j])
             }
         });
-        if let Some(smallest) = negative_eigenvalue(&correlation) {
-            return self.refuse(
-                Fault::new(NOT_SEMIDEFINITE, covariance.span.clone(), "no quantities can have this covariance matrix")
-                    .label(format!("smallest eigenvalue of the correlation matrix {}", show(smallest)))
-                    .help("check the signs, and that |covariance| does not exceed the product of the standard uncertainties"),
-            );
-        }
+        let correlation = match negative_eigenvalue(&correlation) {
+            None => correlation,
+            Some(smallest) => {
+                let half = self.halves_of_covariance(covariance, &matrix);
+                let Some(nearest) = within_rounding(&correlation, &half) else {
+                    return self.refuse(
+                        Fault::new(NOT_SEMIDEFINITE, covariance.span.clone(), "no quantities can have this covariance matrix")
+                            .label(format!("smallest eigenvalue of the correlation matrix {}", show(smallest)))
+                            .help("check the signs, and that |covariance| does not exceed the product of the standard uncertainties"),
+                    );
+                };
+                self.remark_rounded(smallest, &correlation, &nearest);
+                nearest
+            }
+        };
         let dof = match &stated.value.dof {
             Some(dof) => self.positive_dof(&dof.map(|dof| dof.0))?,
             None => f64::INFINITY,

@@ -24,6 +24,7 @@ mod groups;
 mod inputs;
 mod joints;
 mod names;
+mod nearest;
 mod register;
 mod resolution;
 mod results;
@@ -55,6 +56,8 @@ use gumption_format::toml::Stated;
 /// One evaluation: the file itself, or with the values of a row of its series in place.
 pub(super) struct Variant {
     pub label: Option<String>,
+    /// Whether its series says that rows repeat one another.
+    pub repetitions: bool,
     pub file: FileTable,
 }
 
@@ -70,7 +73,10 @@ pub(super) fn rows(
     let mut faults = Vec::new();
     let heading = variants
         .first()
-        .map(|variant| heading(&variant.file))
+        .map(|variant| Heading {
+            repetitions: variant.repetitions,
+            ..heading(&variant.file)
+        })
         .unwrap_or_default();
     let several = variants.len() > 1;
     let mut rows = Vec::new();
@@ -129,6 +135,7 @@ fn heading(file: &FileTable) -> Heading {
         date: file.date.as_ref().map(|date| date.value.0.clone()),
         reference: text(&file.reference),
         note: text(&file.note),
+        repetitions: false,
     }
 }
 

@@ -11,6 +11,8 @@ pub(super) const ROUNDING: f64 = 1e-9;
 pub(super) struct Statement {
     pub names: [Arc<str>; 2],
     pub r: f64,
+    /// Half a unit of its last digit as the file writes it; 0 of a whole number.
+    pub half: f64,
     pub place: Range<usize>,
     /// Correlation of the sides' own parts = `scale`·r + `offset`.
     pub scale: f64,

@@ -2,7 +2,7 @@
 
 use super::list::List;
 use crate::budget::claim::Confidence;
-use gumption_format::toml::{Amount, Named};
+use gumption_format::toml::{Amount, Named, OneOrMany};
 use gumption_format::toml::{table, words};
 
 table! {
@@ -14,10 +14,12 @@ table! {
         method: MethodWord,
         /// Stated value.
         value: Amount,
-        /// Stated standard uncertainty.
+        /// Stated standard uncertainty; `"0.1 %"` is of the value.
         u: Amount,
-        /// Stated expanded uncertainty.
+        /// Stated expanded uncertainty; `"0.1 %"` is of the value.
         U: Amount,
+        /// Stated variance u², in the square of the unit.
+        variance: f64,
         /// Stated coverage factor.
         k: f64,
         /// Stated degrees of freedom.
@@ -32,6 +34,8 @@ table! {
         shift: Amount,
         /// Stated correlation coefficients with other measurands, by name.
         correlation: Named<f64>,
+        /// Stated covariances with other measurands, by name, in the product of the units.
+        covariance: Named<f64>,
         /// Stated joint coverage region of the measurands.
         region: RegionClaimTable,
         /// Stated verdict of the validation of JCGM 101 clause 8.
@@ -118,10 +122,14 @@ table! {
         dof: f64,
         /// Of the coverage probability.
         p: f64,
-        /// Of the limits of the interval.
-        interval: f64,
-        /// Of the limits of the shortest interval.
-        shortest: f64,
+        /// Of the limits of the interval: one for both, or one for each end.
+        interval: OneOrMany<f64>,
+        /// Of the limits of the shortest interval: one for both, or one for each end.
+        shortest: OneOrMany<f64>,
+        /// Of the variance.
+        variance: f64,
+        /// Of covariances.
+        covariance: f64,
         /// Of the shift.
         shift: f64,
         /// Of correlation coefficients.

@@ -11,7 +11,8 @@ mod fit;
 mod input;
 mod list;
 
-use gumption_format::toml::{Cell, Date, Named, OneOrMany, table};
+use crate::budget::cell::Entry;
+use gumption_format::toml::{Date, Named, OneOrMany, table};
 use list::List;
 
 pub use claim::*;
@@ -93,7 +94,11 @@ table! {
     SeriesTable "[series]" {
         /// Names of inputs or constants, `label`, or numbers of the claim such as `claim.value`.
         columns: List<String>,
-        /// One list per evaluation, with an entry for every column.
-        rows: List<List<Cell>>,
+        /// One list per evaluation, with an entry for every column; "" leaves out what the column names.
+        rows: List<List<Entry>>,
+        /// In place of both: a CSV file, whose first line names the columns.
+        file: String,
+        /// Rows whose labels differ in their last number only repeat one another: their mean and scatter are told.
+        repetitions: bool,
     }
 }

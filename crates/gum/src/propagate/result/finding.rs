@@ -47,6 +47,14 @@ pub enum FindingKind {
         /// About how many trials would do.
         trials: u64,
     },
+    /// Doubles do not resolve the trials to the tolerance of clause 8, because the model takes large numbers from
+    /// one another: Monte Carlo was left out, and nothing validates the GUM result.
+    TrialsUnresolved {
+        /// How far a trial may be off, in the unit of the measurand.
+        error: f64,
+    },
+    /// The derivatives are what rounding left of larger numbers: u is not known to the digits that are printed.
+    SlopesUnresolved,
     /// No Monte Carlo was run and first order is doubtful.
     NeedsMonteCarlo,
     /// Mean or standard deviation do not exist or do not converge; quantiles are given.

@@ -1,0 +1,89 @@
+//! Budgets whose right answer is known from independent arithmetic: each file of `known` says how its claimed figures
+//! were computed, with 60 decimal digits or with whole numbers.
+
+use crate::common;
+use gumption::budget;
+use gumption::propagate::{FindingKind, MonteCarloChoice, Options, compare_claims, evaluate};
+
+fn options() -> Options {
+    Options {
+        monte_carlo: MonteCarloChoice::Off,
+        ..Options::default()
+    }
+}
+
+#[test]
+fn every_figure_has_its_digits() {
+    let files = common::files("tests/library/known", "toml");
+    assert!(files.len() >= 30, "{}", files.len());
+    for path in files {
+        let loaded = budget::load(&path).unwrap_or_else(|r| panic!("{}", r.render(false)));
+        let budget = &loaded.rows[0].budget;
+        let evaluation = evaluate(budget, &options()).expect("a value");
+        for comparison in compare_claims(budget, &evaluation) {
+            let what = &comparison.claimed;
+            assert!(
+                comparison.agrees(),
+                "{}: {what:?}, obtained {:?}",
+                common::relative(&path),
+                comparison.obtained
+            );
+        }
+    }
+}
+
+/// A budget of a difference of two decimals with this u, and a tolerance with this upper limit.
+fn difference(a: &str, b: &str, u: f64, upper: &str) -> String {
+    format!(
+        "[measurand.E]\nmodel = \"a - b\"\n[input.a]\nvalue = {a}\nu = {u}\n[input.b]\nvalue = {b}\nu = {u}\n\
+         [conformity]\nlower = -1e9\nupper = {upper}\nrule = \"simple\"\n"
+    )
+}
+
+/// The verdict about a difference is that of the decimals themselves, as whole numbers of the last place.
+#[test]
+fn verdicts_are_those_of_the_decimals() {
+    let mut noise = common::Noise(7);
+    for _ in 0..300 {
+        let whole = |x: f64| (x * 1e9) as i64;
+        let (a, step) = (whole(noise.uniform()), whole(noise.uniform()) % 20_000);
+        let b = a - step;
+        for limit in [step - 1, step, step + 1] {
+            let decimal = |n: i64| {
+                let sign = if n < 0 { "-" } else { "" };
+                format!("{sign}{}.{:06}", n.abs() / 1_000_000, n.abs() % 1_000_000)
+            };
+            let text = difference(&decimal(a), &decimal(b), 1e-3, &decimal(limit));
+            let loaded = budget::read(&text, "verdict.toml", "".as_ref())
+                .unwrap_or_else(|r| panic!("{}", r.render(false)));
+            let evaluation = evaluate(&loaded.rows[0].budget, &options()).expect("a value");
+            let conforms = format!("{:?}", evaluation.conformity[0].verdict) == "Some(Conforming)";
+            assert_eq!(conforms, step <= limit, "{text}");
+        }
+    }
+}
+
+/// Whatever is taken from whatever: the estimate is off by less than the resolution that stands behind it, and the trials
+/// of Monte Carlo are left out where doubles are coarser than the tolerance of clause 8.
+#[test]
+fn statements_are_within_the_resolution() {
+    let mut noise = common::Noise(11);
+    for exponent in 0..16 {
+        let large = 10f64.powi(exponent);
+        let small = (noise.uniform() * 1e3).round() / 1e3;
+        let text = format!(
+            "[measurand.Y]\nmodel = \"(a + {large:e}) - {large:e}\"\n[input.a]\nvalue = {small}\nu = 1e-6\n\
+             [monte_carlo]\ntrials = 10000\n"
+        );
+        let loaded = budget::read(&text, "sum.toml", "".as_ref())
+            .unwrap_or_else(|r| panic!("{}", r.render(false)));
+        let evaluation = evaluate(&loaded.rows[0].budget, &Options::default()).expect("a value");
+        assert_eq!(evaluation.results[0].gum.estimate, small, "{text}");
+        let unresolved = |kind: &FindingKind| matches!(kind, FindingKind::TrialsUnresolved { .. });
+        let told = evaluation.findings.iter().any(|f| unresolved(&f.kind));
+        // u = 1.0e-6: δ = 5e-8, and a double of this size is coarser than that from 10⁹ on.
+        assert_eq!(told, evaluation.results[0].monte_carlo.is_none(), "{text}");
+        assert!(told || exponent < 9, "{text}");
+        assert!(!told || exponent > 7, "{text}");
+    }
+}

@@ -7,7 +7,7 @@ use gumption::budget::KeyRow;
 use gumption::distribution::Kind;
 use gumption::distribution::stating::Word;
 use gumption::fault::{Code, nearest};
-use gumption::{budget, csv, diagnose, distribution, equations, experiment, model, quantity};
+use gumption::{audit, budget, csv, diagnose, distribution, equations, experiment, model, quantity};
 
 use super::concepts::CONCEPTS;
 use super::{Outcome, output};
@@ -39,16 +39,18 @@ enum Section {
     Distributions,
     Functions,
     Profiles,
+    Slips,
     Keys,
     Errors,
 }
 
 impl Section {
-    const ALL: [Section; 6] = [
+    const ALL: [Section; 7] = [
         Section::Concepts,
         Section::Distributions,
         Section::Functions,
         Section::Profiles,
+        Section::Slips,
         Section::Keys,
         Section::Errors,
     ];
@@ -60,6 +62,7 @@ impl Section {
             Section::Distributions => "distributions",
             Section::Functions => "functions",
             Section::Profiles => "profiles",
+            Section::Slips => "slips",
             Section::Keys => "keys",
             Section::Errors => "errors",
         }
@@ -71,6 +74,7 @@ impl Section {
             Section::Distributions => "Distributions",
             Section::Functions => "Functions of the model language",
             Section::Profiles => "Profiles",
+            Section::Slips => "Slips that an audit can name",
             Section::Keys => "Keys of a budget file",
             Section::Errors => "Error codes",
         }
@@ -78,7 +82,7 @@ impl Section {
 
     /// Whether there are too many topics for the overview to say what each one is.
     fn is_long(self) -> bool {
-        matches!(self, Section::Keys | Section::Errors)
+        matches!(self, Section::Slips | Section::Keys | Section::Errors)
     }
 }
 
@@ -266,6 +270,13 @@ fn topics() -> Vec<Topic> {
         aliases: Vec::new(),
         title: p.source.to_string(),
         text: format!("{}\n\n{}", p.en, p.zh),
+    }));
+    topics.extend(audit::slips::slips().map(|slip| Topic {
+        section: Section::Slips,
+        name: slip.id.to_string(),
+        aliases: Vec::new(),
+        title: slip.en.to_string(),
+        text: format!("{}\n\nRules {}; {}.", slip.zh, slip.rule, slip.weight.name()),
     }));
     topics.extend(keys::topics());
     topics.extend(codes().map(|code| Topic {

@@ -33,6 +33,8 @@ enum Which {
     Allan,
     /// The output of `gumption grade --json`
     Grade,
+    /// The output of `gumption audit --json`
+    Audit,
     /// The output of `gumption verify --json`
     Verification,
 }
@@ -49,6 +51,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Which::Outlook => report::outlook_schema(),
         Which::Allan => report::allan_schema(),
         Which::Grade => challenge::grade::grade_schema(),
+        Which::Audit => report::audit_schema(),
         Which::Verification => report::verification_schema(),
     };
     output::print(format!("{schema:#}\n"))

@@ -12,6 +12,8 @@ pub mod read;
 pub mod search;
 pub mod sheet;
 pub mod slips;
+#[cfg(test)]
+mod tests;
 mod units;
 mod verdict;
 

@@ -35,6 +35,10 @@ fn introduction(section: Section) -> &'static str {
             "A profile is a set of the conventions on which guides differ: `profile = \"EA\"` at the top of the \
              file. `[conventions]` changes single ones."
         }
+        Section::Slips => {
+            "[The audit](../audit.md) says how they are found. Below each stands the Chinese text; numbers are those of \
+             the rules that it breaks."
+        }
         Section::Keys => "[The budget file](../budget-file.md) shows every key by example.",
         Section::Errors => {
             "Every message begins with its code. B: the budget file, M: the model, U: units. Codes are stable. \

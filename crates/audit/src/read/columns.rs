@@ -127,7 +127,7 @@ const WORDS: &[(Role, How, &[&str])] = &[
     (Role::Type, How::Is, &["type", "类型", "评定", "method", "eval.", "a,b"]),
     (Role::Remark, How::Has, &["remark", "note", "comment", "备注", "说明", "information", "依据", "howknown", "basis", "evidence", "whatisknown", "已知", "信息", "statement", "注", "details", "data", "justification", "reference"]),
     (Role::Used, How::Has, &["±", "half-width", "halfwidth", "半宽", "limit", "误差限", "expanded", "扩展不确定度", "a(half", "tolerance", "允差", "interval", "区间", "uncertaintyvalue", "不确定度值", "valueofuncertainty", "spread", "stated", "极限", "given", "最大允许", "+/-"]),
-    (Role::Used, How::Is, &["uncertainty", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值"]),
+    (Role::Used, How::Is, &["uncertainty", "a", "ai", "不确定度", "unc.", "unc", "accuracy", "error", "δ", "figure", "known", "数值", "magnitude", "a/u/s", "a,u,s", "size", "amount"]),
     (Role::Unit, How::Is, &["unit", "units", "单位", "[unit]", "unitofx", "unitofxi", "计量单位"]),
     (Role::Symbol, How::Has, &["symbol", "符号", "variable", "代号"]),
     (Role::Value, How::Has, &["estimate", "估计值", "nominal", "标称", "measuredvalue", "量值", "bestvalue", "最佳", "meanvalue", "输入量的值", "输入量值", "inputvalue", "测得值", "取值"]),

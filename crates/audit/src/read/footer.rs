@@ -162,6 +162,14 @@ pub fn sentence(text: &str, measurand: &str, at: Place, footer: &mut Footer) -> 
     found
 }
 
+/// Whether a line, in small letters, says what u_c, ν_eff or U are.
+pub fn states_figures(lower: &str) -> bool {
+    ["u_c", "uc", "u(y)", "ν_eff", "νeff", "v_eff", "veff", "u"]
+        .iter()
+        .any(|name| assigned(lower, name).is_some())
+        || lower.contains('±')
+}
+
 /// Names that are followed by `=`, in their own case.
 const NAMES: &[(Whole, &[&str])] = &[
     (Whole::Combined, &["u_c(y)", "uc(y)", "u_c", "uc", "u(y)"]),

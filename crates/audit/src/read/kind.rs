@@ -136,7 +136,20 @@ fn by_words(e: &Evidence<'_>, text: &str, columns: &str) -> Option<Stated> {
     let step_first = first(STEP).is_some_and(|step| {
         first(DEVIATION).is_none_or(|s| step < s) && first(CERTIFICATE).is_none_or(|c| step < c)
     });
-    if step_first && !has(text, &["half the", "half a step =", "半宽"]) {
+    if step_first
+        && !has(
+            text,
+            &[
+                "half the",
+                "half of",
+                "half a step =",
+                "half step",
+                "1/2",
+                "半宽",
+                "半个",
+            ],
+        )
+    {
         return step(e, text);
     }
     if certificate && (!reading || first(CERTIFICATE) < first(DEVIATION)) {

@@ -115,7 +115,7 @@ fn budget(
     claimed.unit = located.unit.clone();
     claimed.title = first
         .iter()
-        .find(|line| line.at.row < located.head)
+        .find(|line| line.at.row < located.head && !line.text.contains('='))
         .map(|line| line.text.clone())
         .unwrap_or_default();
     find_model(
@@ -262,7 +262,8 @@ fn place_line(line: &Line, claimed: &mut Claimed, of_row: &mut [String]) {
             text: line.text.clone(),
             role,
         });
-        if role == "correlation" || role == "CMC" {
+        let statement = footer::states_figures(&lower);
+        if role == "correlation" || role == "CMC" || role == "rule for k" && !statement {
             return;
         }
     }

@@ -3,6 +3,7 @@
 use crate::claim::{Claimed, Correlation, Coverage, RoundingStated};
 use crate::printed::{Place, Printed, leading};
 
+use super::footer;
 use super::words::{count_after, count_before, figure_after, has, has_symbol, symbol_at};
 
 /// What a line says of the whole; `None` for what it says nothing of.
@@ -154,7 +155,10 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
         claimed.coverage = Coverage::Rectangle;
         return true;
     }
-    let by_t = has(
+    if claimed.coverage != Coverage::Unstated {
+        return false;
+    }
+    let student = has(
         lower,
         &[
             "student",
@@ -171,15 +175,23 @@ fn rule(lower: &str, claimed: &mut Claimed) -> bool {
             "t值",
             "t factor",
             "from t",
-            "effective degrees",
-            "ν_eff",
-            "veff",
-            "有效自由度",
+            "t-factor",
+            "t 值",
         ],
-    ) && !has(lower, &["k = 2 is used", "regardless"]);
-    if by_t {
+    );
+    let by_freedom = has(
+        lower,
+        &["effective degrees", "ν_eff", "veff", "νeff", "有效自由度"],
+    );
+    // `ν_eff = 35, k = 2, U = 0.05` claims figures and states no rule.
+    let statement = footer::states_figures(lower);
+    let regardless = has(lower, &["regardless", "k = 2 is used", "不论"]);
+    if (student || by_freedom && !statement) && !regardless {
         claimed.coverage = Coverage::StudentT(probability(lower).unwrap_or(0.95));
         return true;
+    }
+    if statement {
+        return false;
     }
     match figure_after(lower, &["coverage factor", "包含因子", "k"]) {
         Some(k) if (1.0..5.0).contains(&k.value) => {

@@ -109,6 +109,7 @@ pub fn locate(grid: &Grid, mapping: &Mapping) -> Vec<Located> {
                 second_line(grid, &mut located, mapping);
                 body(grid, &mut located, mapping);
                 row = located.end.max(row + 1);
+                nameless_figures(grid, &mut located);
                 if !located.rows.is_empty() {
                     located.unit = located.unit(Role::Contribution).to_string();
                     found.push(located);
@@ -157,6 +158,16 @@ fn roles(filled: &[(usize, &str)], mapping: &Mapping) -> Vec<Column> {
         let Some((role, unit)) = named else {
             continue;
         };
+        // `Quantity | Symbol`: the first is the name after all.
+        let explicit = ["symbol", "符号", "代号"]
+            .iter()
+            .any(|word| text.to_lowercase().contains(word));
+        if role == Role::Symbol
+            && explicit
+            && let Some(before) = columns.iter_mut().find(|c| c.role == Role::Symbol)
+        {
+            before.role = Role::Name;
+        }
         let taken = |role: Role| columns.iter().any(|c: &Column| c.role == role);
         let role = match role {
             // A second column of the same kind is what comes next in the calculation.
@@ -180,16 +191,6 @@ fn roles(filled: &[(usize, &str)], mapping: &Mapping) -> Vec<Column> {
             head: (*text).into(),
             unit,
         });
-    }
-    let position = |role: Role| columns.iter().position(|c| c.role == role);
-    // `Quantity | Symbol`: the first is the name.
-    if let (Some(symbol), None) = (position(Role::Symbol), position(Role::Name))
-        && let Some(second) = columns
-            .iter()
-            .skip(symbol + 1)
-            .position(|c| c.role == Role::Symbol)
-    {
-        let _ = second;
     }
     columns
 }
@@ -263,9 +264,7 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
                 located.rows.push(row);
                 located.used.insert(row);
             }
-            What::Footer => {
-                located.used.insert(row);
-            }
+            What::Footer => {}
             What::Other => {
                 strange += 1;
                 if strange > STRANGE {
@@ -276,6 +275,33 @@ fn body(grid: &Grid, located: &mut Located, mapping: &Mapping) {
         }
         strange = 0;
         located.end = row + 1;
+    }
+}
+
+/// A column of figures whose head says nothing that is known is the ± column, if there is none and it is the only one.
+fn nameless_figures(grid: &Grid, located: &mut Located) {
+    if located.has(Role::Used) {
+        return;
+    }
+    let numeric = |index: usize| {
+        let figures = located
+            .rows
+            .iter()
+            .filter(|row| Printed::parse(&grid.cell(**row, index).text).is_some());
+        2 * figures.count() > located.rows.len()
+    };
+    let known = |index: usize| located.columns.iter().any(|c| c.index == index);
+    let mut open = grid
+        .filled(located.head)
+        .filter(|(i, _)| !known(*i) && numeric(*i));
+    if let (Some((index, cell)), None) = (open.next(), open.next()) {
+        let (head, unit) = (cell.text.clone(), columns::apart(&cell.text).1);
+        located.columns.push(Column {
+            index,
+            role: Role::Used,
+            head,
+            unit,
+        });
     }
 }
 
@@ -568,6 +594,8 @@ fn footer_row(
             .filter(|_| inside)
             .map(|c| c.role);
         let whole = match (open, by_column) {
+            (Some(Whole::Y), Some(Role::Contribution | Role::U)) => Some(Whole::Combined),
+            (Some(Whole::Y), Some(Role::Dof)) => Some(Whole::Freedom),
             (Some(Whole::Combined), Some(Role::Dof)) => Some(Whole::Freedom),
             (Some(Whole::Expanded), Some(Role::Dof)) => Some(Whole::Freedom),
             (Some(Whole::Expanded), Some(Role::Divisor)) => Some(Whole::Factor),

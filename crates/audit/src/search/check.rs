@@ -193,11 +193,19 @@ fn factor(figure: &Printed, k: f64) -> bool {
 
 /// Whether `x` is rounded to the figure by the rule of the sheet.
 fn is_rounded(figure: &Printed, x: f64, rule: RoundingStated, down: bool) -> bool {
-    let tolerance = 1e-6 * figure.half + 1e-9 * x.abs();
+    // Two digits of a whole number may have zeros behind them: 2300.
+    let places = libm::floor(libm::log10(figure.value.max(1.0))) - 1.0;
+    let zeros = figure.half >= 0.5 && figure.digits <= 2 && places > 0.0;
+    let half = if zeros {
+        0.5 * libm::exp10(places)
+    } else {
+        figure.half
+    };
+    let tolerance = 1e-6 * half + 1e-9 * x.abs();
     let above = figure.value - x;
-    let nearest = above.abs() <= figure.half + tolerance;
-    let up = above >= -tolerance && above < 2.0 * figure.half + tolerance;
-    let cut = above < -tolerance && above > -2.0 * figure.half - tolerance;
+    let nearest = above.abs() <= half + tolerance;
+    let up = above >= -tolerance && above < 2.0 * half + tolerance;
+    let cut = above < -tolerance && above > -2.0 * half - tolerance;
     match (down, rule) {
         (false, RoundingStated::Up) => up,
         (false, RoundingStated::Nearest) => nearest,

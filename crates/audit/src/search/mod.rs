@@ -50,8 +50,10 @@ pub struct Explanation {
     pub calculation: Calculation,
 }
 
-/// An accident that happens more often than not explains better than what is claimed to be an explanation.
-const LIKELY: f64 = 0.5;
+/// Sets of which more are expected to match by accident are likely to be accidents. One slip is some twenty times as
+/// frequent as any given pair of as many (four in five of wrong sheets have one, and there are a hundred times as many
+/// pairs), so that a single match may be expected by accident more often before it says nothing.
+const LIKELY: [f64; 3] = [f64::INFINITY, 2.0, 0.1];
 
 /// Searches.
 pub fn search(claimed: &Claimed) -> Found<'_> {
@@ -115,8 +117,7 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
     let extra = explanations
         .first()
         .map_or(0, |e| e.acts.len().saturating_sub(bases[0].0.len()));
-    let unlikely = broken.is_empty()
-        && (extra == 0 || by_chance < LIKELY * if extra == 1 { SINGLES } else { 1.0 });
+    let unlikely = broken.is_empty() && (extra == 0 || by_chance < LIKELY[extra.min(2)]);
     let withheld = if unlikely { 0 } else { explanations.len() };
     if !unlikely {
         explanations.clear();
@@ -143,10 +144,6 @@ fn of_rule(case: Case<'_>) -> Found<'_> {
         case,
     }
 }
-
-/// One slip is some ten times as frequent as any given pair of slips among as many, so that a single match may be
-/// expected by accident more often before it says nothing.
-const SINGLES: f64 = 4.0;
 
 /// More places than this are tried one at a time: pairs would take seconds, and match anything.
 const MOST_FOR_PAIRS: usize = 700;

@@ -91,6 +91,8 @@ pub fn options(case: &Case<'_>, i: usize, acts: &[Act]) -> Options {
             .collect();
         broken.is_none() && set.len() == base.len() + 1 && fits(&set)
             || matches!(act.change, Change::Counted(_))
+            // The column of coefficients says what they are, not that they were used.
+            || broken.is_none() && row.contribution.is_none() && act.group() == Group::C
     });
     let contribution = row.contribution.as_ref().map(|c| c.value.abs());
     Options {

@@ -40,6 +40,17 @@ pub enum Weight {
     Information,
 }
 
+impl Weight {
+    /// The word for it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Weight::Error => "error",
+            Weight::Warning => "warning",
+            Weight::Information => "information",
+        }
+    }
+}
+
 /// What a slip does to a calculation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Change {

@@ -1,0 +1,206 @@
+//! Sheets from text to verdict.
+
+use crate::mapping::Mapping;
+use crate::{Verdict, audit, read, sheet};
+
+/// Verdict and candidates of a text.
+fn answer(name: &str, text: &str) -> (Verdict, Vec<String>) {
+    let grids = sheet::grids(name, text.as_bytes()).unwrap();
+    let claims = read::budgets(&grids, &Mapping::default());
+    assert_eq!(claims.len(), 1, "{text}");
+    let audited = audit(&claims[0]);
+    let found = &audited.found;
+    let sets = found.explanations.iter().filter(|e| !e.acts.is_empty());
+    let ids = sets.map(|e| {
+        e.acts
+            .iter()
+            .map(|act| act.id(&found.case))
+            .collect::<Vec<_>>()
+            .join("+")
+    });
+    (audited.verdict, ids.collect())
+}
+
+fn first(name: &str, text: &str) -> String {
+    let (verdict, sets) = answer(name, text);
+    assert!(
+        matches!(verdict, Verdict::WithEffect | Verdict::WithoutEffect),
+        "{verdict:?} {text}"
+    );
+    sets[0].clone()
+}
+
+/// A comparison of masses in the form of M3003: rows, then the figures of the whole.
+fn m3003(rows: [&str; 3], whole: &str) -> String {
+    format!(
+        "Mass comparison\nModel: m = m_S + dm + dT\nCoverage factor k = 2\n\
+         Symbol,Source of uncertainty,Value ±,Probability distribution,Divisor,c_i,u_i(y) / g,ν_i\n{}\n{whole}\n",
+        rows.join("\n")
+    )
+}
+
+const CERTIFICATE: &str = "m_S,\"certificate M-12: U = 0.040 g, k = 2\",0.040,normal,2,1,0.0200,∞";
+const READINGS: &str = "dm,\"standard deviation s = 0.020 g of 10 readings, mean of 5 reported\",0.020,normal,√5,1,0.00894,9";
+const LIMITS: &str = "dT,\"limits ±0.030 g, nothing else known\",0.030,rectangular,√3,1,0.0173,∞";
+const WHOLE: &str =
+    "u_c,Combined standard uncertainty,,,,,0.0279,\nU,Expanded uncertainty,,,,,0.056,";
+
+#[test]
+fn a_sound_sheet_is_sound() {
+    let sheet = m3003([CERTIFICATE, READINGS, LIMITS], WHOLE);
+    assert_eq!(answer("sheet.csv", &sheet), (Verdict::Sound, Vec::new()));
+}
+
+/// Each slip is put into the figures by hand, and found by its name.
+#[test]
+fn slips_in_rows_are_named() {
+    let undivided = "m_S,\"certificate M-12: U = 0.040 g, k = 2\",0.040,normal,1,1,0.0400,∞";
+    let by_root3 = "m_S,\"certificate M-12: U = 0.040 g, k = 2\",0.040,normal,√3,1,0.0231,∞";
+    let single = "dm,\"standard deviation s = 0.020 g of 10 readings, mean of 5 reported\",0.020,normal,1,1,0.0200,9";
+    let study = "dm,\"standard deviation s = 0.020 g of 10 readings, mean of 5 reported\",0.020,normal,√10,1,0.00632,9";
+    let by_two = "dT,\"limits ±0.030 g, nothing else known\",0.030,rectangular,2,1,0.0150,∞";
+    let missing = "dT,\"limits ±0.030 g, nothing else known\",0.030,rectangular,1,1,0.0300,∞";
+    let triangle = "dT,\"limits ±0.030 g, nothing else known\",0.030,triangular,2.449,1,0.0122,∞";
+    for (rows, u_c, expanded, id) in [
+        (
+            [undivided, READINGS, LIMITS],
+            "0.0445",
+            "0.089",
+            "cert-undivided@m_S",
+        ),
+        (
+            [by_root3, READINGS, LIMITS],
+            "0.0302",
+            "0.060",
+            "cert-by-root3@m_S",
+        ),
+        (
+            [CERTIFICATE, single, LIMITS],
+            "0.0332",
+            "0.066",
+            "s-not-mean@dm",
+        ),
+        (
+            [CERTIFICATE, study, LIMITS],
+            "0.0272",
+            "0.054",
+            "s-wrong-m@dm",
+        ),
+        (
+            [CERTIFICATE, READINGS, by_two],
+            "0.0266",
+            "0.053",
+            "half-width-by-2@dT",
+        ),
+        (
+            [CERTIFICATE, READINGS, missing],
+            "0.0371",
+            "0.074",
+            "root3-missing@dT",
+        ),
+        (
+            [CERTIFICATE, READINGS, triangle],
+            "0.0251",
+            "0.050",
+            "triangle@dT",
+        ),
+    ] {
+        let whole = format!(
+            "u_c,Combined standard uncertainty,,,,,{u_c},\nU,Expanded uncertainty,,,,,{expanded},"
+        );
+        assert_eq!(first("sheet.csv", &m3003(rows, &whole)), id);
+    }
+}
+
+#[test]
+fn slips_of_the_whole_are_named() {
+    let rows = [CERTIFICATE, READINGS, LIMITS];
+    for (u_c, expanded, id) in [
+        ("0.0463", "0.093", "linear-sum"),
+        ("0.000780", "0.0016", "squares-not-rooted"),
+        ("0.0265", "0.053", "row-dropped@dm"),
+        ("0.0279", "0.11", "k-twice"),
+        ("0.0279", "0.028", "k-forgotten"),
+        ("0.0279", "0.065", "digits-transposed"),
+        ("0.0279", "0.0558", "too-many-digits"),
+    ] {
+        let whole = format!(
+            "u_c,Combined standard uncertainty,,,,,{u_c},\nU,Expanded uncertainty,,,,,{expanded},"
+        );
+        assert_eq!(first("sheet.csv", &m3003(rows, &whole)), id);
+    }
+}
+
+/// A figure that nothing gives has no name, and the place where it sits is said.
+#[test]
+fn what_nothing_gives_is_unexplained() {
+    let whole = "u_c,Combined standard uncertainty,,,,,0.0313,\nU,Expanded uncertainty,,,,,0.063,";
+    let (verdict, sets) = answer("sheet.csv", &m3003([CERTIFICATE, READINGS, LIMITS], whole));
+    assert_eq!((verdict, sets), (Verdict::Unexplained, Vec::new()));
+}
+
+/// A Chinese sheet with semicolons and decimal commas, the symbols in front of the sources.
+#[test]
+fn a_chinese_sheet_is_read() {
+    let sheet = "数字压力表示值误差测量结果的不确定度评定\n测量模型：δ = p_x − p_s\n\
+        序号;不确定度来源;输入量估计值;评定方法;概率分布;区间半宽 a;包含因子 k;标准不确定度 u(x_i) / kPa;灵敏系数 c_i;标准不确定度分量 |c_i|u(x_i) / kPa\n\
+        1;p_x 重复性，10次测量标准偏差 s = 0,012 kPa，取单次测量结果;100,02;A;正态;0,012;1;0,012;1;0,0120\n\
+        2;p_s 标准器最大允许误差 ±0,05 kPa;100,00;B;均匀;0,05;2;0,025;-1;0,0250\n\
+        合成标准不确定度 u_c / kPa;;;;;;;;;0,0277\n扩展不确定度 U（k=2）/ kPa;;;;;;;;;0,055\n包含因子取 k=2\n";
+    assert_eq!(first("sheet.csv", sheet), "half-width-by-2@p_s");
+}
+
+/// A summary states what is known and the claim: the search is over all rows at once.
+#[test]
+fn a_summary_is_searched() {
+    let sheet = |u_c: &str, expanded: &str| {
+        format!(
+            "| Quantity | Estimate | ± | What is known | c |\n|---|---|---|---|---|\n\
+             | V_S | 10.0000 V | 0.0030 V | certificate, expanded uncertainty, k = 2 | 1 |\n\
+             | dV_r | 0 V | 0.0010 V | digital step of the indication | 1 |\n\
+             | dV_s | 0 V | 0.0042 V | s of 10 readings, mean of 5 reported | 1 |\n\
+             | dV_t | 0 V | 0.0025 V | limits, nothing else known | 1 |\n\n\
+             u_c = {u_c} V\n\nk = 2\n\nU = {expanded} V\n"
+        )
+    };
+    assert_eq!(
+        answer("sheet.md", &sheet("0.002819", "0.0056")).0,
+        Verdict::Sound
+    );
+    assert_eq!(
+        first("sheet.md", &sheet("0.003833", "0.0077")),
+        "cert-undivided@V_S"
+    );
+    assert_eq!(
+        first("sheet.md", &sheet("0.004697", "0.0094")),
+        "s-not-mean@dV_s"
+    );
+}
+
+/// JJF 2003-2022, annex A.1: u_c = 2.12e-4 and U = 4.3e-4, rounded up.
+#[test]
+fn the_annex_of_jjf_2003_is_sound() {
+    let sheet = "符号,不确定度来源,半宽,分布,除数,标准不确定度 u(x_i),不确定度分量 u_i(y)\n\
+        u_1,\"转台校准证书 U = 2e-4, k = 2\",2e-4,正态,2,1.0e-4,1.0e-4\n\
+        u_2,\"数据采集，极限 ±2.4414e-4\",2.4414e-4,均匀,1.732,1.41e-4,1.41e-4\n\
+        u_3,标准不确定度 1.22e-4,1.22e-4,正态,1,1.22e-4,1.22e-4\n\
+        u_c,合成标准不确定度,,,,,2.12e-4\nU,扩展不确定度 (k=2),,,,,4.3e-4\n";
+    assert_eq!(answer("annex.csv", sheet).0, Verdict::Sound);
+}
+
+/// A thousand rows in well under a second, also in a debug build.
+#[test]
+fn a_thousand_rows() {
+    let mut sheet = String::from("Symbol,Source,Value ±,Distribution,Divisor,c_i,u_i(y)\n");
+    for i in 0..1000 {
+        sheet.push_str(&format!(
+            "x_{i},limits ±0.030,0.030,rectangular,√3,1,0.01732\n"
+        ));
+    }
+    sheet.push_str(
+        "u_c,Combined standard uncertainty,,,,,0.5477\nU,Expanded uncertainty (k = 2),,,,,1.1\n",
+    );
+    let start = std::time::Instant::now();
+    assert_eq!(answer("large.csv", &sheet).0, Verdict::Sound);
+    assert!(start.elapsed().as_secs_f64() < 5.0, "{:?}", start.elapsed());
+}

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use gumption::audit::{Audit, Verdict, audit, mapping::Mapping, read, sheet};
+use gumption::audit::read::{self, Mapping};
+use gumption::audit::{Audit, Verdict, audit, sheet};
 use gumption::document::Document;
 use gumption::report;
 

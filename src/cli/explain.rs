@@ -7,7 +7,9 @@ use gumption::budget::KeyRow;
 use gumption::distribution::Kind;
 use gumption::distribution::stating::Word;
 use gumption::fault::{Code, nearest};
-use gumption::{audit, budget, csv, diagnose, distribution, equations, experiment, model, quantity};
+use gumption::{
+    audit, budget, csv, diagnose, distribution, equations, experiment, model, quantity,
+};
 
 use super::concepts::CONCEPTS;
 use super::{Outcome, output};
@@ -276,7 +278,12 @@ fn topics() -> Vec<Topic> {
         name: slip.id.to_string(),
         aliases: Vec::new(),
         title: slip.en.to_string(),
-        text: format!("{}\n\nRules {}; {}.", slip.zh, slip.rule, slip.weight.name()),
+        text: format!(
+            "{}\n\nRules {}; {}.",
+            slip.zh,
+            slip.rule,
+            slip.weight.name()
+        ),
     }));
     topics.extend(keys::topics());
     topics.extend(codes().map(|code| Topic {

@@ -6,7 +6,6 @@
 
 pub mod calculate;
 pub mod claim;
-pub mod mapping;
 pub mod printed;
 pub mod read;
 pub mod search;

@@ -1,6 +1,6 @@
 //! Sheets from text to verdict.
 
-use crate::mapping::Mapping;
+use crate::read::Mapping;
 use crate::{Verdict, audit, read, sheet};
 
 /// Verdict and candidates of a text.

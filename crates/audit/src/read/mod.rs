@@ -7,22 +7,25 @@
 //! | `kind` | what is known of a quantity, by the words for it |
 //! | `footer` | claimed figures of the whole |
 //! | `notes` | model, correlations, rules |
+//! | `mapping` | what a user says of a sheet |
 //! | `words` | words and figures in texts |
 
 mod columns;
 mod footer;
 mod kind;
+mod mapping;
 mod notes;
 mod table;
 mod words;
 
 pub use columns::Role;
+pub use mapping::Mapping;
 pub(crate) use words::{figure_after, has_symbol, symbol_at};
 
 use std::ops::Range;
 
 use crate::claim::{Claimed, Understood};
-use crate::mapping::Mapping;
+
 use crate::printed::{Place, Printed};
 use crate::sheet::Grid;
 

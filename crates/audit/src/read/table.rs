@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use super::mapping::Mapping;
 use crate::claim::{Claimed, Figure, Relative, Row, Stated, Understood};
-use crate::mapping::Mapping;
 use crate::printed::{Place, Printed};
 use crate::sheet::Grid;
 use crate::units;
@@ -739,45 +739,52 @@ pub fn interpret(raw: &[Raw], located: &Located, claimed: &mut Claimed) {
 
 fn not_counted(words: &str) -> Option<String> {
     let lower = words.to_lowercase();
-    let said = has(
-        &lower,
-        &[
-            "contained in",
-            "already contained",
-            "already included",
-            "included in",
-            "is not counted",
-            "not counted",
-            "left out",
-            "for information only",
-            "not added",
-            "已包含",
-            "包含在",
-            "已含",
-            "不再计",
-            "不计入",
-            "不重复计",
-            "不另计",
-            "已计入",
-            "略去",
-            "不予计",
-            "不单独",
-        ],
-    );
-    let counted = has(
-        &lower,
-        &[
-            "an indication of its own",
-            "counted beside",
-            "not contained",
-            "not included",
-            "独立示值",
-            "单独计入",
-            "另行计入",
-            "另计",
-        ],
-    ) && !has(&lower, &["不另计"]);
-    (said && !counted).then(|| words.to_string())
+    let of_clause = |lower: &str| {
+        let said = has(
+            lower,
+            &[
+                "contained in",
+                "already contained",
+                "already included",
+                "included in",
+                "is not counted",
+                "not counted",
+                "left out",
+                "for information only",
+                "not added",
+                "已包含",
+                "包含在",
+                "已含",
+                "不再计",
+                "不计入",
+                "不重复计",
+                "不另计",
+                "已计入",
+                "略去",
+                "不予计",
+                "不单独",
+            ],
+        );
+        let counted = has(
+            lower,
+            &[
+                "an indication of its own",
+                "counted beside",
+                "not contained",
+                "not included",
+                "独立示值",
+                "单独计入",
+                "另行计入",
+                "另计",
+            ],
+        ) && !has(lower, &["不另计"]);
+        said && !counted
+    };
+    // `r is left out; z is counted beside it`: each clause is about one thing.
+    lower
+        .split([';', '。'])
+        .any(of_clause)
+        .then(|| words.to_string())
 }
 
 impl Row {

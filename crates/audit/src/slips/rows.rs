@@ -4,7 +4,7 @@ use crate::calculate::{Case, RANGE};
 use crate::claim::{Relative, Row, Shape, Stated};
 use crate::units;
 
-use super::{Change, Slip, Weight::*};
+use super::slip::{Change, Slip, Weight::*};
 
 /// What a slip makes of one row; nothing where it cannot act.
 type InRow = fn(&Row) -> Vec<f64>;

@@ -3,7 +3,7 @@
 use crate::calculate::{Case, Combined, Factor, Freedom, Printout, Report, factors};
 use crate::printed::Printed;
 
-use super::{Change, Slip, Weight::*};
+use super::slip::{Change, Slip, Weight::*};
 
 fn one(change: Change) -> Vec<(Option<usize>, Change)> {
     vec![(None, change)]

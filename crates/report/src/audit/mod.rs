@@ -3,7 +3,7 @@
 mod form;
 mod words;
 
-use gumption_audit::claim::{Claimed, Row};
+use gumption_audit::claim::Claimed;
 use gumption_audit::printed::Printed;
 use gumption_audit::search::{Explanation, Gap};
 use gumption_audit::{Audit, Verdict};
@@ -259,9 +259,4 @@ fn understood(claimed: &Claimed, language: Language) -> Table {
         ]);
     }
     table
-}
-
-/// A row as tables call it.
-fn label(row: &Row) -> &str {
-    row.label()
 }

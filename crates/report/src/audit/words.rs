@@ -7,11 +7,9 @@ use gumption_audit::{Audit, Verdict};
 use crate::language::Language;
 use crate::number::significant;
 
-use super::label;
-
 /// A row's name, kept short.
 pub(super) fn short(row: &Row) -> String {
-    let name = label(row);
+    let name = row.label();
     let head: String = name.chars().take(24).collect();
     if head.len() < name.len() {
         format!("{head}…")

@@ -1,6 +1,6 @@
 //! What a user says of a sheet that the program cannot place: a small file of keys and values.
 
-use crate::read::Role;
+use super::columns::Role;
 
 /// What somebody says of a sheet.
 #[derive(Debug, Clone, PartialEq, Default)]

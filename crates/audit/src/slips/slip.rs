@@ -1,0 +1,158 @@
+//! What a slip is, and what it does to a calculation.
+
+use crate::calculate::{Calculation, Case, Combined, Factor, Freedom, Report};
+
+/// One kind of slip.
+#[derive(Debug, Clone, Copy)]
+pub struct Slip {
+    /// Its name.
+    pub id: &'static str,
+    /// The rules that it breaks.
+    pub rule: &'static str,
+    /// How much it weighs.
+    pub weight: Weight,
+    /// What happened, in English.
+    pub en: &'static str,
+    /// What happened, in Chinese.
+    pub zh: &'static str,
+    /// Everywhere it can act, and what it would do there.
+    pub acts: fn(&Case<'_>) -> Vec<(Option<usize>, Change)>,
+}
+
+/// How much a slip weighs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Weight {
+    /// E.
+    Error,
+    /// W.
+    Warning,
+    /// I.
+    Information,
+}
+
+impl Weight {
+    /// The word for it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Weight::Error => "error",
+            Weight::Warning => "warning",
+            Weight::Information => "information",
+        }
+    }
+}
+
+/// What a slip does to a calculation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Change {
+    /// The standard uncertainty of the row is this one.
+    U(f64),
+    /// It is multiplied.
+    Scaled(f64),
+    /// The sensitivity coefficient is this one.
+    C(f64),
+    /// The degrees of freedom are these.
+    Dof(f64),
+    /// The row enters the sum, or does not.
+    Counted(bool),
+    /// Contributions are combined in this way.
+    Combined(Combined),
+    /// All correlations are multiplied by nothing, or are one.
+    Correlation(Option<f64>),
+    /// ν_eff is found in this way.
+    Freedom(Freedom),
+    /// k is found in this way.
+    Factor(Factor),
+    /// U is made in this way; what differs from the default is taken over.
+    Report(Report),
+}
+
+/// A slip at a place.
+#[derive(Debug, Clone, Copy)]
+pub struct Act {
+    /// Which.
+    pub slip: &'static Slip,
+    /// The row, for one that sits in a row.
+    pub row: Option<usize>,
+    /// What it does.
+    pub change: Change,
+}
+
+/// What a change acts on: two on the same thing at the same place exclude one another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// u of a row.
+    U,
+    /// c of a row.
+    C,
+    /// ν of a row.
+    Dof,
+    /// Whether a row counts.
+    Counted,
+    /// The sum.
+    Sum,
+    /// The correlations.
+    Correlation,
+    /// ν_eff.
+    Freedom,
+    /// k.
+    Factor,
+    /// U.
+    Report,
+}
+
+impl Act {
+    /// As in the neutral answer form: `s-not-mean@dm`.
+    pub fn id(&self, case: &Case<'_>) -> String {
+        match self.row {
+            Some(row) => format!("{}@{}", self.slip.id, case.claimed.rows[row].label()),
+            None => self.slip.id.to_string(),
+        }
+    }
+
+    /// What it acts on.
+    pub fn group(&self) -> Group {
+        match self.change {
+            Change::U(_) | Change::Scaled(_) => Group::U,
+            Change::C(_) => Group::C,
+            Change::Dof(_) => Group::Dof,
+            Change::Counted(_) => Group::Counted,
+            Change::Combined(_) => Group::Sum,
+            Change::Correlation(_) => Group::Correlation,
+            Change::Freedom(_) => Group::Freedom,
+            Change::Factor(_) => Group::Factor,
+            Change::Report(_) => Group::Report,
+        }
+    }
+
+    /// Whether both can be made in one calculation.
+    pub fn goes_with(&self, other: &Act) -> bool {
+        (self.row, self.group()) != (other.row, other.group())
+    }
+
+    /// Makes the slip.
+    pub fn apply(&self, to: &mut Calculation) {
+        if let Some(line) = self.row.and_then(|row| to.lines.get_mut(row)) {
+            match self.change {
+                Change::U(u) => line.u = u,
+                Change::Scaled(factor) => line.u *= factor,
+                Change::C(c) => line.c = c,
+                Change::Dof(dof) => line.dof = dof,
+                Change::Counted(counted) => line.counted = counted,
+                _ => {}
+            }
+        }
+        match self.change {
+            Change::Combined(combined) => to.combined = combined,
+            Change::Correlation(None) => to.correlations.clear(),
+            Change::Correlation(Some(r)) => {
+                for correlation in &mut to.correlations {
+                    correlation.r = r.copysign(correlation.r);
+                }
+            }
+            Change::Freedom(freedom) => to.freedom = freedom,
+            Change::Factor(factor) => to.factor = factor,
+            Change::Report(report) => to.report = report,
+            _ => {}
+        }
+    }
+}

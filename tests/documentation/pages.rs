@@ -128,6 +128,7 @@ fn generated_pages_are_fresh() {
         "functions",
         "keys",
         "profiles",
+        "slips",
     ] {
         let path = docs.join("reference").join(section).with_extension("md");
         let page = gumption(&["explain", section, "--markdown"]);

@@ -8,11 +8,13 @@
 //! `--cases N` takes the first N cases of the study, which are a sample of it; `--threads N` (2); `--only TEXT`
 //! keeps rigs and instruments whose name contains the text; `--resume` keeps what the file holds already, so that a
 //! study may be interrupted; `--tables` only draws the tables anew; `--first-seed N` takes other cases, to develop
-//! with; `--whole` leaves out the ablations; `--show` prints every answer.
+//! with; `--whole` leaves out the ablations; `--show` prints every answer; `--program PATH` asks another build of
+//! gumption, to hold two versions against the same cases.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
@@ -37,6 +39,7 @@ struct Options {
     first_seed: u64,
     whole: bool,
     show: bool,
+    program: Option<PathBuf>,
 }
 
 fn options() -> Result<Options, String> {
@@ -50,6 +53,7 @@ fn options() -> Result<Options, String> {
         first_seed: FIRST_SEED,
         whole: false,
         show: false,
+        program: None,
     };
     let mut arguments = std::env::args().skip(1);
     while let Some(name) = arguments.next() {
@@ -67,6 +71,7 @@ fn options() -> Result<Options, String> {
             "--first-seed" => options.first_seed = number(value()?)? as u64,
             "--whole" => options.whole = true,
             "--show" => options.show = true,
+            "--program" => options.program = Some(value()?.into()),
             "--tables" => options.tables = true,
             other => return Err(format!("`{other}` is not known")),
         }
@@ -187,7 +192,8 @@ impl<'a> Study<'a> {
 fn one(trial: &Trial, folder: &Path, options: &Options) -> Option<Record> {
     let mut sealed = trial.case()?;
     let begun = Instant::now();
-    let both = handed_out(trial, &sealed, folder).and_then(|case| Ok((said(&case)?, case)));
+    let both = handed_out(trial, &sealed, folder)
+        .and_then(|case| Ok((said(&case, folder, options)?, case)));
     let seconds = begun.elapsed().as_secs_f64();
     let (Said { answer, advice }, case) = match both {
         Ok(both) => both,
@@ -215,7 +221,8 @@ fn one(trial: &Trial, folder: &Path, options: &Options) -> Option<Record> {
         Request::InVain(sequel) => Some(sequel),
         Request::Make(further) => {
             let longer = trial.longer_case(further);
-            let decided = handed_out(trial, &longer, folder).and_then(|case| said(&case));
+            let decided =
+                handed_out(trial, &longer, folder).and_then(|case| said(&case, folder, options));
             let decided = decided.map(|Said { answer, advice }| {
                 decision(&grade::grade(&longer.truth, &answer), &answer, &advice)
             });
@@ -252,10 +259,25 @@ fn handed_out(trial: &Trial, sealed: &SealedCase, folder: &Path) -> Result<Case,
     Ok(case)
 }
 
-fn said(case: &Case) -> Result<Said, String> {
-    let failed = |failure| diagnosis_failure(case, &failure, Language::English);
-    let diagnosis = diagnose(case, &|_| ControlFlow::Continue(())).map_err(failed)?;
-    let said = report::diagnosis(case, &diagnosis, Language::English).machine;
+fn said(case: &Case, folder: &Path, options: &Options) -> Result<Said, String> {
+    let said = match &options.program {
+        None => {
+            let failed = |failure| diagnosis_failure(case, &failure, Language::English);
+            let diagnosis = diagnose(case, &|_| ControlFlow::Continue(())).map_err(failed)?;
+            report::diagnosis(case, &diagnosis, Language::English).machine
+        }
+        Some(program) => {
+            let file = folder.join("CASE.toml");
+            let output = Command::new(program)
+                .arg("diagnose")
+                .arg(file)
+                .arg("--json")
+                .output();
+            let output = output.map_err(|error| error.to_string())?;
+            let complaint = || String::from_utf8_lossy(&output.stderr).into_owned();
+            serde_json::from_slice(&output.stdout).map_err(|_| complaint())?
+        }
+    };
     let wrong = |error: serde_json::Error| error.to_string();
     Ok(Said {
         advice: serde_json::from_value(said.clone()).map_err(wrong)?,

@@ -211,7 +211,7 @@ fn certain(said: &Value) -> Vec<String> {
     let p = said["levels"][0]["p"].as_f64().unwrap_or(1.0);
     let alpha = said["alpha"].as_f64().unwrap_or(0.01);
     lines.push(if p < alpha {
-        format!("recording and declared model disagree (p ≤ {p:.2})")
+        format!("recording and declared model disagree (p ≤ {p:.4})")
     } else {
         format!("no disagreement that this recording can show (p = {p:.2})")
     });
@@ -262,7 +262,7 @@ fn untold(said: &Value) -> Vec<String> {
         }
     }
     if lines.is_empty() {
-        lines.push("nothing that was asked".into());
+        lines.push("the diagnosis leaves nothing open".into());
     }
     lines
 }

@@ -229,26 +229,39 @@ impl Bench {
                 }
             }
         }
-        for effect in of(Place::Rounding).chain(of(Place::Clip)) {
-            let full = self.full_scale(0);
-            let most = self.zero_of(0) + full * (1.0 - effect.size);
-            let step = full * effect.size;
-            for y in &mut outputs[0] {
-                *y = match effect.family.place {
-                    Place::Clip => y.min(most),
-                    _ => (*y / step).round() * step,
-                };
-            }
-        }
         outputs
     }
 
-    /// Readings in the rows, without noise.
-    pub(super) fn ideal(&self, effects: &[&Effect]) -> Vec<Vec<f64>> {
+    /// What the display makes of readings: coarse digits, a limit.
+    pub(super) fn show(&self, effects: &[&Effect], readings: &mut [Vec<f64>]) {
+        let full = self.full_scale(0);
+        for effect in effects {
+            let most = self.zero_of(0) + full * (1.0 - effect.size);
+            let step = full * effect.size;
+            let shown: fn(f64, f64, f64) -> f64 = match effect.family.place {
+                Place::Clip => |y, most, _| y.min(most),
+                Place::Rounding => |y, _, step| (y / step).round() * step,
+                _ => continue,
+            };
+            for y in readings.iter_mut().take(1).flatten() {
+                *y = shown(*y, most, step);
+            }
+        }
+    }
+
+    /// Outputs in the rows, without noise.
+    pub(super) fn outputs_at_rows(&self, effects: &[&Effect]) -> Vec<Vec<f64>> {
         self.run(effects)
             .iter()
             .map(|series| Campaign::at_rows(series))
             .collect()
+    }
+
+    /// Readings in the rows, without noise.
+    fn ideal(&self, effects: &[&Effect]) -> Vec<Vec<f64>> {
+        let mut readings = self.outputs_at_rows(effects);
+        self.show(effects, &mut readings);
+        readings
     }
 
     /// What is recorded and what was true, as the formulas take it, in one row of readings.

@@ -320,7 +320,7 @@ impl Case {
     fn table(&self, bench: &Bench, which: Which) -> String {
         let instrument = self.asked.instrument;
         let effects: Vec<&Effect> = self.effects.iter().map(|(effect, _)| effect).collect();
-        let mut readings = bench.ideal(&effects);
+        let mut readings = bench.outputs_at_rows(&effects);
         let sigma = instrument.noise;
         for (output, series) in readings.iter_mut().enumerate() {
             let random = &mut source(
@@ -331,9 +331,12 @@ impl Case {
             let noise = self.noise.sample(&bench.signal(output), random);
             for (y, e) in series.iter_mut().zip(noise) {
                 *y += sigma * e;
-                if let Some(step) = self.noise.step() {
-                    *y = (*y / (step * sigma)).round() * step * sigma;
-                }
+            }
+        }
+        bench.show(&effects, &mut readings);
+        if let Some(step) = self.noise.step().map(|step| step * sigma) {
+            for y in readings.iter_mut().flatten() {
+                *y = (*y / step).round() * step;
             }
         }
         let heading = |name: &str, unit: &str| {

@@ -185,6 +185,15 @@ const FOLLOWED: &[Form] = of_drive![
     |x, a, _| x + (0.1 + 0.15 * a) * x * x
 ];
 
+const SCREW: &[Form] = &[
+    |v| turns(v).map(libm::sin).collect(),
+    |v| turns(v).map(|x| libm::asin(libm::sin(x))).collect(),
+    |v| {
+        let harmonic = |x: f64| libm::sin(x) + 0.25 * libm::sin(2.0 * x + 0.2);
+        turns(v).map(harmonic).collect()
+    },
+];
+
 const CREEP: &[Form] = &[
     |v| lacking(v.drive, v.hours, &[(1.0, pace(v, v.a))]),
     |v| {
@@ -265,12 +274,7 @@ pub(super) const FAMILIES: &[Family] = &[
         drive: Drive::Stimulus,
         place: Place::Offset,
         names: &[("wave", ANY), ("periodic", ANY)],
-        forms: of_drive![
-            |x, a, b| libm::sin(TAU * ((3.2 + 3.0 * a) * x * 0.5 + b)),
-            |x, a, b| libm::asin(libm::sin(TAU * ((3.2 + 3.0 * a) * x * 0.5 + b))),
-            |x, a, b| libm::sin(TAU * ((3.2 + 3.0 * a) * x * 0.5 + b))
-                + 0.25 * libm::sin(TAU * ((3.2 + 3.0 * a) * x + 2.0 * b + 0.2)),
-        ],
+        forms: SCREW,
     },
     Family {
         name: "temperature",
@@ -594,6 +598,13 @@ fn span(v: &View<'_>) -> f64 {
 fn pace(v: &View<'_>, a: f64) -> f64 {
     let row = span(v) / (v.hours.len() as f64 / 6.0);
     row * 0.7 * libm::pow(12.0, a)
+}
+
+/// Angle of a screw that turns three to five times over the range, as few as can be told to be periodic.
+fn turns<'a>(v: &'a View<'_>) -> impl Iterator<Item = f64> + 'a {
+    let least = v.drive.iter().copied().fold(0.0, f64::min);
+    let rate = (3.2 + 1.5 * v.a) / if least < -0.5 { 2.0 } else { 1.0 };
+    v.drive.iter().map(move |x| TAU * (rate * x + v.b))
 }
 
 /// A run by a number from 0 to 1.

@@ -172,7 +172,7 @@ fn a_summary_is_searched() {
         "cert-undivided@V_S"
     );
     assert_eq!(
-        first("sheet.md", &sheet("0.004697", "0.0094")),
+        first("sheet.md", &sheet("0.004696", "0.0094")),
         "s-not-mean@dV_s"
     );
 }

@@ -105,7 +105,7 @@ fn budgets(
         };
         files.push(Output {
             path: path.into(),
-            content: calibrate::budget(campaign, found, &places).into_bytes(),
+            content: calibrate::budget(campaign, found, &places, args.form.lang).into_bytes(),
         });
     }
     Ok(files)

@@ -416,8 +416,12 @@ fn written_budgets_give_the_same_by_both_methods() {
         let name = &example.name;
         let figures = &example.found.figures;
         let all: Vec<usize> = (0..figures.coefficients.len()).collect();
-        let text =
-            budget(&example.campaign, &example.found, &all) + "\n[monte_carlo]\ntrials = 20000\n";
+        let text = budget(
+            &example.campaign,
+            &example.found,
+            &all,
+            gumption::report::Language::English,
+        ) + "\n[monte_carlo]\ntrials = 20000\n";
         let evaluated = evaluation::evaluate(&text);
         for (one, result) in figures.coefficients.iter().zip(&evaluated.results) {
             let u = result.gum.u;

@@ -5,6 +5,7 @@ use gumption_gum::propagate::{
     Clause8, Coverage, CoverageBasis, FindingKind, MeasurandResult, Quasi, Run, Validation,
 };
 
+use super::figures::Figures;
 use super::language::{Language, Word};
 use super::number::{
     NONE, TABLE_DIGITS, aligned, at_place, exact, freedom, grouped, in_unit, print, probability,
@@ -24,6 +25,8 @@ pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
     if let Some(quasi) = run.and_then(|run| run.quasi.as_ref()) {
         blocks.push(Block::Paragraph(quasi::sentence(quasi, report.language)));
     }
+    let reason = Figures::new(report, measurand).reason(report.language);
+    blocks.push(Block::Paragraph(reason.to_string()));
     match (&result.validation, &report.evaluation.run) {
         (Some(validation), _) => blocks.push(Block::List(
             validation
@@ -31,16 +34,7 @@ pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
                 .map(|v| verdict(report, measurand, v))
                 .collect(),
         )),
-        (None, None) => blocks.push(Block::Paragraph(
-            report
-                .language
-                .pick(
-                    "Monte Carlo was not run, so the GUM result is not validated.",
-                    "未运行蒙特卡洛法，GUM 法的结果未经验证。",
-                )
-                .to_string(),
-        )),
-        (None, Some(_)) => {}
+        (None, _) => {}
     }
     blocks
 }
@@ -168,6 +162,10 @@ impl SideBySide<'_> {
             mc.u.filter(|u| *u > 0.0)
                 .map(|u| (mc.symmetric[1] - mc.symmetric[0]) / (2.0 * u))
         });
+        // ISO 11929 has an interval of its own; that of Monte Carlo stands beside it.
+        if self.result.not_negative.is_some() {
+            return;
+        }
         self.row(
             Word::CoverageFactor.of(l).into(),
             three(gum.coverage.k),

@@ -16,6 +16,7 @@ mod comparison;
 mod decisions;
 mod diagnosis;
 mod evaluation;
+mod figures;
 mod fits;
 mod how;
 mod indices;

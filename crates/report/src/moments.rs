@@ -1,9 +1,9 @@
 //! Why a result has no mean or no standard deviation, as sentences.
 
-use gumption_gum::propagate::{Consequence, MissingMoments, Side};
+use gumption_gum::propagate::{Consequence, FewReadings, MissingMoments, Reason, Side};
 
 use super::language::Language;
-use super::number::{freedom, print};
+use super::number::{freedom, print, significant};
 
 /// In English, with what to do.
 pub(super) fn in_english(reason: &MissingMoments) -> String {
@@ -120,6 +120,60 @@ pub(super) fn in_chinese(reason: &MissingMoments) -> String {
             percent(*relative_error)
         ),
     }
+}
+
+/// What Monte Carlo adds for few readings, in English.
+pub(super) fn few_in_english(components: &[FewReadings], reported: Reason) -> String {
+    let wider = |few: &FewReadings| {
+        let (name, nu) = (&few.component, freedom(few.dof));
+        match few.dof > 2.0 {
+            true => format!(
+                "`{name}` has ν = {nu}, and that is {} times s/√n",
+                significant((few.dof / (few.dof - 2.0)).sqrt(), 3)
+            ),
+            false => {
+                format!("`{name}` has ν = {nu}, for which there is none (it exists for ν > 2)")
+            }
+        }
+    };
+    let named: Vec<String> = components.iter().map(wider).collect();
+    let follows = match reported {
+        Reason::FewReadings | Reason::NotValidatedFewReadings | Reason::MomentsAgree => {
+            " The profile multiplies u = s/√n (GUM 4.2.3) by its k, and so does the statement."
+        }
+        Reason::NotValidated => " The statement takes the result of Monte Carlo.",
+        _ => " The statement takes the GUM result, whose k allows for the few degrees of freedom.",
+    };
+    format!(
+        "Few readings: Monte Carlo draws their mean from a t-distribution (JCGM 101, 6.4.9), whose standard deviation is larger than s/√n: {}.{follows} More readings would bring both together.",
+        Language::English.list(&named)
+    )
+}
+
+/// Likewise in Chinese.
+pub(super) fn few_in_chinese(components: &[FewReadings], reported: Reason) -> String {
+    let wider = |few: &FewReadings| {
+        let (name, nu) = (&few.component, freedom(few.dof));
+        match few.dof > 2.0 {
+            true => format!(
+                "`{name}` 的自由度为 {nu}，标准差为 s/√n 的 {} 倍",
+                significant((few.dof / (few.dof - 2.0)).sqrt(), 3)
+            ),
+            false => format!("`{name}` 的自由度为 {nu}，标准差不存在（自由度大于 2 时才存在）"),
+        }
+    };
+    let named: Vec<String> = components.iter().map(wider).collect();
+    let follows = match reported {
+        Reason::FewReadings | Reason::NotValidatedFewReadings | Reason::MomentsAgree => {
+            "规范以 u = s/√n（GUM 4.2.3）乘以 k，证书用语亦然。"
+        }
+        Reason::NotValidated => "证书用语采用蒙特卡洛法的结果。",
+        _ => "证书用语采用 GUM 法的结果，其 k 已考虑自由度小的影响。",
+    };
+    format!(
+        "重复测量次数少：蒙特卡洛法对其均值取 t 分布（JCGM 101 的 6.4.9），其标准差大于 s/√n：{}。{follows}增加测量次数可使两者接近。",
+        named.join("；")
+    )
 }
 
 /// A tail index is known to one decimal at best.

@@ -3,7 +3,7 @@
 use gumption_core::special::student_t_two_sided_quantile;
 use gumption_format::document::{Finding as Remark, Severity};
 use gumption_gum::budget::CoverageRule;
-use gumption_gum::propagate::{Basis, CoverageBasis, EvaluationError, FindingKind, is_residue};
+use gumption_gum::propagate::{CoverageBasis, EvaluationError, FindingKind, Reason, is_residue};
 
 use super::fits::test_figures;
 use super::language::Language;
@@ -57,6 +57,7 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::TrialsUnresolved { .. } => "trials_unresolved",
         FindingKind::SlopesUnresolved => "slopes_unresolved",
         FindingKind::MomentsMissing { .. } => "moments_missing",
+        FindingKind::FewReadings { .. } => "few_readings",
         FindingKind::FailedTrials { .. } => "failed_trials",
         FindingKind::NotConverged { .. } => "not_converged",
         FindingKind::FreedomRefused { .. } => "freedom_refused",
@@ -64,6 +65,10 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::Irregular { .. } => "irregular",
         FindingKind::NearSingular { .. } => "near_singular",
         FindingKind::PhaseWraps { .. } => "phase_wraps",
+        FindingKind::PhaseUnknown { .. } => "phase_unknown",
+        FindingKind::Unseen { .. } => "unseen",
+        FindingKind::LargeUncertainty { .. } => "large_uncertainty",
+        FindingKind::BelowReference { .. } => "below_reference",
         FindingKind::CoarseStep { .. } => "coarse_step",
         FindingKind::Extrapolated { .. } => "extrapolated",
         FindingKind::LackOfFit { .. } => "lack_of_fit",
@@ -113,6 +118,7 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         ),
         FindingKind::SlopesUnresolved => "The sensitivity coefficients are what rounding left of larger numbers: a change of the estimates in their last digits changes u in the digits that are printed. Write the formula so that large terms do not cancel: write it as a difference.".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_english(reason),
+        FindingKind::FewReadings { components } => moments::few_in_english(components, reported(report, measurand)),
         FindingKind::FailedTrials { failed, trials } => format!(
             "In {} of {} Monte Carlo trials the model had no finite value (for example a division by zero or the root of a negative number). The results leave these trials out. Check whether the distributions of the inputs reach values that are physically impossible.",
             grouped(*failed),
@@ -137,8 +143,24 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             what.english(),
         ),
         FindingKind::PhaseWraps { what } => format!(
-            "The distribution of a phase reaches the place where phases jump from π to -π: {}. Trials on both sides of it lie a full turn apart, so that Monte Carlo gives a u and an interval that mean nothing, and the GUM does not see the jump. Turn the reference of the phase by half a turn (multiply the complex quantity by -1, or both arguments of atan2) and add π to the result.",
+            "The distribution of a phase reaches the place where phases jump from π to -π: {}. A phase is a point of a circle: every trial is taken on the turn around the estimate, so that estimate, u and interval are those of directions. An end beyond ±π is the direction on the other side of the cut (less or plus a full turn).",
             what.english(),
+        ),
+        FindingKind::PhaseUnknown { what } => format!(
+            "The direction is hardly known: {}, and its distribution reaches all round the circle. Trials are taken on the turn around the estimate; u and interval then say little. Report real and imaginary part (or both components) in place of the phase.",
+            what.english(),
+        ),
+        FindingKind::Unseen { what } => format!(
+            "Monte Carlo was not run, and the GUM method does not see that the model changes within the reach of its inputs: {}. Run the evaluation with Monte Carlo before using the result.",
+            what.english(),
+        ),
+        FindingKind::LargeUncertainty { input, ratio } => format!(
+            "The uncertainty of {input} contributes {} times as much as all others together. Check its unit, and whether a relative uncertainty is meant.",
+            significant(*ratio, 2),
+        ),
+        FindingKind::BelowReference { component, reference } => format!(
+            "The expanded uncertainty U is smaller than what {component} alone contributes with the k = 2 of its certificate, {}: a result is not known better than its reference. Check k and the correlations.",
+            amount(report, measurand, significant(*reference, 2)),
         ),
         FindingKind::CoarseStep { what } => format!(
             "The GUM method replaces a rounding by the straight line through its steps, which leaves out what the rounding does: {}. State the rounding as a component of its own (`step`), or run Monte Carlo, which rounds every trial.",
@@ -191,6 +213,7 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
         ),
         FindingKind::SlopesUnresolved => "灵敏系数是大数相消后的舍入残余：估计值末位的变动会改变所给 u 的有效数字。请改写公式，避免大数相消，以差值表示。".to_string(),
         FindingKind::MomentsMissing { reason } => moments::in_chinese(reason),
+        FindingKind::FewReadings { components } => moments::few_in_chinese(components, reported(report, measurand)),
         FindingKind::FailedTrials { failed, trials } => format!(
             "{} 次蒙特卡洛试验中有 {} 次模型没有有限值（例如除以零或对负数开方），这些试验未计入结果。请检查输入量的分布是否包含物理上不可能的值。",
             grouped(*trials),
@@ -212,8 +235,24 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             what.chinese(),
         ),
         FindingKind::PhaseWraps { what } => format!(
-            "相位的分布到达由 π 跳变到 -π 之处（{}）。跳变两侧的试验值相差一整周，蒙特卡洛法给出的标准不确定度和区间没有意义，GUM 法则反映不出跳变。请将相位的基准转过半周（复数量乘以 -1，或 atan2 的两个自变量都变号），再在结果上加 π。",
+            "相位的分布到达由 π 跳变到 -π 之处（{}）。相位是圆周上的点：每次试验都取估计值所在一周内的值，估计值、标准不确定度和区间因而都是方向的。超出 ±π 的端点即跳变另一侧的方向（相差一整周）。",
             what.chinese(),
+        ),
+        FindingKind::PhaseUnknown { what } => format!(
+            "方向几乎未知：{}，其分布遍及整个圆周。试验值取估计值所在一周内的值，此时标准不确定度和区间意义不大。请报告实部和虚部（或两个分量），而不是相位。",
+            what.chinese(),
+        ),
+        FindingKind::Unseen { what } => format!(
+            "未运行蒙特卡洛法，而 GUM 法看不到模型在输入量所及范围内的变化：{}。使用结果前应运行蒙特卡洛法。",
+            what.chinese(),
+        ),
+        FindingKind::LargeUncertainty { input, ratio } => format!(
+            "{input} 的不确定度的贡献为其余各量合计的 {} 倍。请核对其单位，以及是否应为相对不确定度。",
+            significant(*ratio, 2),
+        ),
+        FindingKind::BelowReference { component, reference } => format!(
+            "扩展不确定度 U 小于 {component} 单独按其证书 k = 2 的贡献 {}：结果不可能比其标准更准确。请核对 k 和相关系数。",
+            amount(report, measurand, significant(*reference, 2)),
         ),
         FindingKind::CoarseStep { what } => format!(
             "GUM 法以穿过各台阶的直线代替修约，没有计入修约本身的影响（{}）。请把修约作为一个分量给出（`step`），或运行蒙特卡洛法，它对每次试验值进行修约。",
@@ -358,47 +397,61 @@ fn unseen_in_chinese(report: &Report<'_>, measurand: Option<usize>, unseen: Unse
     }
 }
 
-/// Which method the statement uses in spite of clause 8.
-fn basis(report: &Report<'_>, measurand: Option<usize>) -> Basis {
+/// Why the statement takes its method.
+fn reported(report: &Report<'_>, measurand: Option<usize>) -> Reason {
     let results = &report.evaluation.results;
-    measurand
-        .and_then(|m| results.get(m))
-        .map_or(Basis::MonteCarlo, |result| result.basis)
-}
-
-/// Whether Monte Carlo gives no standard uncertainty.
-fn without_u(report: &Report<'_>, measurand: Option<usize>) -> bool {
-    let results = &report.evaluation.results;
-    let found = measurand.and_then(|m| results.get(m)?.monte_carlo.as_ref());
-    found.is_some_and(|mc| mc.u.is_none())
+    let result = measurand.and_then(|m| results.get(m));
+    result.map_or(Reason::NotValidated, |result| {
+        result.reported(&report.budget.conventions).reason
+    })
 }
 
 fn not_validated_in_english(report: &Report<'_>, measurand: Option<usize>) -> String {
     let p = probability(report.coverage_probability());
-    match basis(report, measurand) {
-        Basis::MonteCarlo => format!(
+    let differs = format!(
+        "The {p} interval of the GUM differs from the Monte Carlo interval by more than the tolerance δ (JCGM 101, clause 8)"
+    );
+    let take = format!("Take the Monte Carlo interval wherever a {p} interval is needed.");
+    match reported(report, measurand) {
+        Reason::FewReadings => format!(
+            "{differs}, because Monte Carlo gives means of few readings a wider distribution. The statement claims the u_c of the GUM and the k of the profile; with s/√n for the standard uncertainty of these means Monte Carlo confirms y and u. {take}"
+        ),
+        Reason::NotValidatedFewReadings => format!(
+            "{differs}, and y and u differ also with s/√n for the standard uncertainty of means of few readings, because the model is nonlinear. The statement takes y and u of that Monte Carlo run, and the k of the profile. {take}"
+        ),
+        Reason::MomentsAgree => format!(
+            "{differs}, but estimate and standard uncertainty agree within δ. The statement claims these and the k of the profile; it therefore uses the GUM result. {take}"
+        ),
+        Reason::NotNegative => format!(
+            "{differs}. The statement gives the interval of ISO 11929; that of Monte Carlo stands beside it."
+        ),
+        _ => format!(
             "The GUM result is not validated by Monte Carlo (JCGM 101, clause 8): its {p} interval differs from the Monte Carlo interval by more than the tolerance. The statement therefore uses the Monte Carlo result."
-        ),
-        Basis::Gum if without_u(report, measurand) => format!(
-            "The {p} interval of the GUM differs from the Monte Carlo interval by more than the tolerance δ (JCGM 101, clause 8), and Monte Carlo has no standard uncertainty to compare with, for the reason below. The statement claims the u_c of the GUM and a fixed k, and no coverage probability. Take the Monte Carlo interval wherever a {p} interval is needed."
-        ),
-        Basis::Gum => format!(
-            "The {p} interval of the GUM differs from the Monte Carlo interval by more than the tolerance δ (JCGM 101, clause 8), but estimate and standard uncertainty agree within δ. The statement claims these and a fixed k, and no coverage probability; it therefore uses the GUM result. Take the Monte Carlo interval wherever a {p} interval is needed."
         ),
     }
 }
 
 fn not_validated_in_chinese(report: &Report<'_>, measurand: Option<usize>) -> String {
     let p = probability(report.coverage_probability());
-    match basis(report, measurand) {
-        Basis::MonteCarlo => format!(
+    let differs = format!(
+        "GUM 法与蒙特卡洛法的 {p} 包含区间端点之差超过数值容差 δ（JJF 1059.2、JCGM 101 第 8 章）"
+    );
+    let take = format!("需要 {p} 包含区间时，应取蒙特卡洛法的区间。");
+    match reported(report, measurand) {
+        Reason::FewReadings => format!(
+            "{differs}，原因是蒙特卡洛法对少量重复测量的均值取更宽的分布。证书用语采用 GUM 法的合成标准不确定度和规范的 k；这些均值的标准不确定度取 s/√n 时，蒙特卡洛法证实了 y 和 u。{take}"
+        ),
+        Reason::NotValidatedFewReadings => format!(
+            "{differs}，并且由于模型非线性，少量重复测量的均值的标准不确定度取 s/√n 时 y 和 u 仍不一致。证书用语采用该次蒙特卡洛法的 y 和 u 以及规范的 k。{take}"
+        ),
+        Reason::MomentsAgree => format!(
+            "{differs}，但估计值和标准不确定度之差均不超过 δ。证书用语只给出估计值、标准不确定度和规范的 k，因此仍采用 GUM 法的结果。{take}"
+        ),
+        Reason::NotNegative => {
+            format!("{differs}。证书用语给出 ISO 11929 的区间，蒙特卡洛法的区间列于其旁。")
+        }
+        _ => format!(
             "GUM 法的结果未通过蒙特卡洛法验证（JJF 1059.2、JCGM 101 第 8 章）：两种方法的 {p} 包含区间端点之差超过数值容差。证书用语因此采用蒙特卡洛法的结果。"
-        ),
-        Basis::Gum if without_u(report, measurand) => format!(
-            "GUM 法与蒙特卡洛法的 {p} 包含区间端点之差超过数值容差 δ（JJF 1059.2、JCGM 101 第 8 章），而蒙特卡洛法没有可供比较的标准不确定度（原因见下）。证书用语只给出 GUM 法的合成标准不确定度和约定的 k，不声明包含概率。需要 {p} 包含区间时，应取蒙特卡洛法的区间。"
-        ),
-        Basis::Gum => format!(
-            "GUM 法与蒙特卡洛法的 {p} 包含区间端点之差超过数值容差 δ（JJF 1059.2、JCGM 101 第 8 章），但估计值和标准不确定度之差均不超过 δ。证书用语只给出估计值、标准不确定度和约定的 k，不声明包含概率，因此仍采用 GUM 法的结果。需要 {p} 包含区间时，应取蒙特卡洛法的区间。"
         ),
     }
 }

@@ -134,6 +134,7 @@ fn a_fixed_factor_without_probability_stays_with_monte_carlo() {
     case.budget.conventions.statement = StatementForm::Apart;
     case.budget.conventions.coverage_factor = CoverageRule::Fixed(2.0);
     case.budget.conventions.state_probability = false;
+    case.evaluation.results[0].gum.u = 0.0005;
     let sentence = &statement(&case.report(Language::Chinese))[0];
     assert!(sentence.contains("，k = 2。"), "{sentence}");
     assert!(!sentence.contains("k_95"), "{sentence}");

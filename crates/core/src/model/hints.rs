@@ -210,12 +210,17 @@ pub fn near_singular(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<Not
             && row.smoothness == Smoothness::Branch
         {
             let left = PI - values[i].value().abs();
-            let distance = left / spread.u(i as Id);
-            // A phase that jumps just here is told of as such.
-            (left > 0.0 && moving[i]).then(|| Notice::Wrap {
-                call: label.call.to_string(),
-                distance,
-            })
+            let u = spread.u(i as Id);
+            let call = label.call.to_string();
+            match moving[i] {
+                true if PI <= reach * u => Some(Notice::Filled { call, u }),
+                // A phase that jumps just here is told of as such.
+                true if left > 0.0 => Some(Notice::Wrap {
+                    call,
+                    distance: left / u,
+                }),
+                _ => None,
+            }
         } else {
             edge(graph, *op, values)
                 .filter(|(id, _, _)| moving[*id as usize])
@@ -236,6 +241,75 @@ pub fn near_singular(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<Not
         }
     }
     nearest
+}
+
+/// Phases within `reach` standard uncertainties of their jump, or on it, with their values.
+pub fn phases_at_the_jump(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<(Id, f64)> {
+    let phase = |op: &Op| matches!(op, Op::Binary(row, ..) if row.smoothness == Smoothness::Branch);
+    if !graph.ops.iter().any(phase) {
+        return Vec::new();
+    }
+    let spread = Spread::new(graph, x, u);
+    let reached = |id: Id, value: f64| {
+        let u = spread.u(id);
+        u > 0.0 && value.is_finite() && PI - value.abs() <= reach * u
+    };
+    (0..graph.ops.len())
+        .filter(|i| phase(&graph.ops[*i]))
+        .map(|i| (i as Id, spread.values[i].value()))
+        .filter(|(id, value)| reached(*id, *value))
+        .collect()
+}
+
+/// Corners, conditions and steps that lie within `reach` standard uncertainties of the estimates, and not on them.
+pub fn near_corners(graph: &Graph, x: &[f64], u: &[f64], reach: f64) -> Vec<Notice> {
+    if smooth(graph) && graph.tables.is_empty() {
+        return Vec::new();
+    }
+    let spread = Spread::new(graph, x, u);
+    let at = |id: Id| spread.values[id as usize].value();
+    let (active, moving) = (active(graph, &spread.values), moving(graph));
+    let mut found: Vec<Notice> = Vec::new();
+    let mut note = |call: &str, away: f64, u: f64| {
+        let distance = away.abs() / u;
+        let known = |notice: &Notice| matches!(notice, Notice::Corner { call: c, .. } if c == call);
+        if distance > 0.0 && distance <= reach && !found.iter().any(known) {
+            let call = call.to_string();
+            found.push(Notice::Corner { call, distance });
+        }
+    };
+    for (i, op) in graph.ops.iter().enumerate() {
+        let label = graph.labels.get(&(i as Id));
+        let Some(label) = label.filter(|_| active[i] && moving[i]) else {
+            continue;
+        };
+        match *op {
+            Op::Unary(row, a) if row.smoothness == Smoothness::Corner => {
+                note(&label.call, at(a), spread.u(a));
+            }
+            Op::Unary(row, a) if row.smoothness == Smoothness::Steps => {
+                // Steps lie at whole numbers, or half-way between them for `round`.
+                let shift = if row.name == "round" { 0.5 } else { 0.0 };
+                let from = at(a) - shift;
+                note(&label.call, from - from.round(), spread.u(a));
+            }
+            Op::Binary(row, a, b) if row.smoothness == Smoothness::Corner => {
+                note(&label.call, at(a) - at(b), spread.u_of_difference(a, b));
+            }
+            _ => {}
+        }
+    }
+    for table in graph
+        .tables
+        .iter()
+        .filter(|table| active[table.result as usize])
+    {
+        let inner = &table.knots[1..table.knots.len() - 1];
+        for knot in inner.iter().filter(|_| moving[table.x as usize]) {
+            note(&table.call, at(table.x) - knot, spread.u(table.x));
+        }
+    }
+    found
 }
 
 fn distance(notice: &Notice) -> f64 {
@@ -262,7 +336,8 @@ fn is_same(a: &Notice, b: &Notice) -> bool {
                 ..
             },
         ) => a == b && p == q && e == f,
-        (Notice::Wrap { call: a, .. }, Notice::Wrap { call: b, .. }) => a == b,
+        (Notice::Wrap { call: a, .. }, Notice::Wrap { call: b, .. })
+        | (Notice::Filled { call: a, .. }, Notice::Filled { call: b, .. }) => a == b,
         _ => false,
     }
 }
@@ -305,6 +380,17 @@ impl<'a> Spread<'a> {
             values: graph.evaluate(&inputs),
             u,
         }
+    }
+
+    fn u_of_difference(&self, a: Id, b: Id) -> f64 {
+        let mut slopes = vec![0.0; self.u.len()];
+        for (id, sign) in [(a, 1.0), (b, -1.0)] {
+            for (place, slope) in self.graph.gradient_of_part(&self.values, id) {
+                slopes[place] += sign * slope.value();
+            }
+        }
+        let parts = slopes.iter().zip(self.u).map(|(slope, u)| slope * u);
+        parts.fold(0.0, |sum: f64, part| sum + part * part).sqrt()
     }
 
     fn u(&self, id: Id) -> f64 {

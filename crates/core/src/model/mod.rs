@@ -316,6 +316,27 @@ impl Model {
         hints::near_singular(&self.graph, x, u, reach)
     }
 
+    /// The model for trials, where the distribution of a phase reaches the jump between -π and π: such phases are taken
+    /// on the turn around their value at `x`, so that trials on both sides of the jump lie side by side. `None` where
+    /// no phase comes within `reach` standard uncertainties of the jump.
+    pub fn unrolled(&self, x: &[f64], u: &[f64], reach: f64) -> Option<Model> {
+        let centres = hints::phases_at_the_jump(&self.graph, x, u, reach);
+        if centres.is_empty() {
+            return None;
+        }
+        let graph = self.graph.unrolled(&centres)?;
+        Some(Model {
+            program: block::Program::new(&graph, self.inputs),
+            graph,
+            ..self.clone()
+        })
+    }
+
+    /// Corners, conditions and steps within `reach` standard uncertainties, which first order does not see.
+    pub fn near_corners(&self, x: &[f64], u: &[f64], reach: f64) -> Vec<Notice> {
+        hints::near_corners(&self.graph, x, u, reach)
+    }
+
     /// Roundings by `quantize` whose step is larger than the standard uncertainty of what they round.
     pub fn coarse_steps(&self, x: &[f64], u: &[f64]) -> Vec<Notice> {
         hints::coarse_steps(&self.graph, x, u)

@@ -68,6 +68,20 @@ pub enum Notice {
         /// In standard uncertainties of the phase.
         distance: f64,
     },
+    /// A phase whose distribution reaches all round the circle.
+    Filled {
+        /// As the user wrote it, `atan2(y, x)`.
+        call: String,
+        /// Standard uncertainty of the phase, in radians.
+        u: f64,
+    },
+    /// A corner, condition or step that comes near.
+    Corner {
+        /// As the user wrote it, `abs(x - a)`.
+        call: String,
+        /// In standard uncertainties.
+        distance: f64,
+    },
     /// `quantize` with a step that is large against the uncertainty of what it rounds.
     CoarseStep {
         /// As the user wrote it.
@@ -137,6 +151,12 @@ impl Notice {
             Notice::Wrap { call, distance } => {
                 format!("{call} is {distance:.1} u from ±π")
             }
+            Notice::Filled { call, u } => {
+                format!("{call} has a standard uncertainty of {u:.2} rad")
+            }
+            Notice::Corner { call, distance } => {
+                format!("{call} has a kink or jump {distance:.1} u from the estimates")
+            }
             Notice::CoarseStep { call, ratio } => {
                 format!(
                     "the step of {call} is {ratio:.1} times the standard uncertainty of what it rounds"
@@ -183,6 +203,10 @@ impl Notice {
                 )
             }
             Notice::Wrap { call, distance } => format!("{call} 与 ±π 相距 {distance:.1} u"),
+            Notice::Filled { call, u } => format!("{call} 的标准不确定度为 {u:.2} rad"),
+            Notice::Corner { call, distance } => {
+                format!("{call} 在距估计值 {distance:.1} u 处有折点或跳变")
+            }
             Notice::CoarseStep { call, ratio } => {
                 format!("{call} 的步长是被修约量的标准不确定度的 {ratio:.1} 倍")
             }

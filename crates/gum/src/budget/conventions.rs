@@ -3,6 +3,7 @@
 use gumption_format::toml::words;
 
 use gumption_core::quantity::{Rounding, RoundingRule};
+use gumption_core::special::{normal_two_sided_quantile, student_t_two_sided_quantile};
 
 /// The conventions on which guides differ, after profile and overrides.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +16,12 @@ pub struct Conventions {
     pub coverage_probability: f64,
     /// Where k comes from.
     pub coverage_factor: CoverageRule,
+    /// What Monte Carlo has to confirm for the GUM result to be stated.
+    pub confirmation: Confirmation,
+    /// p of a k that follows from the distribution of the output.
+    pub output_probability: f64,
+    /// Whether a U from the distribution of the output has a single digit where that changes it by 5 % at most.
+    pub single_digit_of_output: bool,
     /// What [`CoverageRule::Output`] takes for the output's distribution.
     pub output_shape: OutputShape,
     /// How ν_eff enters t.
@@ -40,6 +47,18 @@ impl Conventions {
             digits: self.digits,
             rounding: self.rounding,
             up_if_lowered_by_5_percent: self.up_if_lowered_by_5_percent,
+        }
+    }
+
+    /// k for so many degrees of freedom: the one that is fixed, or that of the normal or t-distribution.
+    pub fn factor(&self, dof: f64) -> f64 {
+        let p = self.coverage_probability;
+        match self.coverage_factor {
+            CoverageRule::Fixed(k) => k,
+            CoverageRule::Normal => normal_two_sided_quantile(p),
+            CoverageRule::Output | CoverageRule::StudentT => {
+                student_t_two_sided_quantile(p, self.degrees_of_freedom.entered(dof))
+            }
         }
     }
 
@@ -102,6 +121,16 @@ pub enum Trials {
     },
 }
 
+/// What Monte Carlo has to confirm for the GUM result to be stated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Confirmation {
+    /// The ends of the interval (JCGM 101 clause 8): a probability is claimed.
+    Interval,
+    /// y and u, as with any k that is fixed: the guide multiplies u by its k and leaves it at that, also for a few
+    /// readings.
+    Moments,
+}
+
 /// How a statement writes result and uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StatementForm {
@@ -130,6 +159,18 @@ words! {
         Truncated "truncated",
         /// As they are, which is the exact form of the interpolation that GUM G.4.1 also allows.
         Real "real",
+    }
+}
+
+impl DofRule {
+    /// ν by which t is entered; rounded to two decimals before it is cut, since u and ν are never known to more.
+    pub fn entered(self, dof: f64) -> f64 {
+        match self {
+            DofRule::Truncated if (1.0..1e9).contains(&dof) => {
+                ((100.0 * dof).round() / 100.0).floor()
+            }
+            _ => dof,
+        }
     }
 }
 

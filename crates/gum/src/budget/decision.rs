@@ -86,6 +86,21 @@ pub enum DecisionRule {
     Jjf1094,
 }
 
+impl DecisionRule {
+    /// Whether U enters its limits.
+    pub fn takes_expanded(self) -> bool {
+        let by_expanded = |guard: Guard| matches!(guard, Guard::Expanded(_));
+        match self {
+            DecisionRule::Simple | DecisionRule::Stated(_) => false,
+            DecisionRule::GuardedAcceptance(guard) | DecisionRule::GuardedRejection(guard) => {
+                by_expanded(guard)
+            }
+            DecisionRule::NonBinary { inner, outer } => by_expanded(inner) || by_expanded(outer),
+            DecisionRule::Jjf1094 => true,
+        }
+    }
+}
+
 /// ISO 14253-1:2017: conformance and non-conformance are to be shown with this probability.
 pub const ISO_14253_PROBABILITY: f64 = 0.95;
 

@@ -38,8 +38,8 @@ pub use checked::{Budget, Constant, Heading, Loaded, Measurand, Row};
 pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFigure, Part};
 pub use components::{Certificate, Component, Evaluation, Group, Input, Law, Owner, Term};
 pub use conventions::{
-    Adaptive, Conventions, CoverageRule, DofRule, MonteCarloSettings, OutputShape, Points,
-    StatementForm, TScale, Trials,
+    Adaptive, Confirmation, Conventions, CoverageRule, DofRule, MonteCarloSettings, OutputShape,
+    Points, StatementForm, TScale, Trials,
 };
 pub use decision::{
     Conformity, DecisionRule, Detection, Following, Follows, Guard, ISO_14253_PROBABILITY, Interval,

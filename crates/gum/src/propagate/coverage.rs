@@ -21,7 +21,7 @@ use super::freedom::Effective;
 use super::gum::MeasurandForm;
 use super::result::{Coverage, CoverageBasis};
 use super::shape::Shape;
-use crate::budget::{Component, Conventions, CoverageRule, DofRule, OutputShape};
+use crate::budget::{Component, Conventions, CoverageRule, OutputShape};
 use gumption_core::distribution::{Distribution, rectangular};
 
 /// The largest ratio of all others to the dominant contributions, EA-4/02 S9.10.
@@ -48,6 +48,11 @@ pub(super) fn evaluate(situation: &Situation<'_>) -> Coverage {
     let rule = conventions.coverage_factor;
     let output = situation.output(rule);
     let half_width = output.shape.half_width(p) * of.u;
+    let stated = match output.basis {
+        CoverageBasis::Output { .. } => conventions.output_probability,
+        _ => p,
+    };
+    let k = output.shape.half_width(stated);
     if let CoverageRule::Fixed(k) = rule {
         return Coverage {
             k,
@@ -58,19 +63,11 @@ pub(super) fn evaluate(situation: &Situation<'_>) -> Coverage {
         };
     }
     Coverage {
-        k: output.shape.half_width(p),
+        k,
         basis: output.basis,
-        probability: p,
-        expanded: half_width,
+        probability: stated,
+        expanded: k * of.u,
         half_width_for_p: half_width,
-    }
-}
-
-/// ν by which t is entered.
-pub(super) fn entered_dof(rule: DofRule, dof: f64) -> f64 {
-    match rule {
-        DofRule::Truncated if (1.0..1e9).contains(&dof) => ((100.0 * dof).round() / 100.0).floor(),
-        _ => dof,
     }
 }
 
@@ -97,10 +94,11 @@ impl<'b> Situation<'b> {
             CoverageRule::Fixed(_) => self.dominated(OutputShape::Convolution),
         };
         wanted.unwrap_or_else(|| {
-            student_t(entered_dof(
-                self.conventions.degrees_of_freedom,
-                self.freedom.dof,
-            ))
+            student_t(
+                self.conventions
+                    .degrees_of_freedom
+                    .entered(self.freedom.dof),
+            )
         })
     }
 
@@ -247,26 +245,17 @@ mod tests {
     use super::super::draft::component;
     use super::super::freedom;
     use super::*;
-    use crate::budget::TScale;
+    use crate::budget::{DofRule, PROFILES};
     use gumption_core::distribution::{Normal, Uniform, Univariate, rectangular};
-    use gumption_core::quantity::Rounding;
 
     const INF: f64 = f64::INFINITY;
 
     fn conventions(p: f64, rule: CoverageRule) -> Conventions {
         Conventions {
-            profile: "GUM".to_string(),
-            overrides: Vec::new(),
             coverage_probability: p,
+            output_probability: p,
             coverage_factor: rule,
-            output_shape: OutputShape::Convolution,
-            degrees_of_freedom: DofRule::Truncated,
-            rounding: Rounding::HalfEven,
-            digits: 2,
-            up_if_lowered_by_5_percent: false,
-            t_scale: TScale::Scale,
-            state_probability: true,
-            statement: crate::budget::StatementForm::PlusMinus,
+            ..PROFILES[0].conventions()
         }
     }
 
@@ -333,12 +322,12 @@ mod tests {
 
     #[test]
     fn truncation_follows_rounding_to_two_decimals() {
-        assert_eq!(entered_dof(DofRule::Truncated, 18.9987), 19.0);
-        assert_eq!(entered_dof(DofRule::Truncated, 16.98), 16.0);
-        assert_eq!(entered_dof(DofRule::Truncated, 1.7), 1.0);
-        assert_eq!(entered_dof(DofRule::Truncated, 0.6), 0.6);
-        assert_eq!(entered_dof(DofRule::Truncated, INF), INF);
-        assert_eq!(entered_dof(DofRule::Real, 16.94), 16.94);
+        assert_eq!(DofRule::Truncated.entered(18.9987), 19.0);
+        assert_eq!(DofRule::Truncated.entered(16.98), 16.0);
+        assert_eq!(DofRule::Truncated.entered(1.7), 1.0);
+        assert_eq!(DofRule::Truncated.entered(0.6), 0.6);
+        assert_eq!(DofRule::Truncated.entered(INF), INF);
+        assert_eq!(DofRule::Real.entered(16.94), 16.94);
     }
 
     #[test]

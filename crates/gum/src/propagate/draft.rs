@@ -4,12 +4,12 @@ use nalgebra::DMatrix;
 
 use super::result::{Coverage, CoverageBasis, Freedom, Gum};
 use crate::budget::{
-    Budget, Component, Conventions, CoverageRule, DofRule, Evaluation, Group, Heading, Input, Law,
-    Measurand, MonteCarloSettings, OutputShape, Owner, Points, TScale, Term, Trials,
+    Budget, Component, Conventions, CoverageRule, Evaluation, Group, Heading, Input, Law,
+    Measurand, MonteCarloSettings, Owner, PROFILES, Points, Term, Trials,
 };
 use gumption_core::distribution::{Distribution, Normal, Uniform};
 use gumption_core::model::{MeasurandSource, Request, Role, Symbol, compile};
-use gumption_core::quantity::{Rounding, Unit, UnitTable};
+use gumption_core::quantity::{Unit, UnitTable};
 
 /// A component of the first input, of dimension one.
 pub(super) fn component(name: &str, distribution: Distribution, u: f64, dof: f64) -> Component {
@@ -162,18 +162,10 @@ impl Draft {
         Budget {
             heading: Heading::default(),
             conventions: Conventions {
-                profile: "GUM".to_string(),
-                overrides: Vec::new(),
                 coverage_probability: p,
+                output_probability: p,
                 coverage_factor: CoverageRule::StudentT,
-                output_shape: OutputShape::Convolution,
-                degrees_of_freedom: DofRule::Truncated,
-                rounding: Rounding::HalfEven,
-                digits: 2,
-                up_if_lowered_by_5_percent: false,
-                t_scale: TScale::Scale,
-                state_probability: true,
-                statement: crate::budget::StatementForm::PlusMinus,
+                ..PROFILES[0].conventions()
             },
             monte_carlo: MonteCarloSettings {
                 points: Points::Random,

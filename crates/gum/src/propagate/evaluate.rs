@@ -4,13 +4,16 @@ use super::error::EvaluationError;
 use super::gum::Linear;
 use super::monte_carlo::{FirstOrder, Outcome};
 use super::options::{Options, Workers};
-use super::result::{Clause8, Evaluation, Gum, MeasurandResult, MissingMoments, MonteCarlo, Quasi};
+use super::result::{
+    Clause8, Evaluation, Gum, MeasurandResult, MonteCarlo, Quasi, Run, TrialMoments,
+};
 use super::second_order::{SecondOrderOutcome, Terms};
 use super::{
-    coverage, decide, findings, freedom, gum, joint, monte_carlo, resolution, second_order,
+    coverage, decide, few_readings, findings, freedom, gum, joint, monte_carlo, resolution,
+    second_order,
     tolerance, validation,
 };
-use crate::budget::{Budget, MonteCarloSettings, Trials};
+use crate::budget::{Budget, MonteCarloSettings, Points, Trials};
 
 /// Evaluates a budget by both methods.
 ///
@@ -33,6 +36,8 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
     }
     let unresolved = resolution::unresolved_trials(budget, &linear, &second_order);
     let settings = settings.filter(|_| unresolved.is_empty());
+    let on_the_turn = on_the_turn(budget, &linear);
+    let drawn = on_the_turn.as_ref().unwrap_or(budget);
     if settings.is_none() {
         require_derivatives(budget, &linear)?;
     }
@@ -40,26 +45,37 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         .map(|measurand| first_order(budget, &linear, measurand))
         .collect();
     let monte_carlo = settings
-        .map(|settings| draw(budget, settings, &gums, options.workers()))
+        .map(|settings| draw(drawn, settings, &gums, options.workers()))
         .transpose()?;
     let indices = settings
         .filter(|settings| settings.indices)
         .map(|settings| {
             let (scales, outcome) = (scales(&gums), monte_carlo.as_ref());
-            monte_carlo::indices(budget, settings.seed, &scales, outcome, options.threads)
+            monte_carlo::indices(drawn, settings.seed, &scales, outcome, options.threads)
         });
-    let results: Vec<MeasurandResult> = gums
+    let mut results: Vec<MeasurandResult> = gums
         .into_iter()
         .zip(&second_order)
         .enumerate()
         .map(|(measurand, (gum, second_order))| {
             let outputs = monte_carlo.as_ref().map(|mc| &mc.outputs);
             let found = outputs.and_then(|outputs| outputs.get(measurand));
-            let missing = monte_carlo.as_ref().map(|mc| &mc.moments_missing);
-            let missing = missing.and_then(|missing| missing.get(measurand)?.as_ref());
-            both_methods(budget, gum, second_order, found, missing)
+            both_methods(gum, second_order, found)
         })
         .collect();
+    let run = monte_carlo.as_ref().map(|outcome| outcome.run.clone());
+    let detection = decide::detection(&decide::Evidence {
+        budget: drawn,
+        results: &results,
+        run: run.as_ref(),
+        workers: options.workers(),
+    });
+    for (asked, found) in budget.detection.iter().zip(&detection) {
+        results[asked.measurand].not_negative = Some(found.best);
+    }
+    if let Some(run) = &run {
+        with_normal_readings(drawn, run, &mut results, options.workers())?;
+    }
     let joint = joint::evaluate(budget, &linear, monte_carlo.as_ref());
     let evidence = findings::Evidence {
         budget,
@@ -70,13 +86,16 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
         unresolved: &unresolved,
     };
     let findings = evidence.findings();
-    let run = monte_carlo.map(|Outcome { run, .. }| run);
-    let decisions = decide::decisions(&decide::Evidence {
-        budget,
+    let evidence = decide::Evidence {
+        budget: drawn,
         results: &results,
         run: run.as_ref(),
         workers: options.workers(),
-    });
+    };
+    let decisions = decide::Decisions {
+        conformity: decide::conformity(&evidence),
+        detection,
+    };
     let mut figures = budget.figures.clone();
     figures.extend(decisions.figures(budget));
     figures.extend(tolerance::figures(budget, &results, run.as_ref()));
@@ -98,7 +117,20 @@ pub fn evaluate(budget: &Budget, options: &Options) -> Result<Evaluation, Evalua
 pub fn samples(budget: &Budget, trials: u64, options: &Options) -> Vec<Vec<f64>> {
     let settings = options.monte_carlo.settings(budget);
     let seed = settings.unwrap_or(&budget.monte_carlo).seed;
-    monte_carlo::draws(budget, (seed, trials), options.workers())
+    let linear = gum::linearise(budget).ok();
+    let on_the_turn = linear.and_then(|linear| on_the_turn(budget, &linear));
+    let drawn = on_the_turn.as_ref().unwrap_or(budget);
+    monte_carlo::draws(drawn, (seed, trials), options.workers())
+}
+
+/// The budget as it is drawn where phases reach their jump: each on the turn around its estimate.
+fn on_the_turn(budget: &Budget, linear: &Linear) -> Option<Budget> {
+    let u: Vec<f64> = linear.inputs.iter().map(|input| input.u).collect();
+    let model = budget.model.unrolled(&linear.x, &u, findings::REACH)?;
+    Some(Budget {
+        model,
+        ..budget.clone()
+    })
 }
 
 fn require_derivatives(budget: &Budget, linear: &Linear) -> Result<(), EvaluationError> {
@@ -144,11 +176,14 @@ fn draw(
 }
 
 fn scales(gums: &[Gum]) -> Vec<FirstOrder> {
-    let of = |gum: &Gum| FirstOrder {
+    gums.iter().map(scale).collect()
+}
+
+fn scale(gum: &Gum) -> FirstOrder {
+    FirstOrder {
         estimate: gum.estimate,
         u: gum.u,
-    };
-    gums.iter().map(of).collect()
+    }
 }
 
 /// The GUM result of one measurand.
@@ -174,33 +209,58 @@ fn first_order(budget: &Budget, linear: &Linear, measurand: usize) -> Gum {
 
 /// Puts the results of one measurand side by side.
 fn both_methods(
-    budget: &Budget,
     gum: Gum,
     second_order: &SecondOrderOutcome,
     monte_carlo: Option<&MonteCarlo>,
-    missing: Option<&MissingMoments>,
 ) -> MeasurandResult {
     let validation = monte_carlo.map(|mc| validation::validate(&gum, mc));
-    let (second_order, first_order_holds) = match &second_order.terms {
-        Terms::Linear => (None, true),
-        Terms::Found(found) => (Some(found.clone()), !found.matters),
-        Terms::Divergent => (None, false),
+    let second_order = match &second_order.terms {
+        Terms::Linear | Terms::Divergent => None,
+        Terms::Found(found) => Some(found.clone()),
     };
-    let verdict = validation
-        .as_ref()
-        .map(|both| validation::at(both, budget.conventions.digits));
-    let basis = findings::basis(
-        &gum,
-        monte_carlo.zip(verdict),
-        // Only where first order is enough does a linear component explain the missing moments.
-        missing.filter(|_| first_order_holds),
-        budget.conventions.coverage_factor,
-    );
     MeasurandResult {
         gum,
         second_order,
         monte_carlo: monte_carlo.cloned(),
         validation,
-        basis,
+        with_normal_readings: None,
+        not_negative: None,
     }
+}
+
+/// Runs Monte Carlo again for those measurands of which few readings may be all that keeps it from confirming y and
+/// u, with the standard deviation s/√n for their means.
+fn with_normal_readings(
+    budget: &Budget,
+    run: &Run,
+    results: &mut [MeasurandResult],
+    workers: Workers<'_>,
+) -> Result<(), EvaluationError> {
+    let asking = |result: &MeasurandResult| {
+        result.asks_for_normal_readings(&budget.conventions)
+            && (result.monte_carlo.as_ref().is_some_and(|mc| mc.u.is_none())
+                || !few_readings::behind(budget, &result.gum).is_empty())
+    };
+    let asking: Vec<bool> = results.iter().map(asking).collect();
+    if !asking.contains(&true) {
+        return Ok(());
+    }
+    let Some(normal) = few_readings::with_normal_readings(budget) else {
+        return Ok(());
+    };
+    /// u is known to 0.07 % then, where δ is 0.5 % of it at least.
+    const TRIALS: u64 = 1_000_000;
+    let settings = MonteCarloSettings {
+        points: Points::Random,
+        indices: false,
+        seed: run.seed,
+        trials: Trials::Fixed(TRIALS),
+    };
+    let gums: Vec<FirstOrder> = results.iter().map(|result| scale(&result.gum)).collect();
+    let outcome = monte_carlo::run(&normal, &settings, &gums, workers)?;
+    for ((result, found), asking) in results.iter_mut().zip(&outcome.outputs).zip(asking) {
+        let moments = found.estimate.zip(found.u).filter(|_| asking);
+        result.with_normal_readings = moments.map(|(estimate, u)| TrialMoments { estimate, u });
+    }
+    Ok(())
 }

@@ -1,19 +1,18 @@
-//! What the reader must know before using the numbers, and which method the statement uses.
+//! What the reader must know before using the numbers.
 
 use super::gum::Linear;
 use super::monte_carlo::Outcome;
 use super::resolution;
 use super::result::{
-    Basis, Clause8, Finding, FindingKind, Freedom, Gum, MeasurandResult, MissingMoments,
-    MonteCarlo, Validation,
+    Basis, Clause8, Contribution, Finding, FindingKind, Freedom, MeasurandResult, MissingMoments,
 };
 use super::second_order::{self, SecondOrderOutcome, Terms};
-use super::validation::{self, numerical_tolerance};
-use crate::budget::{Budget, CoverageRule, FitVerdict, Group, Law, Owner};
+use super::{few_readings, validation};
+use crate::budget::{Budget, FitVerdict, Group, Law, Owner};
 use gumption_core::model::Notice;
 
 /// Poles and ends of domains are looked for within this many standard uncertainties.
-const REACH: f64 = 4.0;
+pub(super) const REACH: f64 = 4.0;
 
 /// Fewer effective degrees of freedom than this are worth a remark.
 const FEW: f64 = 10.0;
@@ -27,73 +26,9 @@ const NEGLIGIBLE: f64 = 1e-3;
 /// A contribution below this part of u(y) is what the arithmetic left of zero, as in cos 90°.
 const RESIDUE: f64 = 1e-12;
 
-/// Half-lengths of a coverage interval that differ by less than this part of U are called equal.
-const LOPSIDED: f64 = 0.02;
-
-/// The shortest interval is shorter than the symmetric one by at least this part of it.
-const SHORTER: f64 = 0.01;
-
-/// The method of the statement: Monte Carlo where it has not validated the GUM at the digits that
-/// are reported.
-///
-/// Clause 8 compares intervals for a probability. With a fixed k the statement claims y, u and k, and
-/// it is enough that Monte Carlo confirms the first two; `missing` says why it has no u.
-pub(super) fn basis(
-    gum: &Gum,
-    monte_carlo: Option<(&MonteCarlo, &Validation)>,
-    missing: Option<&MissingMoments>,
-    rule: CoverageRule,
-) -> Basis {
-    match monte_carlo {
-        Some((mc, clause_8)) if clause_8.verdict == Clause8::NotValidated => {
-            let claims_probability = !matches!(rule, CoverageRule::Fixed(_));
-            if claims_probability || !confirms(mc, missing, gum, clause_8.delta) {
-                Basis::MonteCarlo
-            } else {
-                Basis::Gum
-            }
-        }
-        _ => Basis::Gum,
-    }
-}
-
-/// Whether estimate and standard uncertainty agree within δ.
-///
-/// Three readings that enter linearly leave the distribution of Monte Carlo without a standard deviation, and
-/// that says nothing against s/√n of the GUM (4.2.3): then the median has to agree.
-fn confirms(mc: &MonteCarlo, missing: Option<&MissingMoments>, gum: &Gum, delta: f64) -> bool {
-    let near = |found: f64, figure: f64| (found - figure).abs() <= delta;
-    match (mc.estimate, mc.u, missing) {
-        (Some(estimate), Some(u), _) => near(estimate, gum.estimate) && near(u, gum.u),
-        (_, None, Some(MissingMoments::HeavyComponent { .. })) => near(mc.median, gum.estimate),
-        _ => false,
-    }
-}
-
 /// Whether a contribution is nothing but a residue of the arithmetic, given what it contributes to.
 pub fn is_residue(contribution: f64, whole: f64) -> bool {
     contribution.abs() <= RESIDUE * whole.abs()
-}
-
-impl MonteCarlo {
-    /// U such that estimate ± U is the probabilistically symmetric interval: half its width, where
-    /// both sides of the estimate are equally long within the numerical tolerance δ at these digits
-    /// of u, or within 2 %. `None` for a lopsided interval. Where the moments do not exist, the median
-    /// is the estimate.
-    pub fn half_width(&self, digits: u8) -> Option<f64> {
-        let estimate = self.centre();
-        let [low, high] = self.symmetric;
-        let half = (high - low) / 2.0;
-        let u = self.u.unwrap_or(half / 2.0);
-        let difference = ((high - estimate) - (estimate - low)).abs();
-        let tolerated = numerical_tolerance(u, digits).max(LOPSIDED * half);
-        (difference <= tolerated).then_some(half)
-    }
-
-    /// The estimate, or the median where the distribution has no mean.
-    pub fn centre(&self) -> f64 {
-        self.estimate.unwrap_or(self.median)
-    }
 }
 
 /// Everything that findings are drawn from.
@@ -111,7 +46,13 @@ impl Evidence<'_> {
     /// All findings: first those of the whole budget, then measurand by measurand.
     pub(super) fn findings(&self) -> Vec<Finding> {
         let of_model = self.of_model();
-        let doubtful = |kind: &FindingKind| !matches!(kind, FindingKind::Extrapolated { .. });
+        let doubtful = |kind: &FindingKind| {
+            let known = matches!(
+                kind,
+                FindingKind::Extrapolated { .. } | FindingKind::PhaseWraps { .. }
+            );
+            !known
+        };
         let doubtful_model = of_model.iter().any(doubtful);
         let mut findings = whole(self.of_fits());
         findings.extend(whole(of_model));
@@ -161,22 +102,24 @@ impl Evidence<'_> {
             .into_iter()
             .map(|notice| match notice {
                 Notice::BeyondTable { .. } => FindingKind::Extrapolated { what: notice },
+                Notice::Jump { .. } => FindingKind::PhaseWraps { what: notice },
                 _ => FindingKind::Irregular { what: notice },
             });
         let poles = model.near_singular(x, &u, REACH).into_iter();
         let poles = poles.map(|notice| match notice {
             Notice::Wrap { .. } => FindingKind::PhaseWraps { what: notice },
+            Notice::Filled { .. } => FindingKind::PhaseUnknown { what: notice },
             _ => FindingKind::NearSingular { what: notice },
         });
-        let steps = match self.monte_carlo {
-            // Monte Carlo rounds every trial, and its verdict tells whether the steps matter.
-            Some(_) => Vec::new(),
-            None => model.coarse_steps(x, &u),
-        };
-        let steps = steps
-            .into_iter()
-            .map(|notice| FindingKind::CoarseStep { what: notice });
-        kinks.chain(poles).chain(steps).collect()
+        let mut found: Vec<FindingKind> = kinks.chain(poles).collect();
+        // Monte Carlo meets corners and rounds every trial, and its verdict tells whether they matter.
+        if self.monte_carlo.is_none() {
+            let steps = model.coarse_steps(x, &u).into_iter();
+            found.extend(steps.map(|notice| FindingKind::CoarseStep { what: notice }));
+            let corners = model.near_corners(x, &u, REACH).into_iter();
+            found.extend(corners.map(|notice| FindingKind::Unseen { what: notice }));
+        }
+        found
     }
 
     fn of_run(&self) -> Vec<FindingKind> {
@@ -206,6 +149,55 @@ impl Evidence<'_> {
     }
 
     fn of_first_order(&self, measurand: usize) -> Vec<FindingKind> {
+        let mut kinds = Vec::from_iter(self.large(measurand));
+        kinds.extend(self.below_reference(measurand));
+        kinds.extend(self.of_freedom(measurand));
+        kinds
+    }
+
+    /// An input whose u is so large that a unit may be wrong: alone 10⁵ times all others, or 100 times with a u that
+    /// exceeds the estimate. A slip between V and mV is a factor 10³, between V and µV 10⁶, in a contribution that
+    /// otherwise is one among several.
+    fn large(&self, measurand: usize) -> Option<FindingKind> {
+        const BEYOND_DOUBT: f64 = 1e5;
+        const LARGE: f64 = 100.0;
+        let lines = &self.results[measurand].gum.inputs;
+        let size = |input: &usize| lines[*input].contribution.abs();
+        let all = || (0..lines.len()).filter(|input| size(input) > 0.0);
+        let input = all().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+        let others = all().filter(|other| *other != input);
+        let rest = others.fold(0.0, |sum, other| libm::hypot(sum, size(&other)));
+        let estimate = self.budget.inputs[input].estimate.abs();
+        let exceeds = estimate > 0.0 && lines[input].u > estimate;
+        let ratio = size(&input) / rest;
+        let large = ratio > BEYOND_DOUBT || exceeds && ratio > LARGE;
+        (large && rest > 0.0).then(|| FindingKind::LargeUncertainty {
+            input: self.budget.inputs[input].name.clone(),
+            ratio,
+        })
+    }
+
+    /// A certificate whose expanded uncertainty, carried to the measurand, exceeds the U that is reported.
+    fn below_reference(&self, measurand: usize) -> Option<FindingKind> {
+        /// The k of a calibration certificate (ILAC-P14).
+        const K: f64 = 2.0;
+        let result = &self.results[measurand];
+        let reported = result.reported(&self.budget.conventions);
+        let expanded = reported.rounding.uncertainty(reported.expanded()?).to_f64();
+        let lines = result.gum.components.iter().zip(&self.budget.components);
+        let certified = lines.filter(|(_, component)| component.certificate.is_some());
+        let of_reference = |(line, _): &(&Contribution, _)| K * line.contribution.abs();
+        let largest = certified.max_by(|a, b| of_reference(a).total_cmp(&of_reference(b)))?;
+        let reference = of_reference(&largest);
+        // Beyond the rounding of U to two digits.
+        const ROUNDED: f64 = 1e-9;
+        (expanded < reference * (1.0 - ROUNDED)).then(|| FindingKind::BelowReference {
+            component: largest.1.name.clone(),
+            reference,
+        })
+    }
+
+    fn of_freedom(&self, measurand: usize) -> Vec<FindingKind> {
         let gum = &self.results[measurand].gum;
         match &gum.freedom {
             Freedom::Refused {
@@ -226,21 +218,29 @@ impl Evidence<'_> {
 
     fn of_second_order(&self, measurand: usize, already_doubtful: bool) -> Vec<FindingKind> {
         let mut kinds = Vec::from_iter(self.vanished(measurand));
-        let u_first = self.results[measurand].gum.u;
-        let doubtful = match &self.second_order[measurand].terms {
-            Terms::Linear => false,
-            Terms::Divergent => true,
-            Terms::Found(found) => {
-                if found.matters {
-                    kinds.push(FindingKind::SecondOrderMatters {
-                        shift: found.shift,
-                        u_first,
-                        u_second: found.u,
-                    });
-                }
-                found.matters
-            }
+        let is_unseen = |kind: &FindingKind| {
+            matches!(
+                kind,
+                FindingKind::VanishingSensitivity { matters: true, .. }
+            )
         };
+        let unseen = kinds.iter().any(is_unseen);
+        let u_first = self.results[measurand].gum.u;
+        let doubtful = unseen
+            | match &self.second_order[measurand].terms {
+                Terms::Linear => false,
+                Terms::Divergent => true,
+                Terms::Found(found) => {
+                    if found.matters {
+                        kinds.push(FindingKind::SecondOrderMatters {
+                            shift: found.shift,
+                            u_first,
+                            u_second: found.u,
+                        });
+                    }
+                    found.matters
+                }
+            };
         if doubtful && !already_doubtful && self.monte_carlo_is_missing() {
             kinds.push(FindingKind::NeedsMonteCarlo);
         }
@@ -299,7 +299,8 @@ impl Evidence<'_> {
             Sight::SecondOrder
         } else if gone
             && deviation == 0.0
-            && result.basis == Basis::MonteCarlo
+            && (self.monte_carlo.is_none()
+                || result.reported(&self.budget.conventions).basis == Basis::MonteCarlo)
             && self.moves(measurand, input, line.u)
         {
             Sight::Neither
@@ -335,7 +336,12 @@ impl Evidence<'_> {
             }),
             Some((Clause8::Validated, _)) | None => {}
         }
-        if let Some(Some(reason)) = outcome.moments_missing.get(measurand) {
+        let reported = result.reported(&self.budget.conventions);
+        let few = few_readings::behind(self.budget, &result.gum);
+        let explained = reported.u.is_some() && !few.is_empty();
+        if explained {
+            kinds.push(FindingKind::FewReadings { components: few });
+        } else if let Some(Some(reason)) = outcome.moments_missing.get(measurand) {
             kinds.push(FindingKind::MomentsMissing {
                 reason: self.too_few_readings(measurand).unwrap_or(reason.clone()),
             });
@@ -346,7 +352,7 @@ impl Evidence<'_> {
                 trials: outcome.run.trials,
             });
         }
-        if is_asymmetric(mc) && mc.half_width(digits).is_none() {
+        if mc.is_asymmetric(digits) {
             kinds.push(FindingKind::Asymmetric);
         }
         kinds
@@ -413,114 +419,9 @@ fn acts_at_second_order(sensitivity: f64, deviation: f64, u_input: f64, u_output
     sensitivity.abs() < VANISHED * deviation && deviation * u_input > NEGLIGIBLE * u_output
 }
 
-/// Whether the shortest interval is shorter than the symmetric one, beyond the noise of both.
-fn is_asymmetric(mc: &MonteCarlo) -> bool {
-    let width = |[low, high]: [f64; 2]| high - low;
-    let [_, _, low, high] = mc.standard_errors;
-    let noise = if low.is_finite() && high.is_finite() {
-        6.0 * libm::hypot(low, high)
-    } else {
-        0.0
-    };
-    let symmetric = width(mc.symmetric);
-    symmetric - width(mc.shortest) > noise.max(SHORTER * symmetric)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::propagate::draft;
-    use crate::propagate::result::Histogram;
-
-    fn gum(estimate: f64, u: f64) -> Gum {
-        draft::gum(estimate, u, 1.96 * u)
-    }
-
-    #[test]
-    fn the_verdict_of_clause_8_decides() {
-        let verdict = |verdict| Validation {
-            digits: 2,
-            delta: 0.05,
-            d_low: 0.1,
-            d_high: 0.1,
-            error: 0.0,
-            verdict,
-        };
-        let mc = monte_carlo([-1.9, 1.9], [-1.9, 1.9], 0.0);
-        let of = |found, u, rule| {
-            let verdict = verdict(found);
-            basis(&gum(0.0, u), Some((&mc, &verdict)), None, rule)
-        };
-        assert_eq!(
-            of(Clause8::Validated, 1.0, CoverageRule::Output),
-            Basis::Gum
-        );
-        assert_eq!(
-            of(Clause8::NotValidated, 1.0, CoverageRule::Output),
-            Basis::MonteCarlo
-        );
-        assert_eq!(
-            of(Clause8::Undecided, 1.0, CoverageRule::Output),
-            Basis::Gum
-        );
-        // A fixed k claims y and u only: 1.04 against 1.00 with δ = 0.05.
-        assert_eq!(
-            of(Clause8::NotValidated, 1.04, CoverageRule::Fixed(2.0)),
-            Basis::Gum
-        );
-        assert_eq!(
-            of(Clause8::NotValidated, 1.06, CoverageRule::Fixed(2.0)),
-            Basis::MonteCarlo
-        );
-        assert_eq!(
-            basis(&gum(0.0, 1.0), None, None, CoverageRule::Output),
-            Basis::Gum
-        );
-    }
-
-    #[test]
-    fn three_readings_leave_a_fixed_multiple_of_u_as_it_is() {
-        let clause_8 = Validation {
-            digits: 2,
-            delta: 0.05,
-            d_low: 0.1,
-            d_high: 0.1,
-            error: 0.0,
-            verdict: Clause8::NotValidated,
-        };
-        let without_u = MonteCarlo {
-            u: None,
-            ..monte_carlo([-2.3, 2.3], [-2.3, 2.3], 0.0)
-        };
-        let few = MissingMoments::HeavyComponent {
-            name: "x".into(),
-            dof: 2.0,
-        };
-        let unsteady = MissingMoments::FewTrials {
-            relative_error: 0.3,
-        };
-        let of = |missing, rule| {
-            let pair = Some((&without_u, &clause_8));
-            basis(&gum(0.0, 1.0), pair, Some(missing), rule)
-        };
-        assert_eq!(of(&few, CoverageRule::Fixed(2.0)), Basis::Gum);
-        assert_eq!(of(&few, CoverageRule::Output), Basis::MonteCarlo);
-        assert_eq!(of(&unsteady, CoverageRule::Fixed(2.0)), Basis::MonteCarlo);
-    }
-
-    #[test]
-    fn half_a_width_is_given_for_equal_sides_only() {
-        let of = |symmetric| monte_carlo(symmetric, symmetric, 0.001).half_width(2);
-        assert_eq!(of([-2.0, 2.0]), Some(2.0));
-        assert_eq!(of([-1.98, 2.02]), Some(2.0));
-        assert_eq!(of([-1.9, 2.1]), None);
-        let without_moments = MonteCarlo {
-            estimate: None,
-            u: None,
-            ..monte_carlo([-2.0, 2.0], [-2.0, 2.0], 0.001)
-        };
-        assert_eq!(without_moments.half_width(2), Some(2.0));
-    }
 
     #[test]
     fn a_vanishing_slope_must_act() {
@@ -529,37 +430,5 @@ mod tests {
         assert!(!acts_at_second_order(0.0, 0.2, 0.1, 100.0));
         assert!(!acts_at_second_order(2.0, 0.2, 0.1, 0.2));
         assert!(!acts_at_second_order(0.0, 0.0, 0.1, 0.2));
-    }
-
-    fn monte_carlo(symmetric: [f64; 2], shortest: [f64; 2], error: f64) -> MonteCarlo {
-        MonteCarlo {
-            estimate: Some(0.0),
-            u: Some(1.0),
-            median: 0.0,
-            symmetric,
-            shortest,
-            skewness: None,
-            excess_kurtosis: None,
-            standard_errors: [error; 4],
-            failed: 0,
-            histogram: Histogram {
-                start: 0.0,
-                width: 1.0,
-                counts: Vec::new(),
-            },
-        }
-    }
-
-    #[test]
-    fn asymmetry_beyond_noise() {
-        // Exponential: symmetric 0.0253 … 3.689, shortest 0 … 2.996.
-        let exponential = |error| monte_carlo([0.0253, 3.689], [0.0, 2.996], error);
-        assert!(is_asymmetric(&exponential(0.005)));
-        assert!(!is_asymmetric(&exponential(0.5)));
-        assert!(!is_asymmetric(&monte_carlo(
-            [-1.96, 1.96],
-            [-1.97, 1.945],
-            0.001
-        )));
     }
 }

@@ -11,6 +11,7 @@ mod draft;
 mod elimination;
 mod error;
 mod evaluate;
+mod few_readings;
 mod findings;
 mod freedom;
 mod gum;
@@ -34,11 +35,12 @@ pub use evaluate::{evaluate, samples};
 pub use findings::is_residue;
 pub use options::{MonteCarloChoice, Options};
 pub use progress::Progress;
-pub use reported::{IntervalKind, Reported, ReportedUncertainty, StatedProbability};
+pub use reported::{IntervalKind, Reason, Reported, ReportedUncertainty, StatedProbability};
 pub use result::{
     AdaptiveRun, Basis, BestEstimate, CharacteristicLimits, Clause8, Conformance, ConformityResult,
     Consequence, Contribution, Coverage, CoverageBasis, DetectionLimit, DetectionResult,
-    Evaluation, Finding, FindingKind, Freedom, GlobalRisk, Gum, Histogram, JointResult,
-    MeasurandResult, MissingMoments, MonteCarlo, Quasi, QuasiRun, Regions, Run, SecondOrder,
-    SensitivityIndices, Side, SobolIndex, Validation, Verdict, WhyRandom,
+    Evaluation, FewReadings, Finding, FindingKind, Freedom, GlobalRisk, Gum, Histogram,
+    JointResult, MeasurandResult, MissingMoments, MonteCarlo, Quasi, QuasiRun, Regions, Run,
+    SecondOrder, SensitivityIndices, Side, SobolIndex, TrialMoments, Validation, Verdict,
+    WhyRandom,
 };

@@ -1,21 +1,50 @@
-//! What is reported of a measurand: the statement, tables and the machine form are views of it.
+//! What is reported of a measurand, and why: the statement, tables, decisions and the machine form are views of it.
+//!
+//! | situation | reported |
+//! |---|---|
+//! | Monte Carlo not run, or clause 8 validates or leaves open | the GUM result |
+//! | clause 8 refutes the interval, and a probability is claimed | the Monte Carlo result |
+//! | likewise, but y and k·u are all that the guide claims ([`Confirmation::Moments`]), and y and u agree within δ | the GUM result |
+//! | likewise, and they agree once means of few readings have the standard deviation s/√n | the GUM result |
+//! | likewise, and they do not agree | y and u of Monte Carlo, with the k of the guide where it is fixed |
+//! | a measurand that is not negative (ISO 11929) | y and u of the GUM, the interval of the standard |
 
-use super::result::{Basis, Coverage, CoverageBasis, Evaluation, FindingKind, MonteCarlo};
-use crate::budget::{Conventions, CoverageRule};
+use super::result::{
+    Basis, BestEstimate, Clause8, Coverage, CoverageBasis, Gum, MeasurandResult, MonteCarlo,
+    TrialMoments,
+};
+use super::validation::{self, numerical_tolerance};
+use crate::budget::{Confirmation, Conventions, CoverageRule};
+use gumption_core::quantity::RoundingRule;
+
+/// Half-lengths of a coverage interval that differ by less than this part of U are called equal.
+///
+/// With two digits U is known to 5 % at worst and 0.5 % at best; 2 % is between, and what a certificate hides by
+/// writing y ± U.
+const LOPSIDED: f64 = 0.02;
+
+/// The shortest interval is shorter than the symmetric one by at least this part of it.
+const SHORTER: f64 = 0.01;
 
 /// Value and uncertainty as they are reported, with the method that they rest on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reported {
     /// The method.
     pub basis: Basis,
+    /// Why this method.
+    pub reason: Reason,
     /// y; the median where the distribution has no mean.
     pub estimate: f64,
     /// u(y); `None` where the distribution has no standard deviation.
     pub u: Option<f64>,
+    /// ν that gave k; infinite where k follows from a normal distribution, `None` where no ν enters.
+    pub dof: Option<f64>,
     /// How far y may be off.
     pub uncertainty: ReportedUncertainty,
     /// The probability that goes with it.
     pub probability: StatedProbability,
+    /// How y and U are rounded.
+    pub rounding: RoundingRule,
 }
 
 /// How the uncertainty is reported.
@@ -64,6 +93,27 @@ pub enum StatedProbability {
     Refuted,
 }
 
+/// Why a method was taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// Monte Carlo was not run.
+    NotChecked,
+    /// Clause 8 validates the GUM.
+    Validated,
+    /// The ends of the Monte Carlo interval scatter too much for a verdict of clause 8.
+    Undecided,
+    /// Clause 8 refutes the interval of the GUM, but y and u agree, which is all that is claimed.
+    MomentsAgree,
+    /// As [`Reason::MomentsAgree`], once means of few readings have the standard deviation s/√n.
+    FewReadings,
+    /// Clause 8 refutes the GUM.
+    NotValidated,
+    /// Likewise; u of Monte Carlo is that with the standard deviation s/√n for means of few readings.
+    NotValidatedFewReadings,
+    /// ISO 11929 has an interval of its own.
+    NotNegative,
+}
+
 impl Reported {
     /// k, where U is a multiple of u.
     pub fn coverage_factor(&self) -> Option<f64> {
@@ -73,89 +123,221 @@ impl Reported {
             _ => None,
         }
     }
-}
 
-impl Evaluation {
-    /// What is reported of a measurand under the conventions of its budget.
-    pub fn reported(&self, measurand: usize, conventions: &Conventions) -> Option<Reported> {
-        let result = self.results.get(measurand)?;
-        Some(match (result.basis, &result.monte_carlo) {
-            (Basis::MonteCarlo, Some(monte_carlo)) => {
-                self.by_monte_carlo(measurand, monte_carlo, conventions)
-            }
-            _ => {
-                let (gum, coverage) = (&result.gum, &result.gum.coverage);
-                let refuted = self.finds(measurand, &FindingKind::NotValidated);
-                Reported {
-                    basis: Basis::Gum,
-                    estimate: gum.estimate,
-                    u: Some(gum.u),
-                    uncertainty: match coverage.expanded {
-                        expanded if expanded == 0.0 || !expanded.is_finite() => {
-                            ReportedUncertainty::None
-                        }
-                        expanded => ReportedUncertainty::Multiple {
-                            k: coverage.k,
-                            expanded,
-                        },
-                    },
-                    probability: stated_probability(coverage, conventions, refuted),
-                }
-            }
-        })
+    /// U, where the result is y ± U.
+    pub fn expanded(&self) -> Option<f64> {
+        match self.uncertainty {
+            ReportedUncertainty::Multiple { expanded, .. }
+            | ReportedUncertainty::HalfWidth { expanded } => Some(expanded),
+            ReportedUncertainty::Interval { .. } | ReportedUncertainty::None => None,
+        }
     }
 
-    fn by_monte_carlo(
-        &self,
-        measurand: usize,
-        found: &MonteCarlo,
-        conventions: &Conventions,
-    ) -> Reported {
+    /// What decision rules take for U: U, half the width of the interval where it stands in the place of U, or zero.
+    pub fn half_width(&self) -> f64 {
+        match self.uncertainty {
+            ReportedUncertainty::Interval {
+                ends: [low, high], ..
+            } => (high - low) / 2.0,
+            _ => self.expanded().unwrap_or(0.0),
+        }
+    }
+}
+
+impl MeasurandResult {
+    /// What is reported of the measurand under the conventions of its budget.
+    pub fn reported(&self, conventions: &Conventions) -> Reported {
+        if let Some(best) = &self.not_negative {
+            return self.of_the_standard(best, conventions);
+        }
+        let reason = self.reason(conventions);
+        match (reason, &self.monte_carlo, self.with_normal_readings) {
+            (Reason::NotValidatedFewReadings, Some(found), Some(moments)) => {
+                self.by_moments(moments, found, conventions)
+            }
+            (Reason::NotValidated, Some(found), _) => self.by_monte_carlo(found, conventions),
+            _ => self.by_gum(reason, conventions),
+        }
+    }
+
+    fn reason(&self, conventions: &Conventions) -> Reason {
+        let (Some(mc), Some(both)) = (&self.monte_carlo, &self.validation) else {
+            return Reason::NotChecked;
+        };
+        let clause_8 = validation::at(both, conventions.digits);
+        let delta = clause_8.delta;
+        match clause_8.verdict {
+            Clause8::Validated => Reason::Validated,
+            Clause8::Undecided => Reason::Undecided,
+            Clause8::NotValidated if !conventions.claims_moments() => Reason::NotValidated,
+            Clause8::NotValidated if confirms(mc, &self.gum, delta) => Reason::MomentsAgree,
+            Clause8::NotValidated => match &self.with_normal_readings {
+                Some(moments) if moments.confirm(&self.gum, delta) => Reason::FewReadings,
+                Some(_) => Reason::NotValidatedFewReadings,
+                None => Reason::NotValidated,
+            },
+        }
+    }
+
+    fn by_gum(&self, reason: Reason, conventions: &Conventions) -> Reported {
+        let (gum, coverage) = (&self.gum, &self.gum.coverage);
+        let refuted = matches!(reason, Reason::MomentsAgree | Reason::FewReadings);
+        let uncertainty = match coverage.expanded {
+            expanded if expanded == 0.0 || !expanded.is_finite() => ReportedUncertainty::None,
+            expanded => ReportedUncertainty::Multiple {
+                k: coverage.k,
+                expanded,
+            },
+        };
+        Reported {
+            basis: Basis::Gum,
+            reason,
+            estimate: gum.estimate,
+            u: Some(gum.u),
+            dof: coverage.dof(),
+            uncertainty,
+            probability: stated_probability(coverage, conventions, refuted),
+            rounding: coverage.rounding(conventions),
+        }
+    }
+
+    fn by_monte_carlo(&self, found: &MonteCarlo, conventions: &Conventions) -> Reported {
         let half = found
             .half_width(conventions.digits)
             .filter(|half| *half > 0.0);
-        let fixed = match conventions.coverage_factor {
-            CoverageRule::Fixed(k) if !conventions.state_probability => Some(k),
-            _ => None,
+        let uncertainty = match (half, found.estimate, found.u, conventions.coverage_factor) {
+            (Some(_), Some(_), Some(u), CoverageRule::Fixed(k)) if u > 0.0 => {
+                ReportedUncertainty::Multiple { k, expanded: k * u }
+            }
+            (Some(expanded), Some(_), Some(u), _) if u > 0.0 => {
+                ReportedUncertainty::HalfWidth { expanded }
+            }
+            (Some(expanded), _, None, _) => ReportedUncertainty::HalfWidth { expanded },
+            _ => interval(found, conventions.digits),
         };
-        let uncertainty = match (half, found.estimate, found.u) {
-            (Some(expanded), Some(_), Some(u)) if u > 0.0 => match fixed {
-                Some(k) => ReportedUncertainty::Multiple { k, expanded: k * u },
-                None => ReportedUncertainty::HalfWidth { expanded },
-            },
-            (Some(expanded), _, None) => ReportedUncertainty::HalfWidth { expanded },
-            _ => self.interval(measurand, found),
-        };
-        let run = self.run.as_ref().map(|run| run.coverage_probability);
         Reported {
             basis: Basis::MonteCarlo,
+            reason: Reason::NotValidated,
             estimate: found.centre(),
             u: found.u,
+            dof: None,
             uncertainty,
             probability: match uncertainty {
-                ReportedUncertainty::Multiple { .. } => StatedProbability::Unnamed,
-                _ => StatedProbability::Of(run.unwrap_or(conventions.coverage_probability)),
+                ReportedUncertainty::Multiple { .. } => unclaimed(conventions),
+                _ => StatedProbability::Of(conventions.coverage_probability),
             },
+            rounding: conventions.rounding_rule(),
         }
     }
 
-    /// The shortest interval where the distribution is asymmetric.
-    fn interval(&self, measurand: usize, found: &MonteCarlo) -> ReportedUncertainty {
-        let (ends, kind) = match self.finds(measurand, &FindingKind::Asymmetric) {
-            true => (found.shortest, IntervalKind::Shortest),
-            false => (found.symmetric, IntervalKind::Symmetric),
+    /// y and k·u of trials in which means of few readings have the standard deviation s/√n.
+    fn by_moments(
+        &self,
+        moments: TrialMoments,
+        found: &MonteCarlo,
+        conventions: &Conventions,
+    ) -> Reported {
+        let k = self.gum.coverage.k;
+        let expanded = k * moments.u;
+        Reported {
+            reason: Reason::NotValidatedFewReadings,
+            estimate: moments.estimate,
+            u: Some(moments.u),
+            dof: self.gum.coverage.dof(),
+            uncertainty: ReportedUncertainty::Multiple { k, expanded },
+            probability: unclaimed(conventions),
+            ..self.by_monte_carlo(found, conventions)
+        }
+    }
+
+    /// The primary result, and the interval of ISO 11929-1 for a measurand that is not negative.
+    fn of_the_standard(&self, best: &BestEstimate, conventions: &Conventions) -> Reported {
+        Reported {
+            uncertainty: ReportedUncertainty::Interval {
+                ends: best.symmetric,
+                kind: IntervalKind::Symmetric,
+            },
+            dof: None,
+            probability: StatedProbability::Of(best.coverage_probability),
+            rounding: conventions.rounding_rule(),
+            ..self.by_gum(Reason::NotNegative, conventions)
+        }
+    }
+
+    /// Whether y and u are all that is claimed, clause 8 refutes the interval, and they do not agree: then means of
+    /// few readings may be why.
+    pub(super) fn asks_for_normal_readings(&self, conventions: &Conventions) -> bool {
+        conventions.claims_moments() && self.reason(conventions) == Reason::NotValidated
+    }
+}
+
+/// Whether estimate and standard uncertainty agree within δ.
+fn confirms(mc: &MonteCarlo, gum: &Gum, delta: f64) -> bool {
+    let moments = mc.estimate.zip(mc.u);
+    moments.is_some_and(|(estimate, u)| TrialMoments { estimate, u }.confirm(gum, delta))
+}
+
+impl TrialMoments {
+    fn confirm(&self, gum: &Gum, delta: f64) -> bool {
+        let near = |found: f64, figure: f64| (found - figure).abs() <= delta;
+        near(self.estimate, gum.estimate) && near(self.u, gum.u)
+    }
+}
+
+/// The shortest interval where the distribution is asymmetric.
+fn interval(found: &MonteCarlo, digits: u8) -> ReportedUncertainty {
+    let (ends, kind) = match found.is_asymmetric(digits) {
+        true => (found.shortest, IntervalKind::Shortest),
+        false => (found.symmetric, IntervalKind::Symmetric),
+    };
+    let scale = found.u.unwrap_or(ends[1] - ends[0]);
+    match scale > 0.0 && scale.is_finite() {
+        true => ReportedUncertainty::Interval { ends, kind },
+        false => ReportedUncertainty::None,
+    }
+}
+
+impl MonteCarlo {
+    /// U such that estimate ± U is the probabilistically symmetric interval: half its width, where
+    /// both sides of the estimate are equally long within the numerical tolerance δ at these digits
+    /// of u, or within 2 %. `None` for a lopsided interval. Where the moments do not exist, the median
+    /// is the estimate.
+    pub fn half_width(&self, digits: u8) -> Option<f64> {
+        let estimate = self.centre();
+        let [low, high] = self.symmetric;
+        let half = (high - low) / 2.0;
+        let u = self.u.unwrap_or(half / 2.0);
+        let difference = ((high - estimate) - (estimate - low)).abs();
+        let tolerated = numerical_tolerance(u, digits).max(LOPSIDED * half);
+        (difference <= tolerated).then_some(half)
+    }
+
+    /// The estimate, or the median where the distribution has no mean.
+    pub fn centre(&self) -> f64 {
+        self.estimate.unwrap_or(self.median)
+    }
+
+    /// Whether the interval is lopsided ([`half_width`](Self::half_width)) and the shortest interval is shorter than
+    /// the symmetric one by more than 1 %, beyond the noise of both.
+    pub fn is_asymmetric(&self, digits: u8) -> bool {
+        let width = |[low, high]: [f64; 2]| high - low;
+        let [_, _, low, high] = self.standard_errors;
+        // Three standard errors of either end.
+        let noise = match low.is_finite() && high.is_finite() {
+            true => 6.0 * libm::hypot(low, high),
+            false => 0.0,
         };
-        let scale = found.u.unwrap_or(ends[1] - ends[0]);
-        match scale > 0.0 && scale.is_finite() {
-            true => ReportedUncertainty::Interval { ends, kind },
-            false => ReportedUncertainty::None,
-        }
+        let symmetric = width(self.symmetric);
+        self.half_width(digits).is_none()
+            && symmetric - width(self.shortest) > noise.max(SHORTER * symmetric)
     }
+}
 
-    fn finds(&self, measurand: usize, kind: &FindingKind) -> bool {
-        let concerned = |m: Option<usize>| m.is_none() || m == Some(measurand);
-        let mut findings = self.findings.iter();
-        findings.any(|finding| concerned(finding.measurand) && finding.kind == *kind)
+impl Conventions {
+    /// Whether y and k·u are all that is claimed.
+    pub fn claims_moments(&self) -> bool {
+        self.confirmation == Confirmation::Moments
+            || matches!(self.coverage_factor, CoverageRule::Fixed(_))
     }
 }
 
@@ -166,6 +348,41 @@ impl Coverage {
         /// Probabilities are stated to the whole percent.
         const PERCENT: f64 = 0.01;
         (self.probability - probability).abs() < PERCENT
+    }
+
+    /// ν that gave k; `None` where k follows from no ν.
+    fn dof(&self) -> Option<f64> {
+        match &self.basis {
+            CoverageBasis::Normal => Some(f64::INFINITY),
+            CoverageBasis::StudentT { dof } => Some(*dof),
+            CoverageBasis::Output { .. } | CoverageBasis::Fixed => None,
+        }
+    }
+
+    /// How y and U are rounded: by the conventions, which may give a single digit to a U from the distribution of
+    /// the output.
+    fn rounding(&self, conventions: &Conventions) -> RoundingRule {
+        let rule = conventions.rounding_rule();
+        let single = RoundingRule { digits: 1, ..rule };
+        let shape = matches!(self.basis, CoverageBasis::Output { .. });
+        if !(shape && conventions.single_digit_of_output) {
+            return rule;
+        }
+        /// What rounding may change by EA-4/02 6.3.
+        const FIVE_PERCENT: f64 = 0.05;
+        let rounded = single.uncertainty(self.expanded).to_f64();
+        match (rounded - self.expanded).abs() <= FIVE_PERCENT * self.expanded {
+            true => single,
+            false => rule,
+        }
+    }
+}
+
+/// The probability of a k that is fixed although Monte Carlo contradicts.
+fn unclaimed(conventions: &Conventions) -> StatedProbability {
+    match conventions.state_probability {
+        true => StatedProbability::Refuted,
+        false => StatedProbability::Unnamed,
     }
 }
 
@@ -184,5 +401,196 @@ fn stated_probability(
         // EA-4/02: 95.45 % is what k = 2 has for a normal distribution; "about" goes with 95 %.
         _ if (coverage.probability - 0.9545).abs() < 1e-4 => StatedProbability::Of(0.95),
         _ => StatedProbability::Of(coverage.probability),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::budget::PROFILES;
+    use crate::propagate::draft;
+    use crate::propagate::result::{Histogram, Validation};
+    use gumption_core::distribution::Univariate;
+
+    fn monte_carlo(symmetric: [f64; 2], shortest: [f64; 2], error: f64) -> MonteCarlo {
+        MonteCarlo {
+            estimate: Some(0.0),
+            u: Some(1.0),
+            median: 0.0,
+            symmetric,
+            shortest,
+            skewness: None,
+            excess_kurtosis: None,
+            standard_errors: [error; 4],
+            failed: 0,
+            histogram: Histogram {
+                start: 0.0,
+                width: 1.0,
+                counts: Vec::new(),
+            },
+        }
+    }
+
+    fn result(verdict: Clause8, u: f64, monte_carlo: MonteCarlo) -> MeasurandResult {
+        let clause_8 = |digits| Validation {
+            digits,
+            delta: 0.05,
+            d_low: 0.1,
+            d_high: 0.1,
+            error: 0.0,
+            verdict,
+        };
+        MeasurandResult {
+            gum: draft::gum(0.0, u, 1.96 * u),
+            second_order: None,
+            monte_carlo: Some(monte_carlo),
+            validation: Some([clause_8(2), clause_8(1)]),
+            with_normal_readings: None,
+            not_negative: None,
+        }
+    }
+
+    fn conventions(coverage_factor: CoverageRule) -> Conventions {
+        Conventions {
+            coverage_factor,
+            ..PROFILES[0].conventions()
+        }
+    }
+
+    const OUTPUT: CoverageRule = CoverageRule::Output;
+    const FIXED: CoverageRule = CoverageRule::Fixed(2.0);
+
+    #[test]
+    fn the_verdict_of_clause_8_decides() {
+        let of = |verdict, u, rule| {
+            let mc = monte_carlo([-1.9, 1.9], [-1.9, 1.9], 0.0);
+            result(verdict, u, mc).reported(&conventions(rule)).reason
+        };
+        assert_eq!(of(Clause8::Validated, 1.0, OUTPUT), Reason::Validated);
+        assert_eq!(of(Clause8::NotValidated, 1.0, OUTPUT), Reason::NotValidated);
+        assert_eq!(of(Clause8::Undecided, 1.0, OUTPUT), Reason::Undecided);
+        // A fixed k claims y and u only: 1.04 against 1.00 with δ = 0.05.
+        assert_eq!(of(Clause8::NotValidated, 1.04, FIXED), Reason::MomentsAgree);
+        assert_eq!(of(Clause8::NotValidated, 1.06, FIXED), Reason::NotValidated);
+    }
+
+    #[test]
+    fn few_readings_leave_a_multiple_of_u_as_it_is() {
+        let without_u = MonteCarlo {
+            u: None,
+            ..monte_carlo([-2.3, 2.3], [-2.3, 2.3], 0.0)
+        };
+        let mut found = result(Clause8::NotValidated, 1.0, without_u);
+        let of = |found: &MeasurandResult, rule| found.reported(&conventions(rule));
+        assert_eq!(of(&found, FIXED).u, None);
+        found.with_normal_readings = Some(TrialMoments {
+            estimate: 0.0,
+            u: 1.02,
+        });
+        let reported = of(&found, FIXED);
+        assert_eq!(reported.reason, Reason::FewReadings);
+        assert_eq!((reported.u, reported.expanded()), (Some(1.0), Some(2.0)));
+        assert_eq!(of(&found, OUTPUT).reason, Reason::NotValidated);
+        found.with_normal_readings = Some(TrialMoments {
+            estimate: 0.0,
+            u: 1.2,
+        });
+        let reported = of(&found, FIXED);
+        assert_eq!(reported.reason, Reason::NotValidatedFewReadings);
+        assert_eq!((reported.u, reported.expanded()), (Some(1.2), Some(2.4)));
+    }
+
+    #[test]
+    fn a_fixed_factor_stays_with_monte_carlo() {
+        let mc = monte_carlo([-1.9, 1.9], [-1.9, 1.9], 0.0);
+        let reported = result(Clause8::NotValidated, 1.2, mc).reported(&conventions(FIXED));
+        assert_eq!(reported.basis, Basis::MonteCarlo);
+        assert_eq!(
+            (reported.coverage_factor(), reported.expanded()),
+            (Some(2.0), Some(2.0))
+        );
+        assert_eq!(reported.probability, StatedProbability::Refuted);
+    }
+
+    #[test]
+    fn half_a_width_is_given_for_equal_sides_only() {
+        let of = |symmetric| monte_carlo(symmetric, symmetric, 0.001).half_width(2);
+        assert_eq!(of([-2.0, 2.0]), Some(2.0));
+        assert_eq!(of([-1.98, 2.02]), Some(2.0));
+        assert_eq!(of([-1.9, 2.1]), None);
+        let without_moments = MonteCarlo {
+            estimate: None,
+            u: None,
+            ..monte_carlo([-2.0, 2.0], [-2.0, 2.0], 0.001)
+        };
+        assert_eq!(without_moments.half_width(2), Some(2.0));
+    }
+
+    /// U = 20 with u = 10: the ends may lie 2 % of U = 0.4, or δ = 0.5, nearer on one side; δ decides.
+    #[test]
+    fn the_criterion_of_a_lopsided_interval() {
+        let of = |low: f64, high: f64| {
+            let mc = MonteCarlo {
+                u: Some(10.0),
+                ..monte_carlo([low, high], [low, high], 0.0)
+            };
+            mc.half_width(2).is_some()
+        };
+        assert!(of(-20.2, 20.2) && of(-19.751, 20.249) && !of(-19.749, 20.251));
+        // With one digit δ is 5.
+        let mc = MonteCarlo {
+            u: Some(10.0),
+            ..monte_carlo([-18.0, 22.0], [-18.0, 22.0], 0.0)
+        };
+        assert!(mc.half_width(2).is_none() && mc.half_width(1).is_some());
+    }
+
+    /// Lopsided, and a shortest interval that is shorter by more than 1 %: 40 against 39.6.
+    #[test]
+    fn the_criterion_of_an_asymmetric_output() {
+        let of = |shortest: f64, error: f64| {
+            let mc = MonteCarlo {
+                u: Some(10.0),
+                ..monte_carlo([-19.0, 21.0], [0.0, shortest], error)
+            };
+            mc.is_asymmetric(2)
+        };
+        assert!(of(39.59, 0.0) && !of(39.61, 0.0));
+        // Six standard errors of a difference of two ends: 6·√2·0.1 = 0.85.
+        assert!(of(39.1, 0.1) && !of(39.2, 0.1));
+        let even = monte_carlo([-20.0, 20.0], [0.0, 30.0], 0.0);
+        assert!(!even.is_asymmetric(2));
+    }
+
+    #[test]
+    fn asymmetry_beyond_noise() {
+        // Exponential: symmetric 0.0253 … 3.689, shortest 0 … 2.996.
+        let exponential = |error| monte_carlo([0.0253, 3.689], [0.0, 2.996], error);
+        assert!(exponential(0.005).is_asymmetric(2));
+        assert!(!exponential(0.5).is_asymmetric(2));
+        assert!(!monte_carlo([-1.96, 1.96], [-1.97, 1.945], 0.001).is_asymmetric(2));
+    }
+
+    #[test]
+    fn one_digit_of_a_rectangle_as_ea_4_02_s9_prints_it() {
+        let coverage = |expanded| Coverage {
+            k: 1.65,
+            basis: CoverageBasis::Output {
+                dominant: Vec::new(),
+                shape: &gumption_core::distribution::Uniform::KIND,
+            },
+            probability: 0.95,
+            expanded,
+            half_width_for_p: expanded,
+        };
+        let ea = crate::budget::profile_named("EA").map(|profile| profile.conventions());
+        let digits = |expanded| {
+            let rule = ea.as_ref().map(|ea| coverage(expanded).rounding(ea));
+            rule.map(|rule| rule.digits)
+        };
+        // 0.049 and 0.059 are within 5 % of 0.05 and 0.06; 0.014 is far from 0.01 and 0.02.
+        assert_eq!(digits(0.0491), Some(1));
+        assert_eq!(digits(0.0593), Some(1));
+        assert_eq!(digits(0.0144), Some(2));
     }
 }

@@ -97,7 +97,7 @@ fn gum_h_1_with_nine_inputs() {
     let all = (second.u.powi(2) - result.gum.u.powi(2)).sqrt();
     close(u_effect, all, 1e-9);
     assert!(kinds(&evaluation).contains(&&FindingKind::NeedsMonteCarlo));
-    assert_eq!(result.basis, Basis::Gum);
+    assert_eq!(result.reported(&budget.conventions).basis, Basis::Gum);
 }
 
 /// What is found of inputs without a sensitivity coefficient.
@@ -179,7 +179,10 @@ fn s1_9_4_comparison_loss() {
     let second = result.second_order.as_ref().unwrap();
     close(second.shift, 5e-5, 1e-18);
     close(second.u, 5e-5, 1e-18);
-    assert_eq!(result.basis, Basis::MonteCarlo);
+    assert_eq!(
+        result.reported(&budget.conventions).basis,
+        Basis::MonteCarlo
+    );
     let mc = result.monte_carlo.as_ref().unwrap();
     close(mc.estimate.unwrap(), 5e-5, 1e-6);
     let (inputs, shift, u_effect, matters) = vanishing(&evaluation);
@@ -205,7 +208,7 @@ fn s1_9_2_2_is_validated() {
     let result = &evaluation.results[0];
     close(result.gum.coverage.expanded, 3.92, 0.005);
     assert!(result.validation.unwrap()[0].is_validated());
-    assert_eq!(result.basis, Basis::Gum);
+    assert_eq!(result.reported(&budget.conventions).basis, Basis::Gum);
     assert!(result.second_order.is_none());
     assert!(evaluation.findings.is_empty(), "{:?}", evaluation.findings);
     assert_eq!(evaluation.run.unwrap().trials, 200_000);
@@ -225,7 +228,10 @@ fn s1_9_2_4_is_not_validated() {
     close(result.gum.coverage.expanded, 19.9, 0.05);
     let validation = result.validation.unwrap()[0];
     close(validation.d_high, 2.9, 0.15);
-    assert_eq!(result.basis, Basis::MonteCarlo);
+    assert_eq!(
+        result.reported(&budget.conventions).basis,
+        Basis::MonteCarlo
+    );
     // With k from the output's distribution the same budget is.
     let mut output = budget;
     output.conventions.coverage_factor = CoverageRule::Output;
@@ -415,7 +421,12 @@ fn no_value_and_no_derivative() {
     assert_eq!(error, expected);
     // Monte Carlo can still say something, of the half of the trials that have a root.
     let evaluation = run(&draft("sqrt(a)"), MonteCarloChoice::AsBudget);
-    assert_eq!(evaluation.results[0].basis, Basis::MonteCarlo);
+    assert_eq!(
+        evaluation.results[0]
+            .reported(&draft("a").conventions)
+            .basis,
+        Basis::MonteCarlo
+    );
     assert!(
         kinds(&evaluation)
             .iter()
@@ -449,25 +460,25 @@ fn three_readings_beside_a_product_of_zeros_do_not_keep_the_first_order() {
         );
         let loaded = crate::budget::read(&text, "b.toml", std::path::Path::new(""));
         let budget = loaded.unwrap().rows.remove(0).budget;
-        run(&budget, MonteCarloChoice::AsBudget)
+        let evaluation = run(&budget, MonteCarloChoice::AsBudget);
+        let reported = evaluation.results[0].reported(&budget.conventions);
+        (evaluation, reported)
     };
     let da = "[input.da]\nvalue = 0\nunit = \"1/K\"\nhalf_width = 0.001\n";
-    let product = evaluation("da * dt + b", da);
+    let (product, reported) = evaluation("da * dt + b", da);
     let result = &product.results[0];
-    assert_eq!(result.basis, Basis::MonteCarlo);
+    assert_eq!(reported.reason, Reason::NotValidatedFewReadings);
+    // u of the product is 0.001·2/3, that of the readings 0.0002/√3.
+    let u = libm::hypot(0.002 / 3.0, 0.0002 / 3f64.sqrt());
+    close(reported.u.unwrap(), u, 0.005 * u);
+    assert!(u > 2.0 * result.gum.u);
     // The decision takes the U that the statement gives.
-    let mc = result.monte_carlo.as_ref().unwrap();
-    let half = (mc.symmetric[1] - mc.symmetric[0]) / 2.0;
-    assert!(half > 2.0 * result.gum.coverage.expanded);
     let decided = &product.conformity[0];
-    assert_eq!((decided.estimate, decided.expanded), (mc.centre(), half));
-    // Three readings do not widen it once more: p_c is near that of the trials.
-    let conformance = decided.conformance.unwrap();
-    let trials = conformance.from_trials.unwrap();
-    assert!((conformance.from_measurement - trials).abs() < 0.01);
-    let linear = evaluation("b + 0.01 '1/K' * dt", "");
+    let stated = (reported.estimate, reported.half_width());
+    assert_eq!((decided.estimate, decided.expanded), stated);
+    let (linear, reported) = evaluation("b + 0.01 '1/K' * dt", "");
     let result = &linear.results[0];
     assert_eq!(result.monte_carlo.as_ref().unwrap().u, None);
-    assert_eq!(result.basis, Basis::Gum);
+    assert_eq!(reported.reason, Reason::FewReadings);
     assert_eq!(linear.conformity[0].expanded, result.gum.coverage.expanded);
 }

@@ -14,20 +14,27 @@ use crate::experiment::components::lower_factor;
 use crate::experiment::{Doubt, Scope};
 use gumption_core::distribution::{Distribution, Normal, Uniform, Univariate};
 use gumption_core::quantity::Unit;
+use gumption_fault::language::Language;
 use gumption_gum::budget::writing::{key, quoted};
+use gumption_gum::budget::{Certificate, Evaluation};
 
 /// More errors of one cause than these are summed up as one, of normal distribution.
 const LONGEST: usize = 100;
 
 /// A budget file whose measurands are some of the coefficients, by their places.
-pub fn budget(campaign: &Campaign, found: &Calibration, coefficients: &[usize]) -> String {
+pub fn budget(
+    campaign: &Campaign,
+    found: &Calibration,
+    coefficients: &[usize],
+    language: Language,
+) -> String {
     let figures = &found.figures;
     let coefficients: Vec<usize> = coefficients
         .iter()
         .copied()
         .filter(|index| *index < figures.coefficients.len())
         .collect();
-    let mut text = head(campaign, found, &coefficients);
+    let mut text = head(campaign, language);
     let inputs: Vec<InputOfCause> = figures
         .causes
         .iter()
@@ -48,25 +55,24 @@ pub fn budget(campaign: &Campaign, found: &Calibration, coefficients: &[usize]) 
     text
 }
 
-fn head(campaign: &Campaign, found: &Calibration, coefficients: &[usize]) -> String {
-    let names: Vec<&str> = coefficients
-        .iter()
-        .map(|index| found.figures.coefficients[*index].name.as_str())
-        .collect();
-    let title = &campaign.experiment.heading.title.en;
-    let title = if title.is_empty() {
-        "Calibration"
-    } else {
-        title
+fn head(campaign: &Campaign, language: Language) -> String {
+    let experiment = &campaign.experiment;
+    let heading = &experiment.heading;
+    let title = match language.pick(&heading.title.en, &heading.title.zh).as_str() {
+        "" => language.pick("Calibration", "校准"),
+        title => title,
     };
-    let mut text = String::from(
-        "# Written by `gumption calibrate`: coefficients, linear in the errors of the calibration.\n",
+    let mut text = format!(
+        "# {}\n",
+        language.pick(
+            "Written by `gumption calibrate`: coefficients, linear in the errors of the calibration.",
+            "由 `gumption calibrate` 写出：各系数是校准误差的线性函数。",
+        )
     );
     let mut line = |key: &str, value: &str| {
         let _ = writeln!(text, "{key} = {}", quoted(value));
     };
-    line("title", &format!("{title}: {}", names.join(", ")));
-    let heading = &campaign.experiment.heading;
+    line("title", title);
     for (key, value) in [
         ("object", &heading.object),
         ("author", &heading.author),
@@ -77,12 +83,19 @@ fn head(campaign: &Campaign, found: &Calibration, coefficients: &[usize]) -> Str
             line(key, value);
         }
     }
-    let p = campaign.experiment.coverage_probability;
-    let _ = write!(
-        text,
-        "\n[conventions]\ncoverage_probability = {p:?}\nt_scale = \"standard-deviation\"\n"
-    );
-    let mut own = campaign.experiment.own_units.clone();
+    let conventions = &experiment.conventions;
+    line("profile", &conventions.profile);
+    text += "\n[conventions]\n";
+    for stated in conventions
+        .overrides
+        .iter()
+        .filter(|stated| !stated.starts_with("t_scale"))
+    {
+        let _ = writeln!(text, "{stated}");
+    }
+    // u of an error is its standard deviation.
+    text += "t_scale = \"standard-deviation\"\n";
+    let mut own = experiment.own_units.clone();
     own.sort();
     if !own.is_empty() {
         text += "\n[unit]\n";
@@ -198,7 +211,12 @@ fn stated(cause: &Cause, doubt: &Doubt, name: &str, places: &[Place<'_>]) -> Inp
         count => format!("values = [{}]", vec!["0"; count].join(", ")),
     };
     let unit = unit_line(&doubt.unit);
-    let width = width(&doubt.distribution, doubt.u, doubt.dof);
+    let mut width = width(&doubt.distribution, doubt.u, doubt.dof);
+    width += type_line(doubt.evaluation, &width);
+    width += &doubt
+        .certificate
+        .as_ref()
+        .map_or_else(String::new, certificate_line);
     let _ = write!(
         input.text,
         "\n[input.{}]\n{estimate}\n{unit}{width}",
@@ -233,11 +251,38 @@ fn independent(cause: &Cause, name: &str, places: &[Place<'_>]) -> Vec<InputOfCa
             continue;
         }
         let normal = Distribution::Normal(Normal { mean: 0.0, sd: 1.0 });
-        let width = width(&normal, 1.0, cause.contribution_dof(*own));
+        let mut width = width(&normal, 1.0, cause.contribution_dof(*own));
+        width += type_line(cause.evaluation, &width);
         let _ = write!(input.text, "\n[input.{}]\nvalue = 0\n{width}", key(&name));
         inputs.push(input);
     }
     inputs
+}
+
+/// Says of a stated u that it was evaluated from readings.
+fn type_line(evaluation: Evaluation, width: &str) -> &'static str {
+    match evaluation {
+        Evaluation::TypeA if width.starts_with("u = ") => "type = \"A\"\n",
+        _ => "",
+    }
+}
+
+/// Where an uncertainty comes from.
+fn certificate_line(certificate: &Certificate) -> String {
+    let fields = [
+        ("number", &certificate.number),
+        ("laboratory", &certificate.laboratory),
+        ("date", &certificate.date),
+        ("due", &certificate.due),
+    ];
+    let stated: Vec<String> = fields
+        .into_iter()
+        .filter_map(|(key, text)| Some(format!("{key} = {}", quoted(text.as_ref()?))))
+        .collect();
+    match stated.as_slice() {
+        [] => String::new(),
+        stated => format!("certificate = {{ {} }}\n", stated.join(", ")),
+    }
 }
 
 /// Contributions to a coefficient that are more than rounding errors.

@@ -18,7 +18,7 @@ use super::swaps::swapped;
 use super::trouble::Trouble;
 use crate::experiment::Words;
 use gumption_core::least_squares::Solution;
-use gumption_core::special::{student_t_sf, student_t_two_sided_quantile};
+use gumption_core::special::student_t_sf;
 
 /// A calibration that was evaluated.
 #[derive(Debug, Clone)]
@@ -316,7 +316,7 @@ pub(super) fn figures(campaign: &Campaign, parameters: &[f64], causes: Vec<Cause
                 value,
                 u,
                 dof,
-                k: student_t_two_sided_quantile(campaign.experiment.coverage_probability, dof),
+                k: campaign.experiment.conventions.factor(dof),
                 p_value: 2.0 * student_t_sf((value / u).abs(), dof),
             }
         })

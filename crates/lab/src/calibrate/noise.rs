@@ -75,6 +75,7 @@ pub(super) fn add(
                 false => Evaluation::TypeB,
             },
             how: "u".to_owned(),
+            certificate: None,
         });
     }
     Some(true)

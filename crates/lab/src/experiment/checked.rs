@@ -5,7 +5,7 @@ use super::words::Words;
 use gumption_core::equations::{Equations, Quantity};
 use gumption_core::model::Symbol;
 use gumption_core::quantity::{Unit, UnitTable};
-use gumption_gum::budget::Remark;
+use gumption_gum::budget::{Conventions, Remark};
 
 /// What the file of an experiment says, with the units of its recording: what every command starts from.
 ///
@@ -34,7 +34,7 @@ pub struct Experiment {
     /// Why inputs and readings are doubted.
     pub doubts: Vec<Doubt>,
     /// Probability of coverage, for coverage factors and written budgets.
-    pub coverage_probability: f64,
+    pub conventions: Conventions,
     /// What a reader should know.
     pub remarks: Vec<Remark>,
 }

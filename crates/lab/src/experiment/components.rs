@@ -119,6 +119,7 @@ impl Found {
             distribution: component.distribution.clone(),
             evaluation: component.evaluation,
             how: component.how.clone(),
+            certificate: component.certificate.clone(),
         }
     }
 }
@@ -172,6 +173,7 @@ fn factored(stated: &Quantities, group: &Group, found: &[Found]) -> Option<Vec<D
             false => Evaluation::TypeB,
         },
         how: "r".to_owned(),
+        certificate: None,
     };
     let parts = (0..members.len()).map(part);
     Some(parts.filter(|part| !part.acts.is_empty()).collect())

@@ -2,7 +2,7 @@
 
 use gumption_core::distribution::Distribution;
 use gumption_core::quantity::Unit;
-use gumption_gum::budget::Evaluation;
+use gumption_gum::budget::{Certificate, Evaluation};
 
 use super::words::Words;
 
@@ -63,6 +63,8 @@ pub struct Doubt {
     pub evaluation: Evaluation,
     /// How `u` follows from what the file states.
     pub how: String,
+    /// The certificate behind it.
+    pub certificate: Option<Certificate>,
 }
 
 /// What an error acts on.

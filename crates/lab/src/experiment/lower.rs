@@ -98,7 +98,7 @@ impl Checker<'_> {
             constants,
             equations,
             doubts: doubts.doubts.clone(),
-            coverage_probability: doubts.coverage_probability,
+            conventions: doubts.conventions.clone(),
             remarks,
         })
     }

@@ -18,12 +18,12 @@ use gumption_core::quantity::Unit;
 use gumption_fault::Fault;
 use gumption_format::toml::Stated;
 use gumption_format::toml::{Amount, Named, OneOrMany};
-use gumption_gum::budget::Remark;
 use gumption_gum::budget::quantities::{Quantities, quantities};
 use gumption_gum::budget::tables::{ConstantEntry, Sources};
 use gumption_gum::budget::tables::{
     ConstantTable, CorrelationTable, FileTable, InputTable, SourceTable,
 };
+use gumption_gum::budget::{Conventions, Remark};
 
 /// What the file says of inputs, readings and constants.
 pub(crate) struct Doubts {
@@ -32,7 +32,7 @@ pub(crate) struct Doubts {
     /// Parameters that are inputs as well.
     pub priors: Vec<(String, Unit, Prior)>,
     pub constants: Vec<(String, Unit, Vec<f64>)>,
-    pub coverage_probability: f64,
+    pub conventions: Conventions,
     pub remarks: Vec<Remark>,
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn of(checker: &mut Checker<'_>, names: &Names, columns: &[Quantity])
             .filter(|constant| !known.iter().any(|one| one.own_name() == constant.name))
             .map(|c| (c.name.clone(), c.unit.clone(), c.values.clone()))
             .collect(),
-        coverage_probability: stated.conventions.coverage_probability,
+        conventions: stated.conventions.clone(),
         remarks: stated.remarks.clone(),
     };
     let parameters: Vec<&String> = entries(&checker.source.table.parameter)

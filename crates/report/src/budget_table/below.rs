@@ -1,12 +1,13 @@
 //! What stands below the table: elided rows, the combined u, subtotals.
 
 use super::common::SMALL;
+use crate::Report;
 use crate::comparison;
+use crate::figures::Figures;
 use crate::language::{Language, Word};
-use crate::number::{NONE, TABLE_DIGITS, aligned, freedom, percent, probability, significant};
-use crate::{Report, difference_symbol, symbol};
+use crate::number::{NONE, TABLE_DIGITS, freedom, percent, probability, significant};
 use gumption_format::document::{Cell, ColumnKind, Table};
-use gumption_gum::propagate::{CoverageBasis, Freedom, Gum};
+use gumption_gum::propagate::{Basis, Coverage, CoverageBasis, Freedom, Gum, ReportedUncertainty};
 
 pub(super) fn elision(language: Language, gum: &Gum, elided: &[usize]) -> String {
     let largest = elided
@@ -34,27 +35,80 @@ pub(super) fn elision(language: Language, gum: &Gum, elided: &[usize]) -> String
     }
 }
 
-/// y, u_c, ν_eff, k and U.
+/// y, u, ν_eff, k and U as they are reported.
 pub(super) fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, String)> {
+    let figures = Figures::new(report, measurand);
     let gum = &report.evaluation.results[measurand].gum;
-    let (name, unit) = report.measurand(measurand);
     let l = report.language;
-    let with = |number: String, unit: &str| {
-        if unit.is_empty() {
-            number
-        } else {
-            format!("{number} {unit}")
-        }
+    let mut rows = vec![(
+        Word::Estimate,
+        format!("{} = {}", figures.name, figures.value()),
+    )];
+    let of_gum = figures.reported.basis == Basis::Gum;
+    if let Some(u) = figures.u() {
+        let (word, symbol) = match of_gum {
+            true => (Word::CombinedUncertainty, "u_c"),
+            false => (Word::StandardUncertainty, "u"),
+        };
+        rows.push((word, format!("{symbol} = {}", figures.amount(&u))));
+    }
+    if of_gum {
+        rows.push((Word::FreedomEffective, effective(gum, &figures, l)));
+    }
+    if let Some(k) = figures.k() {
+        let why = match of_gum {
+            true => basis(report, &gum.coverage),
+            false => match figures.reported.uncertainty {
+                ReportedUncertainty::HalfWidth { .. } => "U/u".to_string(),
+                _ => comparison::basis_of_k(&gum.coverage, l),
+            },
+        };
+        rows.push((
+            Word::Factor,
+            l.pick(format!("k = {k} ({why})"), format!("k = {k}（{why}）")),
+        ));
+    }
+    if let Some(expanded) = figures.expanded() {
+        rows.push((Word::Expanded, format!("U = {}", figures.amount(&expanded))));
+    }
+    if let Some([low, high]) = figures.interval() {
+        rows.push((
+            Word::Interval,
+            figures.of_value(&format!("[{low}, {high}]")),
+        ));
+    }
+    rows.into_iter()
+        .map(|(word, text)| (word.of(l).to_string(), text))
+        .collect()
+}
+
+/// ν_eff: the one that gave k, and what it was cut from.
+fn effective(gum: &Gum, figures: &Figures<'_>, l: Language) -> String {
+    let found = gum.freedom.value();
+    let relation = match gum.freedom {
+        Freedom::Refused { .. } => "≥",
+        _ => "=",
     };
-    let difference = difference_symbol(unit);
-    let dof = match &gum.freedom {
-        Freedom::Refused { lower_bound, .. } => format!("≥ {}", freedom(*lower_bound)),
-        Freedom::Ensembles(v) | Freedom::WelchSatterthwaite(v) => format!("= {}", freedom(*v)),
-        Freedom::Infinite => "= ∞".to_string(),
-    };
-    let coverage = &gum.coverage;
-    let k = significant(coverage.k, TABLE_DIGITS);
-    let basis = comparison::basis_of_k(coverage, l);
+    match figures.reported.dof {
+        Some(used) if freedom(used) != freedom(found) && used.is_finite() => l.pick(
+            format!(
+                "ν_eff {relation} {} (cut from {})",
+                freedom(used),
+                freedom(found)
+            ),
+            format!(
+                "ν_eff {relation} {}（由 {} 截尾）",
+                freedom(used),
+                freedom(found)
+            ),
+        ),
+        _ => format!("ν_eff {relation} {}", freedom(found)),
+    }
+}
+
+/// Where k came from, and its probability.
+fn basis(report: &Report<'_>, coverage: &Coverage) -> String {
+    let l = report.language;
     let fixed = coverage.basis == CoverageBasis::Fixed;
     // A fixed k has the profile's probability only where the distribution of the result grants it.
     let conventions = &report.budget.conventions;
@@ -65,39 +119,7 @@ pub(super) fn footer(report: &Report<'_>, measurand: usize) -> Vec<(String, Stri
     } else {
         format!("p = {}", probability(coverage.probability))
     };
-    [
-        (
-            Word::Estimate,
-            format!(
-                "{name} = {}",
-                with(aligned(gum.estimate, gum.u, 2), &symbol(unit))
-            ),
-        ),
-        (
-            Word::CombinedUncertainty,
-            format!(
-                "u_c = {}",
-                with(significant(gum.u, TABLE_DIGITS), &difference)
-            ),
-        ),
-        (Word::FreedomEffective, format!("ν_eff {dof}")),
-        (
-            Word::Factor,
-            l.pick(
-                format!("k = {k} ({basis}, {p})"),
-                format!("k = {k}（{basis}，{p}）"),
-            ),
-        ),
-        (
-            Word::Expanded,
-            format!(
-                "U = {}",
-                with(significant(coverage.expanded, TABLE_DIGITS), &difference)
-            ),
-        ),
-    ]
-    .map(|(word, text)| (word.of(l).to_string(), text))
-    .to_vec()
+    [comparison::basis_of_k(coverage, l), p].join(l.pick(", ", "，"))
 }
 
 pub(super) fn subtotals(report: &Report<'_>, measurand: usize) -> Option<Table> {

@@ -100,7 +100,7 @@ form! {
             (0..equations.responses().len()).map(|response| equations.text(response)).collect()
         },
         /// Probability of the coverage intervals.
-        coverage_probability: Number = Number(campaign.experiment.coverage_probability),
+        coverage_probability: Number = Number(campaign.experiment.conventions.coverage_probability),
         /// Parameters, then results; of a plan with the values that were assumed, and none where the schedule does not
         /// determine all of them.
         coefficients: Vec<CoefficientForm<'a>> = figures.map_or_else(Vec::new, |figures| coefficients(figures, l)),

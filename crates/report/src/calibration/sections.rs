@@ -10,6 +10,7 @@ use gumption_format::document::{
     ColumnKind::{Names, Numbers, Wrapped},
     Row,
 };
+use gumption_gum::budget::CoverageRule;
 use gumption_lab::calibrate::{Calibration, Campaign, Coefficient, Figures, PartScatter};
 use gumption_lab::experiment::Words;
 
@@ -57,10 +58,13 @@ pub(super) fn equations(campaign: &Campaign, l: Language) -> Vec<Block> {
 }
 
 pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) -> Vec<Block> {
-    let expanded = format!(
-        "U ({})",
-        probability(campaign.experiment.coverage_probability)
-    );
+    let conventions = &campaign.experiment.conventions;
+    let fixed = matches!(conventions.coverage_factor, CoverageRule::Fixed(_));
+    // JJF 1059.1: k without a probability.
+    let expanded = match fixed && !conventions.state_probability {
+        true => "U".to_owned(),
+        false => format!("U ({})", probability(conventions.coverage_probability)),
+    };
     let estimate = Word::Estimate.of(l);
     let mut table = table(
         l,
@@ -82,13 +86,14 @@ pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) 
             aligned(one.value, one.u, DIGITS).into(),
             shown_u(one.u).into(),
             symbol(&one.unit).into(),
-            freedom(one.dof).into(),
+            freedom(conventions.degrees_of_freedom.entered(one.dof)).into(),
             significant(one.k, 3).into(),
             shown_u(one.k * one.u).into(),
             significance(one, l).into(),
             described(one, l).into(),
         ]);
     }
+    let profile = &conventions.profile;
     vec![
         section(l, "Coefficients", "系数"),
         Block::Table(table.without_empty_columns()),
@@ -97,6 +102,10 @@ pub(super) fn coefficients(campaign: &Campaign, figures: &Figures, l: Language) 
             "significant: a coefficient that is zero would come out as far from it with the probability p (two-sided t test).",
             "显著性：系数真值为零时得到如此偏离的概率 p（双侧 t 检验）。",
         ),
+        Block::Paragraph(l.pick(
+            format!("U = k·u by the profile {profile}."),
+            format!("U = k·u，按规范 {profile}。"),
+        )),
     ]
 }
 

@@ -1,8 +1,9 @@
 //! One conformity assessment: its section and its sentence.
 
-use super::words::{Rows, chance, with_unit};
+use super::words::{Rows, chance};
+use crate::figures::{Figures, with_unit};
 use crate::language::Language;
-use crate::number::{NONE, TABLE_DIGITS, aligned, exact, print};
+use crate::number::{NONE, TABLE_DIGITS, aligned, exact, significant};
 use crate::{Report, difference_symbol, symbol};
 use gumption_core::quantity::Unit;
 use gumption_format::document::Block;
@@ -125,7 +126,7 @@ impl Assessment<'_> {
         let Interval { lower, upper } = self.found.rejection;
         let beyond = |sign: &str, limit: f64| {
             let number = format!("{sign} {}", self.limit(limit));
-            with_unit(&number, symbol(self.unit))
+            with_unit(&number, &symbol(self.unit))
         };
         match (lower.is_finite(), upper.is_finite()) {
             (true, true) => {
@@ -139,12 +140,11 @@ impl Assessment<'_> {
 
     fn interval(&self, interval: Interval, number: &dyn Fn(f64) -> String) -> String {
         let unit = symbol(self.unit);
-        let bound =
-            |sign: &str, limit: f64| with_unit(&format!("{sign} {}", number(limit)), unit.clone());
+        let bound = |sign: &str, limit: f64| with_unit(&format!("{sign} {}", number(limit)), &unit);
         match (interval.lower.is_finite(), interval.upper.is_finite()) {
             (true, true) => with_unit(
                 &format!("[{}, {}]", number(interval.lower), number(interval.upper)),
-                unit,
+                &unit,
             ),
             (true, false) => bound("≥", interval.lower),
             (false, true) => bound("≤", interval.upper),
@@ -157,19 +157,33 @@ impl Assessment<'_> {
         aligned(x, self.found.u, TABLE_DIGITS)
     }
 
+    /// The result as it is reported.
     fn measured(&self) -> String {
-        let rule = self.report.budget.conventions.rounding_rule();
-        let (estimate, expanded) = (self.found.estimate, self.found.expanded);
-        if expanded.is_nan() || expanded <= 0.0 || expanded.is_infinite() {
-            return with_unit(&exact(estimate), symbol(self.unit));
+        let figures = Figures::new(self.report, self.stated.measurand);
+        let l = self.l;
+        let comma = l.pick(", ", "，");
+        let mut parts = vec![figures.value()];
+        if let Some(expanded) = figures.expanded() {
+            parts.push(format!("U = {}", figures.amount(&expanded)));
         }
-        let pair = rule.align(estimate, expanded);
-        format!(
-            "{}{}U = {}",
-            with_unit(&print(&pair.estimate), symbol(self.unit)),
-            self.l.pick(", ", "，"),
-            with_unit(&print(&pair.uncertainty), self.deviations())
-        )
+        if let Some(ends) = figures.interval() {
+            if let Some(u) = figures.u() {
+                parts.push(format!("u = {}", figures.amount(&u)));
+            }
+            let ends = figures.of_value(&format!("[{}, {}]", ends[0], ends[1]));
+            parts.push(l.pick(
+                format!("coverage interval {ends}"),
+                format!("包含区间 {ends}"),
+            ));
+            if self.stated.rule.takes_expanded() {
+                let half = figures.amount(&significant(self.found.expanded, 2));
+                parts.push(l.pick(
+                    format!("half of its width {half} taken for U"),
+                    format!("以其半宽 {half} 作为 U"),
+                ));
+            }
+        }
+        parts.join(comma)
     }
 
     /// Unit of a difference.

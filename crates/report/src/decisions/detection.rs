@@ -1,6 +1,7 @@
 //! Characteristic limits of one measurand: their section and their sentence.
 
-use super::words::{Rows, with_unit};
+use super::words::Rows;
+use crate::figures::{Figures, with_unit};
 use crate::language::Language;
 use crate::number::{TABLE_DIGITS, aligned, at_place, exact, print, probability, significant};
 use crate::{Report, difference_symbol, symbol};
@@ -81,7 +82,7 @@ impl Limits<'_> {
         else {
             return;
         };
-        let guideline = with_unit(&exact(guideline), symbol(self.unit));
+        let guideline = with_unit(&exact(guideline), &symbol(self.unit));
         let word = match (suitable, l) {
             (true, Language::English) => "suitable",
             (false, Language::English) => "not suitable",
@@ -107,22 +108,42 @@ impl Limits<'_> {
                 "ŷ = {}{}u(ŷ) = {}",
                 self.beside(best.value, best.u),
                 l.pick(", ", "，"),
-                with_unit(&u, difference_symbol(self.unit))
+                with_unit(&u, &difference_symbol(self.unit))
             ),
         );
         let interval = |ends: [f64; 2]| {
             let [low, high] = ends.map(|end| aligned(end, best.u, TABLE_DIGITS));
-            with_unit(&format!("[{low}, {high}]"), symbol(self.unit))
+            with_unit(&format!("[{low}, {high}]"), &symbol(self.unit))
         };
-        let (symmetric, shortest) = (interval(best.symmetric), interval(best.shortest));
+        let figures = self.figures();
+        let reported = figures.interval().map_or_else(
+            || interval(best.symmetric),
+            |[low, high]| figures.of_value(&format!("[{low}, {high}]")),
+        );
+        let shortest = interval(best.shortest);
         let p = probability(best.coverage_probability);
+        let trials = self
+            .found
+            .best_from_trials
+            .map_or_else(String::new, |best| {
+                let found = interval(best.symmetric);
+                l.pick(
+                    format!(" (Monte Carlo {found})"),
+                    format!("（蒙特卡洛法 {found}）"),
+                )
+            });
         rows.add(
             l.pick("Coverage interval", "包含区间"),
             l.pick(
-                format!("{symmetric}, shortest {shortest}, p = {p}"),
-                format!("{symmetric}，最短 {shortest}，p = {p}"),
+                format!("{reported}{trials}, shortest {shortest}, p = {p}"),
+                format!("{reported}{trials}，最短 {shortest}，p = {p}"),
             ),
         );
+    }
+
+    /// The reported result.
+    fn figures(&self) -> Figures<'_> {
+        Figures::new(self.report, self.stated.measurand)
     }
 
     fn no_threshold(&self) -> String {
@@ -158,21 +179,22 @@ impl Limits<'_> {
 
     /// The sentence for the certificate.
     pub fn sentence(&self) -> String {
-        let (name, l, best) = (self.name, self.l, self.found.best);
+        let (l, best, figures) = (self.l, self.found.best, self.figures());
+        let (name, y) = (self.name, figures.value());
+        let u_of_y = figures.amount(&figures.u().unwrap_or_default());
         let verdict = self.verdict();
         let limits = self.limits_in_brackets();
         let p = probability(best.coverage_probability);
         let estimate = self.beside(best.value, best.u);
-        let u = with_unit(&significant(best.u, 2), difference_symbol(self.unit));
-        let [low, high] = best
-            .symmetric
-            .map(|end| with_unit(&aligned(end, best.u, 2), symbol(self.unit)));
+        let u = figures.amount(&significant(best.u, 2));
+        let ends = figures.interval().unwrap_or_default();
+        let [low, high] = ends.map(|end| figures.of_value(&end));
         match l {
             Language::English => format!(
-                "{name}: {verdict}{limits}. Best estimate of the non-negative measurand {estimate}, u = {u}, {p} coverage interval from {low} to {high} (ISO 11929)."
+                "{name} = {y}, u = {u_of_y}; {verdict}{limits}. Best estimate of the non-negative measurand {estimate}, with the standard uncertainty {u}; {p} coverage interval from {low} to {high} (ISO 11929)."
             ),
             Language::Chinese => format!(
-                "{name}：{verdict}{limits}。非负被测量的最佳估计值 {estimate}，u = {u}，{p} 包含区间为 {low} 至 {high}（ISO 11929）。"
+                "{name} = {y}，u = {u_of_y}；{verdict}{limits}。非负被测量的最佳估计值 {estimate}，标准不确定度 {u}，{p} 包含区间为 {low} 至 {high}（ISO 11929）。"
             ),
         }
     }
@@ -200,11 +222,11 @@ impl Limits<'_> {
 
     /// A limit: a figure of its own, to three digits.
     fn value(&self, x: f64) -> String {
-        with_unit(&significant(x, TABLE_DIGITS), symbol(self.unit))
+        with_unit(&significant(x, TABLE_DIGITS), &symbol(self.unit))
     }
 
     fn beside(&self, x: f64, u: f64) -> String {
-        with_unit(&aligned(x, u, TABLE_DIGITS), symbol(self.unit))
+        with_unit(&aligned(x, u, TABLE_DIGITS), &symbol(self.unit))
     }
 }
 

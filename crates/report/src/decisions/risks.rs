@@ -41,7 +41,16 @@ impl Assessment<'_> {
                 [both, format!("{alone} {by_gum}{trials}")].join(l.pick("; ", "；")),
             );
         } else {
-            rows.add(label, format!("{}{trials}", related("p_c", &by_gum)));
+            // The probability of the statement, with the other beside it.
+            let decided = known.probability.map_or_else(|| by_gum.clone(), chance);
+            let beside = match known.probability == known.from_trials {
+                true => l.pick(
+                    format!(", from y and u {by_gum}"),
+                    format!("，由 y 和 u {by_gum}"),
+                ),
+                false => trials,
+            };
+            rows.add(label, format!("{}{beside}", related("p_c", &decided)));
         }
         let risk = match self.found.verdict {
             Some(Verdict::Conforming) => known.complement.map(|p| {

@@ -1,7 +1,7 @@
 //! The decision rule in words.
 
 use super::conformity::Assessment;
-use super::words::with_unit;
+use crate::figures::with_unit;
 use crate::number::{exact, probability};
 use gumption_gum::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY};
 
@@ -74,7 +74,7 @@ impl Assessment<'_> {
 
     fn guard(&self, guard: Guard, what: &str) -> String {
         match guard {
-            Guard::Amount(w) => format!("w = {}", with_unit(&exact(w), self.deviations())),
+            Guard::Amount(w) => format!("w = {}", with_unit(&exact(w), &self.deviations())),
             Guard::Expanded(1.0) => "w = U".to_string(),
             Guard::Expanded(r) => format!("w = {}·U", exact(r)),
             Guard::Probability(p) => {

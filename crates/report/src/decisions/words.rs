@@ -1,7 +1,6 @@
 //! What the sections of decisions have in common: rows, and probabilities in words.
 
 use crate::number::{at_place, print, significant};
-use gumption_core::quantity::space_before;
 use gumption_format::document::Block;
 
 /// Rows of a section: label and text.
@@ -43,13 +42,6 @@ pub(super) fn related(symbol: &str, chance: &str) -> String {
         format!("{symbol} {chance}")
     } else {
         format!("{symbol} = {chance}")
-    }
-}
-
-pub(super) fn with_unit(number: &str, unit: String) -> String {
-    match unit.as_str() {
-        "" => number.to_string(),
-        _ => format!("{number}{}{unit}", space_before(&unit)),
     }
 }
 

@@ -5,7 +5,7 @@ use gumption_format::machine::record;
 use gumption_format::machine::{Number, numbers};
 use gumption_gum::propagate::{
     Basis, Clause8, Contribution, Coverage, CoverageBasis, Freedom, Gum, MeasurandResult,
-    MonteCarlo, Reported, ReportedUncertainty, StatedProbability, Validation,
+    MonteCarlo, Reason, Reported, ReportedUncertainty, StatedProbability, Validation,
 };
 
 record! {
@@ -28,7 +28,7 @@ record! {
         /// Propagation of distributions.
         monte_carlo: Option<MonteCarloJson>,
         /// What is reported on a certificate.
-        reported: Option<ReportedJson>,
+        reported: ReportedJson,
         /// Clause 8 of JCGM 101 for two and for one digit of u.
         validation: Option<Vec<ValidationJson>>,
     }
@@ -39,7 +39,7 @@ record! {
         estimate: Number,
         /// Combined standard uncertainty.
         standard_uncertainty: Number,
-        /// Effective degrees of freedom used for k.
+        /// Effective degrees of freedom as the formula gives them.
         effective_degrees_of_freedom: Number,
         /// How they were found: infinite, welch-satterthwaite, ensembles, refused.
         degrees_of_freedom_from: &'a str,
@@ -71,8 +71,12 @@ record! {
         estimate: Number,
         /// Standard uncertainty; null where the distribution has none.
         standard_uncertainty: Option<Number>,
+        /// Why this method: not-checked, validated, undecided, moments-agree, few-readings, not-validated, not-validated-few-readings, not-negative.
+        reason: &'static str,
         /// Coverage factor, where U is a multiple of u.
         coverage_factor: Option<Number>,
+        /// Degrees of freedom that gave the coverage factor; null where it follows from none.
+        degrees_of_freedom: Option<Number>,
         /// Expanded uncertainty; null where the interval stands in its place, and where there is none.
         expanded_uncertainty: Option<Number>,
         /// The interval, where it is not symmetric about the estimate.
@@ -164,6 +168,7 @@ pub(super) fn measurand<'a>(
     result: &'a MeasurandResult,
 ) -> MeasurandJson<'a> {
     let (name, unit) = report.measurand(m);
+    let given = result.reported(&report.budget.conventions);
     MeasurandJson {
         name,
         unit: &unit.symbol,
@@ -173,7 +178,7 @@ pub(super) fn measurand<'a>(
             .get(m)
             .and_then(|m| m.description.as_deref()),
         equation: &report.budget.model.outputs()[m].equation,
-        basis: match result.basis {
+        basis: match given.basis {
             Basis::Gum => "gum",
             Basis::MonteCarlo => "monte_carlo",
         },
@@ -184,10 +189,7 @@ pub(super) fn measurand<'a>(
             matters: s.matters,
         }),
         monte_carlo: result.monte_carlo.as_ref().map(monte_carlo),
-        reported: report
-            .evaluation
-            .reported(m, &report.budget.conventions)
-            .map(|of| reported(&of)),
+        reported: reported(&given),
         validation: result
             .validation
             .as_ref()
@@ -196,11 +198,9 @@ pub(super) fn measurand<'a>(
 }
 
 fn reported(of: &Reported) -> ReportedJson {
-    let (expanded, interval) = match of.uncertainty {
-        ReportedUncertainty::Multiple { expanded, .. }
-        | ReportedUncertainty::HalfWidth { expanded } => (Some(expanded), None),
-        ReportedUncertainty::Interval { ends, .. } => (None, Some(numbers(&ends))),
-        ReportedUncertainty::None => (None, None),
+    let interval = match of.uncertainty {
+        ReportedUncertainty::Interval { ends, .. } => Some(numbers(&ends)),
+        _ => None,
     };
     let probability = match of.probability {
         StatedProbability::Of(p) => Some(p),
@@ -209,8 +209,19 @@ fn reported(of: &Reported) -> ReportedJson {
     ReportedJson {
         estimate: Number(of.estimate),
         standard_uncertainty: of.u.map(Number),
+        reason: match of.reason {
+            Reason::NotChecked => "not-checked",
+            Reason::Validated => "validated",
+            Reason::Undecided => "undecided",
+            Reason::MomentsAgree => "moments-agree",
+            Reason::FewReadings => "few-readings",
+            Reason::NotValidated => "not-validated",
+            Reason::NotValidatedFewReadings => "not-validated-few-readings",
+            Reason::NotNegative => "not-negative",
+        },
         coverage_factor: of.coverage_factor().map(Number),
-        expanded_uncertainty: expanded.map(Number),
+        degrees_of_freedom: of.dof.map(Number),
+        expanded_uncertainty: of.expanded().map(Number),
         interval,
         coverage_probability: probability.map(Number),
     }

@@ -3,6 +3,7 @@
 use gumption_gum::budget::Figure;
 use gumption_gum::propagate::{Clause8, Comparison};
 
+use crate::figures::Figures;
 use crate::language::Word;
 use crate::number::{
     NONE, STYLE, TABLE_DIGITS, aligned, at_place, exact, freedom, print, probability, significant,
@@ -78,24 +79,26 @@ struct Series<'a> {
 }
 
 impl Series<'_> {
-    fn factors(&self) -> impl Iterator<Item = String> {
-        let of = |r: &Report<'_>| r.evaluation.results[self.measurand].gum.coverage.k;
+    fn figures(&self) -> impl Iterator<Item = Figures<'_>> {
         self.rows
             .iter()
-            .map(move |r| significant(of(r), TABLE_DIGITS))
+            .map(|row| Figures::new(row, self.measurand))
     }
 
     /// The one k of all rows, if it is one.
     fn one_factor(&self) -> Option<String> {
-        let mut all = self.factors();
-        let first = all.next()?;
-        all.all(|k| k == first).then_some(first)
+        let mut all = self
+            .figures()
+            .map(|figures| figures.k().map(str::to_string));
+        let first = all.next()??;
+        all.all(|k| k.as_ref() == Some(&first)).then_some(first)
     }
 
     fn results(&self) -> Table {
         let first = &self.rows[0];
         let l = first.language;
         let p = probability(first.coverage_probability());
+        let reported = l.pick(format!("{p} interval"), format!("{p} 区间"));
         let interval = l.pick(
             format!("{p} interval, Monte Carlo"),
             format!("蒙特卡洛法 {p} 区间"),
@@ -103,20 +106,21 @@ impl Series<'_> {
         let mut table = Table::new([
             (Word::Row.of(l), ColumnKind::Names),
             ("y", ColumnKind::Numbers),
-            ("u_c", ColumnKind::Numbers),
+            ("u", ColumnKind::Numbers),
             ("k", ColumnKind::Numbers),
             ("U", ColumnKind::Numbers),
+            (reported.as_str(), ColumnKind::Numbers),
             (interval.as_str(), ColumnKind::Numbers),
             (l.pick("validated", "通过验证"), ColumnKind::Words),
         ]);
         let several_factors = self.one_factor().is_none();
-        for (report, k) in self.rows.iter().zip(self.factors()) {
+        let cell = |text: Option<String>| text.map_or(Cell::Empty, Cell::from);
+        for (report, figures) in self.rows.iter().zip(self.figures()) {
             let result = &report.evaluation.results[self.measurand];
-            let gum = &result.gum;
-            let interval = result.monte_carlo.as_ref().map_or(Cell::Empty, |mc| {
-                let scale = mc.u.unwrap_or(gum.u);
-                let [low, high] = mc.symmetric.map(|x| aligned(x, scale, TABLE_DIGITS));
-                format!("[{low}, {high}]").into()
+            let brackets = |[low, high]: [String; 2]| format!("[{low}, {high}]");
+            let trials = result.monte_carlo.as_ref().map_or(Cell::Empty, |mc| {
+                let scale = mc.u.unwrap_or(result.gum.u);
+                brackets(mc.symmetric.map(|x| aligned(x, scale, TABLE_DIGITS))).into()
             });
             let digits = report.budget.conventions.digits.clamp(1, 2);
             let verdict = result
@@ -125,17 +129,15 @@ impl Series<'_> {
                 .flatten()
                 .find(|v| v.digits == digits)
                 .map_or("", |v| verdict_word(report, v.verdict));
+            let k = figures.k().filter(|_| several_factors);
             table.push(vec![
                 report.label.unwrap_or_default().into(),
-                aligned(gum.estimate, gum.u, 2).into(),
-                significant(gum.u, TABLE_DIGITS).into(),
-                if several_factors {
-                    k.into()
-                } else {
-                    Cell::Empty
-                },
-                significant(gum.coverage.expanded, TABLE_DIGITS).into(),
-                interval,
+                figures.estimate().into(),
+                cell(figures.u()),
+                cell(k.map(str::to_string)),
+                cell(figures.expanded()),
+                cell(figures.interval().map(brackets)),
+                trials,
                 verdict.into(),
             ]);
         }
@@ -150,8 +152,8 @@ impl Series<'_> {
         let mut sentences = Vec::new();
         if let Some(k) = self.one_factor() {
             sentences.push(l.pick(
-                format!("U = k·u_c with k = {k} in every row."),
-                format!("各行 U = k·u_c，k = {k}。"),
+                format!("U = k·u with k = {k} in every row."),
+                format!("各行 U = k·u，k = {k}。"),
             ));
         }
         let result = |r: &Report<'_>| r.evaluation.results[self.measurand].validation.is_some();
@@ -271,9 +273,9 @@ impl Series<'_> {
         let obtained: Vec<f64> = members
             .iter()
             .map(|row| {
-                self.rows[*row].evaluation.results[self.measurand]
-                    .gum
-                    .estimate
+                let row = &self.rows[*row];
+                let result = &row.evaluation.results[self.measurand];
+                result.reported(&row.budget.conventions).estimate
             })
             .collect();
         let claimed: Vec<f64> = members

@@ -8,10 +8,11 @@ mod builder;
 mod evaluate;
 
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::model::Place;
-use crate::model::operation::{Binary, Unary};
+use crate::model::operation::{Binary, Unary, binary_row, unary};
 use crate::model::syntax::Span;
 
 pub use builder::Builder;
@@ -181,6 +182,42 @@ impl Graph {
                 Op::Solve(out.implicit.len() as u32 - 1)
             }
         }
+    }
+
+    /// The same outputs with the angles that `centres` has for some operations taken on the turn around these centres:
+    /// θ − 2π·round((θ − centre)/2π).
+    pub fn unrolled(&self, centres: &[(Id, f64)]) -> Option<Graph> {
+        let [minus, times, over] = ["-", "*", "/"].map(binary_row);
+        let (minus, times, over, round) = (minus?, times?, over?, unary("round")?);
+        let mut out = Graph::default();
+        let mut replaced: Vec<Id> = Vec::with_capacity(self.ops.len());
+        for (i, op) in self.ops.iter().enumerate() {
+            let moved = self.moved(*op, |id| replaced[id as usize], &mut out);
+            let mut push = |op: Op| {
+                out.ops.push(op);
+                out.ops.len() as Id - 1
+            };
+            let angle = push(moved);
+            let centre = centres.iter().find(|(id, _)| *id as usize == i);
+            replaced.push(match centre {
+                Some((_, centre)) => {
+                    let constant = |x: f64| Op::Constant(x.to_bits());
+                    let (centre, turn) = (push(constant(*centre)), push(constant(TAU)));
+                    let away = push(Op::Binary(minus, angle, centre));
+                    let turns = push(Op::Binary(over, away, turn));
+                    let whole = push(Op::Unary(round, turns));
+                    let back = push(Op::Binary(times, whole, turn));
+                    push(Op::Binary(minus, angle, back))
+                }
+                None => angle,
+            });
+        }
+        out.outputs = self
+            .outputs
+            .iter()
+            .map(|id| replaced[*id as usize])
+            .collect();
+        Some(out)
     }
 
     /// The same output with some operations, in rising order, as further inputs: the output and then what these

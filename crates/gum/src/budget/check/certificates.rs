@@ -4,8 +4,10 @@ use std::ops::Range;
 
 use super::checker::Checker;
 use super::draft::{Context, Core, show};
+use super::register::Register;
 use crate::budget::faults::{DOF, K_AND_P, NO_COVERAGE_FACTOR, NOT_POSITIVE, PROBABILITY};
 use crate::budget::tables::{CertificateTable, ComponentTable};
+use crate::budget::{Group, Owner};
 use gumption_core::distribution::stating::Width;
 use gumption_core::distribution::{Entry, Normal};
 use gumption_core::special::student_t_two_sided_quantile;
@@ -42,6 +44,7 @@ impl Checker<'_> {
             None => self.dof(table)?,
         };
         let k = self.coverage_factor(&certificate.value, &expanded.span, dof)?;
+        self.remark_on_factor(context.owner, k, certificate.value.p.is_some());
         let how = format!("U/k = {}/{}", show(u_capital), show(k));
         let mut core = if certificate.value.dof.is_some() && table.distribution.is_none() {
             let distribution = self.t_or_normal(u_capital / k, dof, &certificate.key)?;
@@ -57,6 +60,71 @@ impl Checker<'_> {
         };
         core.dof = dof;
         Some(core)
+    }
+
+    /// A k that is the divisor of a rectangle or a triangle.
+    fn remark_on_factor(&mut self, owner: &str, k: f64, with_p: bool) {
+        /// √3 and √6 are written with three digits at least.
+        const ROUNDED: f64 = 0.003;
+        let shapes = [
+            (3f64.sqrt(), "√3", "rectangle", "矩形", ""),
+            (
+                6f64.sqrt(),
+                "√6",
+                "triangle",
+                "三角",
+                ", distribution = \"triangular\"",
+            ),
+        ];
+        for (divisor, root, en, zh, more) in shapes {
+            if (k - divisor).abs() < ROUNDED && !with_p {
+                self.remark(
+                    format!("{owner}: k = {k} is {root}, the divisor of a {en}, and no coverage factor of a certificate. The U was taken as that of a normal distribution; if it is a limit, write half_width = U{more}."),
+                    format!("{owner}：k = {k} 即 {root}，是{zh}分布的除数，而不是证书的包含因子。此处 U 按正态分布处理；若它是极限值，请写 half_width = U{more}。"),
+                );
+            }
+        }
+    }
+
+    /// Inputs with one certificate, and nothing said of what they have in common.
+    pub(super) fn remark_on_shared_certificates(&mut self, register: &Register, groups: &[Group]) {
+        let mut known: Vec<(&str, Vec<usize>)> = Vec::new();
+        for (index, component) in register.components.iter().enumerate() {
+            let number = component
+                .certificate
+                .as_ref()
+                .and_then(|c| c.number.as_deref());
+            let (Some(number), Owner::Input(_)) = (number, &component.owner) else {
+                continue;
+            };
+            match known.iter_mut().find(|(other, _)| *other == number) {
+                Some((_, members)) => members.push(index),
+                None => known.push((number, vec![index])),
+            }
+        }
+        for (number, members) in known {
+            let mut owners: Vec<&str> = Vec::new();
+            for member in &members {
+                if let Owner::Input(input) = &register.components[*member].owner {
+                    let name = register.inputs[*input].name.as_str();
+                    if !owners.contains(&name) {
+                        owners.push(name);
+                    }
+                }
+            }
+            let together = |group: &Group| members.iter().all(|m| group.members.contains(m));
+            if owners.len() < 2 || groups.iter().any(together) {
+                continue;
+            }
+            /// More names say nothing more.
+            const MOST: usize = 4;
+            let more = if owners.len() > MOST { " …" } else { "" };
+            let names = owners[..owners.len().min(MOST)].join(", ");
+            self.remark(
+                format!("{names}{more} have the certificate {number}, and are taken as uncorrelated. What they owe to one calibration is common to them: state it as a [source.NAME], or their correlation as [[correlation]] (r = 0 if there is none)."),
+                format!("{names}{more} 出自同一证书 {number}，而按不相关处理。同一次校准的影响是共有的：请写成 [source.NAME]，或用 [[correlation]] 给出相关系数（不相关时写 r = 0）。"),
+            );
+        }
     }
 
     /// k as stated, or t_p(ν) from the stated coverage probability.

@@ -69,6 +69,7 @@ fn numbers(table: &ConventionsTable, conventions: &mut Conventions, faults: &mut
     if let Some(p) = &table.coverage_probability {
         if p.value > 0.0 && p.value < 1.0 {
             conventions.coverage_probability = p.value;
+            conventions.output_probability = p.value;
         } else {
             faults.push(
                 Fault::new(

@@ -65,6 +65,11 @@ impl Checker<'_> {
                 (Some(covariance), None) => {
                     self.by_covariance(stated, covariance, &inputs, register)
                 }
+                (None, Some(correlation))
+                    if self.is_of_readings(correlation, &inputs, register) =>
+                {
+                    self.by_readings(stated, &inputs, register)
+                }
                 (None, Some(correlation)) => {
                     self.by_correlation(stated, correlation, &inputs, register, statements);
                     None
@@ -297,6 +302,46 @@ impl Checker<'_> {
         self.join(members, correlation, register, &stated.span)
     }
 
+    /// Whether a matrix is that of the readings of the inputs, rounded: then these are joint readings.
+    fn is_of_readings(
+        &self,
+        correlation: &Matrix,
+        inputs: &[(usize, Stated<String>)],
+        register: &Register,
+    ) -> bool {
+        /// Coefficients are stated to two decimals at least.
+        const ROUNDED: f64 = 0.005;
+        let plain = |place: &usize| {
+            let index = register.own(*place).into_iter();
+            let mut found = index.filter(|index| register.readings.contains_key(index));
+            let (index, None) = (found.next()?, found.next()) else {
+                return None;
+            };
+            let readings = register.readings.get(&index)?;
+            let (mean, squares) = mean_and_squares(readings);
+            let n = readings.len() as f64;
+            let u = (squares / (n * (n - 1.0))).sqrt();
+            let component = register.components.get(index)?;
+            let is_mean = (component.u - u).abs() <= 1e-9 * u && u > 0.0;
+            is_mean.then_some((readings, mean, squares))
+        };
+        let series: Option<Vec<_>> = inputs.iter().map(|(place, _)| plain(place)).collect();
+        let Some(series) = series else { return false };
+        let n = series[0].0.len();
+        if series.iter().any(|one| one.0.len() != n) {
+            return false;
+        }
+        let coefficient = |i: usize, j: usize| {
+            let (a, b) = (&series[i], &series[j]);
+            let products = a.0.iter().zip(b.0).map(|(x, y)| (x - a.1) * (y - b.1));
+            products.sum::<f64>() / (a.2 * b.2).sqrt()
+        };
+        let stated = |i: usize, j: usize| correlation.value.get(i)?.value.get(j).map(|r| r.value);
+        (0..series.len()).all(|i| {
+            (0..i).all(|j| stated(i, j).is_some_and(|r| (r - coefficient(i, j)).abs() <= ROUNDED))
+        })
+    }
+
     fn by_correlation(
         &mut self,
         stated: &Stated<JointTable>,
@@ -403,14 +448,10 @@ impl Checker<'_> {
             );
         }
         if n <= series.len() {
-            return self.refuse(
-                Fault::new(
-                    JOINT,
-                    stated.span.clone(),
-                    format!("{n} joint readings of {} quantities", series.len()),
-                )
-                .label(format!("at least {} are needed", series.len() + 1))
-                .help("their covariance matrix is not determined otherwise (JCGM 102 5.3.2)"),
+            let many = series.len();
+            self.remark(
+                format!("{n} joint readings of {many} quantities do not determine a multivariate t-distribution of ν = n − N (JCGM 102, 5.3.2): the covariance matrix of the means has the rank {}. The GUM result with ν = n − 1 = {} holds (GUM 5.2.3); Monte Carlo takes that ν, too. Take at least {} readings for a check by JCGM 102.", n.saturating_sub(1).min(many), n.saturating_sub(1), many + 1),
+                format!("{many} 个量的 {n} 次同时重复测量不能确定自由度为 ν = n − N 的多元 t 分布（JCGM 102 的 5.3.2），均值的协方差矩阵的秩为 {}。GUM 法的结果（ν = n − 1 = {}，GUM 5.2.3）成立，蒙特卡洛法也取该自由度。按 JCGM 102 验证至少需要 {} 次测量。", n.saturating_sub(1).min(many), n.saturating_sub(1), many + 1),
             );
         }
         self.simultaneous(stated, members, &series, inputs, register)
@@ -425,7 +466,10 @@ impl Checker<'_> {
         register: &mut Register,
     ) -> Option<Group> {
         let n = series.first().map_or(0, Vec::len) as f64;
-        let dof = n - series.len() as f64;
+        let dof = match n - series.len() as f64 {
+            dof if dof >= 1.0 => dof,
+            _ => n - 1.0,
+        };
         let sums: Vec<(f64, f64)> = series
             .iter()
             .map(|readings| mean_and_squares(readings))

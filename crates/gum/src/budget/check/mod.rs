@@ -222,6 +222,7 @@ impl Checker<'_> {
         self.inputs(file, resolution, &mut register);
         self.unused_sources(shared(file), &register);
         let mut groups = self.groups(file, &fitted, &mut register);
+        self.remark_on_shared_certificates(&register, &groups);
         let chain = self.chain(file, row, &mut register, &mut groups);
         let model = self.model(file, &constants, &register);
         self.names.results = formulas::results(file, model.as_ref());

@@ -6,16 +6,16 @@ use super::limits::{Limits, Situation};
 use super::mixture::{Region, expectation};
 use super::response::Response;
 use crate::budget::{Budget, Conformity, Interval};
+use crate::propagate::monte_carlo;
+use crate::propagate::reported::Reason;
 use crate::propagate::result::{
-    Basis, Clause8, Conformance, ConformityResult, CoverageBasis, GlobalRisk, MeasurandResult,
-    Verdict,
+    Conformance, ConformityResult, GlobalRisk, MeasurandResult, Verdict,
 };
-use crate::propagate::{monte_carlo, validation};
 use gumption_core::distribution::Distribution;
 use gumption_core::special::{student_t_cdf, student_t_sf};
 
 /// All assessments of a budget, in its order.
-pub(super) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityResult> {
+pub(in crate::propagate) fn assess(evidence: &Evidence<'_>) -> Vec<ConformityResult> {
     let assessments = &evidence.budget.conformity;
     let asked: Vec<(usize, Interval)> = assessments
         .iter()
@@ -49,16 +49,18 @@ fn assessment(
     result: &MeasurandResult,
     from_trials: Option<f64>,
 ) -> ConformityResult {
-    let gum = &result.gum;
-    let (estimate, u, expanded) = reported(result);
-    let dof = match gum.coverage.basis {
+    let reported = result.reported(&budget.conventions);
+    let (estimate, expanded) = (reported.estimate, reported.half_width());
+    // Where the distribution has no standard deviation, half of U stands for it: the u of the GUM may be far too small.
+    let u = reported.u.unwrap_or(expanded / 2.0);
+    let dof = match reported.u {
         // U/2 in place of u holds the tails already.
-        _ if has_no_u(result) => f64::INFINITY,
-        CoverageBasis::StudentT { dof } => dof,
-        CoverageBasis::Normal => f64::INFINITY,
-        CoverageBasis::Output { .. } | CoverageBasis::Fixed => gum.freedom.value(),
+        None => f64::INFINITY,
+        // ν_eff is that of the first order, which does not hold.
+        Some(_) if reported.reason == Reason::NotValidatedFewReadings => f64::INFINITY,
+        Some(_) => reported.dof.unwrap_or_else(|| result.gum.freedom.value()),
     };
-    let u_at = u_of_value(budget, conformity, gum.estimate, u);
+    let u_at = u_of_value(budget, conformity, result.gum.estimate, u);
     let situation = Situation {
         tolerance: conformity.tolerance,
         u: &u_at,
@@ -78,7 +80,12 @@ fn assessment(
         verdict: (!conformity.planning).then(|| verdict(estimate, &limits)),
         conformance: (!conformity.planning).then(|| {
             let prior = conformity.process.as_ref();
-            let trials = from_trials.filter(|_| !normal_or_t(budget, result));
+            // Not where the distribution of the result is the normal or t distribution that the GUM takes it for.
+            let normal_or_t = matches!(
+                reported.reason,
+                Reason::NotChecked | Reason::Validated | Reason::Undecided
+            );
+            let trials = from_trials.filter(|_| !normal_or_t);
             let alone = split(conformity.tolerance, estimate, u, dof);
             let both = match (prior, trials) {
                 (Some(process), _) => posterior(process, conformity.tolerance, &kernel, estimate),
@@ -98,35 +105,6 @@ fn assessment(
             .process
             .as_ref()
             .map(|process| risks(process, conformity.tolerance, &limits, &kernel)),
-    }
-}
-
-/// Whether the distribution of the result is the normal or t distribution that the GUM takes it for: not where
-/// Monte Carlo refutes its interval, even if the statement keeps y and u (with a fixed k).
-fn normal_or_t(budget: &Budget, result: &MeasurandResult) -> bool {
-    let digits = budget.conventions.digits;
-    let verdict = result.validation.as_ref();
-    let verdict = verdict.map(|both| validation::at(both, digits).verdict);
-    result.basis == Basis::Gum && verdict != Some(Clause8::NotValidated)
-}
-
-/// Whether the statement gives the result of Monte Carlo without a standard deviation.
-fn has_no_u(result: &MeasurandResult) -> bool {
-    let mc = result.monte_carlo.as_ref();
-    result.basis == Basis::MonteCarlo && mc.is_some_and(|mc| mc.u.is_none())
-}
-
-/// Estimate, u and U as the statement reports them. Where the distribution has no standard deviation, the statement
-/// leaves u out; half of U stands for it here, because the u of the GUM may be far too small.
-fn reported(result: &MeasurandResult) -> (f64, f64, f64) {
-    let gum = &result.gum;
-    match (&result.monte_carlo, result.basis) {
-        (Some(mc), Basis::MonteCarlo) => {
-            let [low, high] = mc.symmetric;
-            let expanded = (high - low) / 2.0;
-            (mc.centre(), mc.u.unwrap_or(expanded / 2.0), expanded)
-        }
-        _ => (gum.estimate, gum.u, gum.coverage.expanded),
     }
 }
 

@@ -20,13 +20,7 @@ mod limits;
 mod mixture;
 mod response;
 
+pub(super) use conformity::assess as conformity;
 pub(super) use decisions::Decisions;
+pub(super) use detection::characteristic_limits as detection;
 pub(super) use evidence::Evidence;
-
-/// Every decision that a budget asks for, in its order.
-pub(super) fn decisions(evidence: &Evidence<'_>) -> Decisions {
-    Decisions {
-        conformity: conformity::assess(evidence),
-        detection: detection::characteristic_limits(evidence),
-    }
-}

@@ -17,6 +17,8 @@ pub struct DetectionResult {
     pub from_trials: Option<CharacteristicLimits>,
     /// Best estimate and coverage interval, knowing that the measurand is not negative.
     pub best: BestEstimate,
+    /// The same from the trials of Monte Carlo that are not negative (ISO 11929-2).
+    pub best_from_trials: Option<BestEstimate>,
 }
 
 impl DetectionResult {

@@ -38,8 +38,8 @@ pub enum FindingKind {
         /// u(y) with second-order terms.
         u_second: f64,
     },
-    /// Clause 8: GUM is not validated at the digits reported. The statement uses Monte Carlo, unless it
-    /// claims no coverage probability (see [`MeasurandResult::basis`](super::MeasurandResult::basis)).
+    /// Clause 8: GUM is not validated at the digits reported. What follows for the statement is said by what is
+    /// [reported](super::MeasurandResult::reported).
     NotValidated,
     /// Clause 8: the ends of the Monte Carlo interval scatter too much for a verdict at the digits
     /// reported. The statement uses the GUM result, which nothing refutes.
@@ -61,6 +61,11 @@ pub enum FindingKind {
     MomentsMissing {
         /// Why.
         reason: MissingMoments,
+    },
+    /// Monte Carlo draws means of few readings from t-distributions, which are wider than s/√n of the GUM.
+    FewReadings {
+        /// The components, the one with the fewest degrees of freedom first.
+        components: Vec<FewReadings>,
     },
     /// Some trials gave no finite value.
     FailedTrials {
@@ -96,7 +101,31 @@ pub enum FindingKind {
         /// The operation.
         what: Notice,
     },
-    /// The distribution of a phase reaches the jump between -π and π.
+    /// The distribution of a phase reaches all round the circle.
+    PhaseUnknown {
+        /// The operation.
+        what: Notice,
+    },
+    /// Monte Carlo was not run, and a kink or jump within reach of the inputs is not seen.
+    Unseen {
+        /// The operation.
+        what: Notice,
+    },
+    /// An uncertainty that exceeds all others so far that its unit may be wrong.
+    LargeUncertainty {
+        /// Name of the input.
+        input: String,
+        /// Its contribution divided by that of all others together.
+        ratio: f64,
+    },
+    /// The U that is reported is smaller than that of the certificate of a reference.
+    BelowReference {
+        /// Name of the component.
+        component: String,
+        /// k = 2 times its contribution.
+        reference: f64,
+    },
+    /// The distribution of a phase reaches the jump between -π and π; trials are taken on the turn around the estimate.
     PhaseWraps {
         /// The operation.
         what: Notice,
@@ -135,16 +164,27 @@ pub enum FindingKind {
     Asymmetric,
 }
 
+/// A component that rests on few readings.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct FewReadings {
+    /// Its name.
+    pub component: String,
+    /// ν of the t-distribution from which Monte Carlo draws it.
+    pub dof: f64,
+}
+
 impl FindingKind {
     /// What it means for the figures: whether a reader may take them as they are.
     pub fn severity(&self) -> Severity {
         match self {
             FindingKind::VanishingSensitivity { matters: false, .. }
             | FindingKind::FewDegreesOfFreedom { .. }
+            | FindingKind::FewReadings { .. }
             | FindingKind::Undecided { .. }
             | FindingKind::ResidualsTooSmall { .. }
+            | FindingKind::PhaseWraps { .. }
             | FindingKind::Asymmetric => Severity::Note,
-            FindingKind::PhaseWraps { .. } => Severity::Failure,
+            FindingKind::PhaseUnknown { .. } => Severity::Failure,
             _ => Severity::Warning,
         }
     }

@@ -12,11 +12,13 @@ mod validation;
 
 pub use conformity::{Conformance, ConformityResult, GlobalRisk, Verdict};
 pub use detection::{BestEstimate, CharacteristicLimits, DetectionLimit, DetectionResult};
-pub use finding::{Finding, FindingKind};
+pub use finding::{FewReadings, Finding, FindingKind};
 pub use gum::{Contribution, Coverage, CoverageBasis, Freedom, Gum, SecondOrder};
 pub use indices::{SensitivityIndices, SobolIndex};
 pub use joint::{JointResult, Regions};
-pub use monte_carlo::{AdaptiveRun, Consequence, Histogram, MissingMoments, MonteCarlo, Run, Side};
+pub use monte_carlo::{
+    AdaptiveRun, Consequence, Histogram, MissingMoments, MonteCarlo, Run, Side, TrialMoments,
+};
 pub use quasi::{Quasi, QuasiRun, WhyRandom};
 pub use validation::{Clause8, Validation};
 
@@ -55,16 +57,18 @@ pub struct MeasurandResult {
     pub monte_carlo: Option<MonteCarlo>,
     /// GUM-S1 clause 8 for two and for one significant digit of u(y); `None` without Monte Carlo.
     pub validation: Option<[Validation; 2]>,
-    /// Which method the statement on the certificate uses.
-    pub basis: Basis,
+    /// Where few readings may be all that keeps Monte Carlo from confirming y and u: its moments with the standard
+    /// deviation s/√n for their means.
+    pub with_normal_readings: Option<TrialMoments>,
+    /// Best estimate and interval of a measurand that is not negative (ISO 11929).
+    pub not_negative: Option<BestEstimate>,
 }
 
 /// Which method the statement uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 pub enum Basis {
-    /// GUM first order: validated, or Monte Carlo not run; also where k is fixed and Monte Carlo
-    /// confirms y and u, which is all that the statement then claims.
+    /// GUM, first order.
     Gum,
-    /// Monte Carlo, because GUM was not validated.
+    /// Monte Carlo.
     MonteCarlo,
 }

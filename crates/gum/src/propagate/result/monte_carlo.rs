@@ -28,6 +28,15 @@ pub struct MonteCarlo {
     pub histogram: Histogram,
 }
 
+/// Mean and standard deviation of trials.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct TrialMoments {
+    /// Mean.
+    pub estimate: f64,
+    /// Standard deviation.
+    pub u: f64,
+}
+
 /// Counts in equal bins.
 #[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Histogram {

@@ -329,7 +329,12 @@ fn written_budgets_give_the_same_uncertainty_by_both_methods() {
     let campaign = campaign(&toml, RATES);
     let found = calibrate(&campaign).expect("coefficients");
     for places in [vec![0], vec![1], vec![0, 1]] {
-        let text = super::super::budget(&campaign, &found, &places);
+        let text = super::super::budget(
+            &campaign,
+            &found,
+            &places,
+            gumption_fault::language::Language::English,
+        );
         let loaded = gumption_gum::budget::read(&text, "budget.toml", "".as_ref())
             .unwrap_or_else(|rejection| panic!("{}\n{text}", rejection.render(false)));
         let budget = &loaded.rows[0].budget;

@@ -1,0 +1,164 @@
+//! The reported figures of one measurand as they are printed: rounded here, and nowhere else.
+
+use gumption_core::quantity::{Rounded, Unit, space_before};
+use gumption_gum::budget::CoverageRule;
+use gumption_gum::propagate::{Reason, Reported, ReportedUncertainty};
+
+use super::number::{STYLE, at_place, exact, freedom, print, significant};
+use super::{Report, difference_symbol, symbol};
+use crate::language::Language;
+
+/// The reported figures of one measurand.
+pub(super) struct Figures<'a> {
+    pub name: &'a str,
+    pub unit: &'a Unit,
+    pub reported: Reported,
+    /// Whether y is a median, because the distribution has no mean.
+    pub median: bool,
+    /// k as the profile states it: a fixed one as it was given, others to two decimals.
+    k: Option<String>,
+    /// y and what it is rounded beside: U, or u where an interval stands in the place of U.
+    pair: Option<Rounded>,
+}
+
+impl<'a> Figures<'a> {
+    pub fn new(report: &Report<'a>, measurand: usize) -> Self {
+        let (name, unit) = report.measurand(measurand);
+        let result = &report.evaluation.results[measurand];
+        let conventions = &report.budget.conventions;
+        let reported = result.reported(conventions);
+        let scale = match reported.uncertainty {
+            ReportedUncertainty::Interval {
+                ends: [low, high], ..
+            } => Some(reported.u.unwrap_or((high - low) / 4.0)),
+            ReportedUncertainty::None => None,
+            _ => reported.expanded(),
+        };
+        let k = match (conventions.coverage_factor, reported.uncertainty) {
+            (CoverageRule::Fixed(k), ReportedUncertainty::Multiple { .. }) => Some(exact(k)),
+            _ => reported.coverage_factor().map(|k| print(&at_place(k, -2))),
+        };
+        let mean = result.monte_carlo.as_ref().and_then(|mc| mc.estimate);
+        Figures {
+            name,
+            unit,
+            reported,
+            median: reported.reason == Reason::NotValidated && mean.is_none(),
+            k,
+            pair: scale.map(|scale| reported.rounding.align(reported.estimate, scale)),
+        }
+    }
+
+    /// y, without its unit.
+    pub fn estimate(&self) -> String {
+        match &self.pair {
+            Some(pair) => print(&pair.estimate),
+            None => exact(self.reported.estimate),
+        }
+    }
+
+    /// y with its unit.
+    pub fn value(&self) -> String {
+        with_unit(&self.estimate(), &symbol(self.unit))
+    }
+
+    /// u without its unit: two digits whatever the profile says about U; where an interval stands in the place of U,
+    /// as y is rounded beside it.
+    pub fn u(&self) -> Option<String> {
+        let u = self.reported.u?;
+        Some(match (&self.pair, self.reported.uncertainty) {
+            (Some(pair), ReportedUncertainty::Interval { .. }) => print(&pair.uncertainty),
+            _ => significant(u, 2),
+        })
+    }
+
+    /// U without its unit.
+    pub fn expanded(&self) -> Option<String> {
+        self.reported.expanded()?;
+        self.pair.as_ref().map(|pair| print(&pair.uncertainty))
+    }
+
+    /// k, where U is a multiple of u.
+    pub fn k(&self) -> Option<&str> {
+        self.k.as_deref()
+    }
+
+    /// The ends of the interval that stands in the place of U.
+    pub fn interval(&self) -> Option<[String; 2]> {
+        let ReportedUncertainty::Interval { ends, .. } = self.reported.uncertainty else {
+            return None;
+        };
+        let pair = self.pair.as_ref()?;
+        Some(ends.map(|end| print(&self.reported.rounding.to_place_of(pair, end))))
+    }
+
+    /// ν that gave k.
+    pub fn freedom(&self) -> Option<String> {
+        self.reported.dof.map(freedom)
+    }
+
+    /// `y = (… ± …) unit`, where the result is y ± U.
+    pub fn plus_minus(&self) -> Option<String> {
+        self.reported.expanded()?;
+        let pair = self.pair.as_ref()?;
+        let both = pair.plus_minus_unit(&symbol(self.unit), STYLE);
+        Some(format!("{} = {both}", self.name))
+    }
+
+    /// A number of the measurand's differences with its unit.
+    pub fn amount(&self, number: &str) -> String {
+        with_unit(number, &difference_symbol(self.unit))
+    }
+
+    /// A number of the measurand with its unit.
+    pub fn of_value(&self, number: &str) -> String {
+        with_unit(number, &symbol(self.unit))
+    }
+
+    /// Why the statement takes this method.
+    pub fn reason(&self, l: Language) -> &'static str {
+        let (en, zh) = match self.reported.reason {
+            Reason::NotChecked => (
+                "Reported is the GUM result; Monte Carlo was not run.",
+                "报告采用 GUM 法的结果；未运行蒙特卡洛法。",
+            ),
+            Reason::Validated => (
+                "Reported is the GUM result, which Monte Carlo validates.",
+                "报告采用 GUM 法的结果，已通过蒙特卡洛法验证。",
+            ),
+            Reason::Undecided => (
+                "Reported is the GUM result, which Monte Carlo neither validates nor refutes.",
+                "报告采用 GUM 法的结果，蒙特卡洛法未能验证也未否定。",
+            ),
+            Reason::MomentsAgree => (
+                "Reported is the GUM result: its interval is not validated, but Monte Carlo confirms y and u, to which the k of the profile belongs.",
+                "报告采用 GUM 法的结果：其区间未通过验证，但蒙特卡洛法证实了 y 和 u，k 按规范取值。",
+            ),
+            Reason::FewReadings => (
+                "Reported is the GUM result: Monte Carlo confirms y and u once means of few readings have the standard uncertainty s/√n, as the profile has it.",
+                "报告采用 GUM 法的结果：少量重复测量的均值按规范取标准不确定度 s/√n 时，蒙特卡洛法证实 y 和 u。",
+            ),
+            Reason::NotValidated => (
+                "Reported is the Monte Carlo result, because it does not validate that of the GUM.",
+                "GUM 法的结果未通过验证，报告采用蒙特卡洛法的结果。",
+            ),
+            Reason::NotValidatedFewReadings => (
+                "Reported are y and u of a Monte Carlo run in which means of few readings have the standard uncertainty s/√n, as the profile has it: the model is too nonlinear for the GUM result.",
+                "报告的 y 和 u 取自少量重复测量的均值按规范取标准不确定度 s/√n 时的蒙特卡洛法：模型的非线性使 GUM 法的结果不适用。",
+            ),
+            Reason::NotNegative => (
+                "Reported are y, u and the coverage interval of ISO 11929 for a measurand that is not negative.",
+                "报告的是 y、u 和 ISO 11929 对非负被测量给出的包含区间。",
+            ),
+        };
+        l.pick(en, zh)
+    }
+}
+
+/// A number with its unit.
+pub(super) fn with_unit(number: &str, unit: &str) -> String {
+    match unit {
+        "" => number.to_string(),
+        _ => format!("{number}{}{unit}", space_before(unit)),
+    }
+}

@@ -2,6 +2,7 @@
 //! command has it at once.
 
 mod format;
+mod html;
 mod json;
 pub mod markdown;
 mod svg;
@@ -11,7 +12,7 @@ pub use format::{Format, Page};
 pub use svg::svg;
 
 /// Every format; the first is the one that is printed where none is asked for.
-pub const FORMATS: &[Format] = &[text::FORMAT, markdown::FORMAT, json::FORMAT];
+pub const FORMATS: &[Format] = &[text::FORMAT, markdown::FORMAT, html::FORMAT, json::FORMAT];
 
 /// The format of a name.
 pub fn named(name: &str) -> Option<&'static Format> {

@@ -14,8 +14,10 @@ const BOTTOM: f64 = 44.0;
 /// A plot as the text of an SVG file.
 pub fn svg(plot: &Plot) -> String {
     let height = HEIGHT * plot.panels.len() as f64;
+    let titles: Vec<String> = plot.panels.iter().map(|p| escaped(&p.title)).collect();
+    let titles = titles.join("; ");
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{titles}\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
     for (at, panel) in plot.panels.iter().enumerate() {
         let drawn = Frame::new(panel).drawn();
@@ -52,6 +54,7 @@ impl<'a> Frame<'a> {
         for layer in &self.panel.layers {
             self.layer(layer);
         }
+        self.legend();
         let label = escaped(&self.panel.x.label());
         self.line(format_args!(
             "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{label}</text>",
@@ -97,23 +100,17 @@ impl<'a> Frame<'a> {
     }
 
     fn layer(&mut self, layer: &Layer) {
-        let colour = match layer.tone {
-            Tone::Main => "#1f618d",
-            Tone::Contrast => "#c0392b",
-            Tone::Quiet => "#444",
-        };
+        let look = Look::of(layer.tone);
         match &layer.marks {
             Marks::Points(points) => {
                 for (x, y) in self.points(points) {
-                    self.line(format_args!(
-                        "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.4\" fill=\"{colour}\" fill-opacity=\"0.7\"/>"
-                    ));
+                    self.line(format_args!("{}", look.point(x, y)));
                 }
             }
             Marks::Line(points) => {
-                let path = self.path(points);
+                let (path, stroke) = (self.path(points), look.stroke());
                 self.line(format_args!(
-                    "<polyline points=\"{path}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.5\"/>"
+                    "<polyline points=\"{path}\" fill=\"none\" {stroke}/>"
                 ));
             }
             Marks::Band(band) => {
@@ -121,7 +118,8 @@ impl<'a> Frame<'a> {
                 let high = band.iter().rev().map(|[x, _, high]| [*x, *high]);
                 let path = self.path(&low.chain(high).collect::<Vec<_>>());
                 self.line(format_args!(
-                    "<polygon points=\"{path}\" fill=\"{colour}\" fill-opacity=\"0.2\"/>"
+                    "<polygon points=\"{path}\" fill=\"{}\" fill-opacity=\"0.2\"/>",
+                    look.colour
                 ));
             }
             Marks::Level(y) => {
@@ -129,10 +127,50 @@ impl<'a> Frame<'a> {
                     return;
                 };
                 self.line(format_args!(
-                    "<line x1=\"{LEFT}\" x2=\"{}\" y1=\"{y:.1}\" y2=\"{y:.1}\" stroke=\"{colour}\" stroke-dasharray=\"4 3\"/>",
-                    WIDTH - RIGHT
+                    "<line x1=\"{LEFT}\" x2=\"{}\" y1=\"{y:.1}\" y2=\"{y:.1}\" {}/>",
+                    WIDTH - RIGHT,
+                    look.stroke()
                 ));
             }
+        }
+    }
+
+    /// What the marks stand for, above the panel at its right end; one kind of marks needs no words.
+    fn legend(&mut self) {
+        /// Room of one letter of the Latin alphabet; a Chinese one takes twice as much.
+        const LETTER: f64 = 6.5;
+        const SAMPLE: f64 = 22.0;
+        let named = self
+            .panel
+            .layers
+            .iter()
+            .filter(|layer| !layer.name.is_empty());
+        let named: Vec<&Layer> = named.collect();
+        if named.len() < 2 {
+            return;
+        }
+        let mut right = WIDTH - RIGHT;
+        for layer in named.into_iter().rev() {
+            let look = Look::of(layer.tone);
+            let width = LETTER * unicode_width::UnicodeWidthStr::width(layer.name.as_str()) as f64;
+            let (text, left) = (right - width, right - width - SAMPLE - 4.0);
+            let sample = match &layer.marks {
+                Marks::Points(_) => look.point(left + SAMPLE / 2.0, 16.0),
+                Marks::Line(_) | Marks::Level(_) => format!(
+                    "<line x1=\"{left:.1}\" x2=\"{:.1}\" y1=\"16\" y2=\"16\" {}/>",
+                    left + SAMPLE,
+                    look.stroke()
+                ),
+                Marks::Band(_) => format!(
+                    "<rect x=\"{left:.1}\" y=\"11\" width=\"{SAMPLE}\" height=\"10\" fill=\"{}\" fill-opacity=\"0.2\"/>",
+                    look.colour
+                ),
+            };
+            let name = escaped(&layer.name);
+            self.line(format_args!(
+                "{sample}<text x=\"{text:.1}\" y=\"20\" textLength=\"{width:.1}\" lengthAdjust=\"spacingAndGlyphs\">{name}</text>"
+            ));
+            right = left - 12.0;
         }
     }
 
@@ -158,6 +196,51 @@ impl<'a> Frame<'a> {
     fn up(&self, place: f64) -> f64 {
         let share = (place - self.y[0]) / (self.y[1] - self.y[0]);
         HEIGHT - BOTTOM - share * (HEIGHT - TOP - BOTTOM)
+    }
+}
+
+/// How marks of a tone look: told apart by shape and dashes as well as by colour, in grey print too. The colours are
+/// Okabe and Ito's blue and vermilion, which differ for colour-blind readers.
+struct Look {
+    colour: &'static str,
+    dashes: &'static str,
+    tone: Tone,
+}
+
+impl Look {
+    fn of(tone: Tone) -> Self {
+        let (colour, dashes) = match tone {
+            Tone::Main => ("#0072b2", "none"),
+            Tone::Contrast => ("#d55e00", "7 3"),
+            Tone::Quiet => ("#444", "2 3"),
+        };
+        Look {
+            colour,
+            dashes,
+            tone,
+        }
+    }
+
+    fn stroke(&self) -> String {
+        let Look { colour, dashes, .. } = self;
+        format!("stroke=\"{colour}\" stroke-width=\"1.5\" stroke-dasharray=\"{dashes}\"")
+    }
+
+    /// A disc, a hollow diamond, or a dot.
+    fn point(&self, x: f64, y: f64) -> String {
+        let colour = self.colour;
+        match self.tone {
+            Tone::Main => format!(
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.4\" fill=\"{colour}\" fill-opacity=\"0.7\"/>"
+            ),
+            Tone::Contrast => format!(
+                "<path d=\"M{x:.1} {:.1}l3.2 3.2l-3.2 3.2l-3.2 -3.2z\" fill=\"none\" stroke=\"{colour}\"/>",
+                y - 3.2
+            ),
+            Tone::Quiet => {
+                format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"1.4\" fill=\"{colour}\"/>")
+            }
+        }
     }
 }
 
@@ -218,4 +301,5 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use gumption::audit::read::{self, Mapping};
 use gumption::audit::{Audit, Verdict, audit, sheet};
 use gumption::document::Document;
+use gumption::files::Files;
 use gumption::report;
 
 use super::form::Form;
@@ -24,7 +25,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     let mut documents = Vec::new();
     for path in &args.files {
         let name = path.display().to_string();
-        let grids = match std::fs::read(path) {
+        let grids = match Files::Disk.read(path) {
             Ok(bytes) => sheet::grids(&name, &bytes),
             Err(error) => {
                 outcome = outcome.max(output::complain(format!("cannot read {name}: {error}")));

@@ -137,7 +137,7 @@ fn parse_width(text: &str) -> Result<usize, &'static str> {
     let width: usize = text
         .parse()
         .map_err(|_| "write a number of columns, such as 100")?;
-    Ok(width.clamp(output::NARROWEST, WIDEST))
+    Ok(width.max(output::NARROWEST).min(WIDEST))
 }
 
 #[cfg(test)]

@@ -60,7 +60,7 @@ struct Cli {
 enum Command {
     /// Evaluate budget files: budget table, GUM and Monte Carlo, statement for the certificate
     Eval(eval::Args),
-    /// Recompute somebody's budget from its spreadsheet, and name the slip that gives its figures
+    /// Recompute a claimed budget from its sheet, and name the slip behind its figures
     Audit(audit::Args),
     /// Confront a model with a recording: do they agree, and what was left out
     Diagnose(diagnose::Args),

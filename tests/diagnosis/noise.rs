@@ -150,7 +150,7 @@ fn plans_and_simulations_have_the_noise_of_the_recording() {
 fn noise_that_only_a_recording_shows_is_said_to_be_unknown() {
     let folder = folder("unknown-noise");
     std::fs::write(folder.join("recording.csv"), "P [µW]\n1\n1\n2\n2\n3\n3\n").expect("written");
-    let model = "recording = \"recording.csv\"\nequations = \"I = dark + s * P\"\n[columns]\nI = { role = \"output\", unit = \"µA\" }\nP = \"stimulus\"\n[parameter]\ns = { start = 0.4 }\n";
+    let model = "recording = \"recording.csv\"\nequations = \"I = dark + s * P\"\n[columns]\nI = { role = \"output\", unit = \"µA\" }\nP = \"stimulus\"\n[parameter]\ns = { start = 0.4 }\ndark = { start = 0 }\n";
     for (claim, why) in [
         ("", "not claimed, and no outputs are recorded"),
         (REPLICATES, "once their outputs are recorded"),

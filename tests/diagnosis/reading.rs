@@ -280,7 +280,7 @@ fn a_recording_in_a_code_page_is_refused_as_such() {
     std::fs::write(folder.join("case.toml"), case).expect("written");
     let (good, told) = gumption(&folder, &["diagnose", "case.toml"]);
     assert!(
-        !good && told.contains("not UTF-8") && told.contains("CSV UTF-8"),
+        !good && told.contains("neither UTF-8, UTF-16 nor GBK") && told.contains("CSV UTF-8"),
         "{told}"
     );
 }

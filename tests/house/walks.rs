@@ -52,6 +52,9 @@ const WALKS: [Walk; 4] = [
         places: &[
             "crates/format/src/render/markdown.rs",
             "crates/format/src/render/mod.rs",
+            // Sheets to be audited may be tables in Markdown.
+            "crates/audit/src/sheet/mod.rs",
+            "crates/audit/src/sheet/text.rs",
             // `gumption explain` prints its pages, which are no documents, as Markdown by an option of its own.
             "src/cli/explain.rs",
         ],

@@ -83,7 +83,7 @@ fn the_published_examples_pass() {
         std::fs::read_dir(place.join("dossier"))
             .expect("a folder")
             .count(),
-        2
+        3
     );
     std::fs::remove_dir_all(place).expect("removed");
 }

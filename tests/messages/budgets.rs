@@ -101,7 +101,7 @@ fn faults_are_headed_in_chinese() {
         (&["diagnose", "case.toml"], "错误["),
         (
             &["allan", "none.csv", "--column", "x", "--interval", "1"],
-            "错误[R0101]: 记录无法读取",
+            "错误[R0101]: 数据表无法读取",
         ),
     ] {
         let (code, shown) = run(&folder.0, &[arguments, &["--lang", "zh"]].concat());

@@ -177,7 +177,7 @@ fn an_unknown_ending_is_refused_before_the_work() {
         let refused = folder.run(&["eval", "budget.toml", "-o", name]);
         assert_eq!(refused.status.code(), Some(2));
         assert!(
-            said(&refused).contains("the endings are .txt, .md, .json"),
+            said(&refused).contains("the endings are .txt, .md, .html, .json"),
             "{}",
             said(&refused)
         );

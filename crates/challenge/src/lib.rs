@@ -55,6 +55,7 @@ pub use effect::{Concealed, Physics, Shape};
 pub use files::CaseFile;
 pub use further::{Further, Mount, Setting};
 pub use instrument::Instrument;
+pub use names::Accepted;
 pub use rig::Rig;
 pub use scenario::{Class, NoiseKnowledge, Scenario};
-pub use truth::{ALIAS, Accepted, TrueEffect, Truth, seal};
+pub use truth::{ALIAS, TrueEffect, Truth, seal};

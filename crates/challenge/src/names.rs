@@ -3,7 +3,24 @@
 //! error, a resistor in its own heat is one as well.
 
 use super::effect::Physics;
-use super::truth::Accepted;
+use serde::{Deserialize, Serialize};
+
+/// A name of the catalogue that is right.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Accepted {
+    /// Identifier of the catalogue.
+    pub id: String,
+    /// Columns one of which it has to follow; none = any.
+    pub along: Vec<String>,
+}
+
+impl Accepted {
+    /// Whether a diagnosis that gives one of them can have given the other.
+    pub(super) fn meets(&self, other: &Accepted) -> bool {
+        let follows = || self.along.iter().any(|column| other.along.contains(column));
+        self.id == other.id && (self.along.is_empty() || other.along.is_empty() || follows())
+    }
+}
 
 /// Identifiers of the catalogue, each with the columns that it has to follow; none = any.
 fn accepted(physics: Physics) -> &'static [(&'static str, &'static [&'static str])] {

@@ -118,7 +118,7 @@ impl<'a> Visible<'a> {
             if (ratio - 1.0).abs() < 0.005 {
                 break;
             }
-            effect.size = (effect.size * ratio).clamp(-limit, limit);
+            effect.size = (effect.size * ratio).max(-limit).min(limit);
             strength = self.trace(&[effect]).norm();
         }
         (effect, strength)

@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 
 use super::effect::{Concealed, Physics};
 use super::files::outputs;
-use super::names::{names, share_a_name};
+use super::names::{Accepted, names, share_a_name};
 use super::random::{Stream, source};
 use super::scenario::{Class, Drawn, NoiseKnowledge};
 use super::schedule::Campaign;
@@ -46,23 +46,6 @@ pub struct Truth {
 
 /// The format that this version writes.
 pub(super) const FORMAT: &str = "gumption truth 2";
-
-/// A name of the catalogue that is right.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Accepted {
-    /// Identifier of the catalogue.
-    pub id: String,
-    /// Columns one of which it has to follow; none = any.
-    pub along: Vec<String>,
-}
-
-impl Accepted {
-    /// Whether a diagnosis that gives one of them can have given the other.
-    pub(super) fn meets(&self, other: &Accepted) -> bool {
-        let follows = || self.along.iter().any(|column| other.along.contains(column));
-        self.id == other.id && (self.along.is_empty() || other.along.is_empty() || follows())
-    }
-}
 
 /// One concealed effect.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

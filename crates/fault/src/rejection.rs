@@ -101,7 +101,7 @@ impl Rejection {
         if self.text.is_empty() {
             group = group.element(annotate_snippets::Origin::path(harmless(&self.name)));
         } else {
-            let primary = AnnotationKind::Primary.span(self.clamp(&fault.span));
+            let primary = AnnotationKind::Primary.span(self.inside(&fault.span));
             let mut snippet = Snippet::source(harmless_in_place(&self.text))
                 .path(harmless(&self.name))
                 .annotation(if fault.label.is_empty() {
@@ -112,7 +112,7 @@ impl Rejection {
             for (span, label) in &fault.related {
                 snippet = snippet.annotation(
                     AnnotationKind::Context
-                        .span(self.clamp(span))
+                        .span(self.inside(span))
                         .label(harmless(label)),
                 );
             }
@@ -129,13 +129,13 @@ impl Rejection {
     }
 
     /// The range inside the text, at character boundaries, and never behind its end.
-    fn clamp(&self, span: &Range<usize>) -> Range<usize> {
+    fn inside(&self, span: &Range<usize>) -> Range<usize> {
         let start = self
             .text
             .floor_char_boundary(span.start.min(self.text.len()));
         let end = self
             .text
-            .ceil_char_boundary(span.end.clamp(start, self.text.len()));
+            .ceil_char_boundary(span.end.max(start).min(self.text.len()));
         start..end
     }
 }

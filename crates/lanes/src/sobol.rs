@@ -41,7 +41,7 @@ impl Sobol {
     pub fn new(dimension: usize, bits: u32, [seed, replicate]: [u64; 2]) -> Sobol {
         let key = Key::new([seed, replicate, SCRAMBLES + dimension as u64]);
         let directions = &DIRECTIONS[dimension % DIMENSIONS];
-        let bits = bits.clamp(LOW as u32, MOST_BITS) as usize;
+        let bits = bits.max(LOW as u32).min(MOST_BITS) as usize;
         let mut scrambled = [0; MOST_BITS as usize];
         for (column, direction) in scrambled.iter_mut().zip(&directions[..bits]) {
             *column = scramble(*direction, key);

@@ -110,5 +110,5 @@ impl Process for Backlash {
 
 /// The play operator: stays until pushed.
 fn follow(state: f64, push: f64, half_width: f64) -> f64 {
-    state.clamp(push - half_width, push + half_width)
+    state.max(push - half_width).min(push + half_width)
 }

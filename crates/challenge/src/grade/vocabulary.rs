@@ -1,7 +1,8 @@
 //! Whether a name that a diagnosis gives is right for an effect.
 
 use super::answer::{Name, Variant};
-use crate::truth::{Accepted, TrueEffect};
+use crate::names::Accepted;
+use crate::truth::TrueEffect;
 
 /// Whether a name is right for an effect.
 pub fn accepts(truth: &TrueEffect, name: &Name) -> bool {

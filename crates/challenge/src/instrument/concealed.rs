@@ -13,9 +13,10 @@ use super::noise::Form;
 use super::{Course, Instrument};
 use crate::files::{CASE, CaseFile, HELD_OUT, RECORDING, number};
 use crate::geometry::{Geometry, left, span};
+use crate::names::Accepted;
 use crate::random::{Random, Stream, log_between, normal, source};
 use crate::scenario::{Class, NoiseKnowledge, STRENGTHS};
-use crate::truth::{Accepted, Known, TrueEffect, Truth};
+use crate::truth::{Known, TrueEffect, Truth};
 
 /// What is asked for.
 #[derive(Debug, Clone, Copy)]

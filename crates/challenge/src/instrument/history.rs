@@ -31,7 +31,7 @@ pub(super) fn lacking(drive: &[f64], hours: &[f64], parts: &[(f64, f64)]) -> Vec
 pub(super) fn play(drive: &[f64], half_width: f64) -> Vec<f64> {
     let mut state = drive.first().copied().unwrap_or(0.0);
     let follow = |x: &f64| {
-        state = state.clamp(x - half_width, x + half_width);
+        state = state.max(x - half_width).min(x + half_width);
         state - x
     };
     drive.iter().map(follow).collect()

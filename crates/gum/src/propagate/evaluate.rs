@@ -10,8 +10,7 @@ use super::result::{
 use super::second_order::{SecondOrderOutcome, Terms};
 use super::{
     coverage, decide, few_readings, findings, freedom, gum, joint, monte_carlo, resolution,
-    second_order,
-    tolerance, validation,
+    second_order, tolerance, validation,
 };
 use crate::budget::{Budget, MonteCarloSettings, Points, Trials};
 

@@ -380,7 +380,7 @@ mod tests {
     #[test]
     fn a_scale_that_is_taken_away_is_no_effect() {
         let step = |node: Node| {
-            let modifier = Modifier::number(vec![0.0, 0.0, 1.0], "step");
+            let modifier = Modifier::number(vec![0.0, 0.0, 1.0], "from row 3 on");
             Variation::one("", Term::new(node, modifier))
         };
         assert!(takes_all(&step(Node::Gain), &[-1.0], 3));

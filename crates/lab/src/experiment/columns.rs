@@ -241,7 +241,9 @@ impl<'s> Checker<'s> {
         .label("not known");
         let known = names.known().filter(|other| *other != name);
         self.faults.push(match nearest(name, known.chain(headers.iter().copied())) {
-            Some(near) => fault.help(format!("did you mean `{near}`?")),
+            Some(near) => fault.help(format!(
+                "did you mean `{near}`? If it is to be found, list it under [parameter]"
+            )),
             None => fault.help(format!(
                 "list it under [parameter] if it is to be found, under [input] or [constant] if it is known; the columns are {}",
                 headers.join(", ")

@@ -14,13 +14,19 @@ use gumption_format::files::Files;
 
 /// Lists the parameters of a file that has no `[parameter]`.
 pub(crate) fn add(source: &mut Source, units: &UnitTable, files: Files<'_>, folder: &Path) {
-    if source.table.parameter.is_some() {
-        return;
+    if source.table.parameter.is_none() {
+        complete(source, units, files, folder);
     }
+}
+
+/// Lists the parameters that a file does not list, beside those of which it says something.
+pub(crate) fn complete(source: &mut Source, units: &UnitTable, files: Files<'_>, folder: &Path) {
     let Some(known) = known(source, units, files, folder) else {
         return;
     };
     let shared = source.table.model.as_ref().map_or("", |text| &text.value);
+    let listed = entries(&source.table.parameter).iter();
+    let listed: Vec<&String> = listed.map(|(name, _)| name).collect();
     let mut found: Vec<(String, Stated<ParameterTable>)> = Vec::new();
     let mut place = 0..0;
     for text in source.table.equations.iter().flat_map(|list| &list.value.0) {
@@ -30,11 +36,9 @@ pub(crate) fn add(source: &mut Source, units: &UnitTable, files: Files<'_>, fold
         place = text.span.clone();
         let given = outline.gives.as_ref().map(|(name, _)| name);
         for (name, _) in &outline.needs {
-            let listed = found.iter().any(|(other, _)| other == name);
-            // A name of some length that is nearly that of a column is a slip of the pen.
-            let slip = name.chars().count() > 2
-                && nearest(name, known.iter().map(String::as_str)).is_some();
-            if !listed && !slip && given != Some(name) && !known.contains(name) {
+            let is_listed = found.iter().any(|(other, _)| other == name) || listed.contains(&name);
+            let is_known = given == Some(name) || known.contains(name);
+            if !is_listed && !is_known && !is_slip(name, &known) {
                 let table = Stated {
                     value: ParameterTable::default(),
                     span: place.clone(),
@@ -44,16 +48,28 @@ pub(crate) fn add(source: &mut Source, units: &UnitTable, files: Files<'_>, fold
             }
         }
     }
-    if !found.is_empty() {
-        source.table.parameter = Some(Stated {
-            value: Named {
-                entries: found,
-                refused: false,
-            },
-            span: place.clone(),
-            key: place,
-        });
+    if found.is_empty() {
+        return;
     }
+    let table = source.table.parameter.get_or_insert_with(|| Stated {
+        value: Named {
+            entries: Vec::new(),
+            refused: false,
+        },
+        span: place.clone(),
+        key: place,
+    });
+    table.value.entries.extend(found);
+}
+
+/// Whether a name of some length is nearly a known one, by a slip of the pen: `temp0` beside `temp` is none, nor are
+/// names that differ by their numbers.
+fn is_slip(name: &str, known: &[String]) -> bool {
+    let letters = |name: &str| name.replace(|c: char| c.is_numeric(), "");
+    let near = nearest(name, known.iter().map(String::as_str));
+    near.is_some_and(|near| {
+        name.chars().count() > 2 && !name.starts_with(near) && letters(name) != letters(near)
+    })
 }
 
 /// Names of columns, constants, inputs and quantities of positions; `None` without a recording or a schedule.

@@ -3,6 +3,7 @@
 use gumption_audit::claim::{Row, Shape, Stated};
 use gumption_audit::search::{Broken, Gap};
 use gumption_audit::{Audit, Verdict};
+use gumption_core::distribution::Entry;
 
 use crate::language::Language;
 use crate::number::significant;
@@ -197,15 +198,18 @@ pub(super) fn gap(audit: &Audit<'_>, gap: &Gap, language: Language) -> String {
 
 /// What is known of a row.
 pub(super) fn stated(row: &Row, language: Language) -> String {
+    let named = |key: &str| {
+        Entry::named(key).map_or("", |entry| {
+            language.pick(entry.kind.name_en, entry.kind.name_zh)
+        })
+    };
     let shape = |shape: Shape| match shape {
-        Shape::Rectangular => language.pick("rectangular", "均匀").to_string(),
-        Shape::Triangular => language.pick("triangular", "三角").to_string(),
-        Shape::Arcsine => language.pick("arcsine", "反正弦").to_string(),
-        Shape::Trapezoidal(beta) => format!(
-            "{} β = {}",
-            language.pick("trapezoidal", "梯形"),
-            significant(beta, 2)
-        ),
+        Shape::Rectangular => named("uniform").to_string(),
+        Shape::Triangular => named("triangle").to_string(),
+        Shape::Arcsine => named("u-shaped").to_string(),
+        Shape::Trapezoidal(beta) => {
+            format!("{} β = {}", named("trapezoid"), significant(beta, 2))
+        }
         Shape::Normal(k) => format!(
             "{} k = {}",
             language.pick("normal", "正态"),

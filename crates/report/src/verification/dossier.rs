@@ -123,7 +123,7 @@ fn contents(verification: &Verification, l: Language) -> Table {
     for (index, one) in verification.examples.iter().enumerate() {
         let number = index + 1;
         table.push(vec![
-            format!("[{number}]({})", words::anchor(number, l)).into(),
+            number.to_string().into(),
             one.heading.title.clone().into(),
             one.file.clone().into(),
             one.heading.reference.clone().unwrap_or_default().into(),

@@ -8,11 +8,6 @@ pub(super) fn heading(number: usize, l: Language) -> String {
     l.pick(format!("Example {number}"), format!("示例 {number}"))
 }
 
-/// The heading as GitHub and most other renderers name its place.
-pub(super) fn anchor(number: usize, l: Language) -> String {
-    l.pick(format!("#example-{number}"), format!("#示例-{number}"))
-}
-
 /// The verdict of an example.
 pub(super) fn verdict(verdict: Verdict, l: Language) -> &'static str {
     match verdict {

@@ -5,10 +5,22 @@ use nalgebra::DMatrix;
 /// Alternating projections converge linearly; of a matrix rounded to three digits some tens are enough.
 const STEPS: usize = 500;
 
-/// The nearest correlation matrix (Higham, IMA J. Numer. Anal. 22 (2002) 329: projections onto the semidefinite matrices and
-/// onto those with a diagonal of ones, in turn, with the correction of Dykstra), if none of its coefficients is farther
-/// from the stated one than `half`, half a unit of its last digit.
+/// The nearest correlation matrix, if none of its coefficients is farther from the stated one than `half`, half a unit of
+/// its last digit. A coefficient that is not known to one decimal is not rounded, but wrong: `None`.
 pub(super) fn within_rounding(stated: &DMatrix<f64>, half: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    const ONE_DECIMAL: f64 = 0.05 + 1e-8;
+    let nearest = nearest(stated);
+    let fits = nearest
+        .iter()
+        .zip(stated.iter())
+        .zip(half.iter())
+        .all(|((near, stated), half)| *half <= ONE_DECIMAL && (near - stated).abs() <= *half);
+    fits.then_some(nearest)
+}
+
+/// The nearest correlation matrix (Higham, IMA J. Numer. Anal. 22 (2002) 329: projections onto the semidefinite matrices
+/// and onto those with a diagonal of ones, in turn, with the correction of Dykstra).
+fn nearest(stated: &DMatrix<f64>) -> DMatrix<f64> {
     let n = stated.nrows();
     let mut nearest = stated.clone();
     let mut correction = DMatrix::zeros(n, n);
@@ -31,12 +43,7 @@ pub(super) fn within_rounding(stated: &DMatrix<f64>, half: &DMatrix<f64>) -> Opt
         nearest = nearest.map(|r| r / raised);
         nearest.fill_diagonal(1.0);
     }
-    let fits = nearest
-        .iter()
-        .zip(stated.iter())
-        .zip(half.iter())
-        .all(|((near, stated), half)| (near - stated).abs() <= *half);
-    fits.then_some(nearest)
+    nearest
 }
 
 /// The nearest matrix without negative eigenvalues.
@@ -56,8 +63,7 @@ mod tests {
     #[test]
     fn highams_example() {
         let stated = DMatrix::from_row_slice(3, 3, &[1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0]);
-        let wide = DMatrix::from_element(3, 3, 1.0);
-        let nearest = within_rounding(&stated, &wide).expect("a matrix");
+        let nearest = nearest(&stated);
         assert!((nearest[(0, 1)] - 0.760_69).abs() < 1e-4, "{nearest}");
         assert!((nearest[(0, 2)] - 0.157_30).abs() < 1e-4, "{nearest}");
         let narrow = DMatrix::from_element(3, 3, 0.05);

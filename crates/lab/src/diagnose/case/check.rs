@@ -31,7 +31,7 @@ pub(super) fn load(files: Files<'_>, path: &Path, purpose: Purpose) -> Result<Ca
         Purpose::Plan => Use::Plan,
     };
     let units = Checker::new(&source, purpose, files, folder).units;
-    inferred::add(&mut source, &units, files, folder);
+    inferred::complete(&mut source, &units, files, folder);
     let mut checker = Checker::new(&source, purpose, files, folder);
     let case = checker.case(path);
     let is_whole = checker.faults.is_empty();

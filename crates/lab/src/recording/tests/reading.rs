@@ -179,7 +179,7 @@ fn overloads_and_words_are_missing_numbers() {
 #[test]
 fn a_file_that_cannot_be_read() {
     use gumption_format::files::Files;
-    let library = Files::Library(&[("a/b.csv", b"\xff\xfe"), ("c.csv", b"x\n1")]);
+    let library = Files::Library(&[("a/b.csv", b"x\n\xff\xff"), ("c.csv", b"x\n1")]);
     let open = |path: &str| {
         Recording::open(library, path.as_ref(), &[], &UnitTable::default())
             .map_err(|rejection| rejection.faults[0].code.id)

@@ -224,9 +224,10 @@ fn uncertainties_stand_in_a_csv_file() {
     };
     let message = refused(r#"u = { file = "u.csv", column = "short" }"#);
     assert!(
-        message.contains("line 4 of u.csv has \"\" in column"),
+        message.contains("line 4, column \"short\": \"\" is not a number"),
         "{message}"
     );
-    assert_eq!(message.matches("error[").count(), 1, "{message}");
+    // One in the table, and where the budget asks for it.
+    assert_eq!(message.matches("error[").count(), 2, "{message}");
     std::fs::remove_dir_all(&folder).expect("the folder of the test");
 }

@@ -19,8 +19,11 @@ use gumption::render::{FORMATS, Page};
 use gumption::report::{self, Language, Report};
 use gumption::{Files, Rejection};
 
+/// A name, and what is done with bytes.
+pub type Target = (&'static str, fn(&[u8]));
+
 /// The targets by name, as in `fuzz_targets/` and `corpus/`.
-pub const TARGETS: &[(&str, fn(&[u8]))] = &[
+pub const TARGETS: &[Target] = &[
     ("budget", budget),
     ("language", language),
     ("units", units),
@@ -114,10 +117,10 @@ pub fn units(bytes: &[u8]) {
 
 /// A table of values: as a recording, as readings of an input, and as a series.
 pub fn csv(bytes: &[u8]) {
-    if let Ok(text) = std::str::from_utf8(bytes) {
-        if let Err(rejection) = Recording::read_all("data.csv", text, &UnitTable::default()) {
-            said(&rejection);
-        }
+    if let Ok(text) = std::str::from_utf8(bytes)
+        && let Err(rejection) = Recording::read_all("data.csv", text, &UnitTable::default())
+    {
+        said(&rejection);
     }
     let main = "title = \"t\"\n[measurand.Y]\nmodel = \"V\"\nunit = \"mV\"\n\
         [input.V]\nunit = \"mV\"\nreadings = { file = \"data.csv\", column = \"V\" }\n";

@@ -134,10 +134,11 @@ impl Form {
 fn parse_width(text: &str) -> Result<usize, &'static str> {
     /// Longer lines are hard to read.
     const WIDEST: usize = 200;
+    const NARROWEST: usize = output::NARROWEST;
     let width: usize = text
         .parse()
         .map_err(|_| "write a number of columns, such as 100")?;
-    Ok(width.max(output::NARROWEST).min(WIDEST))
+    Ok(width.clamp(NARROWEST, WIDEST))
 }
 
 #[cfg(test)]

@@ -426,7 +426,7 @@ proptest! {
             folder.put(&format!("f{file}"), &format!("content {file}"));
         }
         for (link, (to, kind)) in links.iter().enumerate() {
-            let (from, to) = (folder.0.join(&format!("l{link}")), folder.0.join(&format!("f{to}")));
+            let (from, to) = (folder.0.join(format!("l{link}")), folder.0.join(format!("f{to}")));
             let _ = match kind {
                 #[cfg(unix)]
                 0 => std::os::unix::fs::symlink(to, from),
@@ -440,7 +440,7 @@ proptest! {
         };
         let mut inputs = Vec::new();
         for index in read {
-            let path = folder.0.join(&name(index));
+            let path = folder.0.join(name(index));
             if let Ok(content) = Files::Disk.read(&path) {
                 inputs.push((path, content));
             }

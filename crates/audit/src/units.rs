@@ -12,7 +12,7 @@ pub(crate) fn parse(text: &str) -> Option<Unit> {
     if text.is_empty() || text.len() > 24 {
         return None;
     }
-    let written = text.replace('^', "^").replace("Ω", "ohm").replace('⋅', "·");
+    let written = text.replace("Ω", "ohm").replace('⋅', "·");
     TABLE.parse(&written).or_else(|_| TABLE.parse(text)).ok()
 }
 

@@ -27,14 +27,13 @@ pub(super) fn blocks(report: &Report<'_>, measurand: usize) -> Vec<Block> {
     }
     let reason = Figures::new(report, measurand).reason(report.language);
     blocks.push(Block::Paragraph(reason.to_string()));
-    match (&result.validation, &report.evaluation.run) {
-        (Some(validation), _) => blocks.push(Block::List(
+    if let Some(validation) = &result.validation {
+        blocks.push(Block::List(
             validation
                 .iter()
                 .map(|v| verdict(report, measurand, v))
                 .collect(),
-        )),
-        (None, _) => {}
+        ));
     }
     blocks
 }

@@ -1,6 +1,6 @@
 //! Documents about everything that is computed, and the sentence for the certificate.
 //!
-//! A [`Report`] joins a budget with its evaluation. Each function composes one [`document::Document`]; the formats in
+//! A [`Report`] joins a budget with its evaluation. Each function composes one [`Document`](gumption_format::document::Document); the formats in
 //! which it is written are those of [`gumption_format::render`].
 
 // Tests may hold results against the platform's own functions.

@@ -34,11 +34,11 @@ pub fn note(text: &str, at: Place, claimed: &mut Claimed) -> Option<&'static str
             return Some("CMC");
         }
     }
-    if has(&lower, &["correlat", "相关"]) || lower.starts_with("r(") || lower.contains(" r(") {
-        if let Some(correlation) = correlation(text, &lower, claimed) {
-            claimed.correlations.extend(correlation);
-            return Some("correlation");
-        }
+    if (has(&lower, &["correlat", "相关"]) || lower.starts_with("r(") || lower.contains(" r("))
+        && let Some(correlation) = correlation(text, &lower, claimed)
+    {
+        claimed.correlations.extend(correlation);
+        return Some("correlation");
     }
     if rule(&lower, claimed) {
         return Some("rule for k");

@@ -719,7 +719,7 @@ pub fn interpret(raw: &[Raw], located: &Located, claimed: &mut Claimed) {
         };
         (row.stated, row.relative) = kind::stated(&evidence);
         row.not_counted = not_counted(&row.words);
-        row.into_one_unit(&y_unit);
+        row.convert_to_one_unit(&y_unit);
     }
     for figure in [
         &mut claimed.footer.u_c,
@@ -789,7 +789,7 @@ fn not_counted(words: &str) -> Option<String> {
 
 impl Row {
     /// Figures of ± and of what is stated in the unit of u, where all units are known.
-    fn into_one_unit(&mut self, y_unit: &str) {
+    fn convert_to_one_unit(&mut self, y_unit: &str) {
         let stated_unit = self
             .stated
             .figure()

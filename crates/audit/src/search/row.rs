@@ -182,7 +182,7 @@ fn is_supported(row: &Row, act: &Act) -> bool {
     let (Some(used), Some(stated)) = (&row.used, row.stated.figure()) else {
         return true;
     };
-    let same = used.is_met_by(stated.value) && used.text != "";
+    let same = used.is_met_by(stated.value) && !used.text.is_empty();
     match (act.slip.id, act.change) {
         ("input-transposed", Change::Scaled(factor)) => {
             row.u.is_none()

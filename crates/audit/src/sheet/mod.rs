@@ -20,7 +20,7 @@ pub struct Grid {
 /// One cell.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Cell {
-    /// What stands in it, in the cleaned form of [`clean`](crate::printed::clean).
+    /// What stands in it, with blanks, dashes and digits of all kinds made plain.
     pub text: String,
     /// The formula behind it, without the equals sign.
     pub formula: Option<String>,

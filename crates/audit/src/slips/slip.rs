@@ -2,6 +2,9 @@
 
 use crate::calculate::{Calculation, Case, Combined, Factor, Freedom, Report};
 
+/// A change of the calculation, in a row or in the whole.
+pub type Place = (Option<usize>, Change);
+
 /// One kind of slip.
 #[derive(Debug, Clone, Copy)]
 pub struct Slip {
@@ -16,7 +19,7 @@ pub struct Slip {
     /// What happened, in Chinese.
     pub zh: &'static str,
     /// Everywhere it can act, and what it would do there.
-    pub acts: fn(&Case<'_>) -> Vec<(Option<usize>, Change)>,
+    pub acts: fn(&Case<'_>) -> Vec<Place>,
 }
 
 /// How much a slip weighs.

@@ -137,9 +137,13 @@ const AGEING: &[Form] = of_time![
 const STEPS: &[Form] = of_time![
     |s, a, _| f64::from(s > 0.12 + 0.76 * a),
     |s, a, b| 1.0 / (1.0 + libm::exp(-(s - 0.12 - 0.76 * a) / (0.001 + 0.01 * b))),
-    |s, a, b| (s > 0.12 + 0.76 * a)
-        .then(|| -libm::expm1(-(s - 0.12 - 0.76 * a) / (0.002 + 0.02 * b)))
-        .unwrap_or(0.0),
+    |s, a, b| {
+        if s > 0.12 + 0.76 * a {
+            -libm::expm1(-(s - 0.12 - 0.76 * a) / (0.002 + 0.02 * b))
+        } else {
+            0.0
+        }
+    },
 ];
 
 const LEVELS: &[Form] = &[

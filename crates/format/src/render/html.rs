@@ -323,7 +323,7 @@ fn draw_cell(cell: &Cell, kind: ColumnKind) -> String {
 fn inline(text: &str) -> String {
     let parts: Vec<&str> = text.split('`').collect();
     // A backquote without a partner is one.
-    if parts.len() % 2 == 0 {
+    if parts.len().is_multiple_of(2) {
         return raised(text);
     }
     let mut out = String::new();

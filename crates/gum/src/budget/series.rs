@@ -14,6 +14,9 @@ use gumption_fault::{Fault, nearest};
 use gumption_format::toml::amount_parts;
 use gumption_format::toml::{Raw, Stated, Table};
 
+/// Where a row stands, and its cells under the heads of their columns.
+type WrittenRow<'t> = (std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>);
+
 /// One row: its label, and the file with its values in place.
 pub(super) struct Variant<'t> {
     pub label: Option<String>,
@@ -68,7 +71,7 @@ pub(super) fn variants<'t>(
             return Vec::new();
         }
     };
-    let rows: Vec<(std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>)> = rows;
+    let rows: Vec<WrittenRow<'t>> = rows;
     let kinds: Vec<Option<Column>> = columns
         .iter()
         .map(|name| column(file, name, faults))
@@ -195,7 +198,7 @@ fn incomplete(stated: &Stated<SeriesTable>) -> Fault {
 fn rows_of_file<'t>(
     file: &DeTable<'t>,
     rows: &[Stated<Vec<Stated<Entry>>>],
-) -> Vec<(std::ops::Range<usize>, Vec<(Stated<Entry>, Raw<'t>)>)> {
+) -> Vec<WrittenRow<'t>> {
     let raw = match file.get("series").map(Spanned::get_ref) {
         Some(DeValue::Table(series)) => series.get("rows").map(Spanned::get_ref),
         _ => None,

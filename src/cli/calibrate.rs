@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use gumption::calibrate::{self, Calibration, Campaign, Trouble};
-use gumption::experiment::Purpose;
-use gumption::files::write::Output;
-use gumption::report::{self, Language};
-
 use super::form::Form;
 use super::output::Complaint;
 use super::{Outcome, output};
+use gumption::calibrate::{self, Calibration, Campaign, Trouble};
+use gumption::experiment::Purpose;
+use gumption::fault::say;
+use gumption::files::write::Output;
+use gumption::report::{self, Language};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -95,7 +95,7 @@ fn budgets(
                     .iter()
                     .position(|other| *other == name)
                     .ok_or_else(|| {
-                        format!(
+                        say!(
                             "there is no coefficient {name}; there are {}",
                             names.join(", ")
                         )

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use gumption::diagnose::case::{Case, Purpose};
 use gumption::diagnose::{self, Diagnosis, Failure};
 use gumption::document::Document;
+use gumption::fault::say;
 use gumption::files::write::Output;
 use gumption::render::svg;
 use gumption::report::{self, Language};
@@ -44,7 +45,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         case.settings.seed = seed;
     }
     remarks(&case, args.form.lang);
-    let steps = Steps::shown("diagnosis");
+    let steps = Steps::shown(say!("diagnosis"));
     let found = diagnose::diagnose(&case, &|share| steps.at(share));
     drop(steps);
     match found {

@@ -2,16 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
-use gumption::document::Document;
-use gumption::files::write::Output;
-use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
-use gumption::report::{self, Language, Report};
-
 use super::form::Form;
 use super::output::Complaint;
 use super::progress::Progress;
 use super::{Outcome, output};
+use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
+use gumption::document::Document;
+use gumption::fault::say;
+use gumption::files::write::Output;
+use gumption::propagate::{self, ConformityResult, Evaluation, MonteCarloChoice, Options, Verdict};
+use gumption::report::{self, Language, Report};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -71,9 +71,9 @@ impl Row {
 
 pub(super) fn run(args: &Args) -> Outcome {
     if args.save.is_some() && args.files.len() > 1 {
-        return output::complain(
-            "--save takes the results of one budget file; evaluate the files one after the other",
-        );
+        return output::complain(say!(
+            "--save takes the results of one budget file; evaluate the files one after the other"
+        ));
     }
     let beside: Vec<PathBuf> = args.save.iter().cloned().collect();
     if let Err(outcome) = args.form.is_possible(&beside) {
@@ -108,8 +108,7 @@ fn save(rows: &[Row], path: &Path, language: Language) -> Result<Output, Complai
         _ => Path::new("."),
     };
     let folder = budget::Files::Disk.identity(folder);
-    let text =
-        report::saved(&reports, &folder).map_err(|why| format!("nothing is saved: {why}"))?;
+    let text = report::saved(&reports, &folder).map_err(|why| say!("nothing is saved: {why}"))?;
     Ok(Output {
         path: path.to_path_buf(),
         content: text.into_bytes(),
@@ -221,7 +220,7 @@ fn parse_points(text: &str) -> Result<Points, Complaint> {
 fn parse_profile(text: &str) -> Result<&'static Profile, Complaint> {
     budget::profile_named(text).ok_or_else(|| {
         let names: Vec<&str> = budget::PROFILES.iter().map(|p| p.name).collect();
-        format!("the profiles are {}", names.join(", ")).into()
+        say!("the profiles are {}", names.join(", ")).into()
     })
 }
 

@@ -3,14 +3,14 @@
 use std::io::stdout;
 use std::path::PathBuf;
 
+use super::output::{Complaint, Target};
+use super::{Outcome, output};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use gumption::document::Document;
+use gumption::fault::say;
 use gumption::files::write::Output;
 use gumption::render::{self, FORMATS, Format, Page};
 use gumption::report::Language;
-
-use super::output::{Complaint, Target};
-use super::{Outcome, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Form {
@@ -111,10 +111,10 @@ impl Form {
             let endings: Vec<String> = FORMATS.iter().map(|f| format!(".{}", f.ending)).collect();
             let endings = endings.join(", ");
             let what = match ending.as_str() {
-                "" => "the name of the output has no ending".to_string(),
-                other => format!("there is no format with the ending .{other}"),
+                "" => say!("the name of the output has no ending"),
+                other => say!("there is no format with the ending .{other}"),
             };
-            format!("{what}; the endings are {endings}, and --{} or another flag says the format of any other name", FORMATS[0].name).into()
+            say!("{what}; the endings are {endings}, and --{} or another flag says the format of any other name", FORMATS[0].name).into()
         })
     }
 

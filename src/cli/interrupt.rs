@@ -18,8 +18,14 @@ pub(super) fn say_so() {
             output::passing("");
         }
         output::warn(match written {
-            0 => "interrupted: nothing is written\n",
-            _ => "interrupted: the files that were written are whole\n",
+            0 => output::spoken().pick(
+                "interrupted: nothing is written\n",
+                "已中断：没有写出任何文件\n",
+            ),
+            _ => output::spoken().pick(
+                "interrupted: the files that were written are whole\n",
+                "已中断：已写出的文件是完整的\n",
+            ),
         });
         std::process::exit(INTERRUPTED);
     });

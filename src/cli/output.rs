@@ -4,14 +4,15 @@ use std::fmt::Display;
 use std::fs::Metadata;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
+use super::Outcome;
+use super::form::system_language;
 use gumption::budget::Rejection;
-use gumption::fault::{Code, harmless};
+use gumption::fault::{Code, Said, harmless, say};
 use gumption::files::write::{self, Output, Replacing};
 use gumption::files::{self, FileId};
 use gumption::report::Language;
-
-use super::Outcome;
 
 /// Where the output of a command goes, and what it may replace: the same for all of them.
 #[derive(Debug, clap::Args)]
@@ -47,7 +48,8 @@ impl Target {
     /// Makes sure, before any work is done, that these files and the output may be written as far as is known.
     pub fn is_allowed(&self, beside: &[PathBuf], language: Language) -> Result<(), Outcome> {
         let paths = beside.iter().map(PathBuf::as_path).chain(self.file());
-        write::allowed(paths, self.replacing()).map_err(|why| complain(why.words(language)))
+        write::allowed(paths, self.replacing())
+            .map_err(|why| complain(Said::quoted(why.words(language))))
     }
 
     /// Writes files, and the output among them if it is one, all of them or none; prints the output otherwise.
@@ -75,7 +77,7 @@ impl Target {
 pub(super) fn written(files: &[Output], replacing: Replacing, language: Language) -> Outcome {
     match write::write(files, replacing) {
         Ok(()) => Outcome::Done,
-        Err(why) => complain(why.words(language)),
+        Err(why) => complain(Said::quoted(why.words(language))),
     }
 }
 
@@ -85,7 +87,7 @@ pub(super) fn in_folder(
     files: impl IntoIterator<Item = (String, Vec<u8>)>,
 ) -> Result<Vec<Output>, Complaint> {
     std::fs::create_dir_all(folder)
-        .map_err(|error| format!("cannot create the folder {}: {error}", folder.display()))?;
+        .map_err(|error| say!("cannot create the folder {}: {error}", folder.display()))?;
     let files = files.into_iter().map(|(name, content)| Output {
         path: folder.join(name),
         content,
@@ -96,14 +98,14 @@ pub(super) fn in_folder(
 /// Prints to standard output. A reader that has gone away (`gumption … | head`) is no error.
 pub(super) fn print(text: impl AsRef<[u8]>) -> Outcome {
     if standard_output().is_some_and(|open| files::was_read_as(&open)) {
-        return complain(
-            "standard output goes to a file that this command reads; nothing is printed",
-        );
+        return complain(say!(
+            "standard output goes to a file that this command reads; nothing is printed"
+        ));
     }
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_ref()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            complain(format!("cannot write to standard output: {error}"))
+            complain(say!("cannot write to standard output: {error}"))
         }
         _ => Outcome::Done,
     }
@@ -130,26 +132,45 @@ fn is_standard_output(path: &Path) -> bool {
 
 /// What is wrong with an argument or a file, in words.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Complaint(String);
+pub(super) struct Complaint(Said);
 
 impl Display for Complaint {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
+        f.write_str(&self.0.in_language(spoken()))
     }
 }
 
 impl std::error::Error for Complaint {}
 
-impl<T: Into<String>> From<T> for Complaint {
+impl<T: Into<Said>> From<T> for Complaint {
     fn from(words: T) -> Self {
         Complaint(words.into())
     }
 }
 
 /// Says on standard error what is wrong.
-pub(super) fn complain(message: impl Display) -> Outcome {
-    warn(&format!("error: {message}\n"));
+pub(super) fn complain(message: impl Into<Complaint>) -> Outcome {
+    let error = spoken().pick("error", "错误");
+    warn(&format!("{error}: {}\n", message.into()));
     Outcome::BadInput
+}
+
+/// The language in which a command speaks where no document, file or argument is at hand: that of `--lang` if it is
+/// among the arguments, else the system's.
+pub(super) fn spoken() -> Language {
+    static SPOKEN: LazyLock<Language> = LazyLock::new(|| {
+        let mut arguments = std::env::args_os().map(|a| a.to_string_lossy().into_owned());
+        let stated = arguments.find_map(|argument| match argument.strip_prefix("--lang") {
+            Some("") => Some(None),
+            Some(joined) => joined.strip_prefix('=').map(|code| Some(code.to_owned())),
+            None => None,
+        });
+        let code = stated.and_then(|code| code.or_else(|| arguments.next()));
+        let system = || system_language().parse().ok();
+        let stated = code.and_then(|code| code.parse().ok());
+        stated.or_else(system).unwrap_or_default()
+    });
+    *SPOKEN
 }
 
 /// Says why a file that is right gives no result, with the code under which `gumption explain` says more.

@@ -3,16 +3,16 @@
 use std::io::{IsTerminal, stderr};
 use std::path::{Path, PathBuf};
 
+use super::form::Form;
+use super::output::Complaint;
+use super::{Outcome, date, output};
 use gumption::budget::Files;
+use gumption::fault::say;
 use gumption::files::write::Output;
 use gumption::propagate::Options;
 use gumption::render::{FORMATS, Page};
 use gumption::report::{self, Detail, Language};
 use gumption::verify::{Environment, Example, LIBRARY, Problem, Verification};
-
-use super::form::Form;
-use super::output::Complaint;
-use super::{Outcome, date, output};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -78,11 +78,14 @@ fn missing_claims(args: &Args, verification: &Verification) -> Outcome {
     if names.is_empty() || args.files.is_empty() {
         Outcome::Done
     } else if verification.examples.is_empty() {
-        output::complain(format!(
+        output::complain(say!(
             "nothing to compare: no [claim] in {names} (docs/budget-file.md, Claims)"
         ))
     } else {
-        output::warn(&format!("not counted, since without [claim]: {names}\n"));
+        output::warn(&format!(
+            "{}\n",
+            say!("not counted, since without [claim]: {names}").in_language(args.form.lang)
+        ));
         Outcome::Done
     }
 }
@@ -102,9 +105,9 @@ fn candidates(files: &[PathBuf]) -> Result<(Files<'static>, Vec<Candidate>), Com
         if path.is_dir() {
             let before = candidates.len();
             below(path, &mut candidates)
-                .map_err(|error| format!("cannot read the folder {}: {error}", path.display()))?;
+                .map_err(|error| say!("cannot read the folder {}: {error}", path.display()))?;
             if candidates.len() == before {
-                return Err(format!(
+                return Err(say!(
                     "there is no budget (*.toml) in the folder {}",
                     path.display()
                 )

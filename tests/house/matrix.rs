@@ -10,8 +10,9 @@ use super::modules::{Sources, Uses};
 use super::rings::{folders, rings};
 
 /// The crates, lowest first: each may use those before it.
-pub const CRATES: [&str; 11] = [
+pub const CRATES: [&str; 12] = [
     "lanes",
+    "say",
     "fault",
     "core",
     "format",

@@ -604,7 +604,7 @@ fn compiled(formula: &str, units: &[Unit], target: Unit, used: &[bool]) -> Resul
     compile(&request).map_err(|faults| {
         faults
             .first()
-            .map_or(String::new(), |fault| fault.fault.message.clone())
+            .map_or(String::new(), |fault| fault.fault.message.to_string())
     })
 }
 

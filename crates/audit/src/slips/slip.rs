@@ -1,5 +1,7 @@
 //! What a slip is, and what it does to a calculation.
 
+use gumption_fault::{Said, say};
+
 use crate::calculate::{Calculation, Case, Combined, Factor, Freedom, Report};
 
 /// A change of the calculation, in a row or in the whole.
@@ -35,6 +37,15 @@ pub enum Weight {
 
 impl Weight {
     /// The word for it.
+    pub const fn said(self) -> Said {
+        match self {
+            Weight::Error => say!("error"),
+            Weight::Warning => say!("warning"),
+            Weight::Information => say!("information"),
+        }
+    }
+
+    /// Its word in files.
     pub const fn name(self) -> &'static str {
         match self {
             Weight::Error => "error",

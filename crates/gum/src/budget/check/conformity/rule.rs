@@ -7,11 +7,11 @@ use crate::budget::check::Checker;
 use crate::budget::faults::{DECISION_RULE, LIMITS, NOT_POSITIVE, TOLERANCE, TWO_WAYS};
 use crate::budget::tables::{ConformityTable, RuleWord};
 use crate::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY, Interval};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
 
-const BAND_AND_PROBABILITY: &str = "a guard band beside a probability";
+const BAND_AND_PROBABILITY: Said = say!("a guard band beside a probability");
 
 /// A guard band, and the place of its key.
 struct Band {
@@ -105,21 +105,23 @@ impl Checker<'_> {
             .or(guards.band.as_ref().map(|band| band.key.clone()));
         let Some(rule) = guards.rule(word.value) else {
             let key = extra.unwrap_or(word.key.clone());
-            let what = format!("rule = \"{}\" is complete without it", word.value.word());
-            return self.clash(&key, &what);
+            let what = say!("rule = \"{}\" is complete without it", word.value.word());
+            return self.clash(&key, what);
         };
         if rule == DecisionRule::Jjf1094 && tolerance.is_some_and(|t| t.width().is_none()) {
             return self.refuse(
                 Fault::new(
                     DECISION_RULE,
                     word.span.clone(),
-                    format!(
+                    say!(
                         "{} has one tolerance limit, JJF 1094 a maximum permissible error",
                         subject.name
                     ),
                 )
-                .label("needs `lower` and `upper`")
-                .help("with one limit write for example rule = \"non-binary\""),
+                .label(say!("needs `lower` and `upper`"))
+                .help(say!(
+                    "with one limit write for example rule = \"non-binary\""
+                )),
             );
         }
         Some(rule)
@@ -141,11 +143,11 @@ impl Checker<'_> {
         }
     }
 
-    fn clash<T>(&mut self, key: &Range<usize>, what: &str) -> Option<T> {
+    fn clash<T>(&mut self, key: &Range<usize>, what: Said) -> Option<T> {
         self.refuse(
-            Fault::new(DECISION_RULE, key.clone(), format!("the decision rule is stated twice: {what}"))
-                .label("leave this out, or the other one")
-                .help("a guard band goes with \"guarded-acceptance\", \"guarded-rejection\" and \"non-binary\"; probabilities stand in its place"),
+            Fault::new(DECISION_RULE, key.clone(), say!("the decision rule is stated twice: {what}"))
+                .label(say!("leave this out, or the other one"))
+                .help(say!("a guard band goes with \"guarded-acceptance\", \"guarded-rejection\" and \"non-binary\"; probabilities stand in its place")),
         )
     }
 
@@ -165,9 +167,9 @@ impl Checker<'_> {
         match other {
             None => Some(()),
             Some((name, span)) => {
-                let what = format!("`{name}` beside `{key}`");
+                let what = say!("`{name}` beside `{key}`");
                 let span = span.clone();
-                self.clash(&span, &what)
+                self.clash(&span, what)
             }
         }
     }
@@ -185,10 +187,12 @@ impl Checker<'_> {
             Fault::new(
                 DECISION_RULE,
                 stated.span.clone(),
-                format!("a decision that is right with probability {p}"),
+                say!("a decision that is right with probability {p}"),
             )
-            .label("expected at least 0.5")
-            .help("state the probability of a right decision, such as 0.95"),
+            .label(say!("expected at least 0.5"))
+            .help(say!(
+                "state the probability of a right decision, such as 0.95"
+            )),
         )
     }
 
@@ -199,11 +203,11 @@ impl Checker<'_> {
                 Fault::new(
                     TWO_WAYS,
                     factor.key.clone(),
-                    "the guard band is stated in two ways",
+                    say!("the guard band is stated in two ways"),
                 )
-                .label("as a multiple of U here")
-                .related(amount.key.clone(), "as an amount here")
-                .help("leave out one"),
+                .label(say!("as a multiple of U here"))
+                .related(amount.key.clone(), say!("as an amount here"))
+                .help(say!("leave out one")),
             );
         }
         if let Some(factor) = &table.guard_band_factor {
@@ -218,9 +222,9 @@ impl Checker<'_> {
         };
         if amount.value.number <= 0.0 {
             return self.refuse(
-                Fault::new(NOT_POSITIVE, amount.span.clone(), "the guard band is not positive")
-                    .label("must be greater than zero")
-                    .help("the rule says on which side of the tolerance limits it lies; without a guard band write rule = \"simple\""),
+                Fault::new(NOT_POSITIVE, amount.span.clone(), say!("the guard band is not positive"))
+                    .label(say!("must be greater than zero"))
+                    .help(say!("the rule says on which side of the tolerance limits it lies; without a guard band write rule = \"simple\"")),
             );
         }
         let w = self.difference(amount, subject.unit, subject.name)?;
@@ -264,9 +268,9 @@ impl Checker<'_> {
                     Fault::new(
                         TOLERANCE,
                         stated.span.clone(),
-                        format!("{} acceptance limits", limits.len()),
+                        say!("{} acceptance limits", limits.len()),
                     )
-                    .label("expected one for every tolerance limit"),
+                    .label(say!("expected one for every tolerance limit")),
                 );
             }
         };
@@ -275,9 +279,9 @@ impl Checker<'_> {
                 Fault::new(
                     LIMITS,
                     stated.span.clone(),
-                    "the acceptance interval is empty",
+                    say!("the acceptance interval is empty"),
                 )
-                .label("expected [lower, upper]"),
+                .label(say!("expected [lower, upper]")),
             );
         }
         Some(DecisionRule::Stated(interval))
@@ -292,10 +296,10 @@ fn no_rule(stated: &Stated<ConformityTable>) -> Fault {
         .map(|amount| &amount.key)
         .or(stated.value.guard_band_factor.as_ref().map(|r| &r.key))
     {
-        Some(key) => (key.clone(), "a guard band without a decision rule"),
-        None => (stated.span.clone(), "the decision rule is missing"),
+        Some(key) => (key.clone(), say!("a guard band without a decision rule")),
+        None => (stated.span.clone(), say!("the decision rule is missing")),
     };
     Fault::new(DECISION_RULE, place, message)
-        .label("`rule` is missing")
-        .help("add `rule`: \"simple\", \"guarded-acceptance\", \"guarded-rejection\", \"non-binary\", \"ILAC-G8\", \"ISO 14253-1\" or \"JJF 1094\"; or `conformance_probability`")
+        .label(say!("`rule` is missing"))
+        .help(say!("add `rule`: \"simple\", \"guarded-acceptance\", \"guarded-rejection\", \"non-binary\", \"ILAC-G8\", \"ISO 14253-1\" or \"JJF 1094\"; or `conformance_probability`"))
 }

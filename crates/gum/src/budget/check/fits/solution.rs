@@ -11,7 +11,7 @@ use crate::budget::faults::{FIT_COLUMNS, FIT_ERRORS};
 use crate::budget::fit::{Fit, FitColumn, FitParameter, LackOfFit, LackOfFitTest};
 use crate::budget::tables::{FitTable, ScaleWord};
 use gumption_core::least_squares::{self, Errors, Problem, Scale, Solution, Spread};
-use gumption_fault::Fault;
+use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
 
 /// Residuals of this share of the largest response are what the arithmetic leaves of none.
@@ -130,10 +130,12 @@ impl Checker<'_> {
                 Fault::new(
                     FIT_ERRORS,
                     list.key.clone(),
-                    format!("`correlation` with {} predictors", columns.len() - 1),
+                    say!("`correlation` with {} predictors", columns.len() - 1),
                 )
-                .label("of one predictor and the response")
-                .help("leave it out; a common cause of several columns is a [source.NAME]"),
+                .label(say!("of one predictor and the response"))
+                .help(say!(
+                    "leave it out; a common cause of several columns is a [source.NAME]"
+                )),
             );
         }
         if list.value.len() != n {
@@ -141,13 +143,13 @@ impl Checker<'_> {
                 Fault::new(
                     FIT_COLUMNS,
                     list.span.clone(),
-                    format!(
+                    say!(
                         "{} correlation coefficients for {n} points",
                         list.value.len()
                     ),
                 )
-                .label(format!("expected {n}"))
-                .help("state one for each point"),
+                .label(say!("expected {n}"))
+                .help(say!("state one for each point")),
             );
         }
         Some(Some(list.value.iter().map(|r| r.value).collect()))

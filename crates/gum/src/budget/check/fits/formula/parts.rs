@@ -10,7 +10,7 @@ use crate::budget::faults::UNKNOWN_NAME;
 use crate::budget::tables::{FileTable, FitParameterTable, FitTable};
 use gumption_core::least_squares::{Gradient, Polynomial, Response};
 use gumption_core::quantity::Unit;
-use gumption_fault::{Fault, nearest};
+use gumption_fault::{Fault, nearest, say};
 
 /// A compiled formula: parameters first in its input vector, then the predictors.
 pub(crate) type Compiled = Gradient<Box<dyn Fn(&[f64], &mut [f64]) -> f64>>;
@@ -87,12 +87,12 @@ impl<'f> Scope<'f> {
     ) -> Fault {
         let known = self.columns.iter().map(|column| column.name);
         let help = match nearest(name, known.clone()) {
-            Some(near) => format!("did you mean {}?", quoted(near)),
-            None => format!("its columns are: {}", known.collect::<Vec<_>>().join(", ")),
+            Some(near) => say!("did you mean {}?", quoted(near)),
+            None => say!("its columns are: {}", known.collect::<Vec<_>>().join(", ")),
         };
-        let message = format!("the fit {} has no column {name}", self.name);
+        let message = say!("the fit {} has no column {name}", self.name);
         Fault::new(UNKNOWN_NAME, place, message)
-            .label("expected a column of the data")
+            .label(say!("expected a column of the data"))
             .help(help)
     }
 }

@@ -144,7 +144,8 @@ const SAME_DECIMAL: f64 = 4.0 * f64::EPSILON;
 
 /// The verdict as the decimals have it: a value on a limit is within it.
 fn verdict(estimate: f64, limits: &Limits) -> Verdict {
-    let same = |limit: f64| (limit - estimate).abs() <= SAME_DECIMAL * limit.abs();
+    let same =
+        |limit: f64| limit.is_finite() && (limit - estimate).abs() <= SAME_DECIMAL * limit.abs();
     let within = |interval: Interval| {
         interval.contains(estimate) || same(interval.lower) || same(interval.upper)
     };
@@ -457,6 +458,28 @@ mod tests {
                 &|y| kernel.outside(tolerance, y),
             );
         close(everything, 1.0, 1e-9);
+    }
+
+    /// A limit that is not there is not reached.
+    #[test]
+    fn one_limit_is_enough_to_reject() {
+        let binary = |interval: Interval| Limits {
+            acceptance: Some(interval),
+            rejection: interval,
+        };
+        let below = binary(Interval {
+            lower: f64::NEG_INFINITY,
+            upper: 11.0,
+        });
+        assert_eq!(verdict(12.0, &below), Verdict::NotConforming);
+        assert_eq!(verdict(11.0, &below), Verdict::Conforming);
+        assert_eq!(verdict(-1e9, &below), Verdict::Conforming);
+        let above = binary(Interval {
+            lower: 11.0,
+            upper: f64::INFINITY,
+        });
+        assert_eq!(verdict(10.0, &above), Verdict::NotConforming);
+        assert_eq!(verdict(1e9, &above), Verdict::Conforming);
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub(super) fn alike(
     };
     let mut slots = slots(space, question, search, &explanation, again);
     for slot in &mut slots {
-        if slot.state == State::Unexplained {
+        if slot.state != State::Ambiguous && !slot.named.is_empty() {
             slot.state = match slot.named.len() {
                 1 => State::Like,
                 _ => State::Ambiguous,

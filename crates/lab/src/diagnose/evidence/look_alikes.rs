@@ -217,7 +217,7 @@ mod tests {
 
     use super::super::baseline::{Baseline, Prior};
     use super::super::examine::examine;
-    use super::super::findings::{Examination, Slot};
+    use super::super::findings::{Examination, Slot, State};
     use super::super::noise::{Covariance, Noise};
     use super::super::question::{Atom, Candidate, Settings, Shape};
     use super::*;
@@ -295,7 +295,7 @@ mod tests {
     fn asked(effect: DVector<f64>, stream: u64) -> (Examination, Vec<String>) {
         with(effect, stream, |question| {
             let found = examine(question, &|_| ControlFlow::Continue(())).unwrap();
-            let unique = found.slots.iter().filter(|s| s.is_alone());
+            let unique = found.slots.iter().filter(|s| s.state == State::Identified);
             let name = |slot: &Slot| question.candidates[slot.named[0].candidate].name.clone();
             let names = unique.map(name).collect();
             (found, names)

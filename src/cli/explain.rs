@@ -4,7 +4,7 @@ mod keys;
 mod pages;
 
 use super::concepts::CONCEPTS;
-use super::form::system_language;
+use super::language::system_language;
 use super::{Outcome, output};
 use gumption::budget::KeyRow;
 use gumption::distribution::Kind;

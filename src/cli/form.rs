@@ -3,6 +3,7 @@
 use std::io::stdout;
 use std::path::PathBuf;
 
+use super::language::system_language;
 use super::output::{Complaint, Target};
 use super::{Outcome, output};
 use clap::{Arg, ArgAction, ArgMatches, Command};
@@ -24,24 +25,6 @@ pub(super) struct Form {
     width: Option<usize>,
     #[command(flatten)]
     target: Target,
-}
-
-/// The code of the language that the system is set to, by the first of LC_ALL, LC_MESSAGES and LANG that says something
-/// (POSIX, 8.2); English where the program does not speak it.
-pub(super) fn system_language() -> &'static str {
-    let settings = ["LC_ALL", "LC_MESSAGES", "LANG"];
-    let said = |name: &&str| {
-        let setting = std::env::var(name).ok();
-        setting.filter(|setting| !setting.is_empty())
-    };
-    code_of_locale(&settings.iter().find_map(said).unwrap_or_default())
-}
-
-fn code_of_locale(locale: &str) -> &'static str {
-    match locale.split(['_', '-', '.', '@']).next() {
-        Some(code) if code.eq_ignore_ascii_case("zh") => "zh",
-        _ => "en",
-    }
 }
 
 /// The format that a flag asks for; every format has one.
@@ -139,21 +122,4 @@ fn parse_width(text: &str) -> Result<usize, &'static str> {
         .parse()
         .map_err(|_| "write a number of columns, such as 100")?;
     Ok(width.clamp(NARROWEST, WIDEST))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::code_of_locale;
-
-    #[test]
-    fn the_system_says_its_language() {
-        for (locale, code) in [
-            ("zh_CN.UTF-8", "zh"),
-            ("zh", "zh"),
-            ("C", "en"),
-            ("de_DE", "en"),
-        ] {
-            assert_eq!(code_of_locale(locale), code, "{locale}");
-        }
-    }
 }

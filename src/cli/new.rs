@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::language::spoken;
 use super::{Outcome, output};
 use gumption::budget;
 use gumption::fault::harmless;
@@ -28,7 +29,7 @@ pub(super) fn run(args: &Args) -> Outcome {
         Ok(()) => {
             let path = args.path.display();
             let next = say!("Wrote {path}. Edit it, then run `gumption eval {path}`.");
-            let next = next.in_language(output::spoken()) + "\n";
+            let next = next.in_language(spoken()) + "\n";
             output::print(&*harmless(&next))
         }
         Err(unwritten) => {
@@ -36,7 +37,7 @@ pub(super) fn run(args: &Args) -> Outcome {
                 Why::Exists => say!(", or `-` to print the template"),
                 _ => Said::default(),
             };
-            output::complain(say!("{}{print}", unwritten.words(output::spoken())))
+            output::complain(say!("{}{print}", unwritten.words(spoken())))
         }
     }
 }

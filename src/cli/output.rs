@@ -4,10 +4,9 @@ use std::fmt::Display;
 use std::fs::Metadata;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
 
 use super::Outcome;
-use super::form::system_language;
+use super::language::spoken;
 use gumption::budget::Rejection;
 use gumption::fault::{Code, Said, harmless, say};
 use gumption::files::write::{self, Output, Replacing};
@@ -153,24 +152,6 @@ pub(super) fn complain(message: impl Into<Complaint>) -> Outcome {
     let error = spoken().pick("error", "错误");
     warn(&format!("{error}: {}\n", message.into()));
     Outcome::BadInput
-}
-
-/// The language in which a command speaks where no document, file or argument is at hand: that of `--lang` if it is
-/// among the arguments, else the system's.
-pub(super) fn spoken() -> Language {
-    static SPOKEN: LazyLock<Language> = LazyLock::new(|| {
-        let mut arguments = std::env::args_os().map(|a| a.to_string_lossy().into_owned());
-        let stated = arguments.find_map(|argument| match argument.strip_prefix("--lang") {
-            Some("") => Some(None),
-            Some(joined) => joined.strip_prefix('=').map(|code| Some(code.to_owned())),
-            None => None,
-        });
-        let code = stated.and_then(|code| code.or_else(|| arguments.next()));
-        let system = || system_language().parse().ok();
-        let stated = code.and_then(|code| code.parse().ok());
-        stated.or_else(system).unwrap_or_default()
-    });
-    *SPOKEN
 }
 
 /// Says why a file that is right gives no result, with the code under which `gumption explain` says more.

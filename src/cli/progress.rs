@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use gumption::fault::{Said, say};
 use gumption::propagate;
 
-use super::output;
+use super::language::spoken;
 
 /// Nobody waits for an evaluation that is quicker.
 const PATIENCE: Duration = Duration::from_millis(1500);
@@ -111,8 +111,7 @@ impl Drop for Steps {
 
 fn share_line(what: &Said, share: f64) -> String {
     let percent = (100.0 * share).clamp(0.0, 100.0);
-    say!("{what}: {percent:.0} % (Ctrl-C ends it; nothing is written then)")
-        .in_language(output::spoken())
+    say!("{what}: {percent:.0} % (Ctrl-C ends it; nothing is written then)").in_language(spoken())
 }
 
 fn line(drawn: u64, elapsed: Duration) -> String {
@@ -121,7 +120,7 @@ fn line(drawn: u64, elapsed: Duration) -> String {
     say!(
         "Monte Carlo: {millions:.0} million trials, {rate:.0} million a second (Ctrl-C ends it; nothing is written then)"
     )
-    .in_language(output::spoken())
+    .in_language(spoken())
 }
 
 #[cfg(test)]

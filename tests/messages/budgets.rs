@@ -127,7 +127,7 @@ fn no_mistake_is_explained_in_english() {
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
-/// The first three English words in a row outside of quotations and of lines of the file.
+/// The first three English words in a row outside of quotations, of lists of names and of lines of the file.
 fn english(shown: &str) -> Option<String> {
     let numbered = |line: &&str| {
         let (number, rest) = line.trim_start().split_once(' ').unwrap_or((line, ""));
@@ -150,7 +150,7 @@ fn english(shown: &str) -> Option<String> {
             }
             let words: Vec<&str> = rest.split(' ').collect();
             let word = |text: &&str| {
-                let letters = text.trim_end_matches([',', ':', ';', '.']);
+                let letters = text.trim_end_matches([':', ';', '.']);
                 letters.len() > 1 && letters.bytes().all(|byte| byte.is_ascii_alphabetic())
             };
             let run = words.windows(3).find(|run| run.iter().all(word))?;

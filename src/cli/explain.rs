@@ -177,7 +177,8 @@ fn wrapped(paragraph: &str) -> String {
 
 /// Chinese has no spaces to break at, and each of its signs takes two columns.
 fn broken(paragraph: &str) -> String {
-    let width = |c: char| if c.is_ascii() { 1 } else { 2 };
+    let wide = |c: char| c >= '\u{2e80}';
+    let width = |c: char| if wide(c) { 2 } else { 1 };
     let closes = |c: char| "，。；：、！？）”》…".contains(c);
     let (mut text, mut column) = (String::new(), 0);
     let mut chars = paragraph.chars().peekable();
@@ -186,7 +187,7 @@ fn broken(paragraph: &str) -> String {
         word.push(c);
         let next = chars.peek();
         let inside = next.is_some_and(|next| {
-            closes(*next) || c != ' ' && c.is_ascii() && next.is_ascii() && *next != ' '
+            closes(*next) || c != ' ' && !wide(c) && !wide(*next) && *next != ' '
         });
         if inside || "（“《".contains(c) {
             continue;

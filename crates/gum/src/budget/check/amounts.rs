@@ -273,8 +273,8 @@ fn share_of_what(amount: &Stated<Amount>, own: &Unit, unit: &Unit, owner: &str) 
     let (symbol, within) = (
         &own.symbol,
         match unit.is_one() {
-            true => String::new(),
-            false => format!(", in {}", unit.symbol),
+            true => Said::default(),
+            false => say!(", in {}", unit.symbol),
         },
     );
     Fault::new(

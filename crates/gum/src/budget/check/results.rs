@@ -332,7 +332,11 @@ impl Checker<'_> {
                         say!("this file itself"),
                     )
                 } else {
-                    let circle = say!("a circle: {}", names.join(" uses "));
+                    let chain = names.iter().skip(1).fold(
+                        names.first().map(|first| say!("{first}")).unwrap_or_default(),
+                        |chain, next| say!("{chain} uses {next}"),
+                    );
+                    let circle = say!("a circle: {chain}");
                     (
                         say!("{name} needs the result of this file itself"),
                         circle,

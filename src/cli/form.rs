@@ -1,6 +1,6 @@
 //! The form of a document: its format, language and width, and where it goes.
 
-use std::io::stdout;
+use std::io::{IsTerminal, stdout};
 use std::path::PathBuf;
 
 use super::language::system_language;
@@ -65,7 +65,20 @@ impl Form {
     /// Makes sure, before any work is done, that the document can be written as it is asked for, and these files
     /// beside it.
     pub fn is_possible(&self, beside: &[PathBuf]) -> Result<(), Outcome> {
-        self.format().map_err(output::complain)?;
+        let format = self.format().map_err(output::complain)?;
+        if !format.is_text() && self.target.file().is_none() && stdout().is_terminal() {
+            let name = format.name;
+            return Err(output::complain(self.lang.pick(
+                format!(
+                    "--{name} is not for terminals; write it to a file with -o FILE.{0}",
+                    format.ending
+                ),
+                format!(
+                    "--{name} 的内容不能显示在终端上，请用 -o 文件名.{0} 写入文件",
+                    format.ending
+                ),
+            )));
+        }
         self.target.is_allowed(beside, self.lang)
     }
 
@@ -77,10 +90,10 @@ impl Form {
     /// Writes a document and files beside it, all of them or none.
     pub fn write_with(&self, document: &Document, beside: Vec<Output>) -> Outcome {
         match self.format() {
-            Ok(format) => {
-                let bytes = (format.render)(document, &self.page());
-                self.target.write(bytes, beside, self.lang)
-            }
+            Ok(format) => match (format.render)(document, &self.page()) {
+                Ok(bytes) => self.target.write(bytes, beside, self.lang),
+                Err(unfit) => output::complain(unfit),
+            },
             Err(complaint) => output::complain(complaint),
         }
     }

@@ -187,10 +187,13 @@ fn dossier(
     language: Language,
 ) -> Result<Vec<Output>, Complaint> {
     let dossier = report::dossier(verification, language);
-    let formats = FORMATS.iter().filter(|format| format.name != "text");
+    let formats = FORMATS
+        .iter()
+        .filter(|format| format.is_text() && format.name != "text");
     let files = formats.map(|format| {
         let name = format!("verification.{}", format.ending);
-        (name, (format.render)(&dossier, &Page::default()))
+        let bytes = (format.render)(&dossier, &Page::default());
+        bytes.map(|bytes| (name, bytes)).map_err(|unfit| unfit.0)
     });
-    output::in_folder(folder, files)
+    output::in_folder(folder, files.collect::<Result<Vec<_>, String>>()?)
 }

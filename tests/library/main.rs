@@ -20,3 +20,4 @@ mod peers;
 mod published;
 mod references;
 mod strd;
+mod workbooks;

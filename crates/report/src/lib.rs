@@ -30,6 +30,7 @@ mod remarks;
 mod save;
 mod statement;
 mod verification;
+mod worksheet;
 
 #[cfg(test)]
 mod fixtures;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::form::Form;
-use super::output::Complaint;
+use super::output::{Beside, Complaint};
 use super::progress::Progress;
 use super::{Outcome, output};
 use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
@@ -81,7 +81,8 @@ pub(super) fn run(args: &Args) -> Outcome {
             "{flag} takes the results of one budget file; evaluate the files one after the other"
         ));
     }
-    let beside: Vec<PathBuf> = args.save.iter().chain(&args.csv).cloned().collect();
+    let files = args.save.iter().chain(&args.csv);
+    let beside: Vec<Beside> = files.cloned().map(Beside::File).collect();
     if let Err(outcome) = args.form.is_possible(&beside) {
         return outcome;
     }

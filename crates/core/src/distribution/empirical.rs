@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use gumption_fault::{say};
+use gumption_fault::say;
 use gumption_lanes::Sampler;
 use gumption_lanes::quantile::OfScore;
 

@@ -48,7 +48,7 @@ fn weight(runs: usize, above: usize, below: usize) -> f64 {
         }
     };
     let half = runs / 2;
-    if runs % 2 == 0 {
+    if runs.is_multiple_of(2) {
         2.0 * ways(half, half)
     } else {
         ways(half + 1, half) + ways(half, half + 1)

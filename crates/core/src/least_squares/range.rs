@@ -27,7 +27,7 @@ impl<'a> Scaled<'a> {
         let far = |unit: &f64| libm::ilogb(*unit).abs() > MOST;
         let usable = |unit: &f64| unit.is_normal();
         let units = || parameters.iter().chain(slopes.iter()).chain([&response]);
-        (units().any(far) && units().all(usable)).then(|| Scaled {
+        (units().any(far) && units().all(usable)).then_some(Scaled {
             problem,
             response,
             parameters,

@@ -22,14 +22,15 @@ pub(super) const OF_BUDGETS: Wording = Wording {
 
 /// A fault of this module in other words.
 pub fn reworded(mut fault: Fault, own: &Wording) -> Fault {
-    let reword = |said: Said| {
-        said.replacing(&OF_BUDGETS.measurand, &own.measurand)
-            .replacing(&OF_BUDGETS.unit, &own.unit)
-            .replacing(&OF_BUDGETS.given, &own.given)
-    };
-    fault.message = reword(fault.message);
-    fault.help = fault.help.map(reword);
+    fault.message = said_of(fault.message, own);
+    fault.help = fault.help.map(|help| said_of(help, own));
     fault
+}
+
+fn said_of(said: Said, own: &Wording) -> Said {
+    said.replacing(&OF_BUDGETS.measurand, &own.measurand)
+        .replacing(&OF_BUDGETS.unit, &own.unit)
+        .replacing(&OF_BUDGETS.given, &own.given)
 }
 
 codes! {

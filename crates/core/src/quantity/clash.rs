@@ -149,7 +149,7 @@ mod tests {
             ("min/r", "s", "n * (1 'r')"),
             ("Hz", "r/min", "n * (1 'r')"),
         ] {
-            let help = lost(a, b).unwrap_or_default();
+            let help = lost(a, b).unwrap_or_default().to_string();
             assert!(help.contains(mend), "{a} to {b}: {help}");
         }
         for (a, b) in [
@@ -171,7 +171,11 @@ mod tests {
 
     #[test]
     fn classical_confusions_get_a_hint() {
-        let hint = |a: &str, b: &str| hint_for_clash(&unit(a), &unit(b)).unwrap_or_default();
+        let hint = |a: &str, b: &str| {
+            hint_for_clash(&unit(a), &unit(b))
+                .unwrap_or_default()
+                .to_string()
+        };
         assert!(hint("m/s^2", "g").contains("`gn`"));
         assert!(hint("mA/g", "mA/gn").contains("`gn`"));
         assert!(hint("m/s^2", "mg").contains("`mgn`"));

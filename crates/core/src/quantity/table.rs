@@ -454,7 +454,7 @@ mod tests {
 
     #[test]
     fn unknown_units_are_located_and_explained() {
-        let suggestion = |text: &str| error(text).help.unwrap().into_string();
+        let suggestion = |text: &str| error(text).help.unwrap().to_string();
         assert_eq!(error("mV/KHz").span, 3..6);
         assert_eq!(error("℃/foo").span, 4..7);
         assert_eq!(error("mV/KHz").message, "`KHz` is not a known unit");
@@ -477,7 +477,7 @@ mod tests {
 
     #[test]
     fn suggestions_never_change_a_size_in_silence() {
-        let suggestion = |text: &str| error(text).help.unwrap().into_string();
+        let suggestion = |text: &str| error(text).help.unwrap().to_string();
         assert_eq!(
             suggestion("Mpa"),
             "write `MPa` or `mPa`: upper and lower case matter"

@@ -23,6 +23,7 @@ pub const CRATES: [&str; 13] = [
     "verify",
     "report",
     "challenge",
+    "python",
     "gumption",
 ];
 

@@ -39,7 +39,7 @@ pub use claim::{Claim, ClaimedFigure, ClaimedMethod, Confidence, Figure, NamedFi
 pub use components::{Certificate, Component, Evaluation, Group, Input, Law, Owner, Term};
 pub use conventions::{
     Adaptive, Confirmation, Conventions, CoverageRule, DofRule, MonteCarloSettings, OutputShape,
-    Points, StatementForm, TScale, Trials,
+    Points, StatementForm, TScale, Trials, Wanted,
 };
 pub use decision::{
     Conformity, DecisionRule, Detection, Following, Follows, GlobalRisks, Guard,

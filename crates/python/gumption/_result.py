@@ -1,0 +1,215 @@
+"""What a command found: its figures as attributes, its document in every format."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ._engine import Made
+
+
+class Record:
+    """A structure of the machine form (``docs/*.schema.json``): its fields are attributes, its lists of numbers arrays.
+
+    Infinity is ``inf``; ``None`` means that there is no such figure.
+    """
+
+    __slots__ = ("_fields",)
+
+    def __init__(self, fields: dict[str, Any]):
+        self._fields = fields
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return _wrapped(self._fields[name])
+        except KeyError:
+            raise AttributeError(f"there is no {name}; there are {', '.join(self._fields)}") from None
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._fields]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The fields as they stand in the JSON."""
+        return self._fields
+
+    def __repr__(self) -> str:
+        def short(value: Any) -> str:
+            return f"<{len(value)} entries>" if isinstance(value, (list, dict)) else repr(value)
+
+        fields = ", ".join(f"{name}={short(value)}" for name, value in self._fields.items())
+        return f"{type(self).__name__}({fields})"
+
+
+class Measurand(Record):
+    """A measurand of an evaluated budget: the figures that are reported, by their symbols; all others by their names."""
+
+    __slots__ = ()
+
+    @property
+    def y(self) -> float:
+        """The estimate."""
+        return self.reported.estimate
+
+    @property
+    def u(self) -> float | None:
+        """The standard uncertainty; ``None`` where the distribution has none."""
+        return self.reported.standard_uncertainty
+
+    @property
+    def nu(self) -> float | None:
+        """The degrees of freedom that give k; ``None`` for a k that is fixed."""
+        return self.reported.degrees_of_freedom
+
+    @property
+    def k(self) -> float | None:
+        """The coverage factor."""
+        return self.reported.coverage_factor
+
+    @property
+    def U(self) -> float | None:  # noqa: N802 - the symbol of the standard
+        """The expanded uncertainty; ``None`` where an interval is reported instead."""
+        return self.reported.expanded_uncertainty
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The coverage interval: y ± U, or that of the Monte Carlo method where it is reported."""
+        stated = self.reported.interval
+        return (self.y - self.U, self.y + self.U) if stated is None else tuple(stated)
+
+    @property
+    def p(self) -> float | None:
+        """The coverage probability, where one is claimed."""
+        return self.reported.coverage_probability
+
+
+class Result:
+    """What a command found.
+
+    The fields of its machine form are attributes; ``text``, ``to_html`` and the others are its report. Of a budget
+    with a series, ``rows`` has the results of all rows.
+    """
+
+    def __init__(self, made: Made, language: str):
+        self._made = made
+        self._language = language
+
+    @cached_property
+    def rows(self) -> list[Record]:
+        """The machine form of each row of a series; one of anything else."""
+        value = json.loads(self._made.json())
+        return [Record(one) for one in (value if isinstance(value, list) else [value])]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._only, name)
+
+    def __getitem__(self, name: str) -> Record:
+        """A measurand of a budget, or a coefficient of a calibration, by its name."""
+        return _named(self._only, name)
+
+    def measurand(self, name: str, row: int = 0) -> Measurand:
+        """A measurand of a row."""
+        return _named(self.rows[row], name)
+
+    @property
+    def _only(self) -> Record:
+        if len(self.rows) > 1:
+            raise LookupError(f"there are {len(self.rows)} rows: take one of `rows`, or `measurand(name, row)`")
+        return self.rows[0]
+
+    def samples(self, trials: int = 1_000_000, row: int = 0) -> dict[str, np.ndarray]:
+        """Values of every measurand in trials of the Monte Carlo method; the n-th of all are of one trial."""
+        names = [one.name for one in self.rows[row].measurands]
+        return dict(zip(names, self._made.samples(row, trials)))
+
+    def frame(self):
+        """What is reported of every measurand and row, as a table of pandas."""
+        import pandas
+
+        def line(row: Record, one: Measurand) -> dict[str, Any]:
+            low, high = one.interval
+            figures = {"y": one.y, "unit": one.unit, "u": one.u, "nu": one.nu, "k": one.k, "U": one.U}
+            return {"row": row.label, "measurand": one.name, **figures, "low": low, "high": high}
+
+        return pandas.DataFrame([line(row, one) for row in self.rows for one in row.measurands])
+
+    def files(self, language: str | None = None) -> dict[str, str]:
+        """Files that go with the result, by name: a budget of the coefficients, the improved experiment."""
+        return dict(self._made.files(language or self._language))
+
+    def text(self, language: str | None = None, width: int = 100) -> str:
+        """The report as text."""
+        return self.render("text", language, width).decode()
+
+    def render(self, format: str, language: str | None = None, width: int = 100) -> bytes:
+        """The report in a format of the program: ``text``, ``markdown``, ``html``, ``json`` and whatever else it has."""
+        return self._made.render(format, language or self._language, width)
+
+    def save(self, path: str | os.PathLike, language: str | None = None) -> None:
+        """Writes the report in the format of the ending; an existing file is not replaced."""
+        path = Path(path)
+        endings = {ending: name for name, ending in self._made.formats()}
+        try:
+            format = endings[path.suffix.lstrip(".")]
+        except KeyError:
+            raise ValueError(f"the endings are {', '.join('.' + ending for ending in endings)}") from None
+        content = self.render(format, language)
+        with open(path, "xb") as file:
+            file.write(content)
+
+    def to_html(self, language: str | None = None) -> str:
+        """The report as a page that stands alone."""
+        return self.render("html", language).decode()
+
+    def _repr_html_(self) -> str:
+        import html
+
+        page = html.escape(self.to_html(), quote=True)
+        return f'<iframe srcdoc="{page}" style="width:100%;height:32em;border:0" sandbox></iframe>'
+
+    def _repr_markdown_(self) -> str:
+        return self.render("markdown").decode()
+
+    def __iter__(self) -> Iterator[Record]:
+        return iter(self.rows)
+
+    def __len__(self) -> int:
+        return len(self.rows)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def __repr__(self) -> str:
+        return f"<gumption {self.rows[0].format}, rows: {len(self.rows)}>"
+
+
+def _named(record: Record, name: str) -> Any:
+    fields = record.to_dict()
+    for key in ("measurands", "coefficients"):
+        for one in fields.get(key) or []:
+            if one["name"] == name:
+                return Measurand(one) if key == "measurands" else Record(one)
+    names = [one["name"] for key in ("measurands", "coefficients") for one in fields.get(key) or []]
+    raise KeyError(f"there is no {name}; there are {', '.join(names)}")
+
+
+def _wrapped(value: Any, kind: type[Record] = Record) -> Any:
+    if value == "inf":
+        return math.inf
+    if value == "-inf":
+        return -math.inf
+    if isinstance(value, dict):
+        return Measurand(value) if "reported" in value and "gum" in value else kind(value)
+    if isinstance(value, list):
+        if value and all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in value):
+            return np.array(value, dtype=float)
+        return [_wrapped(one) for one in value]
+    return value

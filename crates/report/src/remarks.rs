@@ -2,10 +2,10 @@
 
 use gumption_core::special::student_t_two_sided_quantile;
 use gumption_format::document::{Finding as Remark, Severity};
-use gumption_gum::budget::CoverageRule;
+use gumption_gum::budget::{CoverageRule, FitDoubt};
 use gumption_gum::propagate::{CoverageBasis, EvaluationError, FindingKind, Reason, is_residue};
 
-use super::fits::test_figures;
+use super::fits::{doubtful_fit, test_figures};
 use super::language::Language;
 use super::number::{aligned, exact, freedom, grouped, probability, significant};
 use super::{Report, moments};
@@ -74,6 +74,11 @@ pub(super) fn code(kind: &FindingKind) -> &'static str {
         FindingKind::LackOfFit { .. } => "lack_of_fit",
         FindingKind::ResidualsTooSmall { .. } => "residuals_too_small",
         FindingKind::ExactFit { .. } => "exact_fit",
+        FindingKind::DoubtfulFit { doubt, .. } => match doubt {
+            FitDoubt::Pattern { .. } => "residual_pattern",
+            FitDoubt::Pole { .. } => "pole_between_points",
+            FitDoubt::BetterMinimum { .. } => "better_minimum",
+        },
         FindingKind::Asymmetric => "asymmetric",
     }
 }
@@ -178,6 +183,7 @@ fn english(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             "The data of the fit {fit} lie closer to the curve than their stated uncertainties let expect ({}). Perhaps these are too large, or contain a part that all points have in common: state that as a component with common = true.",
             test_figures(Language::English, test),
         ),
+        FindingKind::DoubtfulFit { fit, doubt } => doubtful_fit(Language::English, fit, doubt),
         FindingKind::ExactFit { fit } => format!(
             "The curve of the fit {fit} passes through all its points, so that the residuals tell no uncertainty of its parameters: they enter as exact. State the uncertainties of the data."
         ),
@@ -270,6 +276,7 @@ fn chinese(report: &Report<'_>, measurand: Option<usize>, kind: &FindingKind) ->
             "拟合 {fit} 的数据比所给不确定度的预期更接近曲线（{}）。不确定度可能偏大，或含有各点共有的部分：请将该部分写成 common = true 的分量。",
             test_figures(Language::Chinese, test),
         ),
+        FindingKind::DoubtfulFit { fit, doubt } => doubtful_fit(Language::Chinese, fit, doubt),
         FindingKind::ExactFit { fit } => format!(
             "拟合 {fit} 的曲线通过所有数据点，残差不能给出参数的不确定度，参数按精确值处理。请给出数据的不确定度。"
         ),

@@ -163,7 +163,8 @@ many. Two assessments of one measurand have a `name` each.";
 
 DECISION_RULE = "B0502", "a decision rule is missing or contradicts itself", "判定规则缺失或自相矛盾",
 "A statement of conformity needs the rule by which uncertainty was taken into account (ISO/IEC 17025 7.8.6): `rule`, or \
-`acceptance` limits, or the probabilities from which they follow. A guard band is an amount or a multiple of U.";
+`acceptance` limits, or the probabilities or risks from which they follow. A guard band is an amount or a multiple of U. A global \
+risk is an average over all items and needs `process`, what is known of them before one is measured (JCGM 106 clause 9).";
 
 PROCESS = "B0503", "the knowledge of the process is not usable", "过程信息不可用",
 "`process` states a distribution with its parameters, located where the items are, or `in_tolerance_probability`, which \

@@ -3,7 +3,7 @@
 use gumption_format::document::Severity;
 
 use super::monte_carlo::MissingMoments;
-use crate::budget::LackOfFit;
+use crate::budget::{FitDoubt, LackOfFit};
 use gumption_core::model::Notice;
 
 /// Something the reader must know before using the numbers.
@@ -147,6 +147,13 @@ pub enum FindingKind {
         fit: String,
         /// The test.
         test: LackOfFit,
+    },
+    /// Something else speaks against the curve of a fit.
+    DoubtfulFit {
+        /// Name of the fit.
+        fit: String,
+        /// What.
+        doubt: FitDoubt,
     },
     /// The residuals of a fit are smaller than the stated uncertainties of its data let expect.
     ResidualsTooSmall {

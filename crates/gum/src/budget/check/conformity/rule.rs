@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use super::Subject;
 use crate::budget::check::Checker;
+use crate::budget::check::draft::show;
 use crate::budget::faults::{DECISION_RULE, LIMITS, NOT_POSITIVE, TOLERANCE, TWO_WAYS};
 use crate::budget::tables::{ConformityTable, RuleWord};
-use crate::budget::{DecisionRule, Guard, ISO_14253_PROBABILITY, Interval};
+use crate::budget::{DecisionRule, GlobalRisks, Guard, ISO_14253_PROBABILITY, Interval};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Amount;
 use gumption_format::toml::Stated;
@@ -80,11 +81,21 @@ impl Checker<'_> {
     ) -> Option<DecisionRule> {
         let table = &stated.value;
         if let Some(limits) = &table.acceptance {
-            self.alone(table, "acceptance")?;
+            self.alone(table, &["acceptance"])?;
             return self.stated_acceptance(limits, subject, tolerance?);
         }
-        let inner = self.stated_probability(&table.conformance_probability);
-        let outer = self.stated_probability(&table.nonconformance_probability);
+        if table.global_consumer_risk.is_some() || table.global_producer_risk.is_some() {
+            self.alone(table, &["global_consumer_risk", "global_producer_risk"])?;
+            return self.permitted_risks(table);
+        }
+        let inner = self.right_decision(
+            &table.conformance_probability,
+            &table.specific_consumer_risk,
+        );
+        let outer = self.right_decision(
+            &table.nonconformance_probability,
+            &table.specific_producer_risk,
+        );
         let band = self.band(table, subject);
         let guards = Guards {
             inner: inner?,
@@ -101,6 +112,8 @@ impl Checker<'_> {
             .conformance_probability
             .as_ref()
             .or(table.nonconformance_probability.as_ref())
+            .or(table.specific_consumer_risk.as_ref())
+            .or(table.specific_producer_risk.as_ref())
             .map(|stated| stated.key.clone())
             .or(guards.band.as_ref().map(|band| band.key.clone()));
         let Some(rule) = guards.rule(word.value) else {
@@ -151,49 +164,109 @@ impl Checker<'_> {
         )
     }
 
-    /// Nothing else may state the rule beside the acceptance limits.
-    fn alone(&mut self, table: &ConformityTable, key: &str) -> Option<()> {
-        const RULES: [&str; 5] = [
+    /// Nothing else may state the rule beside keys that are complete by themselves.
+    fn alone(&mut self, table: &ConformityTable, keys: &[&str]) -> Option<()> {
+        const RULES: [&str; 10] = [
             "rule",
             "guard_band",
             "guard_band_factor",
             "conformance_probability",
             "nonconformance_probability",
+            "specific_consumer_risk",
+            "specific_producer_risk",
+            "global_consumer_risk",
+            "global_producer_risk",
+            "acceptance",
         ];
-        let other = table
-            .present
-            .iter()
-            .find(|(present, _)| RULES.contains(present));
+        let mut present = table.present.iter();
+        let other = present.find(|(key, _)| RULES.contains(key) && !keys.contains(key));
         match other {
             None => Some(()),
             Some((name, span)) => {
-                let what = say!("`{name}` beside `{key}`");
+                let mut stated = table.present.iter().map(|(key, _)| *key);
+                let complete = stated.find(|key| keys.contains(key)).unwrap_or(keys[0]);
+                let what = say!("`{name}` beside `{complete}`");
                 let span = span.clone();
                 self.clash(&span, what)
             }
         }
     }
 
-    /// A probability that decides: better than tossing a coin.
-    fn stated_probability(&mut self, stated: &Option<Stated<f64>>) -> Option<Option<Guard>> {
-        let Some(stated) = stated else {
-            return Some(None);
+    /// A probability that decides, or the risk that is its complement: better than tossing a coin.
+    fn right_decision(
+        &mut self,
+        probability: &Option<Stated<f64>>,
+        risk: &Option<Stated<f64>>,
+    ) -> Option<Option<Guard>> {
+        let (stated, right, expected, such) = match (probability, risk) {
+            (None, None) => return Some(None),
+            (Some(first), Some(second)) => {
+                return self.refuse(
+                    Fault::new(
+                        TWO_WAYS,
+                        second.key.clone(),
+                        say!("a risk and its complement are both stated"),
+                    )
+                    .label(say!("the risk here"))
+                    .related(first.key.clone(), say!("the probability here"))
+                    .help(say!("leave out one")),
+                );
+            }
+            (Some(p), None) => (
+                p,
+                self.probability(p)?,
+                say!("expected at least 0.5"),
+                say!("state the probability of a right decision, such as 0.95"),
+            ),
+            (None, Some(p)) => (
+                p,
+                1.0 - self.probability(p)?,
+                say!("expected at most 0.5"),
+                say!("state the permissible risk of a wrong decision, such as 0.05"),
+            ),
         };
-        let p = self.probability(stated)?;
-        if p >= 0.5 {
-            return Some(Some(Guard::Probability(p)));
+        if right >= 0.5 {
+            return Some(Some(Guard::Probability(right)));
         }
         self.refuse(
             Fault::new(
                 DECISION_RULE,
                 stated.span.clone(),
-                say!("a decision that is right with probability {p}"),
+                say!("a decision that is right with probability {}", show(right)),
             )
-            .label(say!("expected at least 0.5"))
-            .help(say!(
-                "state the probability of a right decision, such as 0.95"
-            )),
+            .label(expected)
+            .help(such),
         )
+    }
+
+    /// Permissible risks over all items, of which something must be known.
+    fn permitted_risks(&mut self, table: &ConformityTable) -> Option<DecisionRule> {
+        let mut risk = |stated: &Option<Stated<f64>>| match stated {
+            Some(stated) => self.probability(stated).map(Some),
+            None => Some(None),
+        };
+        let consumer = risk(&table.global_consumer_risk);
+        let producer = risk(&table.global_producer_risk);
+        let (consumer, producer) = (consumer?, producer?);
+        let stated = table
+            .global_consumer_risk
+            .as_ref()
+            .or(table.global_producer_risk.as_ref())?;
+        if table.process.is_none() {
+            return self.refuse(
+                Fault::new(
+                    DECISION_RULE,
+                    stated.key.clone(),
+                    say!("a global risk, and nothing is known of the items"),
+                )
+                .label(say!("is an average over all items: `process` is missing"))
+                .help(say!("add process = {{ in_tolerance_probability = 0.95 }} or its distribution; for the risk of the one item that was measured write `specific_consumer_risk` or `specific_producer_risk`")),
+            );
+        }
+        Some(DecisionRule::GlobalRisks(GlobalRisks {
+            consumer,
+            producer,
+        }))
     }
 
     /// The guard band, if there is one.
@@ -301,5 +374,5 @@ fn no_rule(stated: &Stated<ConformityTable>) -> Fault {
     };
     Fault::new(DECISION_RULE, place, message)
         .label(say!("`rule` is missing"))
-        .help(say!("add `rule`: \"simple\", \"guarded-acceptance\", \"guarded-rejection\", \"non-binary\", \"ILAC-G8\", \"ISO 14253-1\" or \"JJF 1094\"; or `conformance_probability`"))
+        .help(say!("add `rule`: \"simple\", \"guarded-acceptance\", \"guarded-rejection\", \"non-binary\", \"ILAC-G8\", \"ISO 14253-1\" or \"JJF 1094\"; or a permissible risk: `specific_consumer_risk`, or `global_consumer_risk` where `process` is known"))
 }

@@ -9,7 +9,8 @@ use crate::budget::faults::{FIT_ERRORS, FIT_FAILED, FIT_INDISTINCT, FIT_POINTS, 
 use crate::budget::fit::column_of;
 use crate::budget::tables::FitTable;
 use crate::budget::variants::Numbers;
-use gumption_core::least_squares::{Failure, Observed};
+use gumption_core::least_squares::{Elsewhere, Failure, Observed};
+use gumption_core::quantity::{Decimal, Rounding};
 use gumption_fault::{Fault, Said, say};
 use gumption_format::toml::Stated;
 
@@ -21,6 +22,8 @@ pub(super) struct Unsolved<'f> {
     pub formula: &'f Formula,
     /// In the order of the solver: response first.
     pub columns: &'f [&'f Column<'f>],
+    /// Minima that other starts lead to, the best first.
+    pub elsewhere: Vec<Elsewhere>,
 }
 
 impl Unsolved<'_> {
@@ -137,10 +140,15 @@ impl Unsolved<'_> {
             .map(|parameter| parameter.name.as_str())
             .collect();
         let message = say!("the data do not tell {} apart", names.join(" and "));
-        Fault::new(FIT_INDISTINCT, self.place(), message)
-            .label(say!("they can change together and leave the curve as it is"))
-            .related(self.data(), say!("at these points"))
-            .help(match names.as_slice() {
+        let fault = Fault::new(FIT_INDISTINCT, self.place(), message)
+            .label(say!(
+                "they can change together and leave the curve as it is"
+            ))
+            .related(self.data(), say!("at these points"));
+        if let Some(start) = self.better_start() {
+            return fault.help(start);
+        }
+        fault.help(match names.as_slice() {
                 [one] => say!("{one} does not act at these points: leave it out of the formula, or add points where it does"),
                 _ => say!("leave out one of {}, or add points where they act differently", names.join(", ")),
             })
@@ -156,19 +164,14 @@ impl Unsolved<'_> {
         Fault::new(FIT_FAILED, self.place(), message)
             .label(say!("at the start values of its parameters"))
             .related(value_place(last, point), say!("this point"))
-            .help(say!(
-                "choose start values for which every point has a value"
-            ))
+            .help(
+                self.better_start().unwrap_or_else(|| {
+                    say!("choose start values for which every point has a value")
+                }),
+            )
     }
 
     fn no_convergence(&self, iterations: usize, parameters: &[f64]) -> Fault {
-        let best: Vec<String> = self
-            .formula
-            .parameters
-            .iter()
-            .zip(parameters)
-            .map(|(parameter, value)| format!("{} = {}", parameter.name, show(*value)))
-            .collect();
         let message = say!(
             "the fit {} was not found within {}",
             self.name,
@@ -176,10 +179,29 @@ impl Unsolved<'_> {
         );
         Fault::new(FIT_FAILED, self.place(), message)
             .label(say!("the search does not settle"))
-            .help(say!(
-                "choose other start values; it stopped at {}",
-                best.join(", ")
-            ))
+            .help(self.better_start().unwrap_or_else(|| {
+                let stopped = self.values(parameters, 6);
+                say!("choose other start values; it stopped at {stopped}")
+            }))
+    }
+
+    /// That the start is a bad one, where other starts lead to a minimum.
+    fn better_start(&self) -> Option<Said> {
+        let best = self.elsewhere.first()?;
+        Some(say!(
+            "these start values are bad ones; others lead to a minimum at {}: write such values as `start`, and see whether the curve is the one that is meant",
+            self.values(&best.parameters, 3)
+        ))
+    }
+
+    /// `a = 2.5, b = 0.31`.
+    fn values(&self, parameters: &[f64], digits: u8) -> String {
+        let pairs = self.formula.parameters.iter().zip(parameters);
+        let values = pairs.map(|(parameter, value)| {
+            let value = Decimal::from_f64(*value).round_to_significant(digits, Rounding::HalfEven);
+            format!("{} = {}", parameter.name, show(value.to_f64()))
+        });
+        values.collect::<Vec<_>>().join(", ")
     }
 
     fn not_finite(&self) -> Fault {

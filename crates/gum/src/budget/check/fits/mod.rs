@@ -6,6 +6,7 @@
 //! through ∂parameter/∂datum, as components of their own.
 
 mod columns;
+mod doubts;
 mod failures;
 mod fitted;
 mod formula;

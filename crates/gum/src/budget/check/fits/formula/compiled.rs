@@ -45,7 +45,8 @@ impl Checker<'_> {
         Ok(Formula {
             response: formula.response,
             predictors: known.predictors,
-            shape: Shape::Compiled(response(model, parameters.len(), linear)),
+            shape: Shape::Compiled(response(model.clone(), parameters.len(), linear)),
+            model: Some(model),
             parameters,
             equation: formula.outline.printed.clone(),
             place: formula.text.span.clone(),

@@ -9,6 +9,7 @@ use crate::budget::Constant;
 use crate::budget::faults::UNKNOWN_NAME;
 use crate::budget::tables::{FileTable, FitParameterTable, FitTable};
 use gumption_core::least_squares::{Gradient, Polynomial, Response};
+use gumption_core::model::Model;
 use gumption_core::quantity::Unit;
 use gumption_fault::{Fault, nearest, say};
 
@@ -33,6 +34,8 @@ pub(crate) struct Formula {
     pub predictors: Vec<usize>,
     pub parameters: Vec<Parameter>,
     pub shape: Shape,
+    /// The compiled formula, parameters before predictors; none of a polynomial.
+    pub model: Option<Model>,
     /// In printed form.
     pub equation: String,
     /// Place to which faults of the fit as a whole point.

@@ -59,6 +59,7 @@ impl Checker<'_> {
             equation: between.equation(&parameters),
             parameters,
             shape: Shape::Polynomial(between.polynomial),
+            model: None,
             place: degree.span.clone(),
         })
     }

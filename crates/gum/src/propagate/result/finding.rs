@@ -171,6 +171,8 @@ pub struct FewReadings {
     pub component: String,
     /// ν of the t-distribution from which Monte Carlo draws it.
     pub dof: f64,
+    /// Its part of u², GUM; the parts of all components are one.
+    pub share: f64,
 }
 
 impl FindingKind {

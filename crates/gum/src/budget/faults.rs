@@ -109,6 +109,10 @@ OUTLIER_TEST = "B0220", "a test for outliers cannot say anything", "离群值检
 standard deviations need 11: with fewer no reading can be so far from the mean. `significance` is for the tests of Grubbs \
 and Dixon.";
 
+TWO_TURNS = "B0225", "readings of a direction are written on two turns", "方向读数跨越整圈的起点",
+"359.8° and 0.1° are 0.3° apart, and their arithmetic mean of 180° points the other way. Readings of one direction, all \
+within half a turn of one another, are written on one turn: -0.2 in place of 359.8, or 360.1 in place of 0.1.";
+
 UNKNOWN_NAME = "B0301", "a name is not known", "所引用的名称未知",
 "A correlation, a joint input, a claim or a series refers to an input, source or component that the file does not have.";
 

@@ -6,12 +6,13 @@ use super::checker::Checker;
 use super::draft::{Context, Core, Location, show};
 use crate::budget::faults::{
     MISSING_KEY, MODIFIER, NO_SCATTER, OUTLIER_TEST, PROBABILITY, SERIAL, TOO_FEW_READINGS,
-    TWO_WAYS,
+    TWO_TURNS, TWO_WAYS,
 };
 use crate::budget::tables::{ComponentTable, OutlierWord, PooledTable};
 use crate::budget::variants::{Numbers, ReadingsOf};
 use crate::budget::{Finding, Outlier, Statistics};
 use gumption_core::distribution::{Distribution, StudentT};
+use gumption_core::quantity::Decimal;
 use gumption_core::statistics::{Dd, OutlierTest, Series, pooled};
 use gumption_fault::{Fault, say};
 use gumption_format::toml::Stated;
@@ -67,6 +68,9 @@ impl Checker<'_> {
         };
         let numbers = self.exact_numbers(readings, Some(context.unit))?;
         let plain: Vec<f64> = numbers.iter().map(|number| number.value()).collect();
+        if let Some(fault) = on_two_turns(readings, &plain, context) {
+            return self.refuse(fault);
+        }
         if let Some(pooled) = &table.pooled {
             let findings = match plain.len() > 1 && !all_equal(&plain) {
                 true => self.describe(&numbers, None, readings, table)?,
@@ -495,6 +499,40 @@ fn no_scatter(readings: &Stated<Numbers>, numbers: &[f64], context: &Context<'_>
     Fault::new(NO_SCATTER, readings.span.clone(), say!("all {} readings of {} are {value}", numbers.len(), context.owner))
         .label(say!("no scatter, so no uncertainty follows from them"))
         .help(say!("the scatter is below the resolution: state `value` and the resolution, {{ step = … }}, or add the resolution to `components`"))
+}
+
+/// Directions that lie within half a turn of one another, written on two turns: their arithmetic mean points elsewhere.
+fn on_two_turns(readings: &Stated<Numbers>, plain: &[f64], context: &Context<'_>) -> Option<Fault> {
+    let turn = context.unit.full_turn()?;
+    let first = *plain.first()?;
+    let spread = |angles: &[f64]| {
+        let low = angles.iter().copied().fold(f64::INFINITY, f64::min);
+        angles.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low
+    };
+    let beside = |angle: f64| angle - turn * ((angle - first) / turn).round();
+    let unwrapped: Vec<f64> = plain.iter().map(|angle| beside(*angle)).collect();
+    if spread(plain) <= turn / 2.0 || spread(&unwrapped) > turn / 2.0 {
+        return None;
+    }
+    let other = plain
+        .iter()
+        .copied()
+        .find(|angle| (angle - first).abs() > turn / 2.0)?;
+    let unit = &context.unit.symbol;
+    Some(
+        Fault::new(
+            TWO_TURNS,
+            readings.span.clone(),
+            format!("the readings of {} lie on both sides of the end of a turn: {first} {unit} and {other} {unit}", context.owner),
+        )
+        .label("their arithmetic mean is another direction")
+        .help(format!("write all of them on one turn: {} in place of {other}", Decimal::from_f64(at_twelve(beside(other))))),
+    )
+}
+
+/// Twelve digits: what the subtraction of a turn leaves behind them is not the file's.
+fn at_twelve(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
 }
 
 /// Zero-mean t distribution of a mean of readings, for reuse by joint readings.

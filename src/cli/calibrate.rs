@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::form::Form;
-use super::output::Complaint;
+use super::output::{Beside, Complaint};
 use super::{Outcome, output};
 use gumption::calibrate::{self, Calibration, Campaign, Trouble};
 use gumption::experiment::Purpose;
@@ -25,11 +25,17 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    let beside = args.budget.iter().map(|wanted| asked(wanted).1.into());
-    if let Err(outcome) = args.form.is_possible(&beside.collect::<Vec<PathBuf>>()) {
-        return outcome;
-    }
-    let campaign = match read(&args.file, Purpose::Calibrate, args.form.lang) {
+    let beside = args
+        .budget
+        .iter()
+        .map(|wanted| Beside::File(asked(wanted).1.into()));
+    let beside: Vec<Beside> = beside.collect();
+    let campaign = args.form.is_possible(&beside).and_then(|()| {
+        let campaign = read(&args.file, Purpose::Calibrate, args.form.lang)?;
+        // Now it is known what was read, too.
+        args.form.is_possible(&beside).map(|()| campaign)
+    });
+    let campaign = match campaign {
         Ok(campaign) => campaign,
         Err(outcome) => return outcome,
     };

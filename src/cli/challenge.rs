@@ -131,7 +131,7 @@ fn write(out: &Path, request: &Request) -> Outcome {
         return written;
     }
     output::print(&*harmless(&format!(
-        "To hand out: {}\nTo keep:     {}\nSHA-256 of the truth, which the case file states too:\n{}\n",
+        "To hand out: {}\nTo keep:     {}\nSHA-256 of the truth, which the experiment states too:\n{}\n",
         handed_out.display(),
         truth_path.display(),
         seal(&case.truth_text)

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::form::Form;
-use super::output::Complaint;
+use super::output::{Beside, Complaint};
 use super::progress::Progress;
 use super::{Outcome, output};
 use gumption::budget::{self, Adaptive, Budget, MonteCarloSettings, Points, Profile, Trials};
@@ -75,7 +75,7 @@ pub(super) fn run(args: &Args) -> Outcome {
             "--save takes the results of one budget file; evaluate the files one after the other"
         ));
     }
-    let beside: Vec<PathBuf> = args.save.iter().cloned().collect();
+    let beside: Vec<Beside> = args.save.iter().cloned().map(Beside::File).collect();
     if let Err(outcome) = args.form.is_possible(&beside) {
         return outcome;
     }

@@ -1,10 +1,9 @@
 //! The form of a document: its format, language and width, and where it goes.
 
 use std::io::stdout;
-use std::path::PathBuf;
 
 use super::language::system_language;
-use super::output::{Complaint, Target};
+use super::output::{Beside, Complaint, Target};
 use super::{Outcome, output};
 use clap::{Arg, ArgAction, ArgMatches, Command};
 use gumption::document::Document;
@@ -64,7 +63,7 @@ impl clap::FromArgMatches for Choice {
 impl Form {
     /// Makes sure, before any work is done, that the document can be written as it is asked for, and these files
     /// beside it.
-    pub fn is_possible(&self, beside: &[PathBuf]) -> Result<(), Outcome> {
+    pub fn is_possible(&self, beside: &[Beside]) -> Result<(), Outcome> {
         self.format().map_err(output::complain)?;
         self.target.is_allowed(beside, self.lang)
     }

@@ -24,6 +24,15 @@ pub(super) struct Target {
     force: bool,
 }
 
+/// What a command writes beside its output.
+#[derive(Debug)]
+pub(super) enum Beside {
+    /// A file.
+    File(PathBuf),
+    /// A folder, and the names of its files where they are known before.
+    Folder(PathBuf, &'static [&'static str]),
+}
+
 impl Target {
     /// The file; nothing for standard output, whatever it is called.
     pub fn file(&self) -> Option<&Path> {
@@ -44,10 +53,20 @@ impl Target {
         (!stream).then(ending)
     }
 
-    /// Makes sure, before any work is done, that these files and the output may be written as far as is known.
-    pub fn is_allowed(&self, beside: &[PathBuf], language: Language) -> Result<(), Outcome> {
-        let paths = beside.iter().map(PathBuf::as_path).chain(self.file());
-        write::allowed(paths, self.replacing())
+    /// Makes sure, before any work is done, that the output and what is written beside it may be written as far as is
+    /// known.
+    pub fn is_allowed(&self, beside: &[Beside], language: Language) -> Result<(), Outcome> {
+        let replacing = self.replacing();
+        let files = beside.iter().filter_map(|one| match one {
+            Beside::File(path) => Some(path.as_path()),
+            Beside::Folder(..) => None,
+        });
+        let folders = beside.iter().map(|one| match one {
+            Beside::File(_) => Ok(()),
+            Beside::Folder(folder, names) => write::allowed_in(folder, names, replacing),
+        });
+        write::allowed(files.chain(self.file()), replacing)
+            .and_then(|()| folders.collect())
             .map_err(|why| complain(Said::quoted(why.words(language))))
     }
 

@@ -4,7 +4,7 @@ use std::io::{IsTerminal, stderr};
 use std::path::{Path, PathBuf};
 
 use super::form::Form;
-use super::output::Complaint;
+use super::output::{Beside, Complaint};
 use super::{Outcome, date, output};
 use gumption::budget::Files;
 use gumption::fault::say;
@@ -35,6 +35,9 @@ pub(super) struct Args {
     form: Form,
 }
 
+/// What `--report` writes.
+const DOSSIER: &[&str] = &["verification.md", "verification.html", "verification.json"];
+
 /// A file to verify: where it is, and how the report calls it.
 struct Candidate {
     path: PathBuf,
@@ -42,7 +45,9 @@ struct Candidate {
 }
 
 pub(super) fn run(args: &Args) -> Outcome {
-    if let Err(outcome) = args.form.is_possible(&[]) {
+    let beside = args.report.iter().cloned();
+    let beside = beside.map(|folder| Beside::Folder(folder, DOSSIER));
+    if let Err(outcome) = args.form.is_possible(&beside.collect::<Vec<_>>()) {
         return outcome;
     }
     let day = match args.date.clone().map_or_else(date::today, Ok) {

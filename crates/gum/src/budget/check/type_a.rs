@@ -523,10 +523,10 @@ fn on_two_turns(readings: &Stated<Numbers>, plain: &[f64], context: &Context<'_>
         Fault::new(
             TWO_TURNS,
             readings.span.clone(),
-            format!("the readings of {} lie on both sides of the end of a turn: {first} {unit} and {other} {unit}", context.owner),
+            say!("the readings of {} lie on both sides of the end of a turn: {first} {unit} and {other} {unit}", context.owner),
         )
-        .label("their arithmetic mean is another direction")
-        .help(format!("write all of them on one turn: {} in place of {other}", Decimal::from_f64(at_twelve(beside(other))))),
+        .label(say!("their arithmetic mean is another direction"))
+        .help(say!("write all of them on one turn: {} in place of {other}", Decimal::from_f64(at_twelve(beside(other))))),
     )
 }
 

@@ -23,6 +23,8 @@ struct Printed {
     value: f64,
     unit: f64,
     digits: usize,
+    /// Zeros at the end of a whole number, which may only fill up to the decimal marker.
+    zeros: usize,
 }
 
 impl Printed {
@@ -34,6 +36,7 @@ impl Printed {
                 value,
                 unit: 0.0,
                 digits: 0,
+                zeros: 0,
             });
         }
         let taken = |text: &str| {
@@ -54,7 +57,22 @@ impl Printed {
             value: format!("{mantissa}e{exponent}").parse().ok()?,
             unit: 10f64.powi(exponent - i32::try_from(decimals).ok()?),
             digits: significant.chars().filter(char::is_ascii_digit).count(),
+            zeros: match mantissa.contains('.') {
+                true => 0,
+                false => significant.len() - significant.trim_end_matches('0').len(),
+            },
         })
+    }
+
+    /// The same with no more digits than these, as far as zeros at its end may only fill up.
+    fn of_digits(self, digits: usize) -> Printed {
+        let filling = self.digits.saturating_sub(digits).min(self.zeros);
+        Printed {
+            unit: self.unit * 10f64.powi(filling as i32),
+            digits: self.digits - filling,
+            zeros: self.zeros - filling,
+            ..self
+        }
     }
 
     /// Whether it is the number, rounded to nearest.
@@ -119,6 +137,7 @@ impl Expected<'_> {
 
     fn is_expanded(&self, printed: Printed, expanded: f64) -> bool {
         let conventions = &self.budget.conventions;
+        let printed = printed.of_digits(usize::from(conventions.digits));
         let rounded = match conventions.rounding {
             Rounding::Up => printed.is_next(expanded),
             _ => {
@@ -132,10 +151,12 @@ impl Expected<'_> {
 
     /// Whether y ± U is the result of a measurand, with one last place.
     fn holds_pair(&self, y: Printed, half: Printed) -> bool {
+        let half = half.of_digits(usize::from(self.budget.conventions.digits));
+        let finer = (half.unit / y.unit).log10().round() as usize;
+        let y = y.of_digits(y.digits.saturating_sub(finer));
         self.reported.iter().any(|reported| {
-            let expanded = reported
-                .expanded()
-                .is_some_and(|u| self.is_expanded(half, u));
+            let expanded = reported.expanded();
+            let expanded = expanded.is_some_and(|u| self.is_expanded(half, u));
             expanded && y.is_nearest(reported.estimate) && (y.unit / half.unit - 1.0).abs() < 1e-9
         })
     }

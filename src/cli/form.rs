@@ -91,7 +91,7 @@ impl Form {
         match self.format() {
             Ok(format) => match (format.render)(document, &self.page()) {
                 Ok(bytes) => self.target.write(bytes, beside, self.lang),
-                Err(unfit) => output::complain(unfit),
+                Err(unfit) => output::complain(unfit.0),
             },
             Err(complaint) => output::complain(complaint),
         }

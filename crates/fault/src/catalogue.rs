@@ -6,10 +6,11 @@ use std::sync::LazyLock;
 use crate::language::Language;
 
 /// The catalogues: one for each crate that speaks, and one of the explanations, which have no values.
-const CATALOGUES: [&str; 8] = [
+const CATALOGUES: [&str; 9] = [
     include_str!("../zh/fault.po"),
     include_str!("../zh/core.po"),
     include_str!("../zh/format.po"),
+    include_str!("../zh/export.po"),
     include_str!("../zh/gum.po"),
     include_str!("../zh/lab.po"),
     include_str!("../zh/audit.po"),

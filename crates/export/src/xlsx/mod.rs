@@ -10,6 +10,7 @@ mod sheets;
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
 
+use gumption_fault::say;
 use gumption_format::document::{Block, Document};
 use gumption_format::render::{Format, Page, Unfit};
 
@@ -27,9 +28,8 @@ pub const FORMAT: Format = Format {
 
 fn render(document: &Document, _: &Page) -> Result<Vec<u8>, Unfit> {
     workbook(document).map_err(|error| {
-        let why = "the document does not fit into a workbook";
-        let why = document.language.pick(why, "文档无法写成工作簿");
-        Unfit(format!("{why}: {error}"))
+        let error = error.to_string();
+        Unfit(say!("the document does not fit into a workbook: {error}"))
     })
 }
 

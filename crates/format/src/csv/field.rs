@@ -334,7 +334,7 @@ mod tests {
             ("2026年3月1日", "times are read as 2026-03-01T"),
         ] {
             assert!(is_like_a_time(field), "{field}");
-            let mend = mend(field);
+            let mend = mend(field).to_string();
             assert!(
                 mend.contains(meant) && mend.contains("the day first"),
                 "{mend}"

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use gumption_fault::Said;
+
 use crate::document::Document;
 
 /// A format in which every document can be written.
@@ -28,11 +30,11 @@ impl Format {
 
 /// Why a document cannot be written in a format.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Unfit(pub String);
+pub struct Unfit(pub Said);
 
 impl fmt::Display for Unfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
+        self.0.fmt(f)
     }
 }
 

@@ -180,28 +180,6 @@ mod tests {
         assert_eq!(verdict(1e9, &above), Verdict::Conforming);
     }
 
-    /// A limit that is not there is not reached.
-    #[test]
-    fn one_limit_is_enough_to_reject() {
-        let binary = |interval: Interval| Limits {
-            acceptance: Some(interval),
-            rejection: interval,
-        };
-        let below = binary(Interval {
-            lower: f64::NEG_INFINITY,
-            upper: 11.0,
-        });
-        assert_eq!(verdict(12.0, &below), Verdict::NotConforming);
-        assert_eq!(verdict(11.0, &below), Verdict::Conforming);
-        assert_eq!(verdict(-1e9, &below), Verdict::Conforming);
-        let above = binary(Interval {
-            lower: 11.0,
-            upper: f64::INFINITY,
-        });
-        assert_eq!(verdict(10.0, &above), Verdict::NotConforming);
-        assert_eq!(verdict(1e9, &above), Verdict::Conforming);
-    }
-
     #[test]
     fn undecided_lies_between() {
         let limits = Limits {

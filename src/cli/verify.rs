@@ -7,7 +7,7 @@ use super::form::Form;
 use super::output::{Beside, Complaint};
 use super::{Outcome, date, output};
 use gumption::budget::Files;
-use gumption::fault::say;
+use gumption::fault::{Said, say};
 use gumption::files::write::Output;
 use gumption::propagate::Options;
 use gumption::render::{FORMATS, Page};
@@ -200,5 +200,5 @@ fn dossier(
         let bytes = (format.render)(&dossier, &Page::default());
         bytes.map(|bytes| (name, bytes)).map_err(|unfit| unfit.0)
     });
-    output::in_folder(folder, files.collect::<Result<Vec<_>, String>>()?)
+    output::in_folder(folder, files.collect::<Result<Vec<_>, Said>>()?)
 }

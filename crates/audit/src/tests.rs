@@ -121,7 +121,6 @@ fn slips_of_the_whole_are_named() {
         ("0.0265", "0.053", "row-dropped@dm"),
         ("0.0279", "0.11", "k-twice"),
         ("0.0279", "0.028", "k-forgotten"),
-        ("0.0279", "0.065", "digits-transposed"),
         ("0.0279", "0.0558", "too-many-digits"),
     ] {
         let whole = format!(
@@ -187,7 +186,7 @@ fn a_budget_told_in_sentences_is_searched() {
          dm = 0.01 g: standard deviation s = 0.020 g of 10 readings, mean of 5 reported\n\
          dT = 0 g: limits ±0.030 g, nothing else known\n"
     );
-    let sound = format!("{told}u_c = 0.02791 g\nU = 0.056 g\n");
+    let sound = format!("{told}u_c = 0.02793 g\nU = 0.056 g\n");
     assert_eq!(answer("told.txt", &sound).0, Verdict::Sound);
     let undivided = format!("{told}u_c = 0.04450 g\nU = 0.089 g\n");
     assert_eq!(first("told.txt", &undivided), "cert-undivided@m_S");

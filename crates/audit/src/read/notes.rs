@@ -427,7 +427,7 @@ pub fn absent(text: &str, at: Place, claimed: &Claimed) -> Option<Row> {
     };
     let (stated, relative) = kind::stated(&evidence);
     let certificate = matches!(stated, Stated::Certificate { .. });
-    (is_missing && certificate).then(|| Row {
+    (is_missing && certificate).then_some(Row {
         stated,
         relative,
         ..row

@@ -43,7 +43,7 @@ fn columns(layer: &Layer, panel: &Panel) -> Vec<(String, Vec<Option<f64>>)> {
     let values = |limits: [f64; 2], axis: &Axis| {
         limits.map(|place| match axis.scale {
             Scale::Linear => place,
-            Scale::Logarithmic => 10f64.powf(place),
+            Scale::Logarithmic => libm::exp10(place),
         })
     };
     let (ends, heights) = (values(across, &panel.x), values(up, &panel.y));

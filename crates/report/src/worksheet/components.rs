@@ -1,6 +1,5 @@
 //! The components of a budget: stated width, divisor, u, c, contribution, ν; and their correlations.
 
-use gumption_core::distribution::Distribution;
 use gumption_format::document::{Bars, Entry, Held, address};
 use gumption_gum::budget::{Component, Evaluation as Kind};
 use gumption_gum::propagate::Gum;
@@ -273,23 +272,21 @@ fn times(coefficient: f64, cell: &str) -> String {
 /// certificate's.
 fn stated(component: &Component) -> (f64, f64, Option<String>) {
     let u = component.u;
-    let root = |of: f64| (of.sqrt(), Some(format!("SQRT({of:?})")));
-    let (half_width, (divisor, formula)) = match &component.distribution {
-        Distribution::Uniform(d) => ((d.upper - d.lower) / 2.0, root(3.0)),
-        Distribution::Arcsine(d) => ((d.upper - d.lower) / 2.0, root(2.0)),
-        Distribution::Triangular(d) if d.mode - d.lower == d.upper - d.mode => {
-            ((d.upper - d.lower) / 2.0, root(6.0))
-        }
-        Distribution::Trapezoidal(d) => {
-            let square = 6.0 / (1.0 + d.beta * d.beta);
-            let formula = Some(format!("SQRT(6/(1+({:?})^2))", d.beta));
-            ((d.upper - d.lower) / 2.0, (square.sqrt(), formula))
-        }
-        _ => match quotient(&component.how) {
-            Some((stated, divisor)) => (stated, (divisor, None)),
-            None => (u, (1.0, None)),
-        },
+    let of_limits = || {
+        let distribution = &component.distribution;
+        let (a, variance) = (distribution.half_width()?, distribution.variance()?);
+        // 3, 6 and 2 exactly, where the last digits of the limits make it a little more or less.
+        let square = a * a / variance;
+        let whole = square.round();
+        let square = if (square - whole).abs() < 1e-9 * whole {
+            whole
+        } else {
+            square
+        };
+        Some((a, square.sqrt(), Some(format!("SQRT({square:?})"))))
     };
+    let of_quotient = || quotient(&component.how).map(|(stated, divisor)| (stated, divisor, None));
+    let (half_width, divisor, formula) = of_limits().or_else(of_quotient).unwrap_or((u, 1.0, None));
     // Where u was stated otherwise than by this width, it stands for itself.
     match (half_width / divisor - u).abs() <= 1e-9 * u {
         true => (half_width, divisor, formula),

@@ -340,7 +340,7 @@ impl Solved {
             let u = register.components.get(*component).map_or(0.0, |c| c.u);
             u * actions[place]
         });
-        causes.fold(u, f64::hypot)
+        causes.fold(u, libm::hypot)
     }
 }
 
